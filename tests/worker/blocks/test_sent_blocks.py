@@ -5,6 +5,7 @@ Each attempt's folder goes when it ends, as it would with its machine.
 
 import threading
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +13,11 @@ import numpy as np
 import pytest
 from test_block_runs import SWEEP
 
+from jointplay.service.app import create_app
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import JobState, NewJob, Verdict
+from jointplay.storage.catalogue.records import Block, BlockState, JobState, NewJob, Verdict
 from jointplay.storage.identity import growing_study
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
@@ -25,8 +27,12 @@ from jointplay.storage.settings import Settings
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.worker import block_run
 from jointplay.worker.execute import execute
+from jointplay.worker.joined.connection import Connection
+from jointplay.worker.joined.loop import work
+from jointplay.worker.joined.protocol import Document
 from jointplay.worker.scratch.computing import compute
 from tests.seaweedfs_server import BUCKET, running_store
+from tests.service_in_thread import serving
 from tests.stores import files_of, packed, sealed_run, target
 from tests.waiting import until
 
@@ -107,6 +113,41 @@ def chunks(store: Path | StoredObject) -> dict[str, bytes]:
     measured = "statistics/seconds/"
     found = files_of(store).items()
     return {key: some for key, some in found if "/c/" in key and not key.startswith(measured)}
+
+
+class Called(Connection):
+    """A worker's connection to a service; the worker shall end after its first restart point."""
+
+    def __init__(self, url: str) -> None:
+        super().__init__(url, None)
+        self.away = threading.Event()
+
+    def tell(self, block: Block, what: str, document: Document | None = None) -> bytes:
+        answer = super().tell(block, what, document)
+        if what == "checkpoint":
+            self.away.set()
+        return answer
+
+
+@pytest.mark.parametrize("address", ["s3"], indirect=True)
+def test_workers_that_know_the_service_alone_go_on_from_one_another_in_its_place(
+    settings: Settings, catalogue: Catalogue, undisturbed: Path
+) -> None:
+    job = submit(catalogue, JOB)
+    with serving(create_app(settings)) as url:
+        with closing(Called(url)) as first:
+            assert work(first, first.away, None) == 1
+        (block,) = catalogue.blocks(job)
+        assert (block.state, block.checkpoint is not None) == (BlockState.queued, True)
+        assert [*settings.place.list("running/")]
+        assert not settings.running_folder(job).exists()
+        with closing(Connection(url, None)) as second:
+            assert work(second, threading.Event(), 0.5) == 1
+    ended = catalogue.get(job)
+    assert (ended.state, ended.attempt) == (JobState.succeeded, 2)
+    assert chunks(settings.sealed_run(job, 2)) == chunks(undisturbed)
+    assert [*settings.place.list("")] == [settings.sealed_run(job, 2).key]
+    settings.place.remove(settings.results_prefix(job))
 
 
 def test_another_machine_goes_on_from_what_a_lost_one_had_sent(
