@@ -193,6 +193,13 @@ def longest(
 
 
 @njit(cache=True)
+def keep(values: Floats, row: Floats) -> None:
+    """Copy values to a row; compiling an assigned array takes seconds, for a check of shapes."""
+    for i in range(len(values)):
+        row[i] = values[i]
+
+
+@njit(cache=True)
 def integrate(
     m: Mechanism,
     start: Floats,
@@ -232,10 +239,11 @@ def integrate(
     lost = np.zeros(count)
     while True:
         while wanted < len(instants) and t >= instants[wanted]:
-            states[wanted, :count] = y
-            states[wanted, count:] = k[0]
-            tolds[wanted] = before
-            forces[wanted] = multipliers
+            keep(y, states[wanted, :count])
+            keep(k[0], states[wanted, count:])
+            for j in range(joints):
+                keep(before[j], tolds[wanted, j])
+            keep(multipliers, forces[wanted])
             wanted += 1
         if wanted == len(instants):
             return DONE
