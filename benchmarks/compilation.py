@@ -2,10 +2,10 @@
 
     python -m benchmarks compilation [--most 20] [--tangents] [--only four-bars]
 
-Chains of bodies, bodies that each have play, and rows of four-bars (N of them have 2 N + 1 bodies),
-in both formulations; seconds are those of the processor.  Every scene is compiled in
-a process of its own, into an empty cache that has the driving loop only.  Statements are those
-that admission counts; emitted lines are what the compiler is given.
+Chains of bodies, bodies that each have play, rows of four-bars (N of them have 2 N + 1 bodies)
+and the press, in both formulations; seconds are those of the processor.  Every scene is compiled in
+a process of its own, into an empty cache that has the driving loop only, and loaded from there by
+another.  Emitted lines are what the compiler is given.
 """
 
 import argparse
@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from typing import Any
 
 from benchmarks.four_bars import four_bars
 from benchmarks.hostile_bodies import chain, free
@@ -26,12 +27,20 @@ from jointplay.solver.kernels.kernel_cache import compile_loop, ready_kernel
 from jointplay.solver.kernels.record.equations import record
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.presets import document
 
-SCENES = {"chain": chain, "free": free, "four-bars": four_bars}
+
+def press(_count: int) -> dict[str, Any]:
+    """Return the preset, of six bodies."""
+    return document("seven-bar-press")
+
+
+SCENES = {"chain": chain, "free": free, "four-bars": four_bars, "press": press}
 COUNTS = {
     "chain": (4, 8, 12, 14, 16, 20, 32, 64),
     "free": (4, 8, 12, 14, 16, 20, 32, 64),
     "four-bars": (1, 5, 10, 20, 40),
+    "press": (6,),
 }
 FORMULATIONS = ("reduced", "lagrange")
 PATIENCE = 900.0  # s a scene
@@ -95,7 +104,9 @@ def main() -> None:
         compile_loop()
         print(json.dumps(compiled(name, int(count), formulation, arguments.tangents)))
         return
-    print("scene      count  formulation   lines  recording s  kernel s  tangents s  peak MB")
+    print(
+        "scene      count  formulation   lines  recording s  kernel s  tangents s  peak MB  cached"
+    )
     for name, count, formulation in cases(arguments.most, arguments.only):
         print(f"{name:<10}{count:6d}  {formulation:<11}", end="", flush=True)
         print(_in_a_process(name, count, formulation, arguments.tangents), flush=True)
@@ -107,17 +118,21 @@ def _in_a_process(name: str, count: int, formulation: str, with_tangents: bool) 
     with tempfile.TemporaryDirectory() as folder:
         environment = os.environ | {"JOINTPLAY_CACHE": folder}
         try:
-            done = subprocess.run(
-                command, capture_output=True, env=environment, timeout=PATIENCE, check=True
+            done, again = (
+                subprocess.run(
+                    command, capture_output=True, env=environment, timeout=PATIENCE, check=True
+                )
+                for _ in range(2)
             )
         except subprocess.TimeoutExpired:
             return f"  more than {PATIENCE:g} s"
     found = json.loads(done.stdout.splitlines()[-1])
     if "refused" in found:
         return f"  {found['refused']}"
+    cached = json.loads(again.stdout.splitlines()[-1])["kernel"]
     return (
         f"{found['lines']:8d}{found['recording']:13.2f}{found['kernel']:10.1f}"
-        f"{found['tangents']:12.1f}{found['peak']:9.0f}"
+        f"{found['tangents']:12.1f}{found['peak']:9.0f}{cached:10.2f}"
     )
 
 
