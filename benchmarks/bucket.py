@@ -26,6 +26,8 @@ from typing import Any
 
 from benchmarks.latency import JOB
 from benchmarks.memory import anonymous
+from jointplay.chaos.inside import FOLDER_VARIABLE
+from jointplay.chaos.processes import running
 from jointplay.client import Client
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Admission, admit
@@ -41,6 +43,7 @@ from tests.waiting import processor_time
 
 REPEATS, JOBS, WORKERS = 15, 100, 2
 LOOK = 0.1  # s
+TICKS = os.sysconf("SC_CLK_TCK")
 LONG: dict[str, Any] = {
     "kind": "simulate",
     "scene": {"preset": "pendulum"},
@@ -121,18 +124,31 @@ def press_jobs(settings: Settings, catalogue: Catalogue) -> None:
     )
 
 
-def many_jobs(folder: Path, address: str) -> tuple[float, float]:
-    """Return the jobs a second of a service, and the processor time of each, s."""
+def spent(folder: Path) -> Counter[str]:
+    """Return the processor time of a service's processes by role, and of all there are, ms."""
+    found = Counter({"all": round(1e3 * processor_time())})
+    for process in running(folder):
+        fields = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        role = "worker" if process.role == "computing" else process.role
+        found[role] += round(1e3 * (int(fields[11]) + int(fields[12])) / TICKS)
+    return found
+
+
+def many_jobs(folder: Path, address: str) -> str:
+    """Return the jobs a second of a service, and the processor time of each, as a sentence."""
+    environment = {"JOINTPLAY_RESULTS_URL": address, FOLDER_VARIABLE: str(folder)}
     with (
-        running_service(folder, WORKERS, {"JOINTPLAY_RESULTS_URL": address}) as url,
+        running_service(folder / "data", WORKERS, environment) as url,
         Client(url) as client,
     ):
         for job in [client.submit(JOB) for _ in range(2 * WORKERS)]:
             job.wait()  # loads kernels
-        begun, before = time.perf_counter(), processor_time()
+        begun, before = time.perf_counter(), spent(folder)
         batch = client.submit_batch([JOB | {"certificate": False}] * JOBS)
         batch.wait()
-        return JOBS / (time.perf_counter() - begun), (processor_time() - before) / JOBS
+        rate, processor = JOBS / (time.perf_counter() - begun), spent(folder) - before
+        parts = ", ".join(f"{role} {ms / JOBS:.0f}" for role, ms in processor.most_common())
+        return f"{rate:.0f} jobs/s; ms of processor a job: {parts}"
 
 
 def compute_long(settings: Settings, job: str, results: Any) -> None:
@@ -200,11 +216,8 @@ def main() -> None:
         long_job(settings, catalogue, samples)
         catalogue.close()
         for where, place in (("bucket", together), ("folder", f"file:{folder / 'results'}")):
-            rate, processor = many_jobs(folder / where, place)
-            print(
-                f"{JOBS} press jobs, {WORKERS} workers, {where}: {rate:.0f} jobs/s,"
-                f" {1e3 * processor:.0f} ms of processor a job"
-            )
+            found = many_jobs(folder / where, place)
+            print(f"{JOBS} press jobs, {WORKERS} workers, {where}: {found}")
         print(f"load of the machine {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
 
 
