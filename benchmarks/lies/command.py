@@ -2,6 +2,7 @@
 
 import argparse
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ from benchmarks.lies.covered import coverage_of
 from benchmarks.lies.extremes import extremes_of
 from benchmarks.lies.measures import MEASURES
 from benchmarks.lies.scenes import SCENES
-from benchmarks.lies.search import Measure, report, search
+from benchmarks.lies.search import Judged, Measure, report, search
 
 PARTS = (*MEASURES, "named")
 
@@ -31,6 +32,11 @@ def main() -> None:
     for name in (part for part in given.only if part in MEASURES):
         print(f"\n{name}: seed {given.seed}, {given.runs} runs")
         measure: Measure[Any] = MEASURES[name]
-        print(report(measure, search(measure, given.seed, given.runs, given.scenes)), flush=True)
+        search(measure, given.seed, given.runs, given.scenes, partial(_tell, measure))
     if "named" in given.only:
         print(f"\n{named.report()}")
+
+
+def _tell(measure: Measure[Any], judged: list[Judged]) -> None:
+    """Print the tables of a search as far as it has come."""
+    print(f"\nAfter {len(judged)} runs: {report(measure, judged)}", flush=True)

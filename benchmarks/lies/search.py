@@ -12,6 +12,8 @@ from benchmarks.lies.tables import KEYS, grouped, table
 
 WORST = 10
 """Jobs that are printed, to be repeated."""
+BETWEEN = 50
+"""Runs from one look at the tables to the next: a search that is ended early has told its own."""
 
 
 class Verdict(Protocol):
@@ -52,14 +54,22 @@ class Judged(NamedTuple):
     verdict: Any
 
 
-def search(measure: Measure[V], seed: int, runs: int, kinds: list[str]) -> list[Judged]:
-    """Judge jobs that a search for the worst finds."""
+def search(
+    measure: Measure[V],
+    seed: int,
+    runs: int,
+    kinds: list[str],
+    tell: Callable[[list[Judged]], None] = lambda judged: None,
+) -> list[Judged]:
+    """Judge jobs that a search for the worst finds, and `tell` of those so far."""
     judged: list[Judged] = []
 
     def look(point: list[float]) -> Found:
         chosen = random_job(point, kinds)
         verdict = measure.judge(chosen.job)
         judged.append(Judged(chosen.kind, chosen.job, verdict))
+        if len(judged) % BETWEEN == 0 or len(judged) == runs:
+            tell(judged)
         badness = measure.badness(verdict) if verdict.ended == "judged" else None
         return Found(f"{chosen.kind} {chosen.job['method']}", chosen.drawn, badness)
 

@@ -6,6 +6,8 @@ INSTANTS = 8
 """Instants of one step that are looked at together, however many lanes there are."""
 BUNDLE = 8
 """Runs side by side in a bundle, however many lanes there are."""
+BENDS = 2
+"""Slip speeds at which a law of friction may bend."""
 
 
 class Layout:

@@ -70,6 +70,7 @@ def cam_contact(
         ),
         rubbing.inner,
         rubbing.inner_rates,
+        rubbing.slip,
     )
 
 

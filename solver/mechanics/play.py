@@ -42,6 +42,8 @@ class Rubbing(NamedTuple):
     friction: Scalar
     inner: Mapping[str, Scalar]
     inner_rates: Sequence[Scalar]
+    slip: Scalar = 0.0
+    """Slip that the friction follows, m/s; 0 where there is none."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,8 @@ class Contact:
     inner: Mapping[str, Scalar]
     """Inner states of the friction law, by name."""
     inner_rates: Sequence[Scalar]
+    rubbing_slip: Scalar
+    """Slip that the friction follows, m/s; 0 where there is none."""
     film_loss: Scalar | None = None
     """Power lost in the oil between journal and bearing, W, if there is any."""
 
@@ -95,7 +99,7 @@ def rub(
     friction = law.friction_force(normal_force, slip, inner)
     rates = law.inner_rates(normal_force, slip, inner)
     named = {state.name: value for state, value in zip(law.inner_states, inner, strict=True)}
-    return Rubbing(friction, named, rates)
+    return Rubbing(friction, named, rates, slip)
 
 
 def contact(
@@ -169,5 +173,6 @@ def contact(
         ),
         rubbing.inner,
         rubbing.inner_rates,
+        rubbing.slip,
         None if film is None else film.loss,
     )

@@ -107,6 +107,7 @@ def wall_contact(
         ),
         rubbing.inner,
         rubbing.inner_rates,
+        rubbing.slip,
     )
 
 

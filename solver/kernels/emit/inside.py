@@ -34,12 +34,13 @@ def source(
         for j, pair in enumerate(equations.gaps)
         for name, expression in zip(("gap", "gap_rate"), pair, strict=True)
     ]
+    slips = [(f"slip{j}", slip) for j, (slip, _) in enumerate(equations.slips)]
 
     states = Tape(layout, fixed, fetch=within)
     states.store(dense)
     approaches = Tape(layout, fixed, fetch=within)
     approaches.carry(dense)
-    approaches.store(gaps)
+    approaches.store([*gaps, *slips])
     channels = Tape(layout, fixed, fetch=within)
     channels.carry(dense)
     channels.carry(accelerations)

@@ -16,7 +16,7 @@ from jointplay.solver.kernels.emit import implicit, inside, scanning, stepping
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, Tape, lane_function
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.places import DenseRow, StepRow, places_of
-from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.layout import BENDS, Layout
 from jointplay.solver.kernels.record.equations import (
     Equations,
     needed_again,
@@ -100,6 +100,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     scanning.allocate(layout, rows.scanned, len(rows.rest))
     layout.add_block("slip_row", pairs)
     layout.add_block("penetration_row", pairs)
+    layout.add_block("bend", BENDS * pairs)
     for name in ("clock_start", "clock_travel", "clock_turn"):
         layout.add_block(name, clocks)
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece

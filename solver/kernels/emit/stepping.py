@@ -16,6 +16,9 @@ from jointplay.solver.kernels.record.reachable import reachable
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
+ENDS = ("gap", "gap_rate", "slip", "slip_rate")
+"""Quantities of a contact pair that are known at both ends of a step."""
+
 
 def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) -> None:
     """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
@@ -32,8 +35,9 @@ def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) 
     layout.add("gross", "potential", "stored", "potential_start", "stored_start")
     layout.add_block("stage", states)
     layout.add_block("weight", states)
-    for name in ("gap", "gap_rate", "gap_start", "gap_rate_start"):
+    for name in ENDS:
         layout.add_block(name, pairs)
+        layout.add_block(f"{name}_start", pairs)
     layout.add_block("mode", pairs)
     layout.add_block("impact_rate", pairs)
     layout.add_block("inverse_rate", pairs)
@@ -174,8 +178,7 @@ class StepRecorder(JudgedStep):
                 gross = gross + abs(added)
         outputs.insert(0, ("gross", gross))
         for j in range(self.pairs):
-            outputs.append((f"gap_start{j}", v(f"gap{j}")))
-            outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
+            outputs += [(f"{name}_start{j}", v(f"{name}{j}")) for name in ENDS]
         outputs += [(start, v(end)) for start, end in self.knots.ends()]
         paths = range(len(MOTION) * self.pairs)
         outputs += [(f"eccentricity_start{i}", v(f"eccentricity{i}")) for i in paths]

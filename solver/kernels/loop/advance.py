@@ -16,6 +16,7 @@ from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel, k
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.accepted_steps import write_step
 from jointplay.solver.kernels.loop.attention import attend, settle
+from jointplay.solver.kernels.loop.bends import any_bend, look_between_bends, may_pass_bend
 from jointplay.solver.kernels.loop.events import (
     any_crossing,
     has_all_events,
@@ -80,14 +81,32 @@ def look_closer(
     table: np.ndarray,
     channels_around: LaneFunction,
     channels_within: LaneFunction,
+    gaps_within: LaneFunction,
 ) -> None:
     """Seek extremes that no scan of step ends finds."""
     for lane in range(LANES):
         flag, run = int(work[at.flag, lane]), runs[lane]
         due = flag & INSIDE or is_due(lane, run, at, work)
-        if (at.watched_closely or due) and work[at.accept, lane] > 0.0:
+        if not work[at.accept, lane] > 0.0:
+            continue
+        if at.watched_closely or due:
             look_at_passages(lane, run, at, work, spare, table, channels_around, channels_within)
             look_inside(lane, run, at, work, spare, table, channels_around, channels_within)
+        if may_pass_bend(lane, at, work):
+            look_between_bends(
+                np.arange(at.rows),
+                0.0,
+                1.0,
+                lane,
+                run,
+                at,
+                work,
+                spare,
+                table,
+                channels_around,
+                channels_within,
+                gaps_within,
+            )
 
 
 @deferred(int64(ADDRESSES, PLACES, WORK, WORK, RUNS, BUFFERS, int64, int64))
@@ -156,8 +175,19 @@ def advance(
                 if work[at.accept, lane] > 0.0 and may_cross(lane, run, at, work):
                     quiet = False
                     full |= record_crossings(lane, run, at, work, spare, rows, call.channels_within)
-        if watch and (at.watched_closely or not quiet or any_due(runs, at, work)):
-            look_closer(at, work, spare, runs, table, call.channels_around, call.channels_within)
+        if watch and (
+            at.watched_closely or not quiet or any_due(runs, at, work) or any_bend(at, work)
+        ):
+            look_closer(
+                at,
+                work,
+                spare,
+                runs,
+                table,
+                call.channels_around,
+                call.channels_within,
+                call.gaps_within,
+            )
         if watch:
             candidates = call.scan(work) if quiet else call.scan_some(work)
             for lane in range(LANES if candidates > 0 else 0):

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.solver.kernels.emit.knots import AT_ENDS
+from jointplay.solver.kernels.emit.stepping import ENDS
 from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.tangent import start_tangent
@@ -38,7 +39,7 @@ def begin(lane: Lane, problem: LaneProblem) -> None:
     lane["k1_"], lane["kledger1_"] = lane["slope"], lane["ledger"]
     lane["total"] = 0.0
     module.weigh(lane.work)
-    for quantity in ("potential", "stored", "gap", "gap_rate", "eccentricity", *AT_ENDS):
+    for quantity in ("potential", "stored", "eccentricity", *ENDS, *AT_ENDS):
         lane[f"{quantity}_start"] = lane[quantity]
     lane["resumed"] = lane["gross"] = 0.0
     module.observe(lane.work)

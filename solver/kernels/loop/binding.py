@@ -7,6 +7,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.enclosure import SKIN
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
+from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.periods import PACE_STEPS, set_clock
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem
@@ -113,9 +114,13 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     lane["largest_step"] = problem.step or unit / STEPS_IN_A_PERIOD
     sliders = [pair.size for pair in contact_pairs(scene).values() if not pair.is_journal]
     lane["lever"] = max([mechanism_size(scene, length), *sliders])
+    lane["bend"] = math.inf
     lane["driven_speed"] = driven_speed(scene, lane.number("lever"), problem.duration)
     for j, (name, pair) in enumerate(contact_pairs(scene).items()):
         lane["inner"][j] = (1.0 - SKIN) * pair.play
+        law = pair.clearance.friction
+        if law is not None and not law.is_off:
+            lane["bend"][BENDS * j : BENDS * (j + 1)] = law.bends
         for quantity, slot in (("slip_velocity", "slip_row"), ("penetration", "penetration_row")):
             lane[slot][j] = lane.kernel.rows.index(f"{name}.{quantity}")
 

@@ -9,6 +9,7 @@ from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
+from jointplay.solver.kernels.loop.bends import look_between_bends, may_pass_bend
 from jointplay.solver.kernels.loop.book import (
     HIGHEST,
     HIGHEST_TIME,
@@ -36,10 +37,12 @@ MOTION = 6
 
 @inner_kernel()
 def remember_start(lane: int, at: Places, work: np.ndarray) -> None:
-    """Keep gaps and journals' motion as they are where the step starts: the stage is there."""
+    """Keep what pairs do where the step starts: the stage is there."""
     for j in range(at.pairs):
         work[at.gap_start + j, lane] = work[at.gap + j, lane]
         work[at.gap_rate_start + j, lane] = work[at.gap_rate + j, lane]
+        work[at.slip_start + j, lane] = work[at.slip + j, lane]
+        work[at.slip_rate_start + j, lane] = work[at.slip_rate + j, lane]
     for k in range(MOTION * at.pairs):
         work[at.eccentricity_start + k, lane] = work[at.eccentricity + k, lane]
 
@@ -175,8 +178,8 @@ def extremes_in_steps(
                 within,
                 suspects,
             )
-            passing = any_passes(lane, at, work)
-            chosen = every if passing else suspects[:behind]
+            passing, bending = any_passes(lane, at, work), may_pass_bend(lane, at, work)
+            chosen = every if passing or bending else suspects[:behind]
             if len(chosen) > 0:
                 load_records(chosen, book, lane, at, work)
                 behind = find_cornered(chosen, at, spare, book, cornered)
@@ -198,6 +201,21 @@ def extremes_in_steps(
                 if passing:
                     look_about_passages(
                         every, low, high, lane, run, at, work, spare, table, around, within
+                    )
+                if bending and high > low:
+                    look_between_bends(
+                        every,
+                        low,
+                        high,
+                        lane,
+                        run,
+                        at,
+                        work,
+                        spare,
+                        table,
+                        around,
+                        within,
+                        call.gaps_within,
                     )
                 store_records(chosen, book, lane, at, work)
             p += 1

@@ -52,6 +52,8 @@ class Equations:
     """Rates: work into contacts, friction loss, each driver's work, each pair's impulse."""
     gaps: tuple[tuple[Expression, Expression], ...]
     """Penetration (m) and its rate (m/s) of each contact pair."""
+    slips: tuple[tuple[Expression, Expression], ...]
+    """Slip that each pair's friction follows (m/s), and its rate (m/s^2)."""
     eccentricities: tuple[tuple[Expression, ...], ...]
     """Motion of each pair, as `MOTION` says."""
     enclosures: tuple[str, ...]
@@ -145,6 +147,7 @@ def record(
     along = {f"stage{i}": stage[count + i] for i in range(count)}
     along |= {f"stage{count + i}": a for i, a in enumerate(accelerations)}
     derivative = Derivative(along | {"stage_time": recorder.constant(1.0)})
+    slips = [lift(found.rubbing_slip) for found in motion.contacts.values()]
     return Equations(
         recorder,
         coordinates,
@@ -158,6 +161,7 @@ def record(
             (lift(found.penetration), lift(found.penetration_rate))
             for found in motion.contacts.values()
         ),
+        tuple((slip, derivative(slip)) for slip in slips),
         tuple(
             _path(recorder, found.eccentricity, found.eccentricity_rate, derivative)
             for found in motion.contacts.values()
@@ -226,12 +230,14 @@ def slopes(equations: Equations) -> list[tuple[str, Expression]]:
 
 
 def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
-    """Return what is needed where a step ends: slopes, the ledger's, gaps, paths of journals."""
+    """Return what is needed where a step ends: slopes, the ledger's, gaps, slips, journals."""
     count = len(equations.coordinates)
     speeds = [equations.recorder.variable(f"stage{count + i}") for i in range(count)]
     outputs = [(f"slope{i}", speed) for i, speed in enumerate(speeds)] + slopes(equations)
     for j, (gap, rate) in enumerate(equations.gaps):
         outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
+    for j, (slip, rate) in enumerate(equations.slips):
+        outputs += [(f"slip{j}", slip), (f"slip_rate{j}", rate)]
     for j, path in enumerate(equations.eccentricities):
         outputs += [(f"eccentricity{len(MOTION) * j + k}", part) for k, part in enumerate(path)]
     return outputs

@@ -60,6 +60,14 @@ class FrictionLaw(Strict):
         return math.inf
 
     @property
+    def bends(self) -> tuple[float, float]:
+        """Two slip speeds at which friction bends or jumps, m/s, infinite where there is none.
+
+        Extremes are sought between them, and may be missed beside others.
+        """
+        return self.full_slip_speed, math.inf
+
+    @property
     def slips_with_material(self) -> bool:
         """True if rotation counts in the slip; else it is that of the press paper's eqs 5-7."""
         return True

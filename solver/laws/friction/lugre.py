@@ -57,3 +57,8 @@ class LuGre(Breakaway):
     def full_slip_speed(self) -> float:
         """v_s, m/s."""
         return self.stribeck_velocity
+
+    @property
+    def bends(self) -> tuple[float, float]:
+        """v_s, m/s, and rest: where the slip turns round, the bristles' rate bends."""
+        return self.stribeck_velocity, 0.0

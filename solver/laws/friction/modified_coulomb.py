@@ -1,5 +1,6 @@
 """Modified Coulomb friction: the paper's eqs 11-12."""
 
+import math
 from collections.abc import Sequence
 from typing import Annotated, ClassVar, Literal
 
@@ -78,6 +79,11 @@ class ModifiedCoulomb(FrictionLaw):
     def full_slip_speed(self) -> float:
         """v_1, m/s."""
         return self.dynamic_velocity
+
+    @property
+    def bends(self) -> tuple[float, float]:
+        """v_1, and v_0 unless it is zero, m/s."""
+        return self.dynamic_velocity, self.static_velocity or math.inf
 
     @property
     def slips_with_material(self) -> bool:

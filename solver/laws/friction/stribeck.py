@@ -36,3 +36,8 @@ class Stribeck(Breakaway):
     def full_slip_speed(self) -> float:
         """v_r, m/s."""
         return self.smoothing_velocity
+
+    @property
+    def bends(self) -> tuple[float, float]:
+        """v_r and v_s, m/s."""
+        return self.smoothing_velocity, self.stribeck_velocity

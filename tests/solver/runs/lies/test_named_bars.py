@@ -1,11 +1,11 @@
-"""Error bars that were lies once."""
+"""Error bars that were lies once, and an extreme."""
 
 import pytest
 
 from benchmarks.lies.named import companions, friction
 from benchmarks.lies.named.lie import Lie
 
-BARS = (*friction.BARS, *companions.LIES)
+BARS = (*friction.BARS, friction.RAMP, *companions.LIES)
 AT_LENGTH = (
     "press as a draft, its bars",
     "press, an unlucky step",
