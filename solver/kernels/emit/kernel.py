@@ -100,6 +100,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     scanning.allocate(layout, rows.scanned, len(rows.rest))
     layout.add_block("slip_row", pairs)
     layout.add_block("penetration_row", pairs)
+    layout.add_block("normal_row", pairs)
     layout.add_block("bend", BENDS * pairs)
     for name in ("clock_start", "clock_travel", "clock_turn"):
         layout.add_block(name, clocks)

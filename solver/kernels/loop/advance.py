@@ -16,7 +16,12 @@ from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel, k
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.accepted_steps import write_step
 from jointplay.solver.kernels.loop.attention import attend, settle
-from jointplay.solver.kernels.loop.bends import any_bend, look_between_bends, may_pass_bend
+from jointplay.solver.kernels.loop.bends import (
+    any_bend,
+    find_in_reach,
+    look_between_bends,
+    may_pass_bend,
+)
 from jointplay.solver.kernels.loop.events import (
     any_crossing,
     has_all_events,
@@ -93,8 +98,10 @@ def look_closer(
             look_at_passages(lane, run, at, work, spare, table, channels_around, channels_within)
             look_inside(lane, run, at, work, spare, table, channels_around, channels_within)
         if may_pass_bend(lane, at, work):
+            rows = np.empty(at.rows, np.int64)
+            count = find_in_reach(lane, at, work, rows)
             look_between_bends(
-                np.arange(at.rows),
+                rows[:count],
                 0.0,
                 1.0,
                 lane,

@@ -15,19 +15,22 @@ from jointplay.solver.kernels.loop.inner_peaks import place_evenly
 from jointplay.solver.kernels.loop.looks_into_steps import look_at_suspects
 from jointplay.solver.kernels.loop.runs import Run
 
-REACH = 0.5
+REACH = 0.2
 """Share of the way at the rates of both ends by which a slip may be away in between.
 
 A cubic is away by 4/27 of it at most."""
-TURNS = 4
+TURNS = 2
 """Rounds in which places are added to either side of one where a slip turns near a bend."""
 MOST_ROUNDS = 12
 """Rounds in which the interval of a passage becomes shorter, mostly by two orders of magnitude."""
-SAME = 1e-12
-"""Share of a step: places closer than that are one."""
-BESIDE = (-1.0 / 8.0, -1.0 / 256.0, 1.0 / 256.0, 1.0 / 8.0)
-"""Places about the one where a straight line meets a bend, in widths of the interval."""
+SAME = 1e-8
+"""Share of a step: places closer than that are one. To one side of a bend friction is flat."""
+CLOSE, WIDE = 1e-4, 0.1
+"""Places beside the one where a straight line meets a bend, in widths of the interval: as far as
+the line errs, which is less in a shorter interval, and to be sure."""
 MOST_PLACES = 256
+SWAY = 2.0
+"""Part of its range that friction may make of a channel in a step with the largest normal force."""
 
 
 @inner_kernel()
@@ -71,6 +74,28 @@ def may_pass_bend(lane: int, at: Places, work: np.ndarray) -> bool:
 
 
 @inner_kernel()
+def find_in_reach(lane: int, at: Places, work: np.ndarray, found: np.ndarray) -> int:
+    """Write the rows that friction may bring to a record in this step; how many.
+
+    It is as large as the normal force allows, and so it was where that was largest.
+    """
+    share, count = 0.0, 0
+    for j in range(at.pairs):
+        if bends(j, lane, at, work):
+            row = int(work[at.normal_row + j, lane])
+            normal = max(work[at.previous + row, lane], work[at.channel + row, lane])
+            share = max(share, normal / work[at.highest + row, lane])
+    for r in range(at.rows):
+        before, now = work[at.previous + r, lane], work[at.channel + r, lane]
+        lowest, highest = work[at.lowest + r, lane], work[at.highest + r, lane]
+        reach = SWAY * share * (highest - lowest)
+        if not (max(before, now) + reach < highest and min(before, now) - reach > lowest):
+            found[count] = r
+            count += 1
+    return count
+
+
+@inner_kernel()
 def any_bend(at: Places, work: np.ndarray) -> bool:
     """Whether a slip in any lane may come to a bend in the step that it takes."""
     for lane in range(LANES):
@@ -81,7 +106,7 @@ def any_bend(at: Places, work: np.ndarray) -> bool:
 
 @inner_kernel()
 def look_between_bends(
-    every: np.ndarray,
+    chosen: np.ndarray,
     low: float,
     high: float,
     lane: int,
@@ -94,7 +119,9 @@ def look_between_bends(
     channels_within: LaneFunction,
     gaps_within: LaneFunction,
 ) -> None:
-    """Seek extremes of rows between two shares, from one passage of a bend to the next."""
+    """Seek extremes of chosen rows between two shares, from one passage of a bend to the next."""
+    if len(chosen) == 0:
+        return
     cuts, begin = np.empty((MOST_PLACES + 1, 2)), low
     count = find_cuts(low, high, lane, at, work, spare, gaps_within, cuts)
     cuts[count] = high
@@ -102,7 +129,7 @@ def look_between_bends(
         if begin < end:
             place_evenly(begin, end, at, spare)
             channels_within(work, spare, lane)
-            look_at_suspects(every, begin, end, lane, run, at, work, spare, table, channels_around)
+            look_at_suspects(chosen, begin, end, lane, run, at, work, spare, table, channels_around)
         begin = max(begin, behind)
 
 
@@ -183,16 +210,17 @@ def want_more(
                 for sense in (1.0, -1.0):
                     bend = sense * work[at.bend + k, lane]
                     between = (bend - slips[i]) * (bend - slips[right]) <= 0.0
-                    if between and width > SAME and more + len(BESIDE) <= MOST_PLACES:
+                    if between and width > SAME and more + 4 <= MOST_PLACES:
                         share = (bend - slips[i]) / (slips[right] - slips[i])
-                        for beside in BESIDE:
-                            inside = min(max(share + beside, 1e-3), 1.0 - 1e-3)
+                        near = min(max(CLOSE, 0.5 * width), 0.5 * WIDE)
+                        for beside in (-WIDE, -near, near, WIDE):
+                            inside = min(max(share + beside, CLOSE), 1.0 - CLOSE)
                             wanted[more] = shares[i] + inside * width
                             more += 1
         rise, fall = slips[i] - slips[left], slips[i] - slips[right]
-        near = nearest_bend(slips[i], j, lane, at, work) < abs(rise) + abs(fall)
+        reached = nearest_bend(slips[i], j, lane, at, work) < abs(rise) + abs(fall)
         same = bends_below(slips[left], j, lane, at, work) == below == behind
-        if turning and rise * fall >= 0.0 and near and same and more + 6 <= MOST_PLACES:
+        if turning and rise * fall >= 0.0 and reached and same and more + 6 <= MOST_PLACES:
             for k in range(1, 4):
                 wanted[more] = shares[left] + 0.25 * k * (shares[i] - shares[left])
                 wanted[more + 1] = shares[i] + 0.25 * k * width

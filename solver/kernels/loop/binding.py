@@ -22,6 +22,12 @@ from jointplay.solver.scene.references import inner_states
 
 STEPS_IN_A_PERIOD = 100
 """Fewest steps in a period of the fastest driver, or in the scene's own scale of time."""
+ROWS = {
+    "slip_velocity": "slip_row",
+    "penetration": "penetration_row",
+    "normal_force": "normal_row",
+}
+"""Slots that have the rows of a pair's channels."""
 RESTART = 1e-3
 """The first step in contact closes this share of the clearance at the impact rate."""
 SMALLEST_STEP = 1e-15
@@ -121,7 +127,7 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
         law = pair.clearance.friction
         if law is not None and not law.is_off:
             lane["bend"][BENDS * j : BENDS * (j + 1)] = law.bends
-        for quantity, slot in (("slip_velocity", "slip_row"), ("penetration", "penetration_row")):
+        for quantity, slot in ROWS.items():
             lane[slot][j] = lane.kernel.rows.index(f"{name}.{quantity}")
 
 
