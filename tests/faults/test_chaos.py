@@ -45,7 +45,7 @@ def test_a_service_keeps_its_word_under_all_faults_at_length(tmp_path: Path, see
 def test_a_service_with_a_database_and_a_store_keeps_its_word_under_faults(tmp_path: Path) -> None:
     with running_server(fsync=True) as server, running_store() as endpoint:
         report = campaign(
-            *(tmp_path / "chaos", "--seed", "3", "--duration", "300"),
+            *(tmp_path / "chaos", "--seed", "3", "--duration", "600"),
             *("--catalogue", server.new("template0")),
             *("--results", f"s3://{BUCKET}/chaos?endpoint={endpoint}"),
         )
