@@ -34,7 +34,7 @@ class Finished:
     certificate: Certificate | None
 
 
-def finish(job: dict[str, Any]) -> Finished | str:
+def finish(job: dict[str, Any], most_steps: float = MOST_STEPS) -> Finished | str:
     """Run a job to its end, or return how it failed."""
     try:
         admission = admit(job)
@@ -47,7 +47,7 @@ def finish(job: dict[str, Any]) -> Finished | str:
         for piece in simulation.slices():
             times.append(piece.sample_time)
             samples.append(piece.samples)
-            if simulation.summary().statistics["steps"] > MOST_STEPS:
+            if simulation.summary().statistics["steps"] > most_steps:
                 return "too many steps"
     except SimulationFailed as failure:
         return failure.code

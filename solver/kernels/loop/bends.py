@@ -5,6 +5,8 @@ ends. Slip is smooth on the dense output, whatever friction does: few of its val
 passes a bend. From one such place to the next everything is smooth.
 """
 
+import math
+
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
@@ -15,10 +17,10 @@ from jointplay.solver.kernels.loop.inner_peaks import place_evenly
 from jointplay.solver.kernels.loop.looks_into_steps import look_at_suspects
 from jointplay.solver.kernels.loop.runs import Run
 
-REACH = 0.2
-"""Share of the way at the rates of both ends by which a slip may be away in between.
-
-A cubic is away by 4/27 of it at most."""
+BEYOND = 0.5
+"""Part of what a cubic goes beyond its ends by which slip may go further than the cubic."""
+RATES = 0.02
+"""Part of the way at the rates of both ends by which slip may go further, too."""
 TURNS = 2
 """Rounds in which places are added to either side of one where a slip turns near a bend."""
 MOST_ROUNDS = 12
@@ -59,16 +61,51 @@ def bends(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
 
 
 @inner_kernel()
+def beyond_ends(change: float, begin: float, end: float) -> tuple[float, float]:
+    """Return how far a cubic goes below and above both of its ends, from 0 to `change`.
+
+    begin, end
+        Its slopes there, as changes over the whole step.
+    """
+    curving, bending = 6.0 * change - 4.0 * begin - 2.0 * end, 3.0 * (begin + end) - 6.0 * change
+    below, above = min(0.0, change), max(0.0, change)
+    least, most = below, above
+    root = curving * curving - 4.0 * bending * begin  # of the cubic's slope, a parabola
+    if root >= 0.0:
+        q = -0.5 * (curving + math.copysign(math.sqrt(root), curving))
+        for above_line, below_line in ((q, bending), (begin, q)):
+            if 0.0 < above_line * below_line < below_line * below_line:
+                share = above_line / below_line
+                value = share * (begin + share * (0.5 * curving + share * bending / 3.0))
+                least, most = min(least, value), max(most, value)
+    return below - least, most - above
+
+
+@inner_kernel()
 def may_pass_bend(lane: int, at: Places, work: np.ndarray) -> bool:
-    """Whether a slip may come to a bend in this step, by its values and rates at both ends."""
+    """Whether a slip may pass a bend and come back in this step, or pass more than one.
+
+    Both is told by its values and rates at both ends: one bend that is passed once shows there.
+    """
+    step = work[at.tried, lane]
     for j in range(at.pairs):
         if bends(j, lane, at, work):
             before, now = work[at.slip_start + j, lane], work[at.slip + j, lane]
-            rates = abs(work[at.slip_rate_start + j, lane]) + abs(work[at.slip_rate + j, lane])
-            nearest = nearest_bend(before, j, lane, at, work)
-            nearest = min(nearest, nearest_bend(now, j, lane, at, work))
-            passed = bends_below(before, j, lane, at, work) != bends_below(now, j, lane, at, work)
-            if passed or nearest < REACH * work[at.tried, lane] * rates:
+            begin, end = (
+                step * work[at.slip_rate_start + j, lane],
+                step * work[at.slip_rate + j, lane],
+            )
+            below, above = beyond_ends(now - before, begin, end)
+            margin = RATES * (abs(begin) + abs(end))
+            low, high = min(before, now), max(before, now)
+            least = low - (1.0 + BEYOND) * below - margin
+            most = high + (1.0 + BEYOND) * above + margin
+            first, last = bends_below(low, j, lane, at, work), bends_below(high, j, lane, at, work)
+            if (
+                last - first > 1
+                or bends_below(least, j, lane, at, work) < first
+                or bends_below(most, j, lane, at, work) > last
+            ):
                 return True
     return False
 
