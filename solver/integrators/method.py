@@ -96,6 +96,11 @@ class Rosenbrock(Method):
         """Number of vectors that a step keeps: the slope at its start, then the stages."""
         return 1 + len(self.nodes)
 
+    @property
+    def watched_closely(self) -> bool:
+        """Every step of a contact: friction that a steep ramp holds may sway inside."""
+        return True
+
     def evaluations(self, states: int) -> int:
         """Return the evaluations in a step: stages, ledger and end, and a derivative each way."""
         return len(self.nodes) + 2 + states + 1

@@ -38,22 +38,28 @@ def sampled_peak(times: Floats, values: Floats) -> Peak:
 def _refined(
     evaluate: Callable[[Floats], Floats], channel: int, times: Floats, values: Floats, sense: float
 ) -> tuple[float, float]:
-    """Return the largest (sense 1) or smallest (sense -1) value of a channel, and its time."""
+    """Return the largest (sense 1) or smallest (sense -1) value of a channel, and its time.
+
+    Where that is an end, it may still be surpassed between this end and the instant beside it.
+    """
     best = int((sense * values).argmax())
     at, value = float(times[best]), float(values[best])
+    middle = float(times[min(max(best, 1), len(times) - 2)])
     spacing = float(times[1] - times[0])
     for _ in range(REFINEMENTS):
-        if at in (times[0], times[-1]):
-            break
-        around = np.clip(np.array([at - spacing, at, at + spacing]), times[0], times[-1])
+        around = np.clip(
+            np.array([middle - spacing, middle, middle + spacing]), times[0], times[-1]
+        )
         a, b, c = (float(x) for x in evaluate(around)[:, channel])
         curvature = a - 2.0 * b + c
         if curvature == 0.0:
             break
-        vertex = at + 0.5 * spacing * (a - c) / curvature
+        vertex = middle + 0.5 * spacing * (a - c) / curvature
         refined = float(np.clip(vertex, times[0], times[-1]))
         reached = float(evaluate(np.array([refined]))[0, channel])
         if sense * reached >= sense * value:
             at, value = refined, reached
-        spacing *= 0.1
+        if at in (times[0], times[-1]):
+            break
+        middle, spacing = at, 0.1 * spacing
     return value, at

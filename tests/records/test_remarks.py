@@ -11,6 +11,7 @@ from jointplay import jobs
 from jointplay.records.failure import InvalidInput
 from jointplay.records.remarks import without_remarks
 from jointplay.records.strict_json import parse
+from jointplay.scene_choice import NotAScene
 from jointplay.solver.kinds import admit
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.schema import scene_schema
@@ -52,6 +53,6 @@ def test_the_path_of_a_scene_is_told_from_a_preset(tmp_path):
     by_text = jobs.simulate(str(path), duration=1.0)
     assert by_text == jobs.simulate(path, duration=1.0)
     assert by_text["scene"]["name"] == "pendulum"
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(NotAScene, match=r"nothing\.json: No such file"):
         jobs.simulate("nothing.json", duration=1.0)
     assert jobs.simulate("nothing", duration=1.0)["scene"] == {"preset": "nothing"}

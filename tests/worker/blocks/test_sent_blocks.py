@@ -68,7 +68,7 @@ class ShortOfPower(Catalogue):
         return super().record_progress(*given, **named)
 
 
-@pytest.fixture(scope="module", params=["file", "s3"])
+@pytest.fixture(scope="module", params=["file", pytest.param("s3", marks=pytest.mark.long)])
 def address(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[str]:

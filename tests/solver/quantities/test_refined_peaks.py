@@ -1,0 +1,34 @@
+"""Extremes of functions of time are found between the instants that were looked at."""
+
+import numpy as np
+import pytest
+
+from jointplay.solver.quantities.extremes import refined_peaks
+
+
+@pytest.mark.parametrize("beside_end", [0.05, 0.5, 0.95])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_an_extreme_between_an_end_and_the_instant_beside_it_is_found(beside_end, sense):
+    times = np.linspace(0.0, 1.0, 51)
+    for at in (beside_end * times[1], 1.0 - beside_end * times[1]):
+
+        def evaluate(found, at=at):
+            return sense * np.cos(found - at)[:, None]
+
+        peak = refined_peaks(["x"], evaluate, times, evaluate(times))["x"]
+        value, time = (
+            (peak.maximum, peak.maximum_time) if sense > 0 else (peak.minimum, peak.minimum_time)
+        )
+        assert value == pytest.approx(sense, abs=1e-14)
+        assert time == pytest.approx(at, abs=1e-6)  # half of all digits: the value is flat there
+
+
+def test_an_end_that_is_not_surpassed_is_the_extreme():
+    times = np.linspace(0.0, 1.0, 51)
+
+    def evaluate(found):
+        return np.exp(found)[:, None]
+
+    peak = refined_peaks(["x"], evaluate, times, evaluate(times))["x"]
+    assert (peak.minimum, peak.minimum_time) == (1.0, 0.0)
+    assert (peak.maximum, peak.maximum_time) == (np.exp(1.0), 1.0)
