@@ -99,6 +99,7 @@ def test_a_whole_worker_killed_is_replaced(
     assert_same_bits(settings, finished, undisturbed)
 
 
+@pytest.mark.long
 def test_a_service_that_is_stopped_goes_on_when_it_is_started_again(
     settings: Settings, catalogue: Catalogue, admission: Admission, undisturbed: Path
 ) -> None:

@@ -107,7 +107,7 @@ def test_a_moment_is_saved_with_the_magnified_joints(ready):
         assert ">gap ×3.8, penetration ×" in inset
 
 
-@pytest.mark.parametrize("form", ["MP4", "WebM"])
+@pytest.mark.parametrize("form", [pytest.param("MP4", marks=pytest.mark.long), "WebM"])
 def test_a_video_lasts_from_impact_to_impact(ready, url, press, form, tmp_path):
     job = httpx.get(f"{url}/v1/jobs/{press}", trust_env=False).json()
     found = httpx.get(f"{url}{job['links']['impacts']}", trust_env=False).json()["impacts"]

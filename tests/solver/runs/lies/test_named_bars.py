@@ -9,6 +9,7 @@ BARS = (*friction.BARS, friction.RAMP, *companions.LIES)
 AT_LENGTH = (
     "press as a draft, its bars",
     "press, an unlucky step",
+    "press, fixed steps",
     "pendulum at the longest step",
     "slider-crank, friction full at 1e-05 m/s",
     "slider-crank, friction full at 3e-05 m/s",
