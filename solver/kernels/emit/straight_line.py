@@ -19,8 +19,6 @@ something is positive::
     v0 = load 12+           slot 12 + row
     mark 14 v3              byte `row` of slot 14 and those behind it: bit k is set where lane k is
 
-A long tape is cut into `pieces`, each a function of its own.
-
 As Python's arithmetic in a loop over the lanes, which it was once, the types of a thousand scalars
 had to be inferred and the loop found to be one of vectors: it took five times as long to compile
 and ran no faster.
@@ -32,17 +30,32 @@ from __future__ import annotations
 
 from typing import Any
 
-from llvmlite import ir
 from numba import float64, int64, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from jointplay.solver.kernels.emit.lane_arithmetic import DOUBLE, MARKS, NUMBERS, WORD
-from jointplay.solver.kernels.emit.pieces import LONGEST, cut
-from jointplay.solver.kernels.emit.writer import PARTS, Writer
+from jointplay.solver.kernels.emit.lane_arithmetic import (
+    MARKS,
+    NUMBERS,
+    WORD,
+    Lanes,
+    everywhere,
+    largest,
+    lower_and_upper,
+    positive,
+    same,
+)
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.record.operations import OPERATIONS
+
+PARTS = INSTANTS // LANES
+"""Halves, or the whole, of the instants."""
+ALIGNED = 8
+"""Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
 
 
-def straight_line(tape: str, over: str, rows: int = 0, longest: int = LONGEST) -> Any:
+def straight_line(tape: str, over: str, rows: int = 0) -> Any:
     """Return a function of W, S and an index, inside kernels, that does what the tape says.
 
     Parameters
@@ -54,15 +67,12 @@ def straight_line(tape: str, over: str, rows: int = 0, longest: int = LONGEST) -
     rows
         Number of rows. They are a loop: written out, they would push everything else that a step
         does out of the cache of instructions.
-    longest
-        Statements that are compiled as one block.
     """
     value = {"rows": int64}.get(over, float64 if "\nreturn " in tape else types.void)
 
     @intrinsic
     def run(_typing, W, S, index):  # noqa: N803  (as in every generated kernel)
         def generate(context, builder, signature, arguments):
-            pieces = cut(tape.strip().splitlines(), longest)
             source, target = (
                 context.make_array(signature.args[i])(context, builder, value=arguments[i]).data
                 for i in (0, 1 if over == "instants" else 0)
@@ -70,48 +80,89 @@ def straight_line(tape: str, over: str, rows: int = 0, longest: int = LONGEST) -
             if over == "rows":
                 marks = cgutils.alloca_once_value(builder, MARKS(0))
                 with cgutils.for_range(builder, WORD(rows)) as loop:
-                    _run(pieces, Writer(builder, source, target, loop.index, marks=marks))
+                    _run(tape, _Tape(builder, source, target, row=loop.index, marks=marks))
                 return builder.zext(builder.load(marks), WORD)
             if over == "instants" and PARTS > 1:
                 with cgutils.for_range(builder, WORD(PARTS)) as loop:
-                    _run(pieces, Writer(builder, source, target, arguments[2], part=loop.index))
+                    _run(tape, _Tape(builder, source, target, lane=arguments[2], part=loop.index))
                 return context.get_dummy_value()
-            writer = Writer(builder, source, target, arguments[2])
-            return _run(pieces, writer) or context.get_dummy_value()
+            state = _Tape(builder, source, target, lane=arguments[2], row=arguments[2])
+            return _run(tape, state) or context.get_dummy_value()
 
         return value(W, S, index), generate
 
     return run
 
 
-def _run(cut_tape: tuple[list[list[str]], int], writer: Writer) -> Any:
-    """Generate the code of a tape, a long one in pieces; the value that it returns."""
-    pieces, places = cut_tape
-    if len(pieces) == 1:
-        return writer.write(pieces[0])
-    kept = cgutils.alloca_once(writer.builder, NUMBERS, size=WORD(max(places, 1)))
-    values = [_call(piece, writer, kept) for piece in pieces]
-    return values[-1]
+def _run(tape: str, state: _Tape) -> Any:
+    """Generate the code of a tape's lines; the value that it returns."""
+    for line in tape.strip().splitlines():
+        match line.replace("= ", "").split():
+            case ["store", slot, value]:
+                state.store(slot, state.value(value))
+            case ["mark", slot, value]:
+                state.mark(slot, state.value(value))
+            case ["return", value]:
+                return largest(state.builder, state.value(value))
+            case [name, "load", slot]:
+                state.values[name] = state.load(state.source, slot)
+            case [name, "given", slot]:
+                state.values[name] = state.load(state.target, slot)
+            case [name, "spread", *slots]:
+                state.values[name] = state.spread(*slots)
+            case [name, operation, *operands]:
+                values = map(state.value, operands)
+                state.values[name] = OPERATIONS[operation].on_lanes(state.lanes, *values)
+    return None
 
 
-def _call(piece: list[str], writer: Writer, kept: Any) -> Any:
-    """Generate a function of a piece and a call of it; the value that it returns."""
-    outer = {"source": writer.source, "target": writer.target, "index": writer.index, "kept": kept}
-    if writer.part is not None:
-        outer["part"] = writer.part
-    value = DOUBLE if piece[-1].startswith("return") else ir.VoidType()
-    kind = ir.FunctionType(value, [argument.type for argument in outer.values()])
-    module = writer.builder.module
-    function = ir.Function(module, kind, module.get_unique_name("piece"))
-    function.linkage = "internal"
-    function.attributes.add("noinline")
-    inner = dict(zip(outer, function.args, strict=True))
-    inner["kept"].add_attribute("noalias")
-    builder = ir.IRBuilder(function.append_basic_block())
-    result = Writer(builder, **inner).write(piece)
-    called = writer.builder.call(function, outer.values())
-    if result is None:
-        builder.ret_void()
-        return None
-    builder.ret(result)
-    return called
+class _Tape:
+    """The arrays that a tape works on, and the values that it has made so far."""
+
+    def __init__(
+        self, builder, source, target, *, lane=None, row=None, marks=None, part=None
+    ) -> None:
+        self.builder, self.source, self.target = builder, source, target
+        self.lanes = Lanes(builder)
+        self.lane, self.row, self.marks, self.part = lane, row, marks, part
+        self.values: dict[str, Any] = {}
+
+    def value(self, text: str) -> Any:
+        return self.values[text] if text in self.values else same(float(text))
+
+    def load(self, array: Any, slot: str) -> Any:
+        return self.builder.load(self._place(array, slot), align=ALIGNED)
+
+    def store(self, slot: str, value: Any) -> None:
+        self.builder.store(value, self._place(self.target, slot), align=ALIGNED)
+
+    def mark(self, slot: str, value: Any) -> None:
+        builder, bits = self.builder, positive(self.builder, value)
+        builder.store(builder.or_(builder.load(self.marks), bits), self.marks)
+        rows = builder.bitcast(self._place(self.target, slot), MARKS.as_pointer())
+        builder.store(bits, builder.gep(rows, [self.row]))
+
+    def spread(self, slot: str, later_slot: str = "") -> Any:
+        builder, early = self.builder, self._spread(slot)
+        if not later_slot:
+            return early
+        late = self._spread(later_slot)
+        if self.part is None:
+            return lower_and_upper(builder, early, late)
+        return builder.select(self._is_early(), early, late)
+
+    def _is_early(self) -> Any:
+        return self.builder.icmp_unsigned("==", self.part, WORD(0))
+
+    def _place(self, array: Any, slot: str) -> Any:
+        place = WORD(int(slot.removesuffix("+")))
+        if slot.endswith("+"):
+            place = self.builder.add(place, self.row)
+        if self.part is not None:  # only S is loaded from or stored to
+            place = self.builder.add(self.builder.mul(place, WORD(PARTS)), self.part)
+        return self.builder.gep(self.builder.bitcast(array, NUMBERS.as_pointer()), [place])
+
+    def _spread(self, slot: str) -> Any:
+        place = self.builder.add(WORD(int(slot) * LANES), self.lane)
+        number = self.builder.load(self.builder.gep(self.source, [place]))
+        return everywhere(self.builder, number)
