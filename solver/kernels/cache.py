@@ -25,7 +25,7 @@ import numba
 from filelock import FileLock
 from numba.core.caching import UserProvidedCacheLocator
 
-from jointplay.solver.kernels.compiler import leave_order_to_processor
+from jointplay.solver.kernels.compiler import leave_out_slow_passes
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.watched import compile_if_watched
 from jointplay.solver.version import source_digest
@@ -54,7 +54,7 @@ def cache_folder() -> Path:
                 pass
         except OSError:
             continue
-        leave_order_to_processor()
+        leave_out_slow_passes()
         settings: Any = numba.config  # which Numba fills when it is imported
         settings.CACHE_DIR = str(folder)
         settings.CACHE_LOCATOR_CLASSES = f"{__name__}.OwnSources,UserProvidedCacheLocator"

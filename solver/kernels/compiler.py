@@ -2,12 +2,19 @@
 
 from llvmlite import binding
 
+LEFT_OUT = ("-disable-post-ra", "-disable-vector-combine")
+"""Passes whose time is the square of a straight line's length: see `leave_out_slow_passes`."""
 
-def leave_order_to_processor() -> None:
-    """Leave out the scheduling of instructions that follows the choice of registers.
 
-    LLVM has it for some processors, AMD's among them. On a straight line of n statements it takes
-    n^2 time, two thirds of compilation at n = 5000, and processors that execute out of order do as
-    well without: kernels of the press are as fast. No result depends on the order.
+def leave_out_slow_passes() -> None:
+    """Leave out two passes that take the square of the time where a block is twice as long.
+
+    The scheduling of instructions that follows the choice of registers, which LLVM has for some
+    processors, AMD's among them: two thirds of compilation at n = 5000 statements. Processors that
+    execute out of order do as well without. And the combination of operations on vectors, which is
+    slow where numbers are spread over vectors, as inside steps: it numbers a block's instructions
+    anew for each one that it changes. Kernels of the press are as fast without either. No result
+    depends on them.
     """
-    binding.set_option("jointplay", "-disable-post-ra")
+    for option in LEFT_OUT:
+        binding.set_option("jointplay", option)

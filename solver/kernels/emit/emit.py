@@ -4,7 +4,6 @@ Measurements say what makes them fast: no library call, no branch but selects, a
 with constant offsets. Names on a tape are the emitter's own; nothing of a scene's text enters it.
 """
 
-from collections import ChainMap
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
@@ -19,25 +18,31 @@ from jointplay.solver.kernels.watched import require_wanted
 
 HEADER = '''"""A generated kernel: see jointplay.solver.kernels.emit."""
 
-from numba import float64, int64, njit, void
+from numba import float64, int64, void
 
-from jointplay.solver.kernels.emit.straight_line import straight_line
+from jointplay.solver.kernels.emit.tapes import Tapes
 
-options = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
-inner = options | {"no_cpython_wrapper": True}
+tapes = Tapes()
 '''
-"""A fifth of compilation is wrappers for calls from Python: `inner` functions have none, and such a
-call would be one of a null pointer."""
-DECORATOR = "@njit(void(float64[:, ::1]), **options)"
-RETURNING = "@njit(float64(float64[:, ::1]), **options)"
+FOOTER = """define_all = tapes.definitions()
+
+
+def definitions():
+    define_all()
+
+
+tapes.compile(definitions, globals())
+"""
+DECORATOR = "@tapes.function(void(float64[:, ::1]), inner=False)"
+RETURNING = "@tapes.function(float64(float64[:, ::1]), inner=False)"
 
 SIGNATURES = {
-    "lanes": ("void(float64[:, ::1])", "W", "W, W, 0"),
-    "instants": ("void(float64[:, ::1], float64[:, ::1], int64)", "W, S, lane", "W, S, lane"),
-    "row": ("void(float64[:, ::1], int64)", "W, row", "W, W, row"),
-    "rows": ("int64(float64[:, ::1])", "W", "W, W, 0"),
+    "lanes": ("void(float64[:, ::1])", "W"),
+    "instants": ("void(float64[:, ::1], float64[:, ::1], int64)", "W, S, lane"),
+    "row": ("void(float64[:, ::1], int64)", "W, row"),
+    "rows": ("int64(float64[:, ::1])", "W"),
 }
-"""Types, arguments, and arguments of the tape, by what a function goes over."""
+"""Types and arguments, by what a function goes over."""
 
 LONGEST = 3 * MOST_STATEMENTS
 """Lines of a tape: dense output, equations and channels, each within the limit, are on some."""
@@ -83,6 +88,8 @@ class Tape:
         self.fetch = fetch or (lambda name: f"load {layout[name]}")
         self.lines: list[str] = []
         self.values: dict[Expression, str] = {}
+        self._found = set(known)
+        """Values that need not be evaluated any more."""
         self.carried: dict[str, str] = {}
 
     def carry(self, outputs: Outputs) -> None:
@@ -96,7 +103,7 @@ class Tape:
         To hold all of them until the last is known would take more registers than there are.
         """
         place = {name: i for i, (name, _) in enumerate(outputs)}
-        seen = set(self._found())
+        seen = set(self._found)
         for i, (_, expression) in enumerate(outputs):
             for node in reachable([expression], seen):
                 if node.operation == "variable" and place.get(str(node.data), i) < i:
@@ -129,32 +136,30 @@ class Tape:
     ) -> str:
         """Return the source of a function; see `straight_line` for what it goes over.
 
-        Python may call those that go over lanes, but for `inner` ones.
+        Kernels of this source alone may call `inner` ones. They need no function of Numba's, nor do
+        those need what Python calls that it never calls: a fifth of their compilation.
         """
         require_wanted()
-        types, arguments, of_tape = SIGNATURES[over]
-        if self.lines[-1].startswith("return"):
-            types = types.replace("void", "float64")
-        lines = [
-            f'{name}_tape = straight_line("""',
-            *self.lines,
-            f'""", "{over}", {rows})',
-            "",
-            "",
-            f"@njit({types}, **{'inner' if inner or over != 'lanes' else 'options'})",
-            f"def {name}({arguments}):",
-            f"    {'' if types.startswith('void') else 'return '}{name}_tape({of_tape})",
-        ]
+        taped = name if inner else f"{name}_tape"
+        lines = [f'{taped} = tapes.add("{name}", """', *self.lines, f'""", "{over}", {rows})']
+        if not inner:
+            types, arguments = SIGNATURES[over]
+            if self.lines[-1].startswith("return"):
+                types = types.replace("void", "float64")
+            lines += [
+                "",
+                "",
+                f"@tapes.function({types}, inner={over != 'lanes'})",
+                f"def {name}({arguments}):",
+                f"    return {taped}({arguments})",
+            ]
         return "\n".join(lines) + "\n"
 
-    def _found(self) -> ChainMap[Expression, str]:
-        """Return what need not be evaluated: no copy, for there are many outputs."""
-        return ChainMap(self.values, self.known)  # type: ignore[arg-type]
-
     def _evaluate(self, expression: Expression) -> str:
-        for node in reachable([expression], self._found()):
-            if node not in self.values:
-                self._state(node)
+        if expression not in self.values:
+            for node in reachable([expression], self._found):
+                if node not in self.values:
+                    self._state(node)
         return self._operand(expression)
 
     def _state(self, node: Expression) -> None:
@@ -163,7 +168,7 @@ class Tape:
         elif node.operation == "variable":
             name = str(node.data)
             if name in self.carried:
-                self.values[node] = self.carried[name]
+                self._name(node, self.carried[name])
             else:
                 self._define(node, self.fetch(name))
         elif not node.fixed:
@@ -180,8 +185,13 @@ class Tape:
     def _define(self, node: Expression, text: str) -> None:
         if len(self.lines) >= LONGEST:
             raise too_many(len(self.lines))
-        self.values[node] = f"v{len(self.lines)}"
-        self.lines.append(f"{self.values[node]} = {text}")
+        name = f"v{len(self.lines)}"
+        self._name(node, name)
+        self.lines.append(f"{name} = {text}")
+
+    def _name(self, node: Expression, name: str) -> None:
+        self.values[node] = name
+        self._found.add(node)
 
 
 def lane_function(
@@ -197,6 +207,11 @@ def lane_function(
     tape = Tape(layout, fixed, known)
     tape.store(outputs)
     return tape.function(name, inner=inner)
+
+
+def module_source(parts: Iterable[str]) -> str:
+    """Return the source of a module of these functions' sources."""
+    return "\n\n".join([HEADER, *parts, FOOTER])
 
 
 def nothing(name: str) -> str:

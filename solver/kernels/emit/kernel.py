@@ -13,7 +13,7 @@ from jointplay.solver.integrators import Method
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import implicit, inside, scanning, stepping
-from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, Tape, lane_function
+from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function, module_source
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.places import DenseRow, StepRow, places_of
 from jointplay.solver.kernels.layout import BENDS, Layout
@@ -121,9 +121,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     evaluated = right_hand_side(equations) + [(known[node], node) for node in again]
     evaluated += steps.knots.at_end()
     scanned, rest = observed[: rows.scanned], observed[rows.scanned :]
-    source = "\n\n".join(
+    source = module_source(
         [
-            HEADER,
             _slope_function(equations, layout, fixed),
             lane_function("right_hand_side", evaluated, layout, fixed),
             lane_function("observe", scanned, layout, fixed, known),
@@ -171,7 +170,7 @@ def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> 
     kept = {"slope": "k1_", "ledger": "kledger1_"}
     named = [(name.rstrip("0123456789"), name, value) for name, value in slopes(equations)]
     tape.store_rows([(name.replace(block, kept[block]), value) for block, name, value in named])
-    return tape.function("slopes", "row")
+    return tape.function("slopes", "row", inner=True)
 
 
 def values_of(nodes: Sequence[Expression], scene: Scene) -> Floats:

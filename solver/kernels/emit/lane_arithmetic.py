@@ -2,6 +2,7 @@
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
 
+from functools import cache
 from typing import Any
 
 from llvmlite import ir
@@ -14,8 +15,9 @@ NUMBERS, WORDS = ir.VectorType(DOUBLE, LANES), ir.VectorType(WORD, LANES)
 MARKS, PLACE = ir.IntType(8), ir.IntType(32)
 
 
+@cache
 def same(value: float) -> Any:
-    """Return one number in every lane."""
+    """Return one number in every lane; the same object each time, which knows how it is written."""
     return ir.Constant(NUMBERS, [value] * LANES)
 
 

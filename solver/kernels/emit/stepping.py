@@ -8,7 +8,14 @@ from itertools import count
 
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit import closing, enclosure
-from jointplay.solver.kernels.emit.emit import RETURNING, FixedNodes, Known, Outputs, Tape
+from jointplay.solver.kernels.emit.emit import (
+    RETURNING,
+    FixedNodes,
+    Known,
+    Outputs,
+    Tape,
+    lane_function,
+)
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import MOTION, Equations
@@ -194,7 +201,7 @@ class StepRecorder(JudgedStep):
     def _remember(self) -> str:
         """Keep the dense output of this step, before the next one begins."""
         outputs = [(before(name), self.variable(name)) for name in self._remembered()]
-        return self._function("remember", self._where_accepted(outputs))
+        return lane_function("remember", self._where_accepted(outputs), self.layout)
 
     def _remembered(self) -> list[str]:
         """Return the slots that dense output reads."""

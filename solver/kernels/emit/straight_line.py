@@ -1,4 +1,4 @@
-"""Compiles a tape: straight-line arithmetic over all lanes of work arrays.
+"""Writes a tape in the compiler's language: straight-line arithmetic over all lanes of work arrays.
 
 A tape has one statement a line::
 
@@ -30,9 +30,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba import float64, int64, types
 from numba.core import cgutils
-from numba.extending import intrinsic
 
 from jointplay.solver.kernels.emit.lane_arithmetic import (
     MARKS,
@@ -55,8 +53,10 @@ ALIGNED = 8
 """Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
 
 
-def straight_line(tape: str, over: str, rows: int = 0) -> Any:
-    """Return a function of W, S and an index, inside kernels, that does what the tape says.
+def write(
+    tape: str, builder: Any, over: str, rows: int, source: Any, target: Any, index: Any
+) -> Any:
+    """Generate what a tape says; the function's value, None where it has none.
 
     Parameters
     ----------
@@ -67,31 +67,19 @@ def straight_line(tape: str, over: str, rows: int = 0) -> Any:
     rows
         Number of rows. They are a loop: written out, they would push everything else that a step
         does out of the cache of instructions.
+    source, target
+        Where numbers are loaded from, and where they are stored.
     """
-    value = {"rows": int64}.get(over, float64 if "\nreturn " in tape else types.void)
-
-    @intrinsic
-    def run(_typing, W, S, index):  # noqa: N803  (as in every generated kernel)
-        def generate(context, builder, signature, arguments):
-            source, target = (
-                context.make_array(signature.args[i])(context, builder, value=arguments[i]).data
-                for i in (0, 1 if over == "instants" else 0)
-            )
-            if over == "rows":
-                marks = cgutils.alloca_once_value(builder, MARKS(0))
-                with cgutils.for_range(builder, WORD(rows)) as loop:
-                    _run(tape, _Tape(builder, source, target, row=loop.index, marks=marks))
-                return builder.zext(builder.load(marks), WORD)
-            if over == "instants" and PARTS > 1:
-                with cgutils.for_range(builder, WORD(PARTS)) as loop:
-                    _run(tape, _Tape(builder, source, target, lane=arguments[2], part=loop.index))
-                return context.get_dummy_value()
-            state = _Tape(builder, source, target, lane=arguments[2], row=arguments[2])
-            return _run(tape, state) or context.get_dummy_value()
-
-        return value(W, S, index), generate
-
-    return run
+    if over == "rows":
+        marks = cgutils.alloca_once_value(builder, MARKS(0))
+        with cgutils.for_range(builder, WORD(rows)) as loop:
+            _run(tape, _Tape(builder, source, target, row=loop.index, marks=marks))
+        return builder.zext(builder.load(marks), WORD)
+    if over == "instants" and PARTS > 1:
+        with cgutils.for_range(builder, WORD(PARTS)) as loop:
+            _run(tape, _Tape(builder, source, target, lane=index, part=loop.index))
+        return None
+    return _run(tape, _Tape(builder, source, target, lane=index, row=index))
 
 
 def _run(tape: str, state: _Tape) -> Any:
@@ -122,7 +110,9 @@ class _Tape:
     def __init__(
         self, builder, source, target, *, lane=None, row=None, marks=None, part=None
     ) -> None:
-        self.builder, self.source, self.target = builder, source, target
+        self.builder, self.numbers = builder, source
+        kind = NUMBERS.as_pointer()
+        self.source, self.target = (builder.bitcast(array, kind) for array in (source, target))
         self.lanes = Lanes(builder)
         self.lane, self.row, self.marks, self.part = lane, row, marks, part
         self.values: dict[str, Any] = {}
@@ -160,9 +150,9 @@ class _Tape:
             place = self.builder.add(place, self.row)
         if self.part is not None:  # only S is loaded from or stored to
             place = self.builder.add(self.builder.mul(place, WORD(PARTS)), self.part)
-        return self.builder.gep(self.builder.bitcast(array, NUMBERS.as_pointer()), [place])
+        return self.builder.gep(array, [place])
 
     def _spread(self, slot: str) -> Any:
         place = self.builder.add(WORD(int(slot) * LANES), self.lane)
-        number = self.builder.load(self.builder.gep(self.source, [place]))
+        number = self.builder.load(self.builder.gep(self.numbers, [place]))
         return everywhere(self.builder, number)

@@ -19,7 +19,13 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import kinks, tangent_step
-from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, Tape, lane_function, nothing
+from jointplay.solver.kernels.emit.emit import (
+    FixedNodes,
+    Tape,
+    lane_function,
+    module_source,
+    nothing,
+)
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.kernel import Kernel, values_of
 from jointplay.solver.kernels.emit.kinks import Kinks
@@ -63,9 +69,8 @@ def compile_tangents(kernel: Kernel) -> Tangents:
     bends = kinks.kinks_of(equations)
     allocate(layout, kernel.states, len(kernel.pairs), len(bends))
     fixed = FixedNodes(layout)
-    source = "\n\n".join(
+    source = module_source(
         [
-            HEADER,
             kinks.kink_function(bends, layout, fixed),
             slope_function(equations, bends, layout, fixed),
             *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),

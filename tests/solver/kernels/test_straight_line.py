@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numba import njit
+from numba import njit, void
 
 from jointplay.solver.kernels.emit.emit import Tape
-from jointplay.solver.kernels.emit.straight_line import straight_line
+from jointplay.solver.kernels.emit.tapes import Tapes
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS, Layout
 from jointplay.solver.kernels.record.operations import OPERATIONS
@@ -30,11 +30,15 @@ EVERY_OPERATION = dict.fromkeys(ON_LANES, 1) | {
 
 
 def compiled(tape, over="lanes", rows=0):
-    """Return what a tape does to W, or to W, S and a lane."""
-    run = straight_line(tape, over, rows)
+    """Return what a tape does to W, to W, S and a lane, or to W and a row."""
+    tapes = Tapes()
+    run, define_all = tapes.add("run", tape, over, rows), tapes.definitions()
+    njit(void(), error_model="numpy")(lambda: define_all())
     if over == "instants":
         return njit(lambda work, spare, lane: run(work, spare, lane))
-    return njit(lambda work: run(work, work, 0), error_model="numpy")
+    if over == "row":
+        return njit(lambda work, row: run(work, row))
+    return njit(lambda work: run(work))
 
 
 RUNS = {
@@ -135,8 +139,7 @@ def test_a_tape_evaluates_what_slots_held_before_any_is_stored() -> None:
 
 
 def test_a_tape_for_one_row_moves_its_slots() -> None:
-    run = straight_line("v0 = load 2\nv1 = load 4+\nv2 = add v0 v1\nstore 8+ v2", "row")
-    moved = njit(lambda work, row: run(work, work, row))
+    moved = compiled("v0 = load 2\nv1 = load 4+\nv2 = add v0 v1\nstore 8+ v2", "row")
     work = np.arange(SLOTS * LANES, dtype=float).reshape(SLOTS, LANES)
     expected = work[2] + work[7]
     moved(work, 3)
