@@ -32,31 +32,6 @@ DRAFT = {
     "accuracy": "draft",
 }
 
-CROSSED = {
-    "kind": "simulate",
-    "scene": {
-        "preset": "slider-crank",
-        "parameters": {
-            "clearance": 0.000262146,
-            "bearing_radius": 0.00149831119176,
-            "speed": 138.264,
-            "stiffness": 1.05394e10,
-            "restitution": 0.115051,
-            "friction": 0.155791,
-            "dynamic_velocity": 3.65389e-05,
-            "static_velocity": 3.2885e-05,
-        },
-    },
-    "duration": 0.0008,
-    "method": "rodas",
-    "tolerance": 3.72332e-07,
-}
-
-RAMP = Lie(
-    "slider-crank, a ramp crossed twice in a step",
-    "friction was small at both ends, and large between them",
-    lambda: by_extremes(CROSSED),
-)
 EXTREMES = Lie("press as a draft", "extremes were invented", lambda: by_extremes(DRAFT))
 BARS = (
     *(
@@ -69,4 +44,4 @@ BARS = (
     ),
     Lie("press as a draft, its bars", "the same in all companions", lambda: by_bars(DRAFT)),
 )
-LIES = (*BARS, RAMP, EXTREMES)
+LIES = (*BARS, EXTREMES)

@@ -15,6 +15,10 @@ ROUGH = 0.25
 """Ratio of differences, from one order to the next but one, beyond which no quartic is trusted."""
 STEEP = 10.0
 """A slope at the end by more errors than that is no error: the function has no extreme inside."""
+LEFT_OUT = 4.0
+"""Slope of what a quartic leaves out, by its value, if not larger."""
+BESIDE = 1e-6
+"""Distance from one of the places at which what is left out there is nothing but rounding."""
 TINY = 1e-300
 TWELFTH = 1.0 / 12.0
 
@@ -71,6 +75,20 @@ def extreme(
     if abs(place) == MIDDLE:
         value = sample
     return place + MIDDLE, value, error, abs(bent)
+
+
+@kernel()
+def slope_left_out(place: float, off: float) -> float:
+    """Return the slope of what a quartic leaves out, by how much that is at a place.
+
+    Mostly that is a multiple of the quintic with roots at the five places: next to one of them it
+    is small, however steep.
+    """
+    steeper = 0.0
+    for i in range(PLACES):
+        if abs(place - i) > BESIDE:
+            steeper += 1.0 / (place - i)
+    return off * max(abs(steeper), LEFT_OUT)
 
 
 @inner_kernel()

@@ -5,7 +5,14 @@ import numpy as np
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extreme import LAST, PLACES, extreme, highest
+from jointplay.solver.kernels.loop.extreme import (
+    LAST,
+    LEFT_OUT,
+    PLACES,
+    extreme,
+    highest,
+    slope_left_out,
+)
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.windows import (
     BENT,
@@ -76,13 +83,14 @@ def is_done_by(
 ) -> bool:
     """Let the value at the place of a window's extreme count; whether it is sharp.
 
-    Between places d apart, the slope of what a quartic leaves out is at most some four times its
-    value by d; what that is beyond the value found is its square by twice the second derivative.
+    What is beyond the value found is the square of the slope there by twice the second derivative.
     """
-    count(w, table[w + PLACE], value, lane, run, at, work, table)
-    off = max(abs(value - table[w + VALUE]), LEAST_OFF * table[w + ERROR])
+    place = table[w + PLACE]
+    count(w, place, value, lane, run, at, work, table)
+    slope = slope_left_out(place, abs(value - table[w + VALUE]))
+    slope = max(slope, LEFT_OUT * LEAST_OFF * table[w + ERROR])
     sharp = SHARP * spread(int(table[w + ROW]), value, lane, at, work)
-    return bool(8.0 * off * off <= sharp * table[w + BENT])
+    return bool(0.5 * slope * slope <= sharp * table[w + BENT])
 
 
 @inner_kernel()

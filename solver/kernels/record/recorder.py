@@ -76,7 +76,9 @@ class Recorder:
         """Return the one node of this operation on these arguments."""
         ordered = arguments
         if operation in COMMUTING:
-            ordered = tuple(sorted(arguments, key=lambda e: (not e.fixed, e.index)))
+            one, other = arguments
+            if (one.fixed, other.index) < (other.fixed, one.index):
+                ordered = (other, one)
         key = (operation, *(e.index for e in ordered), data)
         found = self._nodes.get(key)
         if found is None:
@@ -90,9 +92,10 @@ class Recorder:
 
     def apply(self, operation: str, *arguments: Expression) -> Expression:
         """Return the node of an operation, folded where all arguments are literals."""
-        if all(e.operation == "constant" for e in arguments):
+        fixed = all(e.fixed for e in arguments)
+        if fixed and all(e.operation == "constant" for e in arguments):
             return self.constant(OPERATIONS[operation].on_floats(*(e.value for e in arguments)))
-        return self.node(operation, arguments, None, fixed=all(e.fixed for e in arguments))
+        return self.node(operation, arguments, None, fixed=fixed)
 
 
 def too_many(count: int) -> LimitExceeded:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.loop.extreme import PLACES
+from jointplay.solver.kernels.loop.extreme import PLACES, slope_left_out
 from jointplay.solver.kernels.loop.extreme import extreme as extreme_of
 
 SENSES = pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -30,6 +30,15 @@ def test_a_sine_is_within_the_bound_that_is_given(sense: float, top: float, turn
     if abs(top - 2.0) <= 0.5 and turn <= 0.5:
         assert error <= turn**5 + 1e-15
         assert place == pytest.approx(top, abs=0.1 * turn**2 + 2e-3 + 1e-7 / turn**2)
+
+
+@given(top=st.floats(1.0, 3.0), turn=st.floats(0.1, 0.4))
+def test_a_value_where_a_sine_seems_to_turn_tells_its_slope_there(top: float, turn: float) -> None:
+    place, value, _ = extreme(np.cos(turn * (PLACE - top)), 1.0)
+    off = abs(np.cos(turn * (place - top)) - value)
+    slope = abs(turn * np.sin(turn * (place - top)))
+    # terms beyond the fifth count a little; so does the place, which is not iterated to its end
+    assert slope <= 1.5 * slope_left_out(place, off) + 1e-5 * turn**2
 
 
 @SENSES

@@ -5,7 +5,7 @@ import pytest
 
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import kinks
-from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
+from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, module_source
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative
@@ -31,9 +31,8 @@ def slopes_over_steps(
     layout.add("slip", "along", "normal_force", "slope")
     kinks.allocate(layout, len(bends))
     fixed = FixedNodes(layout)
-    source = "\n\n".join(
+    source = module_source(
         [
-            HEADER,
             kinks.kink_function(bends, layout, fixed),
             lane_function("follow", [("slope", derivative(force))], layout, fixed),
         ]

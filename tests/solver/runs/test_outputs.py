@@ -158,14 +158,11 @@ def test_impacts_are_ordered_complete_and_consistent_with_the_samples(press: Run
 
 
 def test_impulses_and_peak_forces_are_those_of_the_dense_samples(press: Run) -> None:
-    step = press.time[1]
     for joint in press.admission.joints:
         force = press[f"{joint}.normal_force"]
         total = press.contacts(joint)["impulse"].sum()
-        integral = np.trapezoid(force, press.time)
-        # trapezia over humps with kinks: one step's worth of their heights, either way
-        slack = 0.5 * step * np.abs(np.diff(force)).sum() * 0.1 + 1e-9
-        assert total == pytest.approx(integral, abs=slack)
+        # trapezia over humps of hundreds of samples, whose kinks are at onset and release alone
+        assert total == pytest.approx(np.trapezoid(force, press.time), rel=3e-6)
         for contact in press.contacts(joint):
             end = contact["release"] if np.isfinite(contact["release"]) else press.time[-1]
             inside = (press.time >= contact["onset"]) & (press.time <= end)

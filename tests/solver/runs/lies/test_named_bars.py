@@ -1,11 +1,11 @@
-"""Error bars that were lies once, and an extreme."""
+"""Error bars that were lies once, and extremes at ramps of friction."""
 
 import pytest
 
-from benchmarks.lies.named import companions, friction
+from benchmarks.lies.named import companions, friction, ramps
 from benchmarks.lies.named.lie import Lie
 
-BARS = (*friction.BARS, friction.RAMP, *companions.LIES)
+BARS = (*friction.BARS, *ramps.LIES, *companions.LIES)
 AT_LENGTH = (
     "press as a draft, its bars",
     "press, an unlucky step",
