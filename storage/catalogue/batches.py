@@ -10,6 +10,7 @@ from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import BatchNotFound
+from jointplay.storage.catalogue.idempotency import earlier_answer, remember_batch
 from jointplay.storage.catalogue.quotas import Quota, Uses
 from jointplay.storage.catalogue.records import (
     TERMINAL,
@@ -21,9 +22,7 @@ from jointplay.storage.catalogue.records import (
 )
 from jointplay.storage.catalogue.submission import (
     drop_blocks,
-    earlier_answer,
     insert_jobs,
-    remember_key,
     request_cancel,
     row_of,
 )
@@ -61,7 +60,7 @@ def submit_batch(
     ]:
         insert_jobs(unit, some)
     if key is not None:
-        remember_key(unit, key, batch=batch_id)
+        remember_batch(unit, key, batch_id)
     return SubmittedBatch(find_batch(unit, batch_id), tuple(job_ids), created=True)
 
 

@@ -230,6 +230,7 @@ class Catalogue:
 
     claim_block = claiming(claims.claim)
     claim_next = claiming(claims.claim_next)
+    wake_again = writing(solvers.wake_again)
     held_by = reading(listing.held_by)
     note_worker = writing(solvers.note_worker)
     held = reading(holding.held)

@@ -1,23 +1,58 @@
 """Claims: a worker takes a block, one that it names or the one whose turn it is."""
 
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, Final
 
-from sqlalchemy import delete, func, insert, select, update
+from sqlalchemy import bindparam, delete, insert, update
 
-from jointplay.storage.catalogue import functions, quotas, solvers, tables, turns
+from jointplay.storage.catalogue import calls, quotas, solvers, tables, turns
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
+from jointplay.storage.catalogue.holding import job_of
+from jointplay.storage.catalogue.numbers import number_of
 from jointplay.storage.catalogue.records import (
     Block,
     BlockState,
     Claim,
     JobState,
     Solver,
-    number_of,
 )
-from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
+from jointplay.storage.catalogue.rows import record_event
 
-_block = tables.block
+_block, _job, _outbox = tables.block, tables.job, tables.outbox
+_TAKE: Final = (
+    update(_block)
+    .where(_block.c.id == bindparam("of_block"), _block.c.state == BlockState.queued)
+    .values(
+        state=BlockState.running,
+        attempt=_block.c.attempt + 1,
+        lease_until=bindparam("until"),
+        worker=bindparam("claimant"),
+    )
+    .returning(*_block.c)
+)
+_SENT: Final = (
+    delete(_outbox)
+    .where(_outbox.c.block == bindparam("of_block"))
+    .returning(_outbox.c.queue, _outbox.c.turn)
+)
+_BEGIN: Final = insert(tables.attempt).values(
+    block=bindparam("of_block"),
+    number=bindparam("number_of"),
+    worker=bindparam("claimant"),
+    started=bindparam("moment"),
+)
+_CHANGE: Final = (
+    update(_job)
+    .where(_job.c.id == bindparam("of_job"))
+    .values(
+        {
+            name: bindparam(f"now_{name}", type_=_job.c[name].type)
+            for name in ("attempt", "started", "processor", "state")
+        }
+    )
+)
 _COUNTED = number_of("running", "")
 
 
@@ -28,24 +63,20 @@ def claim_next(
     solver: Solver,
     *,
     most_running: int = 0,
-    woken_for: str | None = None,
 ) -> Claim | None:
     """Take the block whose turn it is, of those that this solver may; none if none waits.
 
-    Owners of whose blocks `most_running` are computed are passed by; 0: any number may be. A worker
-    that was `woken_for` a block and takes another one has that one announced again.
+    Owners of whose blocks `most_running` are computed are passed by; 0: any number may be.
     """
     if most_running:  # counted by one after the other
         take_turns(unit.connection, _COUNTED)
     busy = quotas.busy_owners(unit, most_running)
     if unit.shared:
-        found = functions.claim_next(unit, worker, lease, solver, busy)
+        found = calls.claim_next(unit, worker, lease, solver, busy)
     else:
         found = _first(unit, solvers.waiting_for(unit, solver, busy), worker, lease, solver)
     if found is None:
         found = _first(unit, solvers.abandoned(unit, solver, busy), worker, lease, solver)
-    if woken_for is not None and (found is None or found.block.id != woken_for):
-        solvers.announce_again(unit, woken_for, solver)
     return found
 
 
@@ -63,59 +94,40 @@ def claim(
 
     With a `solver` only a block of a job that is its own, or that no worker's solver is any more.
     """
-    taken = functions.claim if unit.shared else _claim
+    taken = calls.claim if unit.shared else _claim
     found = taken(unit, block_id, worker, lease, solver)
-    if found is None and solver is not None:
-        if solvers.take_over(unit, block_id, solver):
-            return taken(unit, block_id, worker, lease, solver)
-        solvers.announce_again(unit, block_id, solver)
+    if found is None and solver is not None and solvers.take_over(unit, block_id, solver):
+        return taken(unit, block_id, worker, lease, solver)
     return found
 
 
 def _claim(
     unit: Unit, block_id: str, worker: str, lease: float, solver: Solver | None
 ) -> Claim | None:
-    """Do what the function of `functions` does."""
-    job_id = unit.execute(select(_block.c.job).where(_block.c.id == block_id)).scalar_one_or_none()
-    if job_id is None:
+    """Do what PostgreSQL does by itself."""
+    job = job_of(unit, block_id)
+    if job is None or job.state.terminal or not (solver is None or solvers.fits(job, solver)):
         return None
-    job = lock_job(unit, job_id)
-    if job.state.terminal or not (solver is None or solvers.fits(job, solver)):
-        return None
-    row = unit.execute(
-        update(_block)
-        .where(_block.c.id == block_id, _block.c.state == BlockState.queued)
-        .values(
-            state=BlockState.running,
-            attempt=_block.c.attempt + 1,
-            lease_until=unit.now + lease,
-            worker=worker,
-        )
-        .returning(*_block.c)
-    ).one_or_none()
+    moment, holder = {"moment": unit.now}, {"of_block": block_id, "claimant": worker}
+    row = unit.execute(_TAKE, {**holder, "until": unit.now + lease}).one_or_none()
     if row is None:
         return None
     held = Block(**row._mapping)
-    outbox = tables.outbox
-    gone = delete(outbox).where(outbox.c.block == block_id)
-    for queue, turn in unit.execute(gone.returning(outbox.c.queue, outbox.c.turn)).all():
+    for queue, turn in unit.execute(_SENT, {"of_block": block_id}).all():
         if turn:
             turns.pass_by(unit, queue, turn)
-    unit.execute(
-        insert(tables.attempt).values(
-            block=block_id, number=held.attempt, worker=worker, started=unit.now
-        )
-    )
-    unit.execute(
-        update(tables.job)
-        .where(tables.job.c.id == job_id)
-        .values(
-            attempt=max(job.attempt, held.attempt),
-            started=func.coalesce(tables.job.c.started, unit.now),
-            processor=job.processor or (solver and solver.processor),
-        )
-    )
-    step_job(unit, job_id, JobState.running)
+    unit.execute(_BEGIN, {**holder, **moment, "number_of": held.attempt})
+    begins = job.state is JobState.queued
+    changes: dict[str, Any] = {
+        "attempt": max(job.attempt, held.attempt),
+        "started": unit.now if job.started is None else job.started,
+        "processor": job.processor or (solver and solver.processor),
+        "state": JobState.running if begins else job.state,
+    }
+    of_job = {f"now_{name}": value for name, value in changes.items()}
+    unit.execute(_CHANGE, {"of_job": job.id, **of_job})
+    if begins:
+        record_event(unit, job.id, JobState.running.value, {})
     claimed = {"block": held.id, "attempt": held.attempt, "worker": worker}
-    record_event(unit, job_id, "claimed", claimed)
-    return Claim(held, lock_job(unit, job_id))
+    record_event(unit, job.id, "claimed", claimed)
+    return Claim(held, replace(job, **changes))

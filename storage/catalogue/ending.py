@@ -5,10 +5,10 @@ With its last block a job ends; what is given back is queued again.
 
 from typing import Any, Final
 
-from sqlalchemy import func, insert, select, update
+from sqlalchemy import bindparam, func, insert, select, update
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import functions, tables, usage
+from jointplay.storage.catalogue import calls, tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.holding import change_held, lock_held, sum_progress
 from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockState, Job, JobState
@@ -22,7 +22,14 @@ _LONGEST_RETREAT: Final = 60.0  # s
 _FIRST_PAUSE = 2.0  # s
 LONGEST_PAUSE: Final = 5.0
 """Seconds after which a block that was put off is tried again at the latest."""
-_block = tables.block
+_block, _attempt = tables.block, tables.attempt
+_STATES: Final = select(_block.c.state).where(_block.c.job == bindparam("of_job")).distinct()
+_END: Final = (
+    update(_attempt)
+    .where(_attempt.c.block == bindparam("of_block"), _attempt.c.number == bindparam("of_number"))
+    .values(ended=bindparam("moment"), outcome=bindparam("ending"))
+    .returning(_attempt.c.worker, _attempt.c.started)
+)
 
 
 def finish(
@@ -56,7 +63,7 @@ def finish(
     if outcome is BlockState.done:
         fraction = 1.0
     if unit.shared:
-        return functions.finish(
+        return calls.finish(
             unit, block_id, attempt, outcome, error, time=time, fraction=fraction, steps=steps
         )
     reached = {"progress_time": time, "progress_fraction": fraction, "progress_steps": steps}
@@ -79,13 +86,14 @@ def settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
         drop_blocks(unit, _block.c.job == job_id, untouched=False)
         step_job(unit, job_id, JobState.failed, error=error)
         return lock_job(unit, job_id).state
-    of_job = select(_block.c.state).where(_block.c.job == job_id).distinct()
-    states = set(unit.execute(of_job).scalars())
+    states = set(unit.execute(_STATES, {"of_job": job_id}).scalars())
     if states == {BlockState.done, BlockState.waiting}:
         _queue_waiting(unit, job_id)
     elif not states & {BlockState.queued, BlockState.running}:
         all_done = states == {BlockState.done}
-        step_job(unit, job_id, JobState.succeeded if all_done else JobState.cancelled)
+        end = JobState.succeeded if all_done else JobState.cancelled
+        if step_job(unit, job_id, end):
+            return end
     return lock_job(unit, job_id).state
 
 
@@ -202,10 +210,7 @@ def queue_again(unit: Unit, block_id: str, pause: float = 0.0) -> None:
 
 
 def _end_attempt(unit: Unit, job: Job, block_id: str, attempt: int, outcome: str) -> None:
-    table = tables.attempt
-    ended = update(table).where(table.c.block == block_id, table.c.number == attempt)
-    row = unit.execute(
-        ended.values(ended=unit.now, outcome=outcome).returning(table.c.worker, table.c.started)
-    ).one()
+    of_attempt = {"of_block": block_id, "of_number": attempt}
+    row = unit.execute(_END, {**of_attempt, "moment": unit.now, "ending": outcome}).one()
     if job.owner:
         usage.add(unit, job.owner, row.worker, max(unit.now - row.started, 0.0))

@@ -4,12 +4,21 @@ import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
+from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 Asked = TypeVar("Asked")
 Answer = TypeVar("Answer")
 _MOST = 256
 """Requests that are answered together."""
+
+
+@dataclass(eq=False)
+class _Request(Generic[Asked, Answer]):
+    asked: Asked
+    future: Future[Answer] = field(default_factory=Future)
+    woken: threading.Event = field(default_factory=threading.Event)
+    """Set when it is answered, or when it is its thread's turn to answer."""
 
 
 class GroupCommit(Generic[Asked, Answer]):
@@ -31,18 +40,41 @@ class GroupCommit(Generic[Asked, Answer]):
     ) -> None:
         self._answer = answer
         self._common = common
-        self._turn = threading.Lock()
-        self._waiting: deque[tuple[Asked, Future[Answer]]] = deque()
+        self._mutex = threading.Lock()
+        self._waiting: deque[_Request[Asked, Answer]] = deque()
+        self._busy = False
 
     def done(self, asked: Asked) -> Answer:
         """Return the answer to one request."""
-        future: Future[Answer] = Future()
-        self._waiting.append((asked, future))
-        with self._turn:
-            while not future.done():
-                count = min(len(self._waiting), _MOST)
-                self._answer_all([self._waiting.popleft() for _ in range(count)])
-        return future.result()
+        request: _Request[Asked, Answer] = _Request(asked)
+        with self._mutex:
+            self._waiting.append(request)
+            waits, self._busy = self._busy, True
+        if waits:
+            request.woken.wait()
+        if not request.future.done():
+            self._answer_next()
+        return request.future.result()
+
+    def _answer_next(self) -> None:
+        """Answer the requests at the head, this thread's before all, and have the next one go on.
+
+        A lock would do to take turns, but whoever lets go of it and asks again has it at once,
+        before a thread that waits for it has woken.
+        """
+        with self._mutex:
+            count = min(len(self._waiting), _MOST)
+            group = [self._waiting.popleft() for _ in range(count)]
+        try:
+            self._answer_all([(one.asked, one.future) for one in group])
+        finally:
+            for one in group:
+                one.future.cancel()  # does nothing to one that is answered
+                one.woken.set()
+            with self._mutex:
+                self._busy = bool(self._waiting)
+                if self._waiting:
+                    self._waiting[0].woken.set()
 
     def _answer_all(self, group: Sequence[tuple[Asked, Future[Answer]]]) -> None:
         try:

@@ -4,11 +4,11 @@ Every statement that changes a held block names the attempt that holds it. A wor
 thought dead and comes back finds its attempt fenced: nothing it does counts any more.
 """
 
-from typing import Any
+from typing import Any, Final
 
-from sqlalchemy import ColumnElement, and_, case, func, select, update
+from sqlalchemy import ColumnElement, and_, bindparam, case, func, select, update
 
-from jointplay.storage.catalogue import functions, solvers, tables
+from jointplay.storage.catalogue import calls, solvers, tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block, BlockState, Job, JobState, Verdict
@@ -17,9 +17,38 @@ from jointplay.storage.catalogue.rows import lock_job, record_event
 _block = tables.block
 
 
-def _is_held(block_id: str, attempt: int) -> ColumnElement[bool]:
+def _is_held(block_id: Any, attempt: Any) -> ColumnElement[bool]:
     columns = (_block.c.id == block_id, _block.c.attempt == attempt)
     return and_(*columns, _block.c.state == BlockState.running)
+
+
+def _over_blocks(value: ColumnElement[Any]) -> ColumnElement[Any]:
+    return select(value).where(_block.c.job == bindparam("of_job")).scalar_subquery()
+
+
+_job = tables.job
+_JOB_OF: Final = (
+    select(_job)
+    .join(_block, _block.c.job == _job.c.id)
+    .where(_block.c.id == bindparam("of_block"))
+    .with_for_update(of=_job, key_share=True)
+)
+_STATE: Final = (
+    select(_job.c.state)
+    .join(_block, _block.c.job == _job.c.id)
+    .where(_is_held(bindparam("of_block"), bindparam("of_attempt")))
+)
+_WEIGHTED = func.sum(_block.c.count * _block.c.progress_fraction) / func.sum(_block.c.count)
+_SUM: Final = (
+    update(_job)
+    .where(_job.c.id == bindparam("of_job"))
+    .values(
+        progress_fraction=_over_blocks(_WEIGHTED),
+        progress_time=_over_blocks(func.max(_block.c.progress_time)),
+        steps=_over_blocks(func.sum(_block.c.progress_steps)),
+        activity=None,
+    )
+)
 
 
 def change_held(unit: Unit, block_id: str, attempt: int, **values: Any) -> str:
@@ -33,12 +62,16 @@ def change_held(unit: Unit, block_id: str, attempt: int, **values: Any) -> str:
 
 def lock_held(unit: Unit, block_id: str, attempt: int) -> Job:
     """Lock and return the job of a block; Fenced if there is no such block."""
-    of_block = select(tables.job).join(_block, _block.c.job == tables.job.c.id)
-    locked = of_block.where(_block.c.id == block_id).with_for_update(of=tables.job, key_share=True)
-    row = unit.execute(locked).one_or_none()
-    if row is None:
+    job = job_of(unit, block_id)
+    if job is None:
         raise Fenced(block_id, attempt)
-    return Job(**row._mapping)
+    return job
+
+
+def job_of(unit: Unit, block_id: str) -> Job | None:
+    """Lock and return the job of a block; none if there is no such block."""
+    row = unit.execute(_JOB_OF, {"of_block": block_id}).one_or_none()
+    return None if row is None else Job(**row._mapping)
 
 
 def held(unit: Unit, block_id: str, attempt: int) -> Block:
@@ -51,11 +84,8 @@ def held(unit: Unit, block_id: str, attempt: int) -> Block:
 
 def verdict(unit: Unit, block_id: str, attempt: int) -> Verdict:
     """Return whether this attempt should go on, reading only; Fenced if it lost the block."""
-    state = unit.execute(
-        select(tables.job.c.state)
-        .join(_block, _block.c.job == tables.job.c.id)
-        .where(_is_held(block_id, attempt))
-    ).scalar_one_or_none()
+    asked = {"of_block": block_id, "of_attempt": attempt}
+    state = unit.execute(_STATE, asked).scalar_one_or_none()
     if state is None:
         raise Fenced(block_id, attempt)
     return Verdict.go_on if state is JobState.running else Verdict.cancel
@@ -83,7 +113,7 @@ def record_progress(
     Coming further than any attempt before ends a row of losses.
     """
     if unit.shared:
-        return functions.record_progress(
+        return calls.record_progress(
             unit, block_id, attempt, lease, time=time, fraction=fraction, steps=steps
         )
     job_id = change_held(
@@ -121,15 +151,4 @@ def note_activity(unit: Unit, block_id: str, attempt: int, activity: str) -> Non
 
 def sum_progress(unit: Unit, job_id: str) -> None:
     """Store how far a job is: the mean over its blocks, weighted with their points."""
-    weighted = func.sum(_block.c.count * _block.c.progress_fraction) / func.sum(_block.c.count)
-    steps_of_all = func.sum(_block.c.progress_steps)
-    fraction, time, steps = unit.execute(
-        select(weighted, func.max(_block.c.progress_time), steps_of_all).where(
-            _block.c.job == job_id
-        )
-    ).one()
-    unit.execute(
-        update(tables.job)
-        .where(tables.job.c.id == job_id)
-        .values(progress_fraction=fraction, progress_time=time, steps=steps, activity=None)
-    )
+    unit.execute(_SUM, {"of_job": job_id})

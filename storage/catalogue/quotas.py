@@ -6,13 +6,14 @@ What an owner has is counted in the unit that would add to it.
 from collections.abc import Collection
 from dataclasses import astuple, dataclass
 
-from sqlalchemy import func, select
+from sqlalchemy import Select, func, select
 
 from jointplay.storage.catalogue import stored, tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import QuotaExceeded
-from jointplay.storage.catalogue.records import LIVE, BlockState, number_of
+from jointplay.storage.catalogue.numbers import number_of
+from jointplay.storage.catalogue.records import LIVE, BlockState
 
 
 @dataclass(frozen=True)
@@ -36,9 +37,11 @@ NO_QUOTA = Quota()
 
 @dataclass
 class Use:
-    """What an owner has of everything that may be limited, in the units of `Quota`."""
+    """Everything limited that an owner has, in the units of `Quota`."""
 
     live: int
+    running: int
+    """Blocks that are computed."""
     stored: int
     computed: float
 
@@ -48,7 +51,9 @@ def use_of(unit: Unit, owner: str) -> Use:
     columns = tables.job.c
     of_owner = columns.state.in_(LIVE) & (columns.owner == owner)
     live = unit.execute(select(func.count()).select_from(tables.job).where(of_owner)).scalar_one()
-    return Use(live, stored.bytes_of(unit, owner), usage.core_seconds_of(unit, owner))
+    computed = _running().where(tables.job.c.owner == owner)
+    running = unit.execute(select(func.count()).select_from(computed.subquery())).scalar_one()
+    return Use(live, running, stored.bytes_of(unit, owner), usage.core_seconds_of(unit, owner))
 
 
 def busy_owners(unit: Unit, most: int) -> tuple[str, ...]:
@@ -56,13 +61,18 @@ def busy_owners(unit: Unit, most: int) -> tuple[str, ...]:
     if not most:
         return ()
     owner = tables.job.c.owner
-    computed = select(owner).join(tables.block).where(tables.block.c.state == BlockState.running)
-    by_owner = computed.where(owner != "").group_by(owner).having(func.count() >= most)
+    by_owner = _running().where(owner != "").group_by(owner).having(func.count() >= most)
     return tuple(unit.execute(by_owner).scalars())
 
 
+def _running() -> Select[tuple[str]]:
+    """Select the owner of each block that is computed: by index, there are few."""
+    owners = select(tables.job.c.owner).join(tables.block)
+    return owners.where(tables.block.c.state == BlockState.running)
+
+
 class Uses:
-    """What owners have who may not have more than their quotas.
+    """Use of owners who may not have more than their quotas.
 
     Made before a unit adds any jobs; units that add to the jobs of one owner take turns.
     """

@@ -3,16 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from hashlib import blake2b, sha256
+from hashlib import sha256
 from typing import Any
 
 from jointplay.records.job import JobError
-
-
-def number_of(kind: str, name: str) -> int:
-    """Return a number of 64 bits with a sign for a name."""
-    digest = blake2b(f"{kind} {name}".encode("utf-8", "surrogatepass"), digest_size=8)
-    return int.from_bytes(digest.digest(), signed=True)
+from jointplay.storage.catalogue.numbers import number_of
 
 
 class JobState(StrEnum):
@@ -288,19 +283,3 @@ class JobFilter:
     since: float | None = None  # from this time on
     before: float | None = None
     owner: str | None = None
-
-
-@dataclass(frozen=True)
-class WakeUp:
-    """A queued block for which a worker has to be woken, and on which Celery queue."""
-
-    block: str
-    queue: str
-
-
-@dataclass(frozen=True)
-class Reaped:
-    """Result of reaping: blocks queued again, and jobs it ended."""
-
-    requeued: tuple[str, ...]
-    ended: tuple[str, ...]

@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import Any
+from functools import cache
+from typing import Any, Final
 
-from sqlalchemy import func, insert, select, update
+from sqlalchemy import Update, bindparam, func, insert, select, update
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
@@ -13,12 +14,25 @@ from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import LEGAL_STEPS, Job, JobState
 
 job_table = tables.job
+_event = tables.event
+# made once: to make a statement takes longer than SQLite takes to execute it
+_FIND: Final = select(job_table).where(job_table.c.id == bindparam("of_job"))
+_LOCK: Final = _FIND.with_for_update(key_share=True)
+_LAST: Final = select(func.coalesce(func.max(_event.c.seq), 0)).where(
+    _event.c.job == bindparam("of_job")
+)
+_RECORD: Final = insert(_event).values(
+    job=bindparam("of_job"),
+    seq=_LAST.scalar_subquery() + 1,
+    time=bindparam("moment"),
+    type=bindparam("kind"),
+    data=bindparam("facts", type_=_event.c.data.type),
+)
 
 
 def find_job(unit: Unit, job: str, *, locked: bool = False) -> Job:
     """Return a job; JobNotFound if there is none."""
-    found = select(job_table).where(job_table.c.id == job)
-    row = unit.execute(found.with_for_update(key_share=True) if locked else found).one_or_none()
+    row = unit.execute(_LOCK if locked else _FIND, {"of_job": job}).one_or_none()
     if row is None:
         raise JobNotFound(job)
     return Job(**row._mapping)
@@ -33,22 +47,34 @@ def lock_job(unit: Unit, job: str) -> Job:
     return find_job(unit, job, locked=True)
 
 
-def step_job(unit: Unit, job: str, to: JobState, *, error: JobError | None = None) -> None:
-    """Move a job to a state and record the event, if its present state allows the step."""
-    allowed = [state for state, steps in LEGAL_STEPS.items() if to in steps]
-    values: dict[str, Any] = {"state": to}
-    if error is not None:
-        values["error"] = error
+def step_job(unit: Unit, job: str, to: JobState, *, error: JobError | None = None) -> bool:
+    """Move a job to a state and record the event, if its present state allows the step.
+
+    Returns whether it does.
+    """
+    values: dict[str, Any] = {} if error is None else {"failure": error}
     if to.terminal:
-        values["finished"] = unit.now
-    may_step = (job_table.c.id == job, job_table.c.state.in_(allowed))
-    if unit.execute(update(job_table).where(*may_step).values(values)).rowcount:
-        record_event(unit, job, to.value, {"error": asdict(error)} if error else {})
+        values["moment"] = unit.now
+    step = _step(to, failed=error is not None)
+    if not unit.execute(step, {"of_job": job, **values}).rowcount:
+        return False
+    record_event(unit, job, to.value, {"error": asdict(error)} if error else {})
+    return True
+
+
+@cache
+def _step(to: JobState, *, failed: bool) -> Update:
+    allowed = [state for state, steps in LEGAL_STEPS.items() if to in steps]
+    may_step = (job_table.c.id == bindparam("of_job"), job_table.c.state.in_(allowed))
+    values: dict[str, Any] = {"state": to}
+    if failed:
+        values["error"] = bindparam("failure", type_=job_table.c.error.type)
+    if to.terminal:
+        values["finished"] = bindparam("moment")
+    return update(job_table).where(*may_step).values(values)
 
 
 def record_event(unit: Unit, job: str, kind: str, data: Mapping[str, Any]) -> None:
     """Append an event; the job must be locked or just changed in this unit."""
-    table = tables.event
-    last = select(func.coalesce(func.max(table.c.seq), 0)).where(table.c.job == job)
-    seq = unit.execute(last).scalar_one() + 1
-    unit.execute(insert(table).values(job=job, seq=seq, time=unit.now, type=kind, data=dict(data)))
+    row = {"of_job": job, "moment": unit.now, "kind": kind, "facts": dict(data)}
+    unit.execute(_RECORD, row)

@@ -6,9 +6,9 @@ waits, and its status says so.
 """
 
 from collections.abc import Collection, Sequence
-from typing import Final
+from typing import Any, Final
 
-from sqlalchemy import ColumnElement, and_, delete, func, insert, or_, select, update
+from sqlalchemy import ColumnElement, and_, bindparam, delete, insert, or_, select, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
@@ -24,6 +24,8 @@ _FORGOTTEN: Final = 3600.0  # s
 _PART_OF_WAIT: Final = 0.25
 _LONGEST_PAUSE: Final = 300.0  # s
 _job, _block, _worker = tables.job, tables.block, tables.worker
+_waits = and_(_block.c.state == BlockState.queued, _job.c.state.in_(LIVE))
+"""Whether there is something to claim; otherwise its wake-up is one that `doctor` removes."""
 
 
 def fits(job: Job, solver: Solver) -> bool:
@@ -32,8 +34,29 @@ def fits(job: Job, solver: Solver) -> bool:
 
 
 def _fits(solver: Solver) -> ColumnElement[bool]:
-    of_class = or_(_job.c.processor.is_(None), _job.c.processor == solver.processor)
-    return and_(_job.c.solver_version == solver.version, of_class)
+    return _is_of(solver.version, solver.processor)
+
+
+def _is_of(version: Any, processor: Any) -> ColumnElement[bool]:
+    of_class = or_(_job.c.processor.is_(None), _job.c.processor == processor)
+    return and_(_job.c.solver_version == version, of_class)
+
+
+_outbox = tables.outbox
+_QUEUED: Final = (  # of one queue, by index: the cost is that of the answer
+    select(_outbox.c.block)
+    .join(_block, _block.c.id == _outbox.c.block)
+    .join(_job, _job.c.id == _block.c.job)
+    .where(
+        _outbox.c.queue == bindparam("of_queue"),
+        # sent: only others are woken by it
+        or_(_outbox.c.due <= bindparam("moment"), _outbox.c.tries > 0),
+        _outbox.c.owner.not_in(bindparam("busy", expanding=True)),
+        _waits,
+    )
+    .order_by(_outbox.c.turn, _outbox.c.block)
+)
+_NEXT: Final = _QUEUED.where(_is_of(bindparam("of_version"), bindparam("of_processor"))).limit(1)
 
 
 def _served(unit: Unit) -> ColumnElement[bool]:
@@ -46,38 +69,32 @@ def _served(unit: Unit) -> ColumnElement[bool]:
 
 def _abandoned(unit: Unit) -> ColumnElement[bool]:
     """Whether a job may be begun anew by any solver: none of its blocks builds on another."""
-    blocks = select(func.count()).where(_block.c.job == _job.c.id).correlate(_job)
-    alone = or_(_job.c.attempt == 0, blocks.scalar_subquery() == 1)
+    other = _block.alias()  # by index: a count of a study's blocks, for each, takes their square
+    second = select(other.c.id).where(other.c.job == _job.c.id, other.c.index == 1)
+    alone = or_(_job.c.attempt == 0, ~second.correlate(_job).exists())
     return and_(alone, _job.c.created <= unit.now - PATIENCE, ~_served(unit))
 
 
 def waiting_for(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
     """Return the queued block whose turn it is of a solver's, if there is one, of idle owners."""
-    return _queued(unit, _fits(solver), busy, 1)
+    own = {"of_version": solver.version, "of_processor": solver.processor}
+    asked = {**own, "moment": unit.now, "busy": list(busy)}
+    for queue in QUEUES:
+        found = unit.execute(_NEXT, {**asked, "of_queue": queue}).scalar_one_or_none()
+        if found is not None:
+            return (found,)
+    return ()
 
 
 def abandoned(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
     """Return queued blocks that a solver may take over from others, in the order of their turn."""
-    return _queued(unit, and_(~_fits(solver), _abandoned(unit)), busy, _CANDIDATES)
-
-
-def _queued(
-    unit: Unit, of: ColumnElement[bool], busy: Collection[str], limit: int
-) -> tuple[str, ...]:
-    outbox = tables.outbox
-    ready = or_(outbox.c.due <= unit.now, outbox.c.tries > 0)  # sent: only others are woken by it
+    asked = {"moment": unit.now, "busy": list(busy)}
+    waiting = _QUEUED.where(~_fits(solver), _abandoned(unit))
     found: list[str] = []
-    for queue in QUEUES:  # by index: the cost is that of the answer
-        if len(found) < limit:
-            rows = unit.execute(
-                select(outbox.c.block)
-                .join(_block, _block.c.id == outbox.c.block)
-                .join(_job, _job.c.id == _block.c.job)
-                .where(outbox.c.queue == queue, ready, outbox.c.owner.not_in(busy), of)
-                .order_by(outbox.c.turn, outbox.c.block)
-                .limit(limit - len(found))
-            )
-            found += rows.scalars()
+    for queue in QUEUES:
+        if len(found) < _CANDIDATES:
+            some = waiting.limit(_CANDIDATES - len(found))
+            found += unit.execute(some, {**asked, "of_queue": queue}).scalars()
     return tuple(found)
 
 
@@ -98,20 +115,22 @@ def take_over(unit: Unit, block_id: str, solver: Solver) -> bool:
     return taken is not None
 
 
-def announce_again(unit: Unit, block_id: str, solver: Solver) -> None:
+def wake_again(unit: Unit, block_id: str, solver: Solver) -> None:
     """Have a worker woken again for a block that this one, which was woken for it, has not taken.
 
-    At once; if it is another solver's after a part of the time that the block has waited.
+    At once; if it is another solver's after a part of the time that the block has waited. A unit of
+    its own: where the worker has claimed a block, another one may hold that and want this one.
     """
     outbox = tables.outbox
     of_block = outbox.c.block == block_id
-    own = select(_job.c.id).join(_block).where(_block.c.id == block_id, _fits(solver)).exists()
-    found = unit.execute(select(outbox.c.created, own).where(of_block)).one_or_none()
+    told = or_(outbox.c.tries > 0, outbox.c.due <= unit.now)  # otherwise it was put off since
+    may = select(_job.c.id).join(_block).where(_block.c.id == block_id, _waits, _fits(solver))
+    found = unit.execute(select(outbox.c.created, may.exists()).where(of_block, told)).one_or_none()
     if found is not None:
-        created, is_own = found
+        created, may_take = found
         longer = min(max(_PART_OF_WAIT * (unit.now - created), 1.0), _LONGEST_PAUSE)
-        due = unit.now + (0.0 if is_own else longer)
-        unit.execute(update(outbox).where(of_block).values(due=due, tries=0))
+        due = unit.now + (0.0 if may_take else longer)
+        unit.execute(update(outbox).where(of_block, told).values(due=due, tries=0))
 
 
 def machine_of(worker: str) -> str:

@@ -1,6 +1,6 @@
 """Accepting jobs and cancelling them: what users ask for."""
 
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -15,10 +15,11 @@ from sqlalchemy import (
     update,
 )
 
-from jointplay.storage.catalogue import tables, turns
+from jointplay.storage.catalogue import idempotency, tables, turns
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import CatalogueError, KeyReused, QuotaExceeded
+from jointplay.storage.catalogue.numbers import number_of
 from jointplay.storage.catalogue.quotas import Quota, Uses
 from jointplay.storage.catalogue.records import (
     FRESH_QUEUE,
@@ -31,7 +32,6 @@ from jointplay.storage.catalogue.records import (
     NewJob,
     SubmissionKey,
     Submitted,
-    number_of,
 )
 from jointplay.storage.catalogue.rows import find_job, lock_job, step_job
 
@@ -79,13 +79,18 @@ def submit(
     answers: list[Submitted | CatalogueError] = []
     fresh: list[tuple[Row, Request]] = []
     pending: set[Hashable] = set()
+    seen: set[Hashable] = set()
+    found = _look_up(unit, requests)
     for request in requests:
         names = request.names()
         if names & pending:
             _store(unit, fresh)
             fresh, pending = [], set()
+        if names & seen:  # what was found then may have changed
+            found |= _look_up(unit, [request])
+        seen |= names
         try:
-            answer = _earlier(unit, request)
+            answer = _earlier(unit, request, found)
             if answer is None:
                 uses.add(request.new.owner, 1, request.quota)
         except (KeyReused, QuotaExceeded) as error:
@@ -101,20 +106,41 @@ def submit(
     return answers
 
 
-def _earlier(unit: Unit, request: Request) -> Submitted | None:
-    """Find the job of an earlier request with the same key, or one that computes the same."""
+def _look_up(unit: Unit, requests: Sequence[Request]) -> dict[Hashable, Any]:
+    """Find, by keys, rows of what they were answered with, and by what is computed, jobs' ids.
+
+    All of them in two statements; what is not found is None.
+    """
+    keys = [one.key.stored for one in requests if one.key is not None]
+    same = [one.new for one in requests if one.reuse]
+    found: dict[Hashable, Any] = dict.fromkeys([*keys, *(_computed(one) for one in same)])
+    if keys:
+        found |= idempotency.answers(unit, keys)
+    if same:
+        asked = {"digests": [one.digest for one in same], "now": unit.now}
+        for *computed, newest in unit.execute(_SAME_JOBS, asked):
+            found[tuple(computed)] = newest
+    return found
+
+
+def _computed(new: NewJob) -> Hashable:
+    return new.digest, new.solver_version, new.kind, new.owner
+
+
+def _earlier(unit: Unit, request: Request, found: Mapping[Hashable, Any]) -> Submitted | None:
+    """Return the job of an earlier request with the same key, or one that computes the same."""
     key, new = request.key, request.new
     if key is not None:
-        earlier = earlier_answer(unit, key)
+        earlier = idempotency.still_counting(unit, key, found[key.stored])
         if earlier is not None and earlier.job is not None:
             job = find_job(unit, earlier.job)
             # a key is stored with the job that it made, and later than one that it found
             return Submitted(job, created=False, cached=earlier.created > job.created)
-    same = same_job(unit, new) if request.reuse else None
+    same = found[_computed(new)] if request.reuse else None
     if same is None:
         return None
     if key is not None:
-        remember_key(unit, key, job=same)
+        idempotency.remember(unit, [(key, same)])
     job = find_job(unit, same)
     if job.expires is not None and (new.expires is None or new.expires > job.expires):
         keep = update(tables.job).where(tables.job.c.id == same).values(expires=new.expires)
@@ -130,24 +156,32 @@ def _store(unit: Unit, fresh: Sequence[tuple[Row, Request]]) -> None:
     if not fresh:
         return
     insert_jobs(unit, [(row, request.new) for row, request in fresh])
-    for row, request in fresh:
-        if request.key is not None:
-            remember_key(unit, request.key, job=row["id"])
+    keys = [(request.key, row["id"]) for row, request in fresh if request.key is not None]
+    idempotency.remember(unit, keys)
 
 
+_job = tables.job
+_REUSABLE = (
+    _job.c.state.in_(_REUSED),
+    _job.c.damaged.is_(None),
+    _job.c.expires.is_(None) | (_job.c.expires > bindparam("now")),
+)
 _SAME_JOB = (
-    select(tables.job.c.id)
+    select(_job.c.id)
     .where(
-        tables.job.c.digest == bindparam("digest"),
-        tables.job.c.solver_version == bindparam("solver_version"),
-        tables.job.c.kind == bindparam("kind"),
-        tables.job.c.owner == bindparam("owner"),
-        tables.job.c.state.in_(_REUSED),
-        tables.job.c.damaged.is_(None),
-        tables.job.c.expires.is_(None) | (tables.job.c.expires > bindparam("now")),
+        _job.c.digest == bindparam("digest"),
+        _job.c.solver_version == bindparam("solver_version"),
+        _job.c.kind == bindparam("kind"),
+        _job.c.owner == bindparam("owner"),
+        *_REUSABLE,
     )
-    .order_by(tables.job.c.id.desc())
+    .order_by(_job.c.id.desc())
     .limit(1)
+)
+_SAME_JOBS = (
+    select(_job.c.digest, _job.c.solver_version, _job.c.kind, _job.c.owner, func.max(_job.c.id))
+    .where(_job.c.digest.in_(bindparam("digests", expanding=True)), *_REUSABLE)
+    .group_by(_job.c.digest, _job.c.solver_version, _job.c.kind, _job.c.owner)
 )
 
 
@@ -210,47 +244,6 @@ def _blocks(job_id: str, new: NewJob) -> Iterator[Row]:
     for index, (first, count, state) in enumerate(cuts):
         place = {"id": f"{job_id}-{index}", "job": job_id, "index": index}
         yield {**_NEW_BLOCK, **place, "first": first, "count": count, "state": state}
-
-
-def earlier_answer(unit: Unit, key: SubmissionKey) -> Any | None:
-    """Find what a key was answered with (its job or batch), if it is still remembered.
-
-    Raises
-    ------
-    KeyReused
-        It was used for another request.
-    """
-    table = tables.idempotency
-    same_key = table.c.key == key.stored
-    row = unit.execute(select(table).where(same_key)).one_or_none()
-    if row is None:
-        return None
-    if row.expires <= unit.now or (row.job is None and row.batch is None):
-        unit.execute(delete(table).where(same_key))
-        return None
-    if row.fingerprint != key.fingerprint:
-        raise KeyReused(key.key)
-    return row
-
-
-def remember_key(
-    unit: Unit,
-    key: SubmissionKey,
-    *,
-    job: str | None = None,
-    batch: str | None = None,
-) -> None:
-    """Have a key find this job or batch while it is remembered."""
-    unit.execute(
-        insert(tables.idempotency).values(
-            key=key.stored,
-            fingerprint=key.fingerprint,
-            job=job,
-            batch=batch,
-            created=unit.now,
-            expires=unit.now + key.seconds,
-        )
-    )
 
 
 def request_cancel(unit: Unit, job_id: str) -> Job:

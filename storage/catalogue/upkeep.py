@@ -5,6 +5,8 @@ were.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf
 from operator import attrgetter
 
 from sqlalchemy import ColumnElement, case, delete, func, insert, select, true, update
@@ -13,12 +15,28 @@ from jointplay.storage.catalogue import quotas, tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.ending import LONGEST_PAUSE, lose
 from jointplay.storage.catalogue.errors import JobNotFinished
-from jointplay.storage.catalogue.records import QUEUES, TERMINAL, BlockState, Job, Reaped, WakeUp
+from jointplay.storage.catalogue.records import QUEUES, TERMINAL, BlockState, Job
 from jointplay.storage.catalogue.rows import find_job, lock_job
 
 _job = tables.job
 _REAP_AT_ONCE = 200
 _RAREST_REPEAT = 16  # a wake-up is repeated after at most this many times `republish_after`
+
+
+@dataclass(frozen=True)
+class WakeUp:
+    """A queued block for which a worker has to be woken, and on which Celery queue."""
+
+    block: str
+    queue: str
+
+
+@dataclass(frozen=True)
+class Reaped:
+    """Result of reaping: blocks queued again, and jobs it ended."""
+
+    requeued: tuple[str, ...]
+    ended: tuple[str, ...]
 
 
 def due_wake_ups(unit: Unit, outstanding: int, most_running: int = 0) -> tuple[WakeUp, ...]:
@@ -54,13 +72,19 @@ def _sent(unit: Unit) -> ColumnElement[bool]:
     return (tables.outbox.c.due > unit.now) & (tables.outbox.c.tries > 0)
 
 
-def mark_published(unit: Unit, blocks: tuple[str, ...], republish_after: float) -> None:
-    """Record that workers were woken; a block still unclaimed later is due again."""
+def mark_published(
+    unit: Unit, blocks: tuple[str, ...], republish_after: float, *, seen: float = inf
+) -> None:
+    """Record that workers were woken; a block still unclaimed later is due again.
+
+    One that has become due since it was `seen` [epoch s] is due still: a worker that was quicker
+    than this record took another block, and has this one announced again.
+    """
     outbox = tables.outbox
     patience = case((outbox.c.tries < _RAREST_REPEAT, outbox.c.tries + 1), else_=_RAREST_REPEAT)
     unit.execute(
         update(outbox)
-        .where(outbox.c.block.in_(blocks))
+        .where(outbox.c.block.in_(blocks), outbox.c.due <= seen)
         .values(tries=outbox.c.tries + 1, due=unit.now + republish_after * patience)
     )
 

@@ -103,7 +103,7 @@ def test_bytes_of_results_count_from_the_end_of_a_job_until_they_are_removed(
         catalogue.submit_batch([NEW], owner="ada", quota=small)
     catalogue.submit(replace(NEW, owner="bob"), quota=small)
     catalogue.mark_removed([first])
-    assert catalogue.use_of("ada") == Use(live=1, stored=1, computed=0.0)
+    assert catalogue.use_of("ada") == Use(live=1, running=0, stored=1, computed=0.0)
     assert catalogue.submit(NEW, quota=small).created
 
 
@@ -133,8 +133,8 @@ def test_processor_time_counts_for_a_day_however_attempts_end(
     clock.now += 24 * HOUR - 300.0  # in the 24th hour, with that of the attempts
     assert catalogue.use_of("ada").computed == pytest.approx(102.0)
     clock.now += HOUR
-    assert catalogue.use_of("ada") == Use(live=1, stored=0, computed=0.0)
-    assert catalogue.use_of("bob") == Use(0, 0, 0.0)
+    assert catalogue.use_of("ada") == Use(live=1, running=0, stored=0, computed=0.0)
+    assert catalogue.use_of("bob") == Use(0, 0, 0, 0.0)
 
 
 def test_hours_that_count_no_longer_are_forgotten(catalogue: Catalogue, clock: Clock) -> None:

@@ -76,12 +76,13 @@ def test_a_run_that_another_solver_takes_over_begins_anew(
 
 
 def test_a_wake_up_that_reached_another_solver_is_sent_again_soon(
-    catalogue: Catalogue, claim: Callable[..., object], clock: Clock
+    catalogue: Catalogue, clock: Clock
 ) -> None:
     catalogue.note_worker("old", OLD)
     job = catalogue.submit(RUN).job.id
     catalogue.mark_published((f"{job}-0",), 1000.0)
-    assert claim(f"{job}-0", NEW) is None
+    assert catalogue.claim_next("new", 30, NEW) is None
+    catalogue.wake_again(f"{job}-0", NEW)
     assert catalogue.due_wake_ups(10) == ()
     clock.now += 1.5
     assert [wake_up.block for wake_up in catalogue.due_wake_ups(10)] == [f"{job}-0"]

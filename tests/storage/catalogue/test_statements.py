@@ -1,4 +1,4 @@
-"""How often a worker's question about a block asks the database."""
+"""Statements that a worker's question about a block takes."""
 
 from collections.abc import Callable
 from typing import Any

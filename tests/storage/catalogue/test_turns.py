@@ -80,19 +80,6 @@ def test_wake_ups_are_sent_in_turn(catalogue: Catalogue) -> None:
     assert sorted(owners) == ["ada"] * 2 + ["bob"] * 2
 
 
-def test_a_block_whose_wake_up_brought_another_one_is_announced_again(
-    catalogue: Catalogue,
-) -> None:
-    batch(catalogue, "ada", 2)
-    first = catalogue.due_wake_ups(10)[0].block
-    catalogue.mark_published((first,), 1000.0)
-    (alone,) = submit(catalogue, "bob")
-    found = catalogue.claim_next("worker", 30.0, SOLVER, woken_for=first)
-    assert found is not None
-    assert found.job.id == alone
-    assert first in {one.block for one in catalogue.due_wake_ups(10)}
-
-
 @st.composite
 def histories(draw: st.DrawFn) -> list[tuple[str, int]]:
     """Draw submissions by an owner, and claims by nobody, of so many blocks."""

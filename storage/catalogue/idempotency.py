@@ -1,0 +1,58 @@
+"""Keys that submissions are remembered by, so that one that comes again is answered as before."""
+
+from collections.abc import Hashable, Sequence
+from typing import Any, Final
+
+from sqlalchemy import bindparam, delete, insert, select
+
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.errors import KeyReused
+from jointplay.storage.catalogue.records import SubmissionKey
+
+_table = tables.idempotency
+_OF_KEYS: Final = select(_table).where(_table.c.key.in_(bindparam("keys", expanding=True)))
+
+
+def answers(unit: Unit, keys: Sequence[str]) -> dict[Hashable, Any]:
+    """Return rows of what keys were answered with, by the keys as they are stored."""
+    return {row.key: row for row in unit.execute(_OF_KEYS, {"keys": keys})}
+
+
+def earlier_answer(unit: Unit, key: SubmissionKey) -> Any | None:
+    """Find what a key was answered with (its job or batch), if it is still remembered.
+
+    Raises
+    ------
+    KeyReused
+        It was used for another request.
+    """
+    return still_counting(unit, key, answers(unit, [key.stored]).get(key.stored))
+
+
+def still_counting(unit: Unit, key: SubmissionKey, row: Any | None) -> Any | None:
+    """Return the row of a key, if there is one and it is still remembered; or KeyReused."""
+    if row is None:
+        return None
+    if row.expires <= unit.now or (row.job is None and row.batch is None):
+        unit.execute(delete(_table).where(_table.c.key == key.stored))
+        return None
+    if row.fingerprint != key.fingerprint:
+        raise KeyReused(key.key)
+    return row
+
+
+def remember(unit: Unit, jobs: Sequence[tuple[SubmissionKey, str]]) -> None:
+    """Have keys find jobs, by their ids, while they are remembered."""
+    if jobs:
+        unit.execute(insert(_table), [_row(unit, key) | {"job": job} for key, job in jobs])
+
+
+def remember_batch(unit: Unit, key: SubmissionKey, batch: str) -> None:
+    """Have a key find this batch while it is remembered."""
+    unit.execute(insert(_table), _row(unit, key) | {"batch": batch})
+
+
+def _row(unit: Unit, key: SubmissionKey) -> dict[str, Any]:
+    times = {"created": unit.now, "expires": unit.now + key.seconds}
+    return {"key": key.stored, "fingerprint": key.fingerprint, **times}
