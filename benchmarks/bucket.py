@@ -54,7 +54,7 @@ LONG: dict[str, Any] = {
 
 
 class Puts(Counter[str]):
-    """How often each key was put, how many bytes, and when sealed results were packed."""
+    """Count of how often each key was put, of bytes, and when sealed results were packed."""
 
     size = 0
     packing, packed = 0.0, 0.0

@@ -17,6 +17,8 @@ from jointplay.storage.running_files.objects import InPlace
 
 RUNNING: Final = "running"
 """Folder of jobs that run, or beginning of their keys."""
+OF_A_JOB: Final = 3
+"""Slashes at least in the key of what a running job needs, such as running/XX/ID/a1/documents."""
 
 Minutes = Annotated[float, Field(gt=0, le=600)]
 Hour = Annotated[float, Field(gt=0, le=3600)]
@@ -236,7 +238,8 @@ class Settings(BaseSettings):
     def running_jobs(self) -> list[str]:
         """Jobs of which something is kept that they need while they run."""
         if self.sends:
-            return sorted({key.split("/")[2] for key in self.place.list(f"{RUNNING}/")})
+            found = (key.split("/") for key in self.place.list(f"{RUNNING}/"))
+            return sorted({parts[2] for parts in found if len(parts) > OF_A_JOB})
         return [folder.name for folder in sorted((self.data / RUNNING).glob("*/*"))]
 
     def running_folder(self, job: str) -> Path:

@@ -64,7 +64,7 @@ ACCURACY_STUDY: dict[str, Any] = {
 
 
 def known_section(point: Any, column: Any, section: Any) -> NDArray[np.float64]:
-    """What the worker played by hand records for an observable's column at a section."""
+    """Values that the worker played by hand records for an observable's column at a section."""
     return np.asarray(1e-5 * (100.0 * point + 10.0 * column + section), dtype=np.float64)
 
 

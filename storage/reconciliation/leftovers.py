@@ -13,7 +13,7 @@ from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.results import damage_of, sealed_results, verified
-from jointplay.storage.settings import RUNNING, Settings
+from jointplay.storage.settings import OF_A_JOB, RUNNING, Settings
 
 _DATA: Final = {
     "broker",
@@ -29,8 +29,6 @@ _DATA: Final = {
 _SEALED: Final = re.compile(
     r"../(?P<job>[0-9A-Z]{26})-(a(?P<attempt>\d+)|study)\.zarr\.zip(\.[0-9a-f]+\.partial)?"
 )
-_OF_A_JOB: Final = 3
-"""Slashes at least in the key of what a running job needs, such as running/XX/ID/a1/documents."""
 _LEFT: Final = "is left over"
 _READ: Final = "jointplay show FILE reads it; remove it, or keep it elsewhere"
 
@@ -57,7 +55,7 @@ def left_after(settings: Settings, catalogue: Catalogue, grace: float) -> Iterat
 def _of_the_place(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
     place = settings.place
     for key in sorted([*place.list(""), *place.cut_off()]):
-        if settings.sends and key.startswith(f"{RUNNING}/") and key.count("/") >= _OF_A_JOB:
+        if settings.sends and key.startswith(f"{RUNNING}/") and key.count("/") >= OF_A_JOB:
             continue
         named = _SEALED.fullmatch(key)
         if named is None:

@@ -13,12 +13,15 @@ _MOST_NAMED = 5
 
 def listed(entries: Iterable[tuple[str, bytes]]) -> Iterator[tuple[str, bytes]]:
     """Pass on key and content of every file, then those of the manifest."""
-    files = {}
+    files = []
     for key, content in entries:
-        files[key] = {"bytes": len(content), "sha256": sha256(content).hexdigest()}
+        about = f'{{\n"bytes": {len(content)},\n"sha256": "{sha256(content).hexdigest()}"\n}}'
+        files.append(f"{json.dumps(key)}: {about}")
         yield key, content
-    document = {"result_schema": SCHEMA_VERSION, "files": files}
-    yield MANIFEST, json.dumps(document, indent=0).encode()
+    # as json.dumps writes it with indent=0, which takes ten times as long
+    listed = "{\n" + ",\n".join(files) + "\n}" if files else "{}"
+    document = f'{{\n"result_schema": {json.dumps(SCHEMA_VERSION)},\n"files": {listed}\n}}'
+    yield MANIFEST, document.encode()
 
 
 def verify(files: Files) -> None:

@@ -6,8 +6,9 @@ cannot list a folder (over HTTP) show an empty dataset.
 """
 
 import json
-from collections.abc import Mapping, Sequence
-from functools import cache
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache, cached_property
+from json.encoder import encode_basestring_ascii as _quoted
 from typing import Any, Final
 
 import numpy as np
@@ -18,6 +19,9 @@ Document = dict[str, Any]
 
 FILE: Final = "zarr.json"
 DOUBLE: Final = np.dtype("<f8")
+_MEMBERS: Final = "consolidated_metadata"
+_EMPTY: Final = "{}}}"
+"""End of a group's document without members, which stand last in it."""
 _BYTES_CODEC: Final = {"name": "bytes", "configuration": {"endian": "little"}}
 
 
@@ -54,7 +58,35 @@ def serialise(document: Mapping[str, Any]) -> bytes:
     ValueError
         A number in it is not finite.
     """
-    return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+    return _text(document).encode()
+
+
+def serialised(documents: Mapping[str, Document]) -> Iterator[tuple[str, bytes]]:
+    """Give key and bytes of each document, as `serialise` does."""
+    for key, document in documents.items():
+        yield key, _with_members(document).encode()
+
+
+_text: Final = json.JSONEncoder(separators=(",", ":"), allow_nan=False).encode
+
+
+class _Array(Document):
+    """Document of an array, which is written once: those of the groups above it hold it, too."""
+
+    @cached_property
+    def text(self) -> str:
+        return _text(self)
+
+
+def _with_members(document: Document) -> str:
+    if isinstance(document, _Array):
+        return document.text
+    members = document.get(_MEMBERS, {}).get("metadata")
+    if not members:
+        return _text(document)
+    alone = _text(document | {_MEMBERS: document[_MEMBERS] | {"metadata": {}}})
+    inside = ",".join([f"{_quoted(path)}:{_with_members(one)}" for path, one in members.items()])
+    return f"{alone.removesuffix(_EMPTY)}{{{inside}}}}}}}"
 
 
 def array(
@@ -68,6 +100,8 @@ def array(
     compressor: str = COMPRESSOR,
 ) -> Document:
     """Make the document of one array whose chunks are compressed as `shards.compress` does.
+
+    It must not be changed.
 
     Parameters
     ----------
@@ -99,18 +133,20 @@ def array(
         }
         codecs = [{"name": "sharding_indexed", "configuration": sharding}]
     grid = {"name": "regular", "configuration": {"chunk_shape": list(shard or chunk)}}
-    return {
-        "zarr_format": 3,
-        "node_type": "array",
-        "shape": list(shape),
-        "data_type": _name(dtype),
-        "chunk_grid": grid,
-        "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
-        "fill_value": "NaN" if dtype.kind == "f" else fill(dtype),
-        "codecs": codecs,
-        "attributes": attributes,
-        "dimension_names": list(dimensions),
-    }
+    return _Array(
+        {
+            "zarr_format": 3,
+            "node_type": "array",
+            "shape": list(shape),
+            "data_type": _name(dtype),
+            "chunk_grid": grid,
+            "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
+            "fill_value": "NaN" if dtype.kind == "f" else fill(dtype),
+            "codecs": codecs,
+            "attributes": attributes,
+            "dimension_names": list(dimensions),
+        }
+    )
 
 
 def group(attributes: Mapping[str, Any], members: Mapping[str, Document]) -> Document:
@@ -120,7 +156,7 @@ def group(attributes: Mapping[str, Any], members: Mapping[str, Document]) -> Doc
         "zarr_format": 3,
         "node_type": "group",
         "attributes": attributes,
-        "consolidated_metadata": below,
+        _MEMBERS: below,
     }
 
 

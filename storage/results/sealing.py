@@ -1,7 +1,6 @@
 """Conditions under which a store may be sealed, and what is known only then."""
 
 from collections.abc import Mapping
-from dataclasses import astuple
 from typing import Any, Final
 
 import numpy as np
@@ -43,5 +42,6 @@ def check_sealable(
 
 def peak_columns(layout: ResultLayout, peaks: Mapping[str, Peak]) -> list[Floats]:
     """Return the columns of the table of peaks, (channels,) each; NaN without a peak."""
-    rows = [astuple(peaks.get(channel.name, _NO_PEAK)) for channel in layout.channels]
+    found = [peaks.get(channel.name, _NO_PEAK) for channel in layout.channels]
+    rows = [(one.minimum, one.minimum_time, one.maximum, one.maximum_time) for one in found]
     return list(np.array(rows).reshape(-1, 4).T)

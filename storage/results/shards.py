@@ -21,7 +21,6 @@ _ABSENT: Final = 2**64 - 1
 _codec: Final = blosc.Blosc(cname=COMPRESSOR, clevel=COMPRESSION_LEVEL, shuffle=blosc.SHUFFLE)
 FAST: Final = "lz4"
 """Compressor of what is written while a run computes and seldom read: a fifth of the time."""
-_fast: Final = blosc.Blosc(cname=FAST, clevel=COMPRESSION_LEVEL, shuffle=blosc.SHUFFLE)
 _uncompressed: Final = blosc.Blosc(cname=COMPRESSOR, clevel=0, shuffle=blosc.NOSHUFFLE)
 
 # a forked worker has none of the threads that its parent's compressor started, and with threads
@@ -137,7 +136,11 @@ def compress(chunk: NDArray[Any], *, fast: bool = False) -> bytes:
 
     The same chunk gives the same bytes, on any number of threads. `fast` : with that compressor.
     """
-    return bytes((_fast if fast else _codec).encode(np.ascontiguousarray(chunk)))
+    whole = np.ascontiguousarray(chunk)
+    name = FAST if fast else COMPRESSOR
+    # what a codec's `encode` does beside it takes as long as compressing a short chunk
+    compressed: bytes = blosc.compress(whole, name.encode(), COMPRESSION_LEVEL, blosc.SHUFFLE, 0)
+    return compressed
 
 
 def fill(dtype: np.dtype[Any]) -> float | int:

@@ -6,16 +6,18 @@ written in shards; a shard is one file an array, and is written once.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT, MEASURED
 from jointplay.records.names import TIME
 from jointplay.records.peak import PEAK
 from jointplay.storage.results import metadata
-from jointplay.storage.results.layout import SCHEMA_VERSION, ResultLayout
+from jointplay.storage.results.layout import SCHEMA_VERSION, Partition, ResultLayout
 from jointplay.storage.results.metadata import DOUBLE, Document
 
 
@@ -61,6 +63,33 @@ class Table:
 
 def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
     """History, sections, impacts and peaks of a layout."""
+    return _tables(_shape_of(layout))
+
+
+class _Shape(NamedTuple):
+    """Everything of a layout that its tables depend on, by which they are remembered."""
+
+    channels: tuple[Channel, ...]
+    samples: int
+    sections: int
+    joints: tuple[str, ...]
+    partition: Partition
+    steps: tuple[str, ...]
+    intervals: bool
+
+
+def _shape_of(layout: ResultLayout) -> _Shape:
+    return _Shape(*(getattr(layout, name) for name in _Shape._fields))
+
+
+# jobs of one kind come one after the other, and documents take longer than what is in them
+@lru_cache(maxsize=16)
+def _arrays(layout: _Shape, table: int, rows: int) -> Mapping[str, Document]:
+    return _tables(layout)[table].arrays(rows)
+
+
+@lru_cache(maxsize=4)
+def _tables(layout: _Shape) -> tuple[Table, Table, Table, Table]:
     sampled = (
         *(Column(channel.name, DOUBLE, channel.attributes) for channel in layout.channels),
         # last, because readers take its shard for the sign that all others are there
@@ -124,12 +153,13 @@ def documents(
     """
     nodes = dict(more)
     root: dict[str, Any] = {}
-    for table, count in zip(tables(layout), rows, strict=True):
+    shape = _shape_of(layout)
+    for position, (table, count) in enumerate(zip(_tables(shape), rows, strict=True)):
         if table.group:
             nodes[table.group] = metadata.group(table.attributes, {})
         else:
             root = table.attributes
-        nodes |= table.arrays(count)
+        nodes |= _arrays(shape, position, count)
     return metadata.documents({**layout.attributes, **root, **attributes}, nodes)
 
 

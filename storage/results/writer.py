@@ -255,8 +255,7 @@ class ResultWriter:
                 yield from table.files()
             if certificate is not None:
                 yield from certificate_group.chunks(certificate)
-            for key, document in (self._internal() | nodes).items():
-                yield key, metadata.serialise(document)
+            yield from metadata.serialised(self._internal() | nodes)
 
         try:
             target.put(pack(manifest.listed(entries())))
@@ -282,8 +281,7 @@ class ResultWriter:
         layout = self._layout
         shown = [layout.samples, layout.sections, self._impacts.durable, len(layout.channels)]
         groups = metadata.groups_among(documents(layout, shown, {}))
-        shown_now = (self._internal() | groups).items()
-        self._files.write_documents((key, metadata.serialise(one)) for key, one in shown_now)
+        self._files.write_documents(metadata.serialised(self._internal() | groups))
 
     def _check_shape(self, what: str, time: NDArray[Any], rows: NDArray[Any]) -> None:
         expected = (len(time), len(self._layout.channels))

@@ -57,8 +57,7 @@ def create(folder: Path, layout: StudyLayout) -> None:
             f"{folder} holds other results, or some of this study from another version of"
             " the program; choose another folder, or submit the study again"
         )
-    running = documents.running(layout).items()
-    shown = ((key, metadata.serialise(document)) for key, document in running)
+    shown = metadata.serialised(documents.running(layout))
     files = Running(folder, owner=layout.digest)
     files.write_documents(chain(_values(layout), shown))
 
@@ -152,8 +151,7 @@ def _files(
     if found:
         yield RESULTS, metadata.serialise({str(point): one for point, one in found.items()})
     attributes = {"complete": True, "failures": ["", *codes], "summary": ended}
-    for key, document in documents.sealed(layout, names, attributes).items():
-        yield key, metadata.serialise(document)
+    yield from metadata.serialised(documents.sealed(layout, names, attributes))
 
 
 def _survey(

@@ -18,6 +18,14 @@ def test_everything_is_beside_the_data(monkeypatch: pytest.MonkeyPatch, tmp_path
     assert settings.running_run(job, 2).folder == tmp_path / "running" / "2R" / job / "a2"
 
 
+def test_running_jobs_are_those_of_whose_files_there_are_some(tmp_path: Path) -> None:
+    job = "01KZJ9W6P1M3QX8Y5T7R4B9C2R"
+    here = Settings(data=tmp_path, running="results", results_url=f"file:{tmp_path}/results")
+    for key in ("running/read-me", "running/2R/read-me", f"running/2R/{job}/a1/documents.zip"):
+        here.place.replace(key, [b"anything"])
+    assert here.running_jobs() == [job]
+
+
 def test_a_relative_folder_means_the_same_in_every_process(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -1,4 +1,4 @@
-"""What every place for results must do; a place's own tests subclass this.
+"""Specification of every place for results; a place's own tests subclass this.
 
 They give the place, and how an object gets in and out past it, so that no place is asked about
 itself alone.

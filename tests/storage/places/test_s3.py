@@ -34,7 +34,7 @@ class TestBucket(PlaceContract):
 
 
 class TestRunningFiles(InPlaceContract):
-    """What a running job needs can be kept there, too."""
+    """Files of a running job can be kept there, too."""
 
     @pytest.fixture(autouse=True)
     def _begin(self, new_address: Callable[[], str]) -> None:

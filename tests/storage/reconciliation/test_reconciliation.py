@@ -1,19 +1,17 @@
 """Whatever contradicts itself in an installation is found, and mended where that can be."""
 
-import itertools
 from collections.abc import Callable
-from random import Random
 
 import pytest
 
-from jointplay.storage.catalogue.records import BlockState, JobState
+from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation import findings, rows
+from tests.storage.reconciliation.harms import Harm, content_of, flip, remove
 from tests.storage.reconciliation.installation import RUN, Installed
 
 ELSEWHERE = "01ARZ3NDEKTSV4RRFFQ69G5FAV"
 Break = Callable[[Installed], None]
-Harm = Callable[..., None]
 
 
 def every_file(installed: Installed) -> dict[str, bytes]:
@@ -25,82 +23,6 @@ def test_nothing_is_found_in_an_installation_that_is_well(installed: Installed) 
     assert len(before) > 6
     assert installed.look() == []
     assert every_file(installed) == before
-
-
-def content_of(stored: StoredObject) -> bytes:
-    return stored.read(0, stored.size())
-
-
-def write(stored: StoredObject, content: bytes) -> None:
-    stored.place.replace(stored.key, [content])
-
-
-def flip(stored: StoredObject, _: StoredObject | None = None) -> None:
-    content = bytearray(content_of(stored))
-    content[len(content) // 2] ^= 1
-    write(stored, bytes(content))
-
-
-def truncate(stored: StoredObject, _: StoredObject | None = None) -> None:
-    write(stored, content_of(stored)[:-1])
-
-
-def empty(stored: StoredObject, _: StoredObject | None = None) -> None:
-    write(stored, b"")
-
-
-def remove(stored: StoredObject, _: StoredObject | None = None) -> None:
-    stored.place.remove(stored.key)
-
-
-def swap(stored: StoredObject, other: StoredObject) -> None:
-    """Exchange it with what is in its place in another job."""
-    one, two = content_of(stored), content_of(other)
-    write(stored, two)
-    write(other, one)
-
-
-HARMS = (flip, truncate, empty, remove, swap)
-SUBJECTS: dict[str, tuple[str, str]] = {
-    "succeeded": ("", "swept"),
-    "swept": ("", "succeeded"),
-    "cancelled": ("", "succeeded"),
-    "cut short": ("study/documents.zip", "cut short, too"),
-    "cut short, too": ("study/parts/00000", "cut short"),
-    "given up": ("a1/documents.zip", "running"),
-}
-"""By job: the object that is harmed, the sealed one if it has no name; the job of the other one."""
-EVERY_HARM = [
-    one
-    for one in itertools.product(SUBJECTS, HARMS, ("in_a_folder", "in_servers"))
-    if one[:2] != ("cancelled", remove)  # nobody knows whether it had begun
-]
-SAMPLED = Random(5).sample(EVERY_HARM, 6)
-
-
-@pytest.mark.parametrize(
-    ("subject", "harm", "installed"),
-    [one if one in SAMPLED else pytest.param(*one, marks=pytest.mark.long) for one in EVERY_HARM],
-    indirect=["installed"],
-)
-def test_whatever_happens_to_an_object_is_found_and_its_job_is_marked(
-    installed: Installed, subject: str, harm: Harm
-) -> None:
-    name, other = SUBJECTS[subject]
-    one, two = (
-        installed.running(label).object(name) if name else installed.sealed(label)
-        for label in (subject, other)
-    )
-    harm(one, two)
-    found = {one.subjects: one for one in installed.mend()}
-    mine = f"job {installed.jobs[subject]}"
-    assert (mine,) in found, found
-    assert found[mine,].mended == "marked as damaged"
-    harmed = {mine, f"job {installed.jobs[other]}"} if harm is swap else {mine}
-    assert {subjects[0] for subjects in found} <= harmed
-    left = {one.subjects: (one.found, one.mend) for one in installed.look()}
-    assert left == {subjects: (one.found, None) for subjects, one in found.items()}
-    assert installed.catalogue.get(installed.jobs[subject]).damaged == found[mine,].found
 
 
 def restore(installed: Installed) -> None:
@@ -195,14 +117,6 @@ def test_what_is_wrong_is_found_once_and_mended(installed: Installed, damage: Br
         assert "submit" in str(left[0].advice)
     else:
         assert left == []
-
-
-def test_a_job_with_damaged_results_is_marked(installed: Installed) -> None:
-    flip(installed.sealed("succeeded"))
-    installed.mend()
-    job = installed.catalogue.get(installed.jobs["succeeded"])
-    assert installed.sealed("succeeded").key in str(job.damaged)
-    assert job.state is JobState.succeeded
 
 
 def test_a_block_that_is_taken_back_is_computed_again(installed: Installed) -> None:

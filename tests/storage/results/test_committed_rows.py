@@ -1,4 +1,4 @@
-"""What a reader of a growing store sees of rows that wait for their shard."""
+"""Rows of a growing store that wait for their shard, as a reader sees them."""
 
 from dataclasses import replace
 

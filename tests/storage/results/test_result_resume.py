@@ -1,4 +1,4 @@
-"""What is on the disk depends on the rows alone: not on slices, kills or resumptions."""
+"""Bytes on the disk depend on the rows alone: not on slices, kills or resumptions."""
 
 import os
 import shutil

@@ -1,4 +1,4 @@
-"""What was appended is what is read, by our reader and by stock zarr."""
+"""Rows that were appended are what is read, by our reader and by stock zarr."""
 
 import json
 import tempfile

@@ -1,4 +1,4 @@
-"""What every member of the family of files of running jobs must do; its tests subclass this."""
+"""Specification of every member of the family of files of running jobs; its tests subclass this."""
 
 from abc import ABC, abstractmethod
 

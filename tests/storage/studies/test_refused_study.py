@@ -1,4 +1,4 @@
-"""What a study's store refuses, and what it survives."""
+"""Rows that a study's store refuses, and faults that it survives."""
 
 import errno
 import os

@@ -1,4 +1,4 @@
-"""What a study hands over is what readers find."""
+"""Rows that a study hands over are what readers find."""
 
 from dataclasses import replace
 
