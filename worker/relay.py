@@ -121,6 +121,7 @@ class Relay:
         if self._lost_messages() and (lost := self._catalogue.announce_again()):
             _log.warning("Redis has lost %d wake-ups, which are sent again", lost)
         outstanding = self._settings.relay_outstanding
+        seen = self._catalogue.clock()
         due = self._catalogue.due_wake_ups(outstanding, self._settings.most_running)
         sent = []
         try:
@@ -132,7 +133,8 @@ class Relay:
         except (OperationalError, RedisError, OSError) as error:
             _log.warning("Redis does not answer, trying again: %s", error)
         if sent:
-            self._catalogue.mark_published(tuple(sent), self._settings.republish_after)
+            patience = self._settings.republish_after
+            self._catalogue.mark_published(tuple(sent), patience, seen=seen)
 
     def _lost_messages(self) -> bool:
         """Tell whether wake-ups were sent, and yet Redis has had no message for a while."""

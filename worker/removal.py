@@ -2,6 +2,7 @@
 
 import logging
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 from jointplay.records.log_lines import about
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -10,6 +11,9 @@ from jointplay.storage.catalogue.records import Block
 from jointplay.storage.settings import Settings
 from jointplay.worker.holding import Holding
 from jointplay.worker.passing import PASSING
+
+if TYPE_CHECKING:
+    from jointplay.storage.reconciliation.finding import Finding
 
 _AT_ONCE = 50
 _log = logging.getLogger(__name__)
@@ -68,13 +72,23 @@ def clear_up(catalogue: Catalogue, settings: Settings) -> int:
             from jointplay.storage.reconciliation.leftovers import of_running_jobs
 
             for finding in of_running_jobs(settings, catalogue, settings.lease):
-                if finding.mend is not None:
-                    finding.mend()
-                    removed += 1
-                    _log.info("removed %s, which was left", finding.subject)
+                removed += _removed(finding)
     except PASSING as fault:
         _log.warning("what jobs left stays for now: %s", fault)
     return removed
+
+
+def _removed(finding: "Finding") -> bool:
+    """Remove what was left, unless a fault keeps it: that of one job leaves others' to go."""
+    if finding.mend is None:
+        return False
+    try:
+        finding.mend()
+    except PASSING as fault:
+        _log.warning("%s stays for now: %s", finding.subject, fault)
+        return False
+    _log.info("removed %s, which was left", finding.subject)
+    return True
 
 
 def _has_ended(catalogue: Catalogue, job_id: str) -> bool:

@@ -42,17 +42,19 @@ def run_block(block: str) -> None:
     settings, catalogue = _platform()
     if _draining.is_set():
         return
+    solver = own_solver()
     try:
         claim = catalogue.claim_next(
-            own_name(),
-            settings.lease,
-            own_solver(),
-            most_running=settings.most_running,
-            woken_for=block,
+            own_name(), settings.lease, solver, most_running=settings.most_running
         )
     except Unavailable as fault:
         _log.warning("block %s is not claimed, its wake-up comes again: %s", block, fault)
         return
+    if claim is None or claim.block.id != block:
+        try:
+            catalogue.wake_again(block, solver)
+        except Unavailable as fault:
+            _log.warning("the wake-up of block %s comes again later: %s", block, fault)
     if claim is not None:
         if claim.block.id != block:
             wake_relay(settings.redis_url)  # somebody else may be free for that one

@@ -25,7 +25,8 @@ def campaign(folder: Path, *options: str) -> dict[str, Any]:
 
 
 def test_a_service_keeps_its_word_under_faults(tmp_path: Path) -> None:
-    report = campaign(tmp_path / "chaos", "--seed", "16", "--duration", "15", "--workers", "1")
+    # of these seeds' first faults the quickest: the broker killed, a worker killed, a file damaged
+    report = campaign(tmp_path / "chaos", "--seed", "21", "--duration", "6", "--workers", "1")
     assert len(report["struck"]) >= 1
     assert all(one["recovery"] is not None for one in report["struck"])
     assert report["jobs"]["succeeded"] >= 3

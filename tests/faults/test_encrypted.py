@@ -27,7 +27,7 @@ from jointplay.worker.wake_up import connection
 from tests.waiting import until
 
 HOST = "127.0.0.2"
-"""Of this machine, and yet none of the names to which our clients speak without encryption."""
+"""Address of this machine, and none of the names to which our clients speak unencrypted."""
 SWING = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.1}
 
 

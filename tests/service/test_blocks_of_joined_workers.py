@@ -1,4 +1,4 @@
-"""What the service takes from a worker that joined: of the block that it holds, and whole."""
+"""Files that the service takes from a worker that joined: of the block that it holds, and whole."""
 
 from base64 import b64encode
 from hashlib import sha256

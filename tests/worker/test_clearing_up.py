@@ -1,5 +1,6 @@
-"""What a job needed while it ran goes, also where its last worker could not remove it."""
+"""Files that a job needed while it ran go, also where its last worker could not remove them."""
 
+import shutil
 from dataclasses import dataclass
 
 import pytest
@@ -29,6 +30,10 @@ class Left:
 
 @pytest.fixture
 def left(catalogue: Catalogue, settings: Settings) -> Left:
+    return leave(catalogue, settings)
+
+
+def leave(catalogue: Catalogue, settings: Settings) -> Left:
     admission = admit(dict(JOB))
     new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
     job = catalogue.submit(new).job.id
@@ -60,3 +65,13 @@ def test_what_is_left_stays_where_the_results_are_damaged(catalogue: Catalogue, 
     sealed.place.replace(sealed.key, [b"damaged"])
     assert clear_up(catalogue, left.settings.model_copy(update={"lease": 0.0})) == 0
     assert left.is_left() == [True, True]
+
+
+def test_what_cannot_be_removed_keeps_nothing_else(catalogue: Catalogue, left: Left) -> None:
+    both = [left.job, leave(catalogue, left.settings).job]
+    stuck, other = sorted(both, key=left.settings.running_jobs().index)
+    folder = left.settings.running_folder(stuck)
+    shutil.rmtree(folder)
+    folder.write_text("a file where a folder has to be")
+    assert clear_up(catalogue, left.settings.model_copy(update={"lease": 0.0})) == 1
+    assert Left(other, left.settings).is_left() == [False, False]

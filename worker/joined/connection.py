@@ -18,7 +18,6 @@ _TIMEOUT: Final = httpx.Timeout(20.0, connect=5.0)
 _PATIENCE: Final = 15.0  # s, beyond what a service may take to find a block
 _MAY_PASS: Final = frozenset({408, 422, 425, 429})  # 422: bytes that were changed on their way
 _FULL: Final = 507
-_GONE: Final = 404
 _LARGEST_KEY: Final = 4096
 
 
@@ -89,10 +88,10 @@ class Connection:
             self._answering(),
             self._http.stream("GET", f"{_path(block)}/files/{quote(name)}") as response,
         ):
-            if response.status_code == _GONE:
-                raise FileNotFoundError(name)
             if not response.is_success:
                 response.read()
+                if _problem_of(response)[0].endswith("/not-found"):
+                    raise FileNotFoundError(name)
             _require_success(response, block)
             yield from response.iter_bytes(2**20)
 
@@ -147,15 +146,22 @@ def _json(document: Document) -> dict[str, Any]:
 def _require_success(response: httpx.Response, block: Block | None) -> None:
     if response.is_success:
         return
-    try:
-        problem = response.json()
-        kind, detail = str(problem["type"]), str(problem["detail"])
-    except (ValueError, KeyError, TypeError):
-        kind, detail = "", f"it answers with status {response.status_code}"
+    kind, detail = _problem_of(response)
     if block is not None and kind.endswith("/not-held"):
         raise Fenced(block.id, block.attempt)
     if response.status_code == _FULL:
         raise Unavailable("has no room for results", full=True)
-    if response.status_code in _MAY_PASS or response.is_server_error:
+    # while a block is held, what is no problem of a service is of a proxy that has lost its service
+    stray = block is not None and not kind
+    if stray or response.status_code in _MAY_PASS or response.is_server_error:
         raise Unavailable(f"refuses for now: {detail}")
     raise Refused(f"the service does not take this worker: {detail}")
+
+
+def _problem_of(response: httpx.Response) -> tuple[str, str]:
+    """Return type and detail of a problem; no type if the answer is no service's."""
+    try:
+        problem = response.json()
+        return str(problem["type"]), str(problem["detail"])
+    except (ValueError, KeyError, TypeError):
+        return "", f"it answers with status {response.status_code}"

@@ -15,8 +15,9 @@ from jointplay.worker.block_run import BlockRun
 from jointplay.worker.joined.attempt import JoinedAttempt
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.files import FilesOfService
-from jointplay.worker.joined.protocol import Claimed, ClaimRequest
+from jointplay.worker.joined.protocol import Activity, Claimed, ClaimRequest
 from jointplay.worker.own_solver import own_solver
+from jointplay.worker.passing import waits_for
 from jointplay.worker.presence import own_name
 from jointplay.worker.scratch.attempt import SentAttempt
 from jointplay.worker.scratch.files import Scratch
@@ -48,11 +49,11 @@ def work(connection: Connection, draining: threading.Event, idle: float | None) 
     while not draining.is_set() and (idle is None or time.monotonic() - last <= idle):
         try:
             claimed = connection.claim(request)
-            pause = _FIRST_PAUSE
             if claimed is not None:
                 _compute(connection, claimed, draining)
                 blocks += 1
                 last = time.monotonic()
+            pause = _FIRST_PAUSE
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)
         except Unavailable as fault:
@@ -63,6 +64,16 @@ def work(connection: Connection, draining: threading.Event, idle: float | None) 
 
 
 def _compute(connection: Connection, claimed: Claimed, draining: threading.Event) -> None:
+    """Compute a block; where this machine has no room for its files, put it off."""
+    try:
+        _compute_here(connection, claimed, draining)
+    except OSError as fault:
+        block = claimed.claim.block
+        _log.warning("block %s is put off: %s", block.id, fault)
+        connection.tell(block, "put-off", Activity(activity=waits_for(fault)))
+
+
+def _compute_here(connection: Connection, claimed: Claimed, draining: threading.Event) -> None:
     claim = claimed.claim
     with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
         settings = Settings(

@@ -1,17 +1,39 @@
 """Several processes that compute for a service elsewhere, a core each."""
 
+import ctypes
+import logging
 import multiprocessing
+import os
 import signal
 import threading
 import time
-from multiprocessing.queues import SimpleQueue
+from collections.abc import Sequence
+from multiprocessing.connection import wait
+from typing import Any, Final
 
 from jointplay.worker.joined.connection import Connection, Refused
 from jointplay.worker.joined.loop import work
+from jointplay.worker.presence import has_ended, own_name
+
+_SIGNALS: Final = (signal.SIGTERM, signal.SIGINT)
+_LONGEST_SENTENCE: Final = 1000
+_LOOK: Final = 1.0
+"""Seconds after which it is looked again whether the process is there that began this one."""
+_log = logging.getLogger(__name__)
 
 
-def work_here(url: str, key: str | None, idle: float | None, until: float | None) -> int:
+class _Answer(ctypes.Structure):
+    """Answer of one process, in memory that all share: no pipe that fills, no lock that is lost."""
+
+    _fields_ = (("blocks", ctypes.c_longlong), ("refused", ctypes.c_char * _LONGEST_SENTENCE))
+
+
+def work_here(
+    url: str, key: str | None, idle: float | None, until: float | None, parent: str | None = None
+) -> int:
     """Compute blocks in this process, until a signal, a time [epoch s], or idleness; count them.
+
+    With the name of a `parent` also until that process has ended.
 
     Raises
     ------
@@ -19,12 +41,15 @@ def work_here(url: str, key: str | None, idle: float | None, until: float | None
         The service does not take this worker.
     """
     draining = threading.Event()
-    for number in (signal.SIGTERM, signal.SIGINT):
+    for number in _SIGNALS:
         signal.signal(number, lambda *_: draining.set())
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGNALS)
     if until is not None:
         timer = threading.Timer(max(until - time.time(), 0.0), draining.set)
         timer.daemon = True
         timer.start()
+    if parent is not None:
+        threading.Thread(target=_drain_without, args=(parent, draining), daemon=True).start()
     connection = Connection(url, key)
     try:
         return work(connection, draining, idle)
@@ -32,42 +57,78 @@ def work_here(url: str, key: str | None, idle: float | None, until: float | None
         connection.close()
 
 
+def _drain_without(parent: str, draining: threading.Event) -> None:
+    """Give back what is computed when nobody is left who could say that it shall end."""
+    begun_by = os.getppid()
+    while not draining.wait(_LOOK):
+        if has_ended(parent) or os.getppid() != begun_by:
+            _log.warning("the process that began this one has ended")
+            draining.set()
+
+
 def work_in(
     processes: int, url: str, key: str | None, idle: float | None, until: float | None
 ) -> int:
     """Do the same in several processes, to which signals are passed on.
 
-    One that is lost, which a log tells, leaves its block to others.
+    One that is lost, which a log tells, leaves its block to others; all end with this one.
     """
     if processes == 1:
         return work_here(url, key, idle, until)
-    answers: SimpleQueue[int | str] = multiprocessing.SimpleQueue()
-    asked = (answers, url, key, idle, until)
-    children = [multiprocessing.Process(target=_answer, args=asked) for _ in range(processes)]
-    for child in children:
-        child.start()
-
-    def pass_on(*_: object) -> None:
-        for child in children:
-            child.terminate()
-
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, pass_on)
-    for child in children:
-        child.join()
-    blocks = 0
-    while not answers.empty():
-        answer = answers.get()
-        if isinstance(answer, str):
-            raise Refused(answer)
-        blocks += answer
-    if lost := [child.exitcode for child in children if child.exitcode]:
-        raise Refused(f"{len(lost)} of {processes} processes were lost, after {blocks} blocks")
+    answers = multiprocessing.RawArray(_Answer, processes)
+    asked = (url, key, idle, until, own_name())
+    children = [
+        multiprocessing.Process(target=_answer, args=(answers, number, *asked))
+        for number in range(processes)
+    ]
+    _begin(children)
+    lost = _await(children)
+    blocks: int = sum(answer.blocks for answer in answers)
+    for answer in answers:
+        if answer.refused:
+            raise Refused(answer.refused.decode(errors="replace"))
+    if lost:
+        raise Refused(f"{lost} of {processes} processes were lost, after {blocks} blocks")
     return blocks
 
 
-def _answer(answers: "SimpleQueue[int | str]", *asked: str | float | None) -> None:
+def _begin(children: Sequence[multiprocessing.Process]) -> None:
+    """Start processes, and pass signals on to them."""
+
+    def pass_on(*_: object) -> None:
+        for child in children:
+            if child.pid is not None:
+                child.terminate()
+
+    signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)  # they wait until all can hear them
     try:
-        answers.put(work_here(*asked))  # type: ignore[arg-type]
+        for child in children:
+            child.start()
+    except OSError:
+        pass_on()
+        raise
+    finally:
+        for number in _SIGNALS:
+            signal.signal(number, pass_on)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGNALS)
+
+
+def _await(children: Sequence[multiprocessing.Process]) -> int:
+    """Return how many were lost when all have ended."""
+    left = [*children]
+    while left:
+        ended = wait([child.sentinel for child in left])
+        gone = [child for child in left if child.sentinel in ended]
+        left = [child for child in left if child not in gone]
+        for child in gone:
+            child.join()
+            if child.exitcode:
+                _log.error("process %d was lost: its exit code is %d", child.pid, child.exitcode)
+    return sum(bool(child.exitcode) for child in children)
+
+
+def _answer(answers: Any, number: int, *asked: Any) -> None:
+    try:
+        answers[number].blocks = work_here(*asked)
     except Refused as refused:
-        answers.put(str(refused))
+        answers[number].refused = str(refused).encode()[: _LONGEST_SENTENCE - 1]

@@ -32,7 +32,7 @@ class ClaimRequest(Document):
     """A worker that has nothing to do."""
 
     program: _Word  # version of the whole program, whose major one must be the service's
-    worker: Annotated[str, Field(min_length=1, max_length=200, pattern=r"^[A-Za-z0-9._:-]+$")]
+    worker: Annotated[str, Field(min_length=1, max_length=160, pattern=r"^[A-Za-z0-9._:-]+$")]
     version: _Word
     processor: _Word
     wait: Annotated[float, Field(ge=0.0, le=LONGEST_WAIT)] = LONGEST_WAIT

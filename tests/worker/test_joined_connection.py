@@ -1,0 +1,41 @@
+"""Answers to a worker that joined which no service of ours gives: of what is between them."""
+
+from collections.abc import Iterator
+from contextlib import closing
+
+import pytest
+from fastapi import FastAPI
+
+from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.records import Block, BlockState
+from jointplay.worker.joined.connection import Connection, Refused
+from jointplay.worker.joined.protocol import ClaimRequest, Files
+from tests.service_in_thread import serving
+
+BLOCK = Block("01KZJ9W6P1M3QX8Y5T7R4B9C2R-0", "job", 0, 0, 1, BlockState.running, attempt=1)
+
+
+@pytest.fixture
+def connection() -> Iterator[Connection]:
+    """A connection to something that has another service's pages, or none, for a while."""
+    with serving(FastAPI()) as url, closing(Connection(url, None)) as connection:
+        yield connection
+
+
+def test_what_a_proxy_answers_for_a_while_ends_no_block(connection: Connection) -> None:
+    for ask in (
+        lambda: connection.tell(BLOCK, "heartbeat"),
+        lambda: connection.ask(BLOCK, Files),
+        lambda: [*connection.read(BLOCK, "block0-a1")],
+        lambda: connection.write(BLOCK, "a1/parts/0", [b""], 0, "", 0),
+        lambda: connection.remove(BLOCK, "a1/parts/0"),
+    ):
+        with pytest.raises(Unavailable, match="status 404"):
+            ask()
+
+
+def test_an_address_where_there_is_no_service_is_refused(connection: Connection) -> None:
+    with pytest.raises(Refused, match="status 404"):
+        connection.claim(
+            ClaimRequest(program="0", worker="w", version="1", processor="p", wait=0.0)
+        )
