@@ -30,13 +30,13 @@ async def is_alive() -> Health:
 
 
 @router.get("/readyz", responses=problems(kinds.UNAVAILABLE))
-def is_ready(readiness: Annotated[Readiness, of_the_application("readiness")]) -> Health:
-    """Write to the catalogue and to the data folder, and read it again.
+async def is_ready(readiness: Annotated[Readiness, of_the_application("readiness")]) -> Health:
+    """Write to the catalogue and to the data folder, and read it again, at most once a second.
 
     Redis is not asked: jobs are accepted without it, and start when it is back.
     """
     try:
-        readiness.prove()
+        await readiness.proved()
     except (Unavailable, SQLAlchemyError, RuntimeError) as error:
         _log.warning("the catalogue does not do as asked", exc_info=error)
         raise unavailable("The catalogue cannot be written.", 5) from error

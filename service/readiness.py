@@ -1,29 +1,47 @@
 """Whether a service can store and read, found out by doing it."""
 
+import asyncio
 import errno
 import os
 import socket
 import time
-from threading import Lock
 from typing import Final
+
+from fastapi.concurrency import run_in_threadpool
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.places.fitness import require_fit
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.settings import Settings
 
+_PERIOD: Final = 1.0
+"""Seconds for which what was found holds: whoever asks, and anyone may, has no more written."""
 _PLACE_PERIOD: Final = 30.0  # s; five requests to another server
 _AT_ONCE: Final = 0.0  # s that this process leads: the next one that proves it may write, too
 
 
 class Readiness:
-    """Writes and reads, for one at a time."""
+    """Writes and reads, at most once a second, for all who ask meanwhile."""
 
     def __init__(self, catalogue: Catalogue, settings: Settings) -> None:
         self._catalogue, self._settings = catalogue, settings
         self._name = f"{socket.gethostname()}:{os.getpid()}"
-        self._turn = Lock()
+        self._proof: asyncio.Future[None] | None = None
+        self._proved = 0.0
         self._place_proved: float | None = None
+
+    async def proved(self) -> None:
+        """Return, or raise, what `prove` does now, or did less than a second ago."""
+        proof = self._proof
+        if proof is None or (proof.done() and time.monotonic() > self._proved + _PERIOD):
+            proof = self._proof = asyncio.ensure_future(run_in_threadpool(self.prove))
+            proof.add_done_callback(self._note)
+        await asyncio.shield(proof)  # others wait for it, too
+
+    def _note(self, proof: asyncio.Future[None]) -> None:
+        self._proved = time.monotonic()
+        if not proof.cancelled():
+            proof.exception()  # nobody may be left who waits for it
 
     def prove(self) -> None:
         """Store something in the catalogue and in the data folder; ask the place for results.
@@ -35,12 +53,11 @@ class Readiness:
         OSError
             The data folder, or the place, cannot be written.
         """
-        with self._turn:
-            self._catalogue.ping()
-            self._catalogue.take_lead("readiness", self._name, _AT_ONCE)
-            self._write()
-            if not isinstance(self._settings.place, Folder):
-                self._try_place()
+        self._catalogue.ping()
+        self._catalogue.take_lead("readiness", self._name, _AT_ONCE)
+        self._write()
+        if not isinstance(self._settings.place, Folder):
+            self._try_place()
 
     def _write(self) -> None:
         data = self._settings.data

@@ -17,6 +17,8 @@ class Usage(BaseModel):
     owner: str = Field(description="Empty where the service asks for no keys.")
     live_jobs: int = Field(description="Jobs that have not ended.")
     most_live_jobs: int
+    running_blocks: int = Field(description="Blocks that are computed now.")
+    most_running_blocks: int = Field(description="Further ones wait, and others go by.")
     stored_bytes: int = Field(description="Bytes of results, of jobs that have ended.")
     most_stored_bytes: int
     core_seconds: float = Field(description="Processor time in the last 24 hours, s.")
@@ -36,10 +38,13 @@ def show_usage(
 ) -> Usage:
     """Show what your jobs use, and what they may; results are counted soon after jobs end."""
     use, quota = catalogue.use_of(caller.owner), quota_of(caller, settings)
+    most_running = settings.most_running if caller.owner else 0  # whatever the key
     return Usage(
         owner=caller.owner,
         live_jobs=use.live,
         most_live_jobs=quota.live,
+        running_blocks=use.running,
+        most_running_blocks=most_running,
         stored_bytes=use.stored,
         most_stored_bytes=quota.stored,
         core_seconds=use.computed,

@@ -20,7 +20,7 @@ from jointplay.storage.catalogue.keys import ID, Key
 
 PREFIX: Final = "/v1/shared/"
 WHOLE: Final = "zarr.zip"
-"""Of the addresses behind a token, that of the store in one file; all others are of its keys."""
+"""Address of the store in one file, behind a token; all others there are of its keys."""
 SIGNED: Final = "jointplay.signed"
 """Where the scope of a request has its `Link`."""
 _SIGNED: Final = struct.Struct(">26sQ8s")  # job, end as epoch seconds, id of the key

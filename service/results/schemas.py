@@ -49,7 +49,7 @@ _NOTE = Field(default="", description="What is to be known of these numbers; mos
 
 
 class Resolution(BaseModel):
-    """What the numbers of a window were computed from."""
+    """Basis from which the numbers of a window were computed."""
 
     basis: Basis = Field(
         description="steps: those of the run, so that no peak is lost; motion: the same, of an"

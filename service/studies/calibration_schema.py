@@ -1,4 +1,4 @@
-"""What a calibration found, as the API shows it and the command line writes it."""
+"""Findings of a calibration, as the API shows them and the command line writes them."""
 
 from typing import Any
 

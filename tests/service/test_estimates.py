@@ -1,4 +1,4 @@
-"""What a job will cost, against what it costs."""
+"""Estimates of the cost of a job, against what it costs."""
 
 import pytest
 

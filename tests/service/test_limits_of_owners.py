@@ -77,7 +77,8 @@ def test_twenty_jobs_at_once_do_not_exceed_the_limit(tmp_path: Path) -> None:
 
 
 def test_an_owner_has_so_many_bytes_of_results(tmp_path: Path) -> None:
-    settings = Settings(data=tmp_path, keys="required", most_stored=1000, most_computed=50.0)
+    most = {"most_running": 1, "most_stored": 1000, "most_computed": 50.0}
+    settings = Settings(data=tmp_path, keys="required", **most)
     catalogue = Catalogue(settings.catalogue_url)
     catalogue.migrate()
     with serving(create_app(settings)) as url:
@@ -85,7 +86,8 @@ def test_an_owner_has_so_many_bytes_of_results(tmp_path: Path) -> None:
         with guarded.as_("ada") as ada, guarded.as_("root", "admin") as root:
             job = ada.post("/v1/jobs", json=SWING).json()["id"]
             limits = {"most_live_jobs": 0, "most_stored_bytes": 1000, "most_core_seconds": 50.0}
-            nothing = {"stored_bytes": 0, "core_seconds": 0.0}
+            limits["most_running_blocks"] = 1
+            nothing = {"running_blocks": 0, "stored_bytes": 0, "core_seconds": 0.0}
             used = {"owner": "ada", "live_jobs": 1} | nothing | limits
             assert ada.get("/v1/usage").json() == used
             ada.post(f"/v1/jobs/{job}/cancel")

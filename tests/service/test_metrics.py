@@ -1,18 +1,22 @@
-"""What Prometheus is shown, and whether the service says that it is ready."""
+"""Metrics that Prometheus is shown, and whether the service says that it is ready."""
 
+import asyncio
 import shutil
+from contextlib import suppress
 from pathlib import Path
 
 import httpx
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
-from jointplay.service import metrics
+from jointplay.service import metrics, readiness
 from jointplay.service.app import create_app
+from jointplay.service.readiness import Readiness
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
+from tests.waiting import until
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
 
@@ -91,8 +95,41 @@ def test_ready_is_who_can_write(tmp_path: Path) -> None:
         assert not list((tmp_path / "data" / "running").iterdir())
         shutil.rmtree(tmp_path / "data" / "running")
         (tmp_path / "data" / "running").write_text("a file where a folder has to be")
+        until(lambda: not http.get("/readyz").is_success)
         answer = http.get("/readyz")
         assert (answer.status_code, answer.headers["Retry-After"]) == (503, "5")
         assert answer.json()["detail"] == "Results cannot be stored."
         (tmp_path / "data" / "running").unlink()
-        assert http.get("/readyz").status_code == 200
+        until(lambda: http.get("/readyz").is_success)
+
+
+class Counted(Readiness):
+    """Readiness that tells how often it was proved."""
+
+    proofs = 0
+
+    def prove(self) -> None:
+        self.proofs += 1
+        super().prove()
+
+
+def test_many_who_ask_at_once_have_it_proved_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Anyone may ask, also without a key; nobody may have the catalogue written all the time."""
+    monkeypatch.setattr(readiness, "_PERIOD", 3600.0)
+    catalogue = Catalogue(Settings(data=tmp_path).catalogue_url)
+    catalogue.migrate()
+    ready = Counted(catalogue, Settings(data=tmp_path))
+    lacking = Counted(catalogue, Settings(data=tmp_path / "lacking"))
+
+    async def asked(one: Readiness) -> list[BaseException | None]:
+        found = await asyncio.gather(*(one.proved() for _ in range(20)), return_exceptions=True)
+        with suppress(FileNotFoundError):
+            await one.proved()
+        return found
+
+    assert asyncio.run(asked(ready)) == [None] * 20
+    assert {type(one) for one in asyncio.run(asked(lacking))} == {FileNotFoundError}
+    assert (ready.proofs, lacking.proofs) == (1, 1)
+    catalogue.close()

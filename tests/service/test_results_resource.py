@@ -1,4 +1,4 @@
-"""What a finished job computed, read over HTTP; and what is answered while it is not finished."""
+"""Results of a finished job, read over HTTP; and what is answered while it is not finished."""
 
 import pytest
 

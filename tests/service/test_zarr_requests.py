@@ -1,4 +1,4 @@
-"""What a Zarr client may ask of a store, and what nobody may: ranges, tags, keys."""
+"""Requests that a Zarr client may make of a store, and that nobody may: ranges, tags, keys."""
 
 import httpx
 import pytest

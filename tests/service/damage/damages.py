@@ -18,7 +18,7 @@ WHOLE: Final = ("flip directory", "flip end", "truncate", "empty", "remove", "sw
 
 @dataclass(frozen=True)
 class Damage:
-    """What a file holds instead of what it held; None: it is gone."""
+    """Content of a file instead of what it held; None: it is gone."""
 
     name: str
     path: Path

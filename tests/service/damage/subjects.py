@@ -227,4 +227,4 @@ KINDS: Final[dict[str, tuple[Callable[..., str], Callable[[Settings, str], Path]
     "running calibration": (Subjects.growing_calibration, _running_study),
     "running ensemble": (_growing_study_of(ENSEMBLE), _running_study),
 }
-"""How the job of each kind of store is made, and where its store is."""
+"""Makers of the job of each kind of store, and the place of its store."""

@@ -9,7 +9,7 @@ from tests.service.damage.readings import Denied, Reading
 
 
 class Outcome(StrEnum):
-    """What became of a reading of damaged results."""
+    """Outcome of a reading of damaged results."""
 
     detected = "detected"
     no_effect = "no effect"
