@@ -8,8 +8,9 @@ from jointplay.figures import marks, page, study_facts
 from jointplay.figures.exponents import draw_exponents
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
-from jointplay.figures.quantity import scale
+from jointplay.figures.quantity import alike
 from jointplay.figures.study_facts import Group
+from jointplay.records.arrays import Floats
 from jointplay.records.channel import by_name
 from jointplay.records.study import StudySource
 
@@ -58,8 +59,10 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         heights.append(_STRIP_HEIGHT)
     entries = _legend(diagram, verdicts if has_strip else ())
     figure, panels = page.stack(heights, page.legend_rows(entries))
-    for axes, name in zip(panels, names, strict=False):
-        _sections(axes, diagram, name)
+    rows = [marks.sections(source, name, points) for name in names]
+    units = [by_name(source.observables)[name].unit for name in names]
+    for axes, name, row, unit in zip(panels, names, rows, alike(units, rows), strict=False):
+        _sections(axes, diagram, unit.label(name), row / unit.factor)
     if has_exponent:
         shown = diagram.axis.shown
         draw_exponents(panels[len(names)], source, points, shown, diagram.groups)
@@ -72,16 +75,14 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     return figure
 
 
-def _sections(axes: page.Axes, diagram: _Diagram, name: str) -> None:
+def _sections(axes: page.Axes, diagram: _Diagram, label: str, rows: Floats) -> None:
     """Draw one observable at the sections of every value."""
-    rows = marks.sections(diagram.source, name, diagram.points)
-    shown = scale(by_name(diagram.source.observables)[name].unit, rows)
     size = marks.size(int(np.count_nonzero(np.isfinite(rows))))
     for group in diagram.groups:
         members = group.members[diagram.points]
         across = np.repeat(diagram.axis.shown[members], rows.shape[1])
-        marks.draw_cloud(axes, across, rows[members].ravel() / shown.factor, group.colour, size)
-    axes.set_ylabel(page.in_two_lines(shown.label(name)))
+        marks.draw_cloud(axes, across, rows[members].ravel(), group.colour, size)
+    axes.set_ylabel(page.in_two_lines(label))
 
 
 def _verdicts(

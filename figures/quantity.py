@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -78,6 +78,21 @@ def scale(unit: str, *values: Floats) -> Scale:
     if factor < 1e-3 and _NEVER_SMALLER.fullmatch(unit):
         factor, prefix = 1e-3, "m"
     return Scale(factor, prefix + pretty)
+
+
+def alike(units: Sequence[str], values: Sequence[Floats]) -> list[Scale]:
+    """Choose scales of panels that are compared: one for those of a unit that are of like size.
+
+    A panel of less than a tenth of the largest has a scale of its own, as its numbers would be
+    hard to read.
+    """
+    largest = [largest_of(array) for array in values]
+    found = []
+    for unit, own, size in zip(units, values, largest, strict=True):
+        rivals = [other for other, same in zip(largest, units, strict=True) if same == unit]
+        above = [one for one in rivals if size <= one <= 10.0 * size]
+        found.append(scale(unit, np.array([max(above)])) if above else scale(unit, own))
+    return found
 
 
 @contextmanager

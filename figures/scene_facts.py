@@ -43,7 +43,7 @@ def chosen_joints(source: Source, selection: Selection) -> dict[str, float]:
     joints = scene(source).get("joints", {})
     found = clearances(scene(source))
     known = {name: play for name, play in found.items() if joints[name]["type"] == "revolute"}
-    check_joints(known, selection)
+    check_joints(known, selection, "revolute joint")
     return {name: known[name] for name in selection.joints or known}
 
 
@@ -61,8 +61,10 @@ def chosen_pairs(source: Source, selection: Selection) -> list[str]:
     return [pair for name in chosen for pair in source.joints if f"{pair}.".startswith(f"{name}.")]
 
 
-def check_joints(known: Collection[str], selection: Selection) -> None:
+def check_joints(known: Collection[str], selection: Selection, kind: str = "joint") -> None:
     """Refuse chosen joints that are not among the known ones with clearance, or if there is none.
+
+    `kind` says in words which joints the figure can show.
 
     Raises
     ------
@@ -70,11 +72,11 @@ def check_joints(known: Collection[str], selection: Selection) -> None:
         As that says.
     """
     if not known:
-        raise NotDrawable("This figure needs a joint with clearance, and the scene has none.")
+        raise NotDrawable(f"This figure needs a {kind} with clearance, and the scene has none.")
     for name in selection.joints:
         if name not in known:
             raise NotDrawable(
-                f"No joint {name!r} has clearance; those that do are {', '.join(known)}.", "joints"
+                f"No {kind} {name!r} has clearance; those that do are {', '.join(known)}.", "joints"
             )
 
 

@@ -12,7 +12,7 @@ from jointplay.figures.animation.picture import Add, Picture
 from jointplay.figures.kind import NotDrawable
 
 _EVEN: Final = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"
-"""What is played everywhere has an even number of pixels both ways."""
+"""Padding to an even number of pixels both ways, without which some players show nothing."""
 _CODEC: Final = {".mp4": ("-vcodec", "h264"), ".webm": ()}
 """By form; that of WebM is ffmpeg's choice."""
 

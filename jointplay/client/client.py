@@ -11,7 +11,7 @@ import httpx
 
 from jointplay import jobs as documents
 from jointplay.client.batches import Batch, counted_from, jobs_of
-from jointplay.client.connection import Connection, segment
+from jointplay.client.connection import LONGEST_ANSWER, Connection, segment
 from jointplay.client.errors import ClientError, Refused
 from jointplay.client.job import Job
 from jointplay.client.job_record import Estimate
@@ -71,7 +71,7 @@ class Client:
         url: str | None = None,
         *,
         key: str | None = None,
-        timeout: float = 60.0,
+        timeout: float = LONGEST_ANSWER,
         transport: httpx.BaseTransport | None = None,
     ) -> None:
         network = partial(BlockingNetwork, transport=transport)

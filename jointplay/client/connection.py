@@ -20,6 +20,9 @@ DEFAULT_URL = "http://127.0.0.1:8000"
 _LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
 _GONE = frozenset({404, 410})
 
+LONGEST_ANSWER: Final = 300.0
+"""Seconds: the service itself gives up after 240 on a window that it has to compile first."""
+
 ATTEMPTS: Final = 5
 FIRST_PAUSE: Final = 0.1  # s, doubled from attempt to attempt
 LONGEST_PAUSE: Final = 60.0
@@ -41,7 +44,7 @@ class Connection:
     url, key
         Address of the service and the key to send; default JOINTPLAY_URL and JOINTPLAY_KEY.
     timeout
-        Longest wait for one answer, s.
+        Longest wait for one answer, s; for a connection at most a minute.
     network
         Makes the network of the connection from settings of httpx.
     """
@@ -59,6 +62,7 @@ class Connection:
                 f"{url!r} is not an address such as {DEFAULT_URL}: it has no http:// in front."
             )
             raise ClientError(sentence)
+        self._longest_answer = timeout
         self.headers = {} if key is None else {"Authorization": f"Bearer {key}"}
         try:
             # a proxy from the environment cannot reach this machine's own addresses
@@ -66,7 +70,7 @@ class Connection:
             self.network = network(
                 base_url=self.url,
                 headers=self.headers,
-                timeout=timeout,
+                timeout=httpx.Timeout(timeout, connect=min(timeout, LONGEST_PAUSE)),
                 trust_env=self.trusts_environment,
             )
         except httpx.InvalidURL as error:
@@ -126,6 +130,9 @@ class Connection:
             self.network.sleep(pause)
         if response is not None:
             raise error_from(response)
+        if isinstance(failure, httpx.ReadTimeout):
+            sentence = f"The service at {self.url} gave no answer in {self._longest_answer:g} s."
+            raise Unreachable(sentence) from failure
         raise self._unreachable(failure) from failure
 
     def _once(

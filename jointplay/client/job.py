@@ -191,7 +191,9 @@ def _shown(job: JobRecord) -> Iterator[Callable[[], None]]:
 
 
 def _note(job: JobRecord, pace: Pace) -> str:
-    parts = [job.done_so_far, job.state]
+    parts = [job.state]  # the bar shows the fraction
+    if not job.is_study:
+        parts.insert(0, f"t = {job.progress.time:.4g} s")
     if not job.is_finished and pace.steps_per_second is not None:
         parts.append(f"{pace.steps_per_second:.3g} steps/s")
     return ", ".join(parts)

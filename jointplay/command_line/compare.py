@@ -132,7 +132,8 @@ def _labels(jobs: list["Job"]) -> list[str] | None:
     facts = [_facts(job.job) for job in jobs]
     differing = [name for name in facts[0] if len({json.dumps(one.get(name)) for one in facts}) > 1]
     by_facts = [
-        " ".join(f"{name}={_short(one.get(name))}" for name in differing[:3]) for one in facts
+        " ".join(f"{name}={_short(one[name])}" for name in differing[:3] if name in one)
+        for one in facts
     ]
     for labels in ([job.label or "" for job in jobs], by_facts):
         if all(labels) and len(set(labels)) == len(labels):
@@ -142,11 +143,20 @@ def _labels(jobs: list["Job"]) -> list[str] | None:
 
 def _facts(job: dict[str, Any]) -> dict[str, Any]:
     scene = job["scene"]
-    found = {"scene": scene.get("preset") or scene.get("name")}
-    found |= scene.get("parameters", {}) if "preset" in scene else {}
-    return found | {
-        name: job.get(name) for name in ("method", "tolerance", "formulation", "duration")
-    }
+    return (
+        {"scene": scene.get("preset") or scene.get("name")}
+        | _values(scene)
+        | {name: job.get(name) for name in ("method", "tolerance", "formulation", "duration")}
+    )
+
+
+def _values(scene: dict[str, Any]) -> dict[str, Any]:
+    """Return the parameters of a job's scene: of a preset their values, of a document defaults."""
+    parameters = scene.get("parameters", {})
+    if "preset" in scene:
+        return dict(parameters)
+    given = {name: one["default"] for name, one in parameters.items()}
+    return {name: value for name, value in given.items() if value is not None}
 
 
 def _short(value: object) -> str:
@@ -154,13 +164,13 @@ def _short(value: object) -> str:
 
 
 def _chosen(jobs: list["Job"], common: list[str], wanted: str | None) -> list[str]:
-    from jointplay.records.channel_choice import NoSuchChannel, choose
+    from jointplay.records.channel_choice import NoSuchChannel, choose_in_turn
 
     if not common:
         raise Stopped("The runs have no channel in common.")
     if wanted is not None:
         try:
-            return choose(wanted, common)
+            return choose_in_turn(wanted, common)
         except NoSuchChannel as error:
             raise Stopped(str(error)) from None
     declared = [one["name"] for job in jobs for one in job.job["scene"].get("outputs", [])]

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from jointplay.command_line.exits import Stopped
-from jointplay.command_line.job_options import fields_of
+from jointplay.command_line.job_options import fields_of, once
 
 JOB_FILE = "job.json"  # of a run's folder; worker.local.folder names it, too
 
@@ -33,9 +33,14 @@ def job_document(
         job.pop("method", None)
     job.update(changed)
     scene = job.get("scene")
-    if settings and isinstance(scene, dict):  # else admission says what is wrong with it
+    values = once("--set", map(_setting, settings or ()))
+    varied = {changed.get("parameter"), *changed.get("grid", ())}
+    for name in values:
+        if name in varied:
+            raise Stopped(f"--set {name}: the study varies {name}; leave this value out.")
+    if values and isinstance(scene, dict):  # else admission says what is wrong with it
         try:
-            job["scene"] = with_parameters(scene, dict(map(_setting, settings)))
+            job["scene"] = with_parameters(scene, values)
         except NotAScene as error:
             raise Stopped(f"--set {error}") from None
     return job

@@ -1,6 +1,6 @@
 """Options that are fields of a job: most as the kinds describe them, and short forms of ranges."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from inspect import Parameter, signature
 from typing import Annotated, Any, Final, TypeVar
 
@@ -112,11 +112,21 @@ def fields_of(options: Mapping[str, Any]) -> dict[str, Any]:
     if "bifurcation" in given:
         found["parameter"], found["values"] = _values("--bifurcation", given["bifurcation"])
     if "sweep" in given:
-        found["grid"] = dict(_values("--sweep", text) for text in given["sweep"])
+        found["grid"] = once("--sweep", (_values("--sweep", text) for text in given["sweep"]))
     if "ensemble" in given:
         found["members"] = given["ensemble"]
     named = {name: value for name, value in options.items() if name in FIELDS and value is not None}
     return found | {name: _value(name, value) for name, value in named.items()}
+
+
+def once(option: str, pairs: Iterable[tuple[str, object]]) -> dict[str, object]:
+    """Return what an option that may be repeated says of each name; a name twice is refused."""
+    found: dict[str, object] = {}
+    for name, value in pairs:
+        if name in found:
+            raise Stopped(f"{option} {name} is given twice; keep one.")
+        found[name] = value
+    return found
 
 
 def _value(name: str, given: Any) -> Any:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 import typer
 
 from jointplay.command_line.exits import Stopped
-from jointplay.command_line.figure_options import page_of, with_figure_options
+from jointplay.command_line.figure_options import page_of, refused_as_typed, with_figure_options
 from jointplay.command_line.film import draw_film, is_film
 from jointplay.command_line.options import (
     AS_JSON,
@@ -84,7 +84,7 @@ def plot(
     }
     pace = {name: value for name, value in asked.items() if value is not None}
     shown = {"joint": listed(joints) or (), "start": start, "stop": stop, **page.given()}
-    with job_of(results, url) as job:
+    with job_of(results, url) as job, refused_as_typed():
         if is_film(names, form, pace):
             if channels is not None:
                 raise Stopped("--channels: a film shows none; leave them out.")
@@ -106,7 +106,19 @@ def draw_all(
         for done, name in enumerate(wanted):
             report(done / len(wanted), name)
             path = folder / f"{name}.{form}"
-            path.write_bytes(job.figure(name, form=form, **shown).content)
+            path.write_bytes(_content(job, name, form, shown))
             written.append({"name": name, "path": str(path)})
         report(1.0, "")
     return written
+
+
+def _content(job: "Job", name: str, form: Form, shown: dict[str, Any]) -> bytes:
+    """Return a figure; the refusal of one that cannot be drawn names it, as there may be many."""
+    from jointplay.client import Refused
+
+    try:
+        return job.figure(name, form=form, **shown).content
+    except Refused as error:
+        if error.problem != "not-drawable" or error.fields[0].place != "name":
+            raise
+        raise Stopped(f"{name}: {error.fields[0].detail}") from None

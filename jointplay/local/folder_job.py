@@ -102,6 +102,10 @@ def store_in(folder: Path) -> Path:
     from jointplay.worker.local.growing import growing_store
 
     if folder.is_file():
+        with folder.open("rb") as file:
+            if file.read(2) != b"PK":  # as every store begins, also one that was cut off
+                wanted = f"give a run's folder, its {STORE}, or a job's id"
+                raise NotFound(f"{folder} is no store of results: {wanted}.")
         return folder
     store = folder / STORE if (folder / STORE).exists() else growing_store(folder)
     if store is None:

@@ -1,4 +1,4 @@
-"""What a type checker sees of an `AsyncClient`; it is checked and never run."""
+"""Types that a checker sees of an `AsyncClient`; it is checked and never run."""
 
 from pathlib import Path
 from typing import Any, assert_type

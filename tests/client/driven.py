@@ -12,7 +12,7 @@ FACES = (AsyncBatch, AsyncClient, AsyncJob, AsyncPicture)
 
 
 class Driven:
-    """What an `AsyncClient` gave: whatever is to be awaited is awaited in the runner's loop."""
+    """Answers of an `AsyncClient`: whatever is to be awaited is awaited in the runner's loop."""
 
     def __init__(self, face: Any, runner: asyncio.Runner) -> None:
         self._face, self._runner = face, runner

@@ -1,6 +1,7 @@
 """The Python client against the real service."""
 
 import math
+import re
 import socket
 
 import numpy as np
@@ -62,7 +63,7 @@ def test_an_unknown_job_is_not_found(client, job_id):
         client.job(job_id)
 
 
-def test_waiting_reports_progress_and_returns_the_finished_job(client, worker):
+def test_waiting_reports_progress_and_returns_the_finished_job(client, worker, capsys):
     job_id = worker.submit()
     seen = []
 
@@ -76,6 +77,8 @@ def test_waiting_reports_progress_and_returns_the_finished_job(client, worker):
 
     assert client.job(job_id).wait(report=report).state == "succeeded"
     assert seen == ["queued", "running", "succeeded"]
+    client.job(job_id).wait(progress=True)
+    assert re.fullmatch(r"\S+: 100% t = \S+ s, succeeded\n", capsys.readouterr().err)
 
 
 def test_waiting_ends_at_its_time_limit_and_leaves_the_job_alone(client, worker):

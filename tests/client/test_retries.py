@@ -1,5 +1,6 @@
 """Requests that are repeated: what the service asks for, and what was lost on the way."""
 
+import socket
 import threading
 import time
 from collections.abc import Iterator
@@ -7,13 +8,16 @@ from contextlib import contextmanager
 from datetime import UTC, datetime, timedelta
 from email.utils import format_datetime
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from inspect import signature
 
 import httpx
 import pytest
 
-from jointplay.client import Client, NotAllowed, Overloaded, Unreachable, connection
+from jointplay.client import AsyncClient, Client, NotAllowed, Overloaded, Unreachable, connection
 from jointplay.client.asynchronous.network import AwaitedNetwork
 from jointplay.client.network import BlockingNetwork
+from jointplay.service import prober, windows
+from jointplay.service.scenes import looks
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
 
@@ -75,7 +79,7 @@ def front(answers, behind=None) -> Iterator[tuple[str, list]]:
 
 @pytest.fixture
 def pauses(monkeypatch):
-    """How long the client would have waited."""
+    """Seconds that the client would have waited."""
     seen = []
 
     def sleep(network, seconds):
@@ -157,6 +161,22 @@ def test_nobody_there_is_looked_for_again_for_about_a_second(connect, monkeypatc
         with pytest.raises(Unreachable, match="jointplay serve"):
             client.scenes()
         assert 0.7 < time.monotonic() - began < 5.0  # 0.1 + 0.2 + 0.4 + 0.8 s, half by chance
+
+
+def test_a_service_that_stays_silent_is_said_to_be(connect):
+    with socket.create_server(("127.0.0.1", 0)) as silent:  # takes connections, and says nothing
+        url = f"http://127.0.0.1:{silent.getsockname()[1]}"
+        with (
+            connect(url, timeout=0.2) as client,
+            pytest.raises(Unreachable, match=r"gave no answer in 0\.2 s"),
+        ):
+            client.scenes()
+
+
+def test_clients_wait_longer_than_the_service_may_take():
+    patience = max(windows._PATIENCE, prober._PATIENCE, looks._PATIENCE)
+    for made in (Client, AsyncClient):
+        assert signature(made).parameters["timeout"].default > patience
 
 
 def test_other_refusals_are_not_repeated(connect, pauses):

@@ -26,7 +26,7 @@ def children_hear_ctrl_c() -> Iterator[None]:
 
 
 class Ended(NamedTuple):
-    """How a command ended."""
+    """End of a command."""
 
     code: int
     out: str

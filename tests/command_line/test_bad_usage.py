@@ -34,6 +34,22 @@ WRONG = {
     "too many periods": ([*PRESS, "--duration", "1e7"], "/duration"),
     "unknown preset": (["run", "six-bar-press", "-o", "OUT", "--duration", "2"], "/scene/preset"),
     "unknown parameter": ([*TIMED, "--set", "clearence=1e-4"], "clearence"),
+    "a value twice": (
+        [*TIMED, "--set", "clearance=1e-4", "--set", "clearance=2e-4"],
+        "--set clearance is given twice",
+    ),
+    "an axis twice": (
+        [*TIMED, "--sweep", "clearance=1e-4,2e-4", "--sweep", "clearance=3e-4"],
+        "--sweep clearance is given twice",
+    ),
+    "a value that the diagram varies": (
+        [*PRESS, "--set", "speed=3", "--bifurcation", "speed=3:9:4"],
+        "--set speed: the study varies speed",
+    ),
+    "a value that the sweep varies": (
+        [*TIMED, "--set", "friction=0.1", "--sweep", "friction=0.1,0.2"],
+        "--set friction: the study varies friction",
+    ),
     "no value": ([*TIMED, "--set", "clearance"], "NAME=VALUE"),
     "negative clearance": ([*TIMED, "--set", "clearance=-1e-4"], "/scene/parameters/clearance"),
     "clearance too large": ([*TIMED, "--set", "clearance=5e-3"], "/scene/parameters/clearance"),

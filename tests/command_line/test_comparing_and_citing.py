@@ -45,6 +45,40 @@ def test_local_runs_are_drawn_over_one_another_with_a_table_of_peaks(jointplay, 
         assert row["minimum"] <= row["maximum"]
 
 
+def test_runs_of_a_scene_of_ones_own_are_told_apart_by_its_parameters(
+    jointplay, runs, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    scene = tmp_path / "mine.json"
+    document = json.loads(jointplay("scene", "show", "pendulum", "--json").out)
+    scene.write_text(json.dumps(document | {"name": "mine"}))
+    for mass in ("3", "4"):
+        ended = jointplay("run", scene, "--set", f"mass={mass}", "--duration", "0.1", "-o", mass)
+        assert ended.code == 0, ended.err
+    own = jointplay("compare", "3", "4", "-o", "own.svg", "--json").out
+    assert {row["run"] for row in json.loads(own)["peaks"]} == {"mass=3", "mass=4"}
+    other = jointplay("compare", runs / "a", "3", "-o", "other.svg", "--json").out
+    labels = {row["run"] for row in json.loads(other)["peaks"]}
+    assert labels == {"scene=pendulum mass=1 duration=1", "scene=mine mass=3 duration=0.1"}
+
+
+def test_channels_are_compared_in_the_order_in_which_they_are_named(jointplay, runs, tmp_path):
+    for asked in ("angular_velocity,angle", "angle,angular_velocity"):
+        options = ["--channels", asked, "-o", tmp_path / "both.svg"]
+        rows = json.loads(jointplay("compare", runs / "a", runs / "b", *options, "--json").out)
+        assert ",".join(dict.fromkeys(row["channel"] for row in rows["peaks"])) == asked
+        titles = re.findall(
+            r"<!-- (angle|angular_velocity) \[", (tmp_path / "both.svg").read_text()
+        )
+        assert ",".join(titles) == asked
+
+
+def test_of_many_figures_the_one_that_cannot_be_drawn_is_named(jointplay, runs, tmp_path):
+    ended = jointplay("plot", runs / "a", "mechanism", "orbit", "-o", tmp_path)
+    assert ended.code == 2
+    assert "orbit: This figure needs a revolute joint with clearance" in ended.line()
+
+
 def curves_in(svg, across, upright):
     """Curves of the only panel by their labels in the legend, each (2, points), as axes show it."""
     comments = ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))

@@ -128,7 +128,7 @@ BY_COMMAND = {
 
 @pytest.mark.parametrize("kind", [Client, Job, Batch])
 def test_everything_that_the_client_can_do_is_a_command(kind):
-    """What only describes or prints an object is no deed."""
+    """A method that only describes or prints an object is no deed."""
     described = {"to_document", "close", "renew", "advance", "states", "done_so_far"}
     described |= {"is_finished", "is_study", "scene_name", "seconds"}
     deeds = {

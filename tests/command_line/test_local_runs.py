@@ -106,9 +106,16 @@ def test_local_results_are_drawn(jointplay, press, tmp_path):
     drawn = jointplay("plot", press, "orbit", "A.penetration", "--format", "svg", "-o", tmp_path)
     assert drawn.code == 0
     assert {file.name for file in tmp_path.iterdir()} == {"orbit.svg", "A.penetration.svg"}
+    for other in ("job.json", "peaks.csv"):
+        said = jointplay("plot", press / other, "orbit", "-o", tmp_path).line()
+        assert f"{other} is no store of results: give a run's folder" in said
     unknown = jointplay("plot", press, "obrit", "-o", tmp_path)
     assert unknown.code == 2
     assert "orbit" in unknown.line()
+    late = jointplay("plot", press, "orbit", "--start", "99", "-o", tmp_path)
+    assert late.line().startswith("jointplay: --start: There are no")
+    wrong = jointplay("plot", press, "orbit", "--joints", "Z", "-o", tmp_path)
+    assert wrong.line().startswith("jointplay: --joints: ")
 
 
 def test_a_film_is_drawn_of_a_local_run(jointplay, press, tmp_path):

@@ -21,7 +21,7 @@ and the instant of an extreme has half as many digits as its value."""
 
 
 def merged(before: Any, patch: Any) -> Any:
-    """What is said in a second block replaces or adds to what was there (RFC 7386)."""
+    """A first block with what a second one says, which replaces or adds to it (RFC 7386)."""
     if not (isinstance(before, dict) and isinstance(patch, dict)):
         return patch
     return {**before, **{name: merged(before.get(name), value) for name, value in patch.items()}}

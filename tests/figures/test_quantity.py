@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jointplay.figures.quantity import scale, showing
+from jointplay.figures.quantity import alike, scale, showing
 
 
 @pytest.mark.parametrize(
@@ -40,6 +40,12 @@ def test_numbers_are_divided_by_what_the_prefix_stands_for():
 
 def test_a_pure_number_has_no_brackets():
     assert scale("1", np.array([3.0])).label("ratio") == "ratio"
+
+
+def test_panels_of_like_size_have_one_unit():
+    sizes = [("m", 1.04e-4), ("m", 9.6e-5), ("m", 4e-7), ("rad", 9e-5), ("m", np.nan)]
+    found = alike([unit for unit, _ in sizes], [np.array([size]) for _, size in sizes])
+    assert [one.unit for one in found] == ["mm", "mm", "µm", "mrad", "m"]
 
 
 def test_what_is_no_number_does_not_choose_the_unit():

@@ -156,6 +156,14 @@ def test_a_scene_without_clearance_has_no_such_figure(motion, each):
         figures.draw(bare, each)
 
 
+def test_a_figure_of_journals_says_that_other_joints_are_none(motion):
+    slot = {"type": "pin-in-slot", "clearance": {"wall_clearance": 1e-4, "pin_radius": 0.01}}
+    other = replace(motion, attributes={"scene": {**SCENE, "joints": {"slot": slot}}})
+    for selection in (Selection(), Selection(joints=("slot",))):
+        with pytest.raises(NotDrawable, match="a revolute joint with clearance"):
+            figures.draw(other, "orbit", selection)
+
+
 def test_the_orbit_shows_each_clearance_to_scale(motion):
     for axes, clearance in zip(drawn(motion, "orbit").axes, CLEARANCES.values(), strict=True):
         (circle,) = [line for line in axes.lines if line.get_label() == "clearance circle"]

@@ -44,7 +44,7 @@ def places(http, worker, finished_sweep):
 
 
 def wrong(browsing, url, places, width, dark, artifacts):
-    """What is wrong in each of these places, of each of which a picture is kept."""
+    """Faults in each of these places, of each of which a picture is kept."""
     found = {}
     look = f"{width}-dark" if dark else f"{width}"
     with browsing.page(f"{url}/", width=width, dark=dark, still=True) as page:

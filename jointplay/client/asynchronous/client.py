@@ -10,7 +10,7 @@ from jointplay.client.asynchronous.job import AsyncJob
 from jointplay.client.asynchronous.network import AwaitedNetwork
 from jointplay.client.asynchronous.verbs import awaited, each, iterated
 from jointplay.client.client import Client
-from jointplay.client.connection import Connection
+from jointplay.client.connection import LONGEST_ANSWER, Connection
 
 
 class AsyncClient:
@@ -39,7 +39,7 @@ class AsyncClient:
         url: str | None = None,
         *,
         key: str | None = None,
-        timeout: float = 60.0,
+        timeout: float = LONGEST_ANSWER,
         transport: httpx.AsyncBaseTransport | None = None,
     ) -> None:
         network = partial(AwaitedNetwork, transport=transport)
