@@ -1,4 +1,4 @@
-"""What a reader of the page would time: frames while something moves, bytes until it is there."""
+"""Numbers that a reader would notice: frames while something moves, bytes until it is there."""
 
 import statistics
 import time

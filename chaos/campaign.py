@@ -58,10 +58,6 @@ def campaign(
     """
     mix = jobs_of(seed)
     report = Report(seed, duration)
-    tell(f"computing {len(mix)} jobs undisturbed")
-    expected = {
-        number: undisturbed(job, folder / f"undisturbed-{number}") for number, job in enumerate(mix)
-    }
     installation = Installation(folder, workers, *places)
     for name in faults:
         if (hindrance := FAULTS[name].hindrance(installation)) is not None:
@@ -72,6 +68,11 @@ def campaign(
         installation.stop()
     finally:
         installation.kill()
+    submitted = {one.template for one in user.history.submissions}
+    tell(f"computing {len(submitted)} jobs undisturbed")
+    expected = {
+        number: undisturbed(mix[number], folder / f"undisturbed-{number}") for number in submitted
+    }
     tell("checking")
     report.answers = user.history.answers
     _count(installation, user.history, report)

@@ -16,7 +16,7 @@ _PORT: Final = 5432  # of PostgreSQL, where the address names none
 
 
 class NotEmpty(Exception):
-    """What a campaign was given is somebody's, or cannot be reached."""
+    """A place that a campaign was given is somebody's, or cannot be reached."""
 
 
 def require_empty(catalogue_url: str, results_url: str) -> None:

@@ -1,4 +1,4 @@
-"""What a user and the checks see of a service."""
+"""A service as a user and the checks see it."""
 
 from collections.abc import Sequence
 from typing import Protocol

@@ -1,4 +1,4 @@
-"""What linters cannot see: sizes, names, units, and what importing a package loads."""
+"""Rules that linters cannot see: sizes, names, units, and what importing a package loads."""
 
 import ast
 import re
@@ -45,6 +45,12 @@ def test_every_package_says_what_it_is_for():
         if path.name == "__init__.py" and not ast.get_docstring(ast.parse(path.read_text()))
     ]
     assert silent == []
+
+
+def test_docstrings_begin_with_what_a_thing_is():
+    """Not with a question about it, nor in the middle of a sentence."""
+    begins = re.compile(r'"""(What|Of|How) ')
+    assert [relative(path) for path in SOURCES if begins.search(path.read_text())] == []
 
 
 def test_nothing_evaluates_or_unpickles_what_it_reads():
@@ -105,7 +111,7 @@ def asked_at_once(assertion: ast.AST) -> Iterator[str]:
 
 @pytest.mark.parametrize("path", sorted((ROOT / "tests/page").glob("test_*.py")), ids=relative)
 def test_no_test_of_the_page_guesses_a_moment(path):
-    """What one sentence of a page shows, the next shows later: `expect` and `wait_for` wait."""
+    """A sentence of a page may come later than the one before: `expect` and `wait_for` wait."""
     tree = ast.parse(path.read_text())
     asserted = [node for node in ast.walk(tree) if isinstance(node, ast.Assert)]
     assert {name for one in asserted for name in asked_at_once(one)} == set()

@@ -132,11 +132,15 @@ def test_a_notebook_runs_from_its_first_to_its_last_cell(name, text, service, tm
 
 
 def test_every_file_that_the_readme_names_is_there():
-    for link in re.findall(r"\]\(([^)#]+)\)", README):
+    links = re.findall(r"\]\(([^)#]+)\)", README)
+    assert {"docs/tutorial.md", "notebooks/first_job.ipynb"} <= set(links)
+    for link in links:
         assert (ROOT / link).is_file(), link
 
 
 def test_every_target_that_the_readme_names_is_in_the_makefile():
     makefile = (ROOT / "Makefile").read_text()
-    for target in re.findall(r"make ([a-z-]+) ", README):
+    targets = re.findall(r"make ([a-z-]+)[ `]", README)
+    assert {"demo", "test", "docs", "install"} <= set(targets)
+    for target in targets:
         assert f"\n{target}:" in makefile, target

@@ -14,7 +14,7 @@ _EVERY_OTHER = """SELECT pg_terminate_backend(pid) FROM pg_stat_activity
 
 
 class BackendsTerminated(Fault):
-    """What an administrator does to every connection to the catalogue at once."""
+    """Every connection to the catalogue ended at once, as an administrator can."""
 
     def hindrance(self, installation: Installation) -> str | None:
         """Return why, unless the catalogue is in PostgreSQL."""

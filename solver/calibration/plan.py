@@ -8,7 +8,7 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.statistics import Output
 
 BYTES_PER_NUMBER, BYTES_PER_TARGET = 24, 512
-"""Of the document of results, before compression."""
+"""Sizes in the document of results, before compression."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,5 +1,6 @@
 """Schema errors as sentences: which field, and what would be right, with its unit."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, get_args, get_origin
 
@@ -8,7 +9,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from jointplay.records.failure import Problem
-from jointplay.records.suggestions import instead
+from jointplay.records.suggestions import did_you_mean, instead
 from jointplay.solver.quantities.roster import MemberOf, quoted
 from jointplay.solver.scene.unions import is_form
 
@@ -33,11 +34,11 @@ SENTENCES = {
     "list_type": "'{field}' must be a list.",
     "dict_type": "'{field}' must be an object.",
     "model_type": "'{field}' must be an object.",
-    "literal_error": "'{field}' must be {expected}.",
-    "union_tag_invalid": "'type' must be one of {expected_tags}.",
+    "literal_error": "'{field}' must be {expected}{meant}",
+    "union_tag_invalid": "'type' must be one of {expected_tags}{meant}",
     "union_tag_not_found": f"The field 'type' is required: {quoted([*JOINTS])}.",
-    "too_short": "'{field}' needs at least {min_length} entries.",
-    "too_long": "'{field}' may have at most {max_length} entries.",
+    "too_short": "'{field}' has {actual_length} entries, and needs at least {min_length}.",
+    "too_long": "'{field}' has more entries than the {max_length} that it may have.",
     "string_too_long": "'{field}' may have at most {max_length} characters.",
     "string_too_short": "'{field}' must not be empty.",
     "string_pattern_mismatch": (
@@ -87,7 +88,18 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
     if r"\." in context.get("pattern", ""):
         kind = "reference"
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
-    return SENTENCES[kind].format(field=field, given=item["input"], **units, **context)
+    more = units | {"meant": _meant_word(item)}
+    return SENTENCES[kind].format(field=field, given=item["input"], **more, **context)
+
+
+def _meant_word(item: ErrorDetails) -> str:
+    """Return the end of a sentence on a wrong word: which of the expected may have been meant."""
+    context = item.get("ctx", {})
+    given = context.get("tag", item["input"])
+    expected = context.get("expected_tags", context.get("expected", ""))
+    words = re.findall("'([^']+)'", expected)
+    near = did_you_mean(given, words) if isinstance(given, str) else ""
+    return f"; {near}" if near else "."
 
 
 def _place(location: list[str]) -> list[str]:

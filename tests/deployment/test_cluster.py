@@ -1,4 +1,4 @@
-"""What can be checked of the compose file for a cluster where no Docker engine runs."""
+"""Checks of the compose file for a cluster where no Docker engine runs."""
 
 import importlib.util
 import json

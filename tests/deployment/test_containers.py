@@ -1,4 +1,4 @@
-"""What can be checked of image and compose file where no Docker engine runs."""
+"""Checks of image and compose file where no Docker engine runs."""
 
 import importlib.util
 import os

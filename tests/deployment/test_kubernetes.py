@@ -1,4 +1,4 @@
-"""What can be checked of the Kubernetes manifest where there is no cluster."""
+"""Checks of the Kubernetes manifest where there is no cluster."""
 
 from contextlib import closing
 from dataclasses import replace

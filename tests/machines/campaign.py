@@ -100,7 +100,7 @@ def _clear_up(cluster: Cluster, catalogue: Catalogue) -> None:
         while time.monotonic() - began < PATIENCE and [
             *left_after(cluster.settings, catalogue, grace=0.0)
         ]:
-            time.sleep(1.0)
+            time.sleep(1.0)  # each look lists the bucket
 
 
 def _strike(
@@ -126,10 +126,10 @@ def _strike(
             report.wrong += [f"job {one.job} is {one.state} for ever" for one in user.history.open]
             return
         if not any(one.state == "running" for one in user.history.open):  # nothing to disturb yet
-            time.sleep(0.2)
+            time.sleep(0.2)  # the processors are for the workers
             continue
         strike = next(strikes)
-        time.sleep(strike.pause)
+        time.sleep(strike.pause)  # as drawn: that faults come after another is what is tried
         one = _one(cluster, catalogue, strike, drawn, time.monotonic() - begun)
         report.struck.append(one)
         tell(
@@ -149,7 +149,7 @@ def _one(
     held = {machine: taken_over(cluster, machine) for machine in cluster.machines}
     began = time.monotonic()
     with FAULTS[strike.fault].strike(cluster, drawn) as machine:
-        time.sleep(strike.lasts)
+        time.sleep(strike.lasts)  # as drawn: leases run out in the longer ones
     over = time.monotonic()
     if machine is None:
         again = everybody.wait(over)

@@ -1,4 +1,4 @@
-"""How soon work goes on that a fault has stopped, and how soon a machine works again."""
+"""Times until work goes on that a fault has stopped, and until a machine works again."""
 
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -44,7 +44,7 @@ def back(cluster: Cluster, machine: Machine, since: float) -> float | None:
             try:
                 blocks = _open_blocks(catalogue)
             except Unavailable:
-                time.sleep(_LOOK)
+                time.sleep(_LOOK)  # nothing tells when the database is back
                 continue
             now = {one.id: (one.attempt, one.progress_fraction) for one in blocks}
             first = now if first is None else first
@@ -52,7 +52,7 @@ def back(cluster: Cluster, machine: Machine, since: float) -> float | None:
             here = [one for one in blocks if is_of(machine, one)]
             if any(first.get(one.id) != now[one.id] for one in here) or not (here or waits):
                 return time.monotonic() - since
-            time.sleep(_LOOK)
+            time.sleep(_LOOK)  # the times that are reported are as fine as this
         return None
     finally:
         catalogue.close()

@@ -27,7 +27,7 @@ NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?")
 
 
 class Page(HTMLParser):
-    """What a test wants to know of the report."""
+    """Facts of the report that tests ask for."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -70,9 +70,19 @@ class Page(HTMLParser):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """Folder of a quick reproduction that went on after a signal, and the page that it names."""
+    """Folder of a quick reproduction, and the page that it names."""
     folder = tmp_path_factory.mktemp("reproduce") / "out"
-    begin = [*REPRODUCE, "--quick", "-o", str(folder), "--json"]
+    ended = subprocess.run(
+        [*REPRODUCE, "--quick", "-o", str(folder), "--json"], capture_output=True, text=True
+    )
+    assert ended.returncode == 0, ended.stderr
+    return folder, json.loads(ended.stdout)["report"]
+
+
+@pytest.mark.long
+def test_a_reproduction_goes_on_after_a_signal(tmp_path):
+    folder = tmp_path / "out"
+    begin = [*REPRODUCE, "--quick", "-o", str(folder), "--json", "--processes", "1"]
     with subprocess.Popen(begin, stderr=subprocess.PIPE, text=True) as process:
         until(lambda: process.poll() is not None or len(stores_in(folder)) > 2)
         process.send_signal(signal.SIGTERM)
@@ -84,7 +94,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     ended = subprocess.run(go_on, capture_output=True, text=True)
     assert ended.returncode == 0, ended.stderr
     assert there.items() <= stores_in(folder).items()  # what was there is not computed again
-    return folder, json.loads(ended.stdout)["report"]
+    assert (folder / PAGE).is_file()
 
 
 def stores_in(folder: Path) -> dict[Path, int]:

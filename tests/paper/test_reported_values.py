@@ -1,4 +1,4 @@
-"""What the publication prints, as the report takes it."""
+"""Values that the publication prints, as the report takes them."""
 
 import math
 

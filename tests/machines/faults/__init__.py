@@ -8,14 +8,14 @@ from tests.machines.faults.broker_lost import BrokerLost
 from tests.machines.faults.clock_set import ClockSet
 from tests.machines.faults.database import BackendsTerminated, DatabaseRestarted
 from tests.machines.faults.machine_killed import MachineKilled
-from tests.machines.faults.network import BlackHole, LinkCut
+from tests.machines.faults.network import BLACK_HOLE, LINK_CUT, Unreachable
 from tests.machines.faults.store_refuses import StoreRefuses
 
 FAULTS = {
-    "link-cut": LinkCut(),
-    "servers-link-cut": LinkCut(servers=True),
-    "black-hole": BlackHole(),
-    "servers-black-hole": BlackHole(servers=True),
+    "link-cut": Unreachable(LINK_CUT),
+    "servers-link-cut": Unreachable(LINK_CUT, servers=True),
+    "black-hole": Unreachable(BLACK_HOLE),
+    "servers-black-hole": Unreachable(BLACK_HOLE, servers=True),
     "machine-killed": MachineKilled(),
     "database-restarted": DatabaseRestarted(),
     "backends-terminated": BackendsTerminated(),

@@ -1,45 +1,47 @@
 """Machines that others cannot reach for a while."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from random import Random
+from typing import NamedTuple
 
 from tests.machines.cluster import Cluster
 from tests.machines.machine import Machine
+from tests.machines.network import Port
+
+
+class Way(NamedTuple):
+    """A way in which a port is cut off, and comes back; shortest and longest time [s]."""
+
+    begin: Callable[[Port], None]
+    end: Callable[[Port], None]
+    lasts: tuple[float, float]
+
+
+LINK_CUT = Way(Port.pull_out, Port.plug_in, (3.0, 25.0))
+"""An interface that is down, which the machine's own processes are told."""
+BLACK_HOLE = Way(Port.leave, Port.join, (60.0, 60.0))
+"""A network that swallows what is sent, both ways, and tells nobody."""
 
 
 @dataclass(frozen=True)
-class LinkCut:
-    """An interface that is down, which the machine's own processes are told."""
+class Unreachable:
+    """One machine, or that of the servers, cut off in one way."""
 
+    way: Way
     servers: bool = False
-    lasts = (3.0, 25.0)
+
+    @property
+    def lasts(self) -> tuple[float, float]:
+        return self.way.lasts
 
     @contextmanager
     def strike(self, cluster: Cluster, drawn: Random) -> Iterator[Machine | None]:
         machine = None if self.servers else drawn.choice(cluster.machines)
         port = cluster.servers.port if machine is None else machine.port
-        port.pull_out()
+        self.way.begin(port)
         try:
             yield machine
         finally:
-            port.plug_in()
-
-
-@dataclass(frozen=True)
-class BlackHole:
-    """A network that swallows what is sent, both ways, and tells nobody."""
-
-    servers: bool = False
-    lasts = (60.0, 60.0)
-
-    @contextmanager
-    def strike(self, cluster: Cluster, drawn: Random) -> Iterator[Machine | None]:
-        machine = None if self.servers else drawn.choice(cluster.machines)
-        port = cluster.servers.port if machine is None else machine.port
-        port.leave()
-        try:
-            yield machine
-        finally:
-            port.join()
+            self.way.end(port)

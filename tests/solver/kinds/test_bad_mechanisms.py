@@ -66,6 +66,22 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
         "/forces/spring/second",
         ["did you mean 'crank'?"],
     ),
+    "a misspelt type of joint": (
+        {"/joints/A/type": "revolut"},
+        "/joints/A",
+        ["'type' must be one of 'revolute', 'prismatic'", "did you mean 'revolute'?"],
+    ),
+    "a misspelt law": (
+        {"/joints/A/clearance": PLAY | {"contact": {"law": "lankarani-nikraves"}}},
+        "/joints/A/clearance/contact/law",
+        ["did you mean 'lankarani-nikravesh'?"],
+    ),
+    "gravity in space": (
+        {"/gravity": [0.0, -9.81, 0.0]},
+        "/gravity",
+        ["'gravity' has more entries than the 2 that it may have."],
+    ),
+    "no bodies": ({"/bodies": {}}, "/bodies", ["has 0 entries, and needs at least 1."]),
     "a spring that pushes": (
         {"/forces": {"spring": SPRING | {"stiffness": -5.0}}},
         "/forces/spring/stiffness",

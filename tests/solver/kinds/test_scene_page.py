@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
+import pytest
 
 from jointplay.solver.kinds import admit
 from jointplay.solver.scene import document, drivers, joints, presets
@@ -50,7 +51,8 @@ def test_every_stage_is_a_scene_and_the_last_one_runs() -> None:
     assert freedom == [(False, nothing)] * 2 + [(True, nothing)] + [(True, ("small",))] * 3
     ended = run(stages()[-1], 0.02)
     assert ended.statistics["onsets"] > 0
-    assert ended.peaks["stroke"].maximum > 100.0  # mm
+    stroke, place = ended.peaks["stroke"], ended.peaks["slider.x"]
+    assert stroke.maximum == pytest.approx(place.maximum - 0.3, abs=1e-9)
 
 
 def test_it_names_every_field_of_a_scene() -> None:
