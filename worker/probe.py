@@ -29,7 +29,7 @@ from jointplay.worker.execute import Answer, Outcome, Progress, execute
 from jointplay.worker.study_block import computation_of
 
 BUDGET = 0.5
-"""Seconds of computing spent on one estimate."""
+"""Seconds of computing spent on one estimate; more where nothing has moved by then."""
 _MOST_BLOCKS = 3
 """Blocks of a study of which the beginning is computed: first, middle and last."""
 _BEGINNING = 0.2
@@ -117,7 +117,8 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
     def report(progress: Progress) -> Answer:
         spent = time.process_time() - began
         marks.append(Mark(spent, progress.fraction, progress.steps() or 0))
-        return Answer.cancel if len(marks) > 1 and spent > budget else Answer.go_on
+        moved = len(marks) > 1 and progress.fraction > 0.0
+        return Answer.cancel if moved and spent > budget else Answer.go_on
 
     with tempfile.TemporaryDirectory(prefix="jointplay-", dir=_scratch()) as name:
         target = StoredObject(Folder(name), "store.zip")
@@ -182,7 +183,7 @@ def _run_block(study: Study, index: int, budget: float) -> tuple[list[Mark], str
         for point in piece.ended:
             failure = failure or (f"Point {point.point}: {point.detail}" if point.code else None)
         marks.append(Mark(run.seconds, piece.fraction, run.steps))
-        if run.seconds > budget:
+        if run.seconds > budget and piece.fraction > 0.0:
             break
     return marks, failure
 
