@@ -1,4 +1,4 @@
-"""Everything that `make test` checks, four steps side by side, with the time of each.
+"""Everything that `make test` checks, six steps side by side, with the time of each.
 
 Run as ``python -m tests.everything [STEP ...]``; without a step, all of them. A third of the tests
 wait (for leases, restarts, shutdowns) while the others compute. Processor seconds are those of the
@@ -108,7 +108,7 @@ def main() -> int:
         print("there are these steps: " + ", ".join(step.name for step in steps()))
         return 2
     begun = time.monotonic()
-    with ThreadPoolExecutor(4) as pool:
+    with ThreadPoolExecutor(6) as pool:
         for done in as_completed([pool.submit(step.run) for step in run]):
             step = done.result()
             print(f"\n== {step.name}\n{step.output}", flush=True)

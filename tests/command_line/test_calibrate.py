@@ -52,6 +52,7 @@ def document(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.long
 def test_a_preset_is_fitted_to_a_number_that_is_typed(jointplay):
     ended = jointplay("calibrate", *BOUNCE, *FIT, "--target", f"{FORCE}={WANTED}", *QUICK)
     assert ended.code == 0, ended.err

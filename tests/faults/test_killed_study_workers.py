@@ -22,14 +22,14 @@ from jointplay.worker.study_block import layout_of, run_block
 from tests.stores import files_of, packed, target
 from tests.waiting import until
 
-# two blocks of some two seconds of computing each; contacts at both joints all along
+# two blocks of more than a second of computing each; contacts at both joints all along
 JOB = {
     "kind": "bifurcation",
     "scene": {"preset": "seven-bar-press", "parameters": {"friction": 0.1}},
     "parameter": "clearance",
     "values": {"from": 2e-4, "to": 1e-3, "count": 16},
     "settle": 50,
-    "record": 250,
+    "record": 150,
 }
 
 

@@ -127,6 +127,7 @@ def test_a_grid_that_was_asked_for_by_ratio_is_drawn_so_however_short():
     assert axes.get_xscale() == "linear"
 
 
+@pytest.mark.long
 def test_vectors_for_journals_have_the_same_bytes_in_every_process():
     here = {form: figures.render(MOTION, "stroke", form) for form in ("pdf", "eps")}
     code = (

@@ -11,6 +11,7 @@ AT_LENGTH = (
     "press, an unlucky step",
     "press, fixed steps",
     "pendulum at the longest step",
+    "slider-crank, friction full at 0.0001 m/s",
     "slider-crank, friction full at 1e-05 m/s",
     "slider-crank, friction full at 3e-05 m/s",
     "slider-crank, rare impacts",
