@@ -1,6 +1,6 @@
 """Results in a bucket: objects, times and rates, and how far readers of a running job are behind.
 
-    python -m benchmarks bucket [--samples 10000000]
+    python -m benchmarks bucket [--samples 10000000 ...]
 
 SeaweedFS on loopback, the catalogue SQLite. A press job is one revolution. Its results are packed,
 which is the end of computing, and then published: sent, and told to the catalogue. Many of them
@@ -180,7 +180,9 @@ def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
             window = reader.history(["rod.theta"], start=block.watermark - 1000)
             assert len(window[0]) == 1000
             reading.append(time.perf_counter() - begun)
-            objects = max(objects, sum(1 for _ in settings.place.list("running/")))
+            objects = max(
+                objects, sum(1 for _ in settings.place.list(f"running/{job[-2:]}/{job}/"))
+            )
         time.sleep(LOOK)
     puts, size, seconds, packed, published, before = results.get(timeout=60)
     process.join()
@@ -204,7 +206,9 @@ def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
 def main() -> None:
     """Print all of it."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks bucket")
-    parser.add_argument("--samples", type=int, default=10_000_000)
+    parser.add_argument(
+        "--samples", type=int, nargs="+", default=[10_000_000], help="of long jobs, one a number"
+    )
     samples = parser.parse_args().samples
     with tempfile.TemporaryDirectory() as name, running_store() as endpoint:
         folder = Path(name)
@@ -213,7 +217,8 @@ def main() -> None:
         catalogue = Catalogue(settings.catalogue_url)
         catalogue.migrate()
         press_jobs(settings, catalogue)
-        long_job(settings, catalogue, samples)
+        for number in samples:
+            long_job(settings, catalogue, number)
         catalogue.close()
         for where, place in (("bucket", together), ("folder", f"file:{folder / 'results'}")):
             found = many_jobs(folder / where, place)

@@ -14,13 +14,14 @@ from dataclasses import dataclass, field
 from datetime import timedelta
 from functools import lru_cache
 from importlib.util import find_spec
+from io import BytesIO
 from typing import TYPE_CHECKING, Final, Literal
 from urllib.parse import parse_qsl, urlsplit
 
 if TYPE_CHECKING:
     from obstore.store import RetryConfig, S3Store
 
-_IN_MEMORY: Final = 2**24
+_IN_MEMORY: Final = 2**22
 """Bytes of an object that is gathered in memory; of a larger one the system has the pages."""
 _RETRIES: "Final[RetryConfig]" = {"max_retries": 5, "retry_timeout": timedelta(seconds=20)}
 _OPTIONS: Final = {"endpoint", "region"}
@@ -145,17 +146,9 @@ class Bucket:
         import obstore
         from obstore.exceptions import AlreadyExistsError
 
-        with tempfile.SpooledTemporaryFile(max_size=_IN_MEMORY) as gathered:
-            for piece in pieces:
-                gathered.write(piece)
-            size = gathered.tell()
-            gathered.seek(0)
-            mapped = None
-            if size > _IN_MEMORY:
-                mapped = mmap.mmap(gathered.fileno(), 0, access=mmap.ACCESS_READ)
-            content = gathered.read() if mapped is None else mapped
-            with _answering(key, AlreadyExistsError):
-                obstore.put(self._store, key, content, mode=mode, use_multipart=False)
+        content = _gathered(pieces)
+        with _answering(key, AlreadyExistsError):
+            obstore.put(self._store, key, content, mode=mode, use_multipart=False)
 
     @property
     def _store(self) -> "S3Store":
@@ -177,6 +170,25 @@ def _opened(parts: tuple[str, str, tuple[tuple[str, str], ...]], _process: int) 
         client_options={"allow_http": True, "connect_timeout": "5s", "timeout": "120s"},
         retry_config=_RETRIES,
     )
+
+
+def _gathered(pieces: Iterable[bytes]) -> bytes | mmap.mmap:
+    """Return all pieces as one: many bytes in a file without a name, which ends with its use."""
+    pieces, memory = iter(pieces), BytesIO()
+    for piece in pieces:
+        memory.write(piece)
+        if memory.tell() > _IN_MEMORY:
+            break
+    content = memory.getvalue()  # takes the bytes over, without a copy
+    if len(content) <= _IN_MEMORY:
+        return content
+    with tempfile.TemporaryFile() as file:
+        file.write(content)
+        del content
+        memory.close()
+        file.writelines(pieces)
+        file.flush()
+        return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
 
 
 @contextmanager

@@ -14,10 +14,12 @@ import hashlib
 import json
 import os
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Final
 from zlib import crc32
+
+import numpy as np
 
 from jointplay.records.checkpoint import encode
 from jointplay.storage.durable import sync
@@ -57,35 +59,25 @@ class Journal:
         durable = [table.durable for table in tables]
         if durable != self._durable:
             self._begin(durable)
-        frame = b"".join(
-            part
-            for table, first in zip(tables, self._journalled, strict=True)
-            for part in _frame(table, first)
-        )
-        checksum = self._checksum
-        if self._size == 0:
-            checksum = crc32(self._files.owner)
-            frame = _header(tables, checksum) + frame
-        checksum = crc32(frame, checksum)
-        frame += CHECKSUM.pack(checksum)
-        path = self._path(self._generation)
-        descriptor = os.open(path, os.O_WRONLY | os.O_CREAT, 0o666)
-        try:
-            view = memoryview(frame)
-            offset = self._size
-            while view:
-                written = os.pwrite(descriptor, view, offset)
-                view, offset = view[written:], offset + written
-            os.ftruncate(descriptor, offset)
+        checksum = self._checksum if self._size else crc32(self._files.owner)
+        digest, size = self._hash.copy(), self._size
+        descriptor = os.open(self._path(self._generation), os.O_WRONLY | os.O_CREAT, 0o666)
+        with open(descriptor, "wb") as file:
+            file.seek(size)
+            for piece in self._pieces(tables):
+                checksum = crc32(piece, checksum)
+                digest.update(piece)
+                size += file.write(piece)
+            end = CHECKSUM.pack(checksum)
+            digest.update(end)
+            size += file.write(end)
+            file.truncate()  # of a checkpoint that could not be written there may be more
+            file.flush()
             os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
         if self._size == 0:
             sync(self._folder)
             sync(self._folder.parent)
-        self._size += len(frame)
-        self._checksum = checksum
-        self._hash.update(frame)
+        self._size, self._checksum, self._hash = size, checksum, digest
         self._journalled = [table.rows for table in tables]
         token = {
             "generation": self._generation,
@@ -104,6 +96,15 @@ class Journal:
         self._journalled = list(durable)
         self._path(self._generation - _KEPT_GENERATIONS).unlink(missing_ok=True)
 
+    def _pieces(self, tables: Sequence[GrowingTable]) -> Iterator[bytes | memoryview]:
+        """Give what a checkpoint adds, without copies: what waits is most of a worker's memory."""
+        if self._size == 0:
+            yield _header(tables, crc32(self._files.owner))
+        for table, first in zip(tables, self._journalled, strict=True):
+            yield ROWS.pack(table.rows - first)
+            for column in table.pending(first):
+                yield column.view(np.uint8).data
+
     def _path(self, generation: int) -> Path:
         return self._folder / f"{generation:08d}"
 
@@ -113,8 +114,3 @@ def _header(tables: Sequence[GrowingTable], checksum: int) -> bytes:
     known = {"durable": [table.durable for table in tables], "row_bytes": row_bytes}
     line = json.dumps(known).encode()
     return b"%08x %s\n" % (crc32(line, checksum), line)
-
-
-def _frame(table: GrowingTable, first: int) -> list[bytes]:
-    columns = [column.tobytes() for column in table.pending(first)]
-    return [ROWS.pack(table.rows - first), *columns]

@@ -120,7 +120,7 @@ class InPlace:
         return offset + self.place.size(key)
 
     def _joined(self, name: str) -> bytes:
-        content = b""
+        content = bytearray()
         pieces = self._pieces(name)
         ends = [offset for offset, _ in pieces[1:]]
         for (offset, key), end in zip(pieces, [*ends, None], strict=True):
@@ -128,8 +128,9 @@ class InPlace:
                 continue
             piece = self.place.read(key, 0, self.place.size(key))
             if offset + len(piece) > len(content):
-                content = content[:offset] + piece
-        return content
+                del content[offset:]
+                content += piece
+        return bytes(content)
 
     def _pieces(self, name: str) -> list[tuple[int, str]]:
         """Return offset and key of each piece, in order; FileNotFoundError if there is none."""

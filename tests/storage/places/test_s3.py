@@ -1,6 +1,7 @@
 """Results in a bucket of an S3-compatible store."""
 
 import os
+import tracemalloc
 from collections.abc import Callable
 from datetime import timedelta
 
@@ -52,7 +53,11 @@ def test_an_object_that_memory_should_not_hold_is_stored_and_adopted(
 ) -> None:
     place = place_at(new_address())
     large = os.urandom(17 * 2**20)
-    place.put(KEY, pieces(large))
+    tracemalloc.start()
+    place.put(KEY, (large[at : at + 2**20] for at in range(0, len(large), 2**20)))
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 2**23  # 4 MiB and a piece, and room in which they grow
     assert place.size(KEY) == len(large)
     assert place.read(KEY, 2**24 - 5, 2**24 + 5) == large[2**24 - 5 : 2**24 + 5]
     assert place.adopt("2R/other", KEY)

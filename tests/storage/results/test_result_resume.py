@@ -3,6 +3,7 @@
 import os
 import shutil
 import tempfile
+import tracemalloc
 from itertools import count, pairwise
 from pathlib import Path
 
@@ -160,6 +161,21 @@ def test_a_checkpoint_is_small_whatever_waits(tmp_path):
     run.append(writer, 0.0, 0.5)
     assert (writer.samples, ResultReader(tmp_path / "store").samples) == (5000, 0)
     assert len(writer.checkpoint()) < 1000
+
+
+def test_a_checkpoint_takes_no_copy_of_what_waits(tmp_path):
+    layout = made_up_layout(samples=200_000, sections=0, partition=Partition())
+    run = MadeUpRun(layout, made_up_impacts(10))
+    writer = ResultWriter.create(tmp_path / "store", layout)
+    run.append(writer, 0.0, 0.5)
+    waiting = 100_000 * 3 * 8
+    tracemalloc.start()
+    writer.checkpoint()
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    (journal,) = (tmp_path / "store" / "parts").iterdir()
+    assert journal.stat().st_size > waiting
+    assert peak < waiting / 20  # buffers of files, and what finds the rows again
 
 
 def test_taking_over_copies_where_it_cannot_link(tmp_path, tmp_path_factory):
