@@ -2,6 +2,7 @@
 
 ``documents.zip`` holds the documents and is replaced; ``rows`` has a packed file for the chunks of
 all columns at one place, such as ``history-3.zip``, which is written once, when they are full.
+Chunks of extremes are small: one file has those of several places, such as ``pyramid-64-8-11.zip``.
 """
 
 import json
@@ -26,6 +27,8 @@ ROWS: Final = "rows"
 PARTS: Final = "parts"
 """Folder of what is not stored yet: the journal of a run, the parts of a study's blocks."""
 _PATIENCE: Final = 100
+_TOGETHER: Final = {"pyramid": 4}
+"""Places in one file, by the first part of the group's name."""
 Found = TypeVar("Found")
 
 
@@ -78,12 +81,12 @@ class Running:
         durable.write(self.folder / DOCUMENTS, pack(entries), lasting=False)
 
     def write(self, entries: Iterable[tuple[str, bytes]], key: str) -> None:
-        """Write the chunks that stand at one place, that of a key; durable on return."""
+        """Write the chunks that share a file with that of a key; durable on return."""
         self._sync_folders()
         durable.write(self._path(key), pack(entries, self.owner))
 
     def adopt(self, lost: "Running", key: str) -> None:
-        """Take over the chunks at one place from a lost attempt's store; durable on return.
+        """Take over a lost attempt's file with the chunk of a key; durable on return.
 
         Raises
         ------
@@ -107,7 +110,7 @@ class Running:
 
     @staticmethod
     def file_of(key: str) -> str:
-        """Name the file of the chunks at the place of a key, below the folder."""
+        """Name the file that has the chunk of a key, below the folder."""
         return f"{ROWS}/{_name(key)}"
 
     def shards(self, pattern: str) -> int:
@@ -118,16 +121,16 @@ class Running:
         LostObject
             One is gone: the one behind it is there.
         """
-        found = 0
+        found, step = 0, places_in_file(pattern)
         while self.has(pattern.format(found)):
-            found += 1
+            found += step
         lost = pattern.format(found)
-        if self.has(pattern.format(found + 1)) and not self.has(lost):
+        if self.has(pattern.format(found + step)) and not self.has(lost):
             raise LostObject(f"{self.name} lacks {lost}, which had been written")
         return found
 
     def check(self, key: str) -> None:
-        """Compare the chunks at the place of a key with their checksums.
+        """Compare the chunks that share a file with that of a key with their checksums.
 
         Raises
         ------
@@ -155,7 +158,7 @@ class Running:
                 packed.read(key)
 
     def chunks(self, key: str) -> Iterator[tuple[str, bytes]]:
-        """Yield key and content of all chunks at the place of a key."""
+        """Yield key and content of all chunks that share a file with that of a key."""
         found = self._pack(key)
         for one in found:
             yield one, found.read(one)
@@ -278,8 +281,16 @@ def owner_in(attributes: Mapping[str, Any]) -> str:
     return str(attributes.get("layout") or attributes.get("digest") or "")
 
 
+def places_in_file(key: str) -> int:
+    """Count the places, one behind the other, whose chunks share a file with that of a key."""
+    return _TOGETHER.get(key.partition("/")[0], 1)
+
+
 def _name(key: str) -> str:
     """Name the packed file of a chunk by its group and its place in the grid of chunks."""
     array, _, place = key.rpartition("/c/")
     group = array.rpartition("/")[0] or "history"
+    if (count := places_in_file(key)) > 1:
+        first = int(place.partition("/")[0]) // count * count
+        place = f"{first}-{first + count - 1}"
     return f"{group}-{place}.zip".replace("/", "-")

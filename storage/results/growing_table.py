@@ -1,4 +1,4 @@
-"""Rows of one table on their way to the disk: buffered until a whole shard of them is there."""
+"""Rows of one table on their way to the disk: buffered until a whole file of them is there."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.storage.errors import CheckpointMismatch, InvalidAppend
-from jointplay.storage.packed.running import Running
+from jointplay.storage.packed.running import Running, places_in_file
 from jointplay.storage.results import shards
 from jointplay.storage.results.tables import Table
 
@@ -32,11 +32,12 @@ class GrowingTable:
         self.durable = 0
         self.rows = 0
         self._files = files
-        self._shard_rows = table.shard_rows
-        self._buffers = [np.empty(self._shard_rows, column.dtype) for column in table.columns]
+        self._file_shards = places_in_file(self.shard_keys(0)[0])
+        self._file_rows = table.shard_rows * self._file_shards
+        self._buffers = [np.empty(self._file_rows, column.dtype) for column in table.columns]
 
     def append(self, columns: Columns) -> None:
-        """Add rows, writing every shard that fills up but the one with the table's last rows.
+        """Add rows, writing every file that fills up but the one with the table's last rows.
 
         That one goes right into the sealed store.
 
@@ -49,13 +50,13 @@ class GrowingTable:
         taken = 0
         while taken < count:
             start = self.rows - self.durable
-            step = min(self._shard_rows - start, count - taken)
+            step = min(self._file_rows - start, count - taken)
             for buffer, column in zip(self._buffers, columns, strict=True):
                 buffer[start : start + step] = column[taken : taken + step]
             taken += step
             self.rows += step
-            if self.rows - self.durable == self._shard_rows and self.rows != self.table.capacity:
-                self._write_shard()
+            if self.rows - self.durable == self._file_rows and self.rows != self.table.capacity:
+                self._write()
 
     def check_capacity(self, count: int) -> None:
         """Raise `InvalidAppend` if that many more rows are more than the layout has."""
@@ -80,8 +81,7 @@ class GrowingTable:
         CheckpointMismatch
             A shard of these rows is not there.
         """
-        for index in range(durable // self._shard_rows):
-            (key, *_) = self.shard_keys(index)
+        for key in self._files_of(durable):
             try:
                 self._files.adopt(lost, key)
             except FileNotFoundError as error:
@@ -92,25 +92,34 @@ class GrowingTable:
 
     def files(self) -> Iterator[tuple[str, bytes]]:
         """Give key and content of every file of the table, in order of their rows."""
-        for index in range(self.durable // self._shard_rows):
-            yield from self._files.chunks(self.shard_keys(index)[0])
-        if self.rows > self.durable:
-            yield from self._next_shard()
+        for key in self._files_of(self.durable):
+            yield from self._files.chunks(key)
+        yield from self._waiting()
 
     def shard_keys(self, index: int) -> list[str]:
-        """Name the files that hold a shard of every column."""
+        """Name the chunks of a shard: by default one of every column."""
         return [f"{self.table.key(column.name)}/c/{index}" for column in self.table.columns]
 
-    def _write_shard(self) -> None:
-        self._files.write(self._next_shard(), self.shard_keys(self.durable // self._shard_rows)[0])
+    def _files_of(self, durable: int) -> list[str]:
+        """Give the key of the first chunk in each file of so many rows."""
+        shard_rows, together = self.table.shard_rows, self._file_shards
+        return [self.shard_keys(index)[0] for index in range(0, durable // shard_rows, together)]
+
+    def _write(self) -> None:
+        self._files.write(
+            self._waiting(), self.shard_keys(self.durable // self.table.shard_rows)[0]
+        )
         self.durable = self.rows
 
-    def _next_shard(self) -> Iterator[tuple[str, bytes]]:
-        """Encode the waiting rows as the files of the next shard."""
-        keys = self.shard_keys(self.durable // self._shard_rows)
-        return zip(keys, self._contents(), strict=True)
+    def _waiting(self) -> Iterator[tuple[str, bytes]]:
+        """Encode the waiting rows as the chunks of the next shards."""
+        rows = self.table.shard_rows
+        for first in range(self.durable, self.rows, rows):
+            begin = first - self.durable
+            columns = [column[begin : begin + rows] for column in self.pending()]
+            yield from zip(self.shard_keys(first // rows), self._contents(columns), strict=True)
 
-    def _contents(self) -> Iterator[bytes]:
-        """Encode the waiting rows of each column, in the order of `shard_keys`."""
-        for rows in self.pending():
-            yield shards.encode(rows, self.table.chunk_rows, self._shard_rows)
+    def _contents(self, columns: Columns) -> Iterator[bytes]:
+        """Encode the rows of one shard, in the order of `shard_keys`."""
+        for rows in columns:
+            yield shards.encode(rows, self.table.chunk_rows, self.table.shard_rows)

@@ -7,7 +7,7 @@ it holds all columns of some buckets. It is no part of what clients are shown: `
 reads it itself.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any, Final
 
 import numpy as np
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from jointplay.records.names import TIME
 from jointplay.storage.packed.running import Running
 from jointplay.storage.results import metadata, shards
-from jointplay.storage.results.growing_table import GrowingTable
+from jointplay.storage.results.growing_table import Columns, GrowingTable
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.metadata import DOUBLE
 from jointplay.storage.results.tables import Column, Table
@@ -28,8 +28,6 @@ FACTOR: Final = 16
 """Buckets of one level that make a bucket of the next."""
 
 _FEWEST: Final = 16  # buckets of the coarsest level
-
-Columns = Sequence[NDArray[Any]]
 
 
 class Level(GrowingTable):
@@ -59,7 +57,7 @@ class Level(GrowingTable):
         super().__init__(Table(group, "bucket", columns, None, rows, rows, {}), files)
 
     def shard_keys(self, index: int) -> list[str]:
-        """Name the one file of a shard, which holds all columns."""
+        """Name the one chunk of a shard, which holds all columns."""
         return [f"{self.table.key(ARRAY)}/c/{index}/0"]
 
     def document(self) -> tuple[str, metadata.Document]:
@@ -74,8 +72,7 @@ class Level(GrowingTable):
             shard=[rows, width],
         )
 
-    def _contents(self) -> Iterator[bytes]:
-        columns = self.pending()
+    def _contents(self, columns: Columns) -> Iterator[bytes]:
         rows = self.table.shard_rows
         whole = np.full((rows, 2), np.nan)
         chunks = []

@@ -12,7 +12,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import metadata, shards
-from jointplay.storage.results.growing_table import GrowingTable
+from jointplay.storage.results.growing_table import Columns, GrowingTable
 from jointplay.storage.results.metadata import DOUBLE
 from jointplay.storage.results.tables import Column, Table
 from jointplay.storage.results.waiting import Waiting
@@ -49,7 +49,7 @@ class WideTable(GrowingTable):
         super().__init__(Table(group, group[:-1], named, None, rows, rows, dict(attributes)), files)
 
     def shard_keys(self, index: int) -> list[str]:
-        """Name the one file of a shard, which holds all columns."""
+        """Name the one chunk of a shard, which holds all columns."""
         return [f"{self.table.key(ARRAY)}/c/{index}/0"]
 
     def document(self) -> tuple[str, metadata.Document]:
@@ -66,10 +66,10 @@ class WideTable(GrowingTable):
             compressor=shards.FAST,
         )
 
-    def _contents(self) -> Iterator[bytes]:
+    def _contents(self, columns: Columns) -> Iterator[bytes]:
         whole = np.full(self.table.shard_rows, np.nan)
         chunks = []
-        for column in self.pending():
+        for column in columns:
             whole[: len(column)] = column
             chunks.append(shards.compress(whole, fast=True))
         yield shards.pack(chunks)

@@ -10,7 +10,7 @@ from typing import Final, Self, TypeVar
 
 from jointplay.storage.places import Place, StoredObject
 
-_MOST_PIECES: Final = 64
+_MOST_PIECES: Final = 16
 """Objects of one file, after which all of it is put as one again."""
 _FIRST: Final = f"+{0:012d}"
 Answer = TypeVar("Answer")

@@ -10,6 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from zarr.storage import ZipStore
 
+from jointplay.storage.errors import LostObject
+from jointplay.storage.packed.running import Running, owner_in
 from jointplay.storage.results.layout import Partition
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.writer import ResultWriter
@@ -83,6 +85,20 @@ def test_a_growing_history_has_them_too(memory, run, stop):
     reader = ResultReader(memory / "store", writer.samples)
     for points in (1, 7, 300):
         check(run, reader, 0, writer.samples, points)
+
+
+def test_while_it_grows_a_file_has_chunks_of_four_places(memory, run):
+    writer = ResultWriter.create(memory / "store", run.layout)
+    run.append(writer, 0.0, 0.4)
+    found = sorted(path.name for path in (memory / "store" / "rows").glob("pyramid-4-*"))
+    whole = writer.samples // (4 * 32 * 4)  # samples of a bucket, buckets of a chunk, chunks
+    assert found == sorted(f"pyramid-4-{4 * k}-{4 * k + 3}.zip" for k in range(whole))
+    growing = Running(memory / "store", owner=owner_in(run.layout.attributes))
+    pattern = "pyramid/4/extremes/c/{}/0"
+    assert growing.shards(pattern) == 4 * whole
+    (memory / "store" / "rows" / "pyramid-4-4-7.zip").unlink()
+    with pytest.raises(LostObject, match="pyramid/4/extremes/c/4/0"):
+        growing.shards(pattern)
 
 
 @pytest.mark.parametrize("cuts", [[0.4], [0.01, 0.3, 0.31, 0.99]])
