@@ -1,18 +1,26 @@
 """Answers to a worker that joined which no service of ours gives: of what is between them."""
 
+import asyncio
 from collections.abc import Iterator
 from contextlib import closing
+from pathlib import Path
 
 import pytest
 from fastapi import FastAPI
 
 from jointplay.storage.catalogue.errors import Unavailable
-from jointplay.storage.catalogue.records import Block, BlockState
+from jointplay.storage.catalogue.records import Block, BlockState, Claim, Job, Verdict
+from jointplay.storage.settings import Settings
+from jointplay.worker.joined.attempt import JoinedAttempt
 from jointplay.worker.joined.connection import Connection, Refused
-from jointplay.worker.joined.protocol import ClaimRequest, Files
+from jointplay.worker.joined.files import FilesOfService
+from jointplay.worker.joined.protocol import Answered, ClaimRequest, Files
+from jointplay.worker.scratch.files import Scratch
 from tests.service_in_thread import serving
 
 BLOCK = Block("01KZJ9W6P1M3QX8Y5T7R4B9C2R-0", "job", 0, 0, 1, BlockState.running, attempt=1)
+LEASE = 1.0
+"""Seconds, after which an answer is of no use any more."""
 
 
 @pytest.fixture
@@ -39,3 +47,22 @@ def test_an_address_where_there_is_no_service_is_refused(connection: Connection)
         connection.claim(
             ClaimRequest(program="0", worker="w", version="1", processor="p", wait=0.0)
         )
+
+
+def test_no_answer_is_waited_for_until_the_lease_is_over(tmp_path: Path) -> None:
+    """An API that is lost says nothing; another one is asked while the block is still held."""
+    late = FastAPI()
+
+    @late.post("/v1/worker/blocks/{block}/{attempt}/{what}")
+    async def answer() -> Answered:
+        await asyncio.sleep(LEASE)
+        return Answered(verdict=Verdict.go_on)
+
+    with serving(late) as url, closing(Connection(url, None)) as connection:
+        scratch = Scratch(FilesOfService(connection, BLOCK), Settings(data=tmp_path), BLOCK)
+        job = Job("simulate", {}, "d" * 64, "1", id="job", created=0.0)
+        attempt = JoinedAttempt(connection, Claim(BLOCK, job), scratch)
+        with pytest.raises(Unavailable):
+            attempt.heartbeat(BLOCK.id, 1, LEASE)
+        with pytest.raises(Unavailable):
+            attempt.record_progress(BLOCK.id, 1, LEASE, time=0.0, fraction=0.0)

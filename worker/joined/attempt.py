@@ -1,10 +1,16 @@
 """One attempt at a block, of which the service keeps the books: see `worker.holding`."""
 
+from typing import Final
+
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.records import BlockState, Claim, Job, JobState, Verdict
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.scratch.files import Scratch
+
+_PART_OF_LEASE: Final = 0.25
+"""Part of the lease in which a block must be held longer: behind one address may be several APIs of
+which one is gone, and there must be time to reach another one."""
 
 
 class JoinedAttempt:
@@ -29,7 +35,8 @@ class JoinedAttempt:
 
     def heartbeat(self, block_id: str, attempt: int, lease: float, /) -> Verdict:
         """Hold the block for the service's own lease."""
-        return self._answered(self._connection.tell(self._claim.block, "heartbeat"))
+        block, within = self._claim.block, _PART_OF_LEASE * lease
+        return self._answered(self._connection.tell(block, "heartbeat", within=within))
 
     def record_progress(
         self,
@@ -44,7 +51,8 @@ class JoinedAttempt:
     ) -> Verdict:
         """Tell how far the block is."""
         told = protocol.Progress(time=time, fraction=fraction, steps=steps)
-        return self._answered(self._connection.tell(self._claim.block, "progress", told))
+        block, within = self._claim.block, _PART_OF_LEASE * lease
+        return self._answered(self._connection.tell(block, "progress", told, within=within))
 
     def record_checkpoint(
         self, block_id: str, attempt: int, /, *, watermark: int, checkpoint: str

@@ -14,7 +14,8 @@ from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Document
 
 Answer = TypeVar("Answer", bound=Document)
 _LOOPBACK: Final = frozenset({"127.0.0.1", "localhost", "::1"})
-_TIMEOUT: Final = httpx.Timeout(20.0, connect=5.0)
+_CONNECT: Final = 5.0  # s
+_TIMEOUT: Final = httpx.Timeout(20.0, connect=_CONNECT)
 _PATIENCE: Final = 15.0  # s, beyond what a service may take to find a block
 _MAY_PASS: Final = frozenset({408, 422, 425, 429})  # 422: bytes that were changed on their way
 _FULL: Final = 507
@@ -59,7 +60,7 @@ class Connection:
 
     def claim(self, request: ClaimRequest) -> Claimed | None:
         """Wait for a block; None if there was none in the time that the request says."""
-        patient = httpx.Timeout(request.wait + _PATIENCE, connect=5.0)
+        patient = httpx.Timeout(request.wait + _PATIENCE, connect=_CONNECT)
         with self._answering():
             response = self._http.post("/v1/worker/claims", **_json(request), timeout=patient)
         _require_success(response, None)
@@ -67,11 +68,22 @@ class Connection:
             return None
         return Claimed.model_validate_json(response.content)
 
-    def tell(self, block: Block, what: str, document: Document | None = None) -> bytes:
-        """POST something about a block that is held; return the answer."""
+    def tell(
+        self,
+        block: Block,
+        what: str,
+        document: Document | None = None,
+        *,
+        within: float | None = None,
+    ) -> bytes:
+        """POST something about a block that is held; return the answer.
+
+        `Unavailable` also if there is none within some seconds, for what is of no use later.
+        """
+        limit = _TIMEOUT if within is None else httpx.Timeout(within, connect=min(within, _CONNECT))
         with self._answering():
             sent = {} if document is None else _json(document)
-            response = self._http.post(f"{_path(block)}/{what}", **sent)
+            response = self._http.post(f"{_path(block)}/{what}", **sent, timeout=limit)
         _require_success(response, block)
         return response.content
 

@@ -23,7 +23,8 @@ from jointplay.worker.scratch.attempt import SentAttempt
 from jointplay.worker.scratch.files import Scratch
 
 _WAIT: Final = 5.0  # s, for a block, until it is looked whether to go on
-_FIRST_PAUSE, _LONGEST_PAUSE = 0.5, 30.0  # s before a service that is away is asked again
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.5, _WAIT
+"""Seconds before a service that is away is asked again: as often as by those who have no work."""
 _log = logging.getLogger(__name__)
 
 
