@@ -23,6 +23,7 @@ _MODULES: Final = {
     "jointplay.service.processes.api": "api",
     "jointplay.worker.relay": "relay",
     "jointplay.worker": "worker",
+    "jointplay": "worker",  # `jointplay worker --join`
     "jointplay.service.processes": "supervisor",
     "jointplay.solver.kernels.compile_file": "compiling",
     "jointplay.service.checking": "checking",

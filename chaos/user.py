@@ -29,6 +29,8 @@ class User:
         How many jobs are kept open.
     seed
         Of what is cancelled.
+    key
+        Of a service that asks for one.
     """
 
     def __init__(
@@ -37,7 +39,9 @@ class User:
         mix: Sequence[Document],
         at_once: int,
         seed: int,
+        key: str | None = None,
     ) -> None:
+        self._headers = {} if key is None else {"Authorization": f"Bearer {key}"}
         self.history = History()
         self._service = service
         self._mix = mix
@@ -71,7 +75,7 @@ class User:
 
     def _use(self) -> None:
         try:
-            with httpx.Client(trust_env=False, timeout=_PATIENCE) as http:
+            with httpx.Client(headers=self._headers, trust_env=False, timeout=_PATIENCE) as http:
                 while not self._gone.wait(_PAUSE):
                     self._look(http)
         except Exception as failure:  # noqa: BLE001 - raised where it is waited for

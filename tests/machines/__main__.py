@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
-from tests.machines.campaign import Report, campaign, worst
+from tests.machines.campaign import Report, campaign, median_and_most
 from tests.machines.faults import FAULTS
 
 _ALONE = ("unshare", "--net", "--pid", "--fork", "--kill-child", "--mount-proc")
@@ -55,15 +55,15 @@ def _tell(line: str) -> None:
 
 
 def lines(report: Report) -> Iterator[str]:
-    """Yield a table of faults and times, and what is to be said beside it."""
-    row = "{:22}{:>6}{:>18}{:>13}{:>22}{:>17}".format
+    """Yield a table of faults that struck, with times, and what is to be said beside it."""
+    row = "{:22}{:>6}{:>18}{:>13}{:>30}{:>26}".format
     yield row(
         "fault",
         "times",
         "lasted up to [s]",
         "blocks held",
-        "taken over within [s]",
-        "back within [s]",
+        "taken over: median, most [s]",
+        "back: median, most [s]",
     )
     for name in dict.fromkeys(one.fault for one in report.struck):
         those = [one for one in report.struck if one.fault == name]
@@ -72,11 +72,13 @@ def lines(report: Report) -> Iterator[str]:
             len(those),
             f"{max(one.lasted for one in those):.0f}",
             sum(one.held for one in those),
-            worst(those, lambda one: one.taken_over),
-            worst(those, lambda one: one.back),
+            median_and_most(those, lambda one: one.taken_over),
+            median_and_most(those, lambda one: one.back),
         )
     yield f"jobs: {report.jobs}, in {report.seconds:.0f} s; attempts that were lost: {report.lost}"
     yield f"answers: {report.answers}"
+    loads = [one.load for one in report.struck]
+    yield f"load of the machine: {min(loads):.1f} to {max(loads):.1f} on {os.cpu_count()} cores"
     yield from (f"WRONG: {sentence}" for sentence in report.wrong)
 
 

@@ -1,7 +1,9 @@
 """One campaign: a cluster, a user, faults by a schedule, and the checks at the end."""
 
+import os
 import random
 import signal
+import statistics
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -37,6 +39,7 @@ class Struck:
     held: int  # blocks that the machine, or all, held when it struck
     taken_over: float | None  # s from its begin until blocks of a lost machine went on
     back: float | None  # s from its end until those who were struck came further
+    load: float  # processes that ran or would have, as the mean of the last minute
 
 
 @dataclass
@@ -70,7 +73,7 @@ def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell:
     report = Report(seed)
     with running_cluster(folder) as cluster:
         at_once = _AHEAD * WORKERS * len(cluster.machines)
-        user = User(cluster, mix, at_once, seed)
+        user = User(cluster, mix, at_once, seed, cluster.key)
         catalogue = Catalogue(cluster.settings.catalogue_url)
         catalogue.migrate()
         begun = time.monotonic()
@@ -94,7 +97,7 @@ def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell:
 def _clear_up(cluster: Cluster, catalogue: Catalogue) -> None:
     """Have the relays look for what jobs left, as they do a lease after their start."""
     if [*left_after(cluster.settings, catalogue, grace=0.0)]:
-        for relay in [one for machine in cluster.machines for one in machine.running("relay")]:
+        for relay in [one for machine in cluster.own for one in machine.running("relay")]:
             relay.send(signal.SIGTERM)
         began = time.monotonic()
         while time.monotonic() - began < PATIENCE and [
@@ -153,14 +156,15 @@ def _one(
     over = time.monotonic()
     if machine is None:
         again = everybody.wait(over)
-        return Struck(strike.fault, "servers", at, over - began, len(everybody.held), None, again)
-    count, went_on = held[machine]
-    again = back(cluster, machine, over)
-    taken = went_on.result() if count else None
-    return Struck(strike.fault, machine.name, at, over - began, count, taken, again)
+        on, count, taken = "servers", len(everybody.held), None
+    else:
+        on, (count, went_on) = machine.name, held[machine]
+        again = back(cluster, machine, over)
+        taken = went_on.result() if count else None
+    return Struck(strike.fault, on, at, over - began, count, taken, again, os.getloadavg()[0])
 
 
-def worst(struck: Sequence[Struck], of: Callable[[Struck], float | None]) -> str:
-    """Return the longest of the times that are known."""
+def median_and_most(struck: Sequence[Struck], of: Callable[[Struck], float | None]) -> str:
+    """Return the median and the longest of the times that are known."""
     known = [seconds for one in struck if (seconds := of(one)) is not None]
-    return f"{max(known):.1f}" if known else "-"
+    return f"{statistics.median(known):.1f}, {max(known):.1f}" if known else "-"

@@ -1,19 +1,15 @@
 """A gate before the S3 server: it passes everything on, or answers everything with 503."""
 
 import asyncio
-import re
-import socket
-import threading
-from contextlib import suppress
 
 from tests.machines.network import Port
+from tests.machines.passing import Passing, Streams, passed_on, refused
 
-_LENGTH = re.compile(rb"\r\ncontent-length: *(\d+)", re.IGNORECASE)
 _REFUSAL = b"HTTP/1.1 503 Slow Down\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
 
 
-class Gate:
-    """Listens at an address of a port, in a thread of its own.
+class Gate(Passing):
+    """Stands on the machine of a server.
 
     Parameters
     ----------
@@ -24,14 +20,10 @@ class Gate:
     """
 
     def __init__(self, port: Port, server: int) -> None:
-        self._port, self._server = port, server
+        self._server = server
         self._passing: set[asyncio.Task[None]] = set()
         self._refuses = False
-        with port.inside():
-            self._listening = socket.create_server((port.address, 0), backlog=256)
-        self.url = f"http://{port.address}:{self._listening.getsockname()[1]}"
-        self._loop = asyncio.new_event_loop()
-        threading.Thread(target=self._run, name="gate", daemon=True).start()
+        super().__init__(port)
 
     def refuse(self) -> None:
         """Cut what is on its way, and answer with 503 from now on."""
@@ -46,52 +38,16 @@ class Gate:
         for one in self._passing:
             one.cancel()
 
-    def _run(self) -> None:
-        with self._port.inside():  # for good: connections to the server begin there
-            self._loop.run_until_complete(self._serve())
-
-    async def _serve(self) -> None:
-        server = await asyncio.start_server(self._answer, sock=self._listening)
-        await server.serve_forever()
-
-    async def _answer(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    async def answer(self, here: Streams) -> None:
+        """Pass a connection on, or refuse what it asks for."""
+        if self._refuses:
+            await refused(here, _REFUSAL)
+            return
         task = asyncio.current_task()
         assert task is not None
+        self._passing.add(task)
         try:
-            if self._refuses:
-                await _refuse(reader, writer)
-            else:
-                self._passing.add(task)
-                await self._pass(reader, writer)
-        except (OSError, asyncio.IncompleteReadError, asyncio.CancelledError):
-            writer.transport.abort()
+            there = await asyncio.open_connection(self._port.address, self._server)
+            await passed_on(here, there)
         finally:
             self._passing.discard(task)
-            writer.close()
-
-    async def _pass(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        there = await asyncio.open_connection(self._port.address, self._server)
-        try:
-            async with asyncio.TaskGroup() as both:
-                both.create_task(_pump(reader, there[1]))
-                both.create_task(_pump(there[0], writer))
-        except* OSError:
-            pass
-        finally:
-            there[1].close()
-
-
-async def _pump(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-    while piece := await reader.read(2**16):
-        writer.write(piece)
-        await writer.drain()
-    with suppress(OSError):
-        writer.write_eof()
-
-
-async def _refuse(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-    head = await reader.readuntil(b"\r\n\r\n")
-    if found := _LENGTH.search(head):
-        await reader.readexactly(int(found[1]))
-    writer.write(_REFUSAL)
-    await writer.drain()

@@ -3,6 +3,7 @@
 It has a network, process ids, a name and a boot of its own; what it writes is in one folder.
 """
 
+import shlex
 import shutil
 import signal
 import subprocess
@@ -18,12 +19,10 @@ _BOOT = """
 hostname "$0"
 mount --bind boot /proc/sys/kernel/random/boot_id
 keep() { log=$1; shift; while [ ! -e stopping ]; do "$@" >> $log 2>&1; sleep 1; done; }
-keep api.log "$1" -P -m jointplay.service.processes.api --host "$2" --port 8000 &
-keep relay.log "$1" -P -m jointplay.worker.relay &
-keep worker.log "$1" -P -m jointplay.worker --processes "$3" &
-wait
 """
 """Ended processes are started again, as by Docker or systemd."""
+API = 8000
+"""Port number of its API."""
 
 
 class Machine(Installation):
@@ -39,30 +38,41 @@ class Machine(Installation):
         folder.mkdir()
         super().__init__(folder, workers)
         self.name, self.port = folder.name, port
-        self.url = f"http://{port.address}:8000"
+        self.url = f"http://{port.address}:{API}"
         self._given = environment
         self._scratch = folder / "scratch"
 
     def start(self) -> None:
         """Start it on empty disks; return at once."""
         for made in (self.data, self._scratch):
-            made.mkdir()
+            made.mkdir(exist_ok=True)
         (self.folder / "boot").write_text(f"{uuid.uuid4()}\n")
         (self.folder / "stopping").unlink(missing_ok=True)
         command = ["unshare", "--pid", "--fork", "--kill-child", "--mount-proc", "--uts"]
-        command += ["sh", "-ec", _BOOT, self.name]
-        command += [sys.executable, self.port.address, str(self._workers)]
+        kept = [
+            f"keep {log}.log {shlex.join([sys.executable, '-P', '-m', *words])} &\n"
+            for log, words in self.kept().items()
+        ]
+        command += ["sh", "-ec", f"{_BOOT}{''.join(kept)}wait", self.name]
         with self.port.inside():
             self._service = subprocess.Popen(
                 command, cwd=self.folder, env=self.environment(), stdin=subprocess.DEVNULL
             )
 
+    def kept(self) -> dict[str, list[str]]:
+        """Return modules with arguments that run all the time, by the name of their log."""
+        address = ["--host", self.port.address, "--port", str(API)]
+        return {
+            "api": ["jointplay.service.processes.api", *address],
+            "relay": ["jointplay.worker.relay"],
+            "worker": ["jointplay.worker", "--processes", str(self._workers)],
+        }
+
     def environment(self) -> dict[str, str]:
         """Return the variables of its processes."""
         own = {
             "JOINTPLAY_DATA": str(self.data),
-            "JOINTPLAY_KEYS": "none",
-            "JOINTPLAY_HOSTS": self.port.address,
+            "JOINTPLAY_KEYS": "required",
             "TMPDIR": str(self._scratch),
         }
         return super().environment() | self._given | own

@@ -60,6 +60,11 @@ class Port:
             _check(_libc.setns(here, _NETWORK_NAMESPACE))
             os.close(here)
 
+    def forbid(self, address: str) -> None:
+        """Let nothing from here reach an address."""
+        with self.inside():
+            _ip("route", "add", "prohibit", address)
+
     def pull_out(self) -> None:
         """Take the interface down: whoever sends is told so at once."""
         with self.inside():

@@ -11,14 +11,15 @@ from tests.machines.cluster import WORKERS, Cluster
 from tests.machines.machine import Machine
 
 _LOOK = 0.2  # s
-_threads = ThreadPoolExecutor(2, "recovery")
+_threads = ThreadPoolExecutor(3, "recovery")
 
 
 def is_of(machine: Machine | None, block: Block) -> bool:
     """Whether a worker of a machine, or of any, has a block."""
-    name = "" if machine is None else f"{machine.name}:"
-    held = block.state is BlockState.running and block.worker is not None
-    return held and str(block.worker).startswith(name)
+    if block.state is not BlockState.running or block.worker is None:
+        return False
+    name = block.worker.rpartition("@")[2]  # before it is the key of one that joined
+    return machine is None or name.startswith(f"{machine.name}:")
 
 
 def taken_over(cluster: Cluster, machine: Machine) -> "tuple[int, Future[float | None]]":

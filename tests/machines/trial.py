@@ -1,12 +1,16 @@
-"""Whether faults of the network and of the store do what they say, without a service."""
+"""A balancer, and faults of the network and of the store, do what they say, without a service."""
 
 import http.server
 import socket
+import ssl
+import tempfile
 import threading
 from contextlib import suppress
+from pathlib import Path
 
 import httpx
 
+from tests.machines.balancer import Balancer
 from tests.machines.gate import Gate
 from tests.machines.network import Port, make_bridge
 
@@ -39,6 +43,7 @@ def main() -> None:
         assert _answer(gate.url) == 503
         gate.pass_on()
         assert _answer(gate.url) == b"cba"
+    _try_balancer(there, store.server_port)
     here.pull_out()
     with here.inside():
         assert _reaches(there.address, store.server_port) == "refused at once"
@@ -51,9 +56,27 @@ def main() -> None:
         assert _answer(gate.url) == b"cba"
 
 
-def _answer(url: str) -> bytes | int | None:
+def _try_balancer(server: Port, number: int) -> None:
+    """Ask one that knows a server that is absent, too, from where servers cannot be reached."""
+    between, outside = Port("between", 13), Port("outside", 14)
+    outside.forbid(server.address)
+    absent = (server.address, 1)
+    with tempfile.TemporaryDirectory() as folder, outside.inside():
+        assert _reaches(server.address, number) == "refused at once"
+        authority = Path(folder) / "authority.pem"
+        for known, expected in (
+            ([absent, (server.address, number)], b"cba"),
+            ([absent], 502),
+        ):
+            balancer = Balancer(between, known, authority)
+            trusted = ssl.create_default_context(cafile=authority)
+            assert [_answer(balancer.url, trusted) for _ in range(2)] == [expected, expected]
+            assert _answer(balancer.url) is None  # its authority is unknown
+
+
+def _answer(url: str, trusted: ssl.SSLContext | bool = True) -> bytes | int | None:
     with suppress(httpx.TransportError):
-        answer = httpx.put(url, content=b"abc", trust_env=False, timeout=30.0)
+        answer = httpx.put(url, content=b"abc", verify=trusted, trust_env=False, timeout=30.0)
         return answer.content if answer.is_success else answer.status_code
     return None
 

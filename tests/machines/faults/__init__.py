@@ -13,10 +13,13 @@ from tests.machines.faults.store_refuses import StoreRefuses
 
 FAULTS = {
     "link-cut": Unreachable(LINK_CUT),
-    "servers-link-cut": Unreachable(LINK_CUT, servers=True),
+    "joined-link-cut": Unreachable(LINK_CUT, "joined"),
+    "servers-link-cut": Unreachable(LINK_CUT, "servers"),
     "black-hole": Unreachable(BLACK_HOLE),
-    "servers-black-hole": Unreachable(BLACK_HOLE, servers=True),
+    "joined-black-hole": Unreachable(BLACK_HOLE, "joined"),
+    "servers-black-hole": Unreachable(BLACK_HOLE, "servers"),
     "machine-killed": MachineKilled(),
+    "joined-killed": MachineKilled(joined=True),
     "database-restarted": DatabaseRestarted(),
     "backends-terminated": BackendsTerminated(),
     "broker-lost": BrokerLost(),

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from random import Random
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from tests.machines.cluster import Cluster
 from tests.machines.machine import Machine
@@ -27,10 +27,10 @@ BLACK_HOLE = Way(Port.leave, Port.join, (60.0, 60.0))
 
 @dataclass(frozen=True)
 class Unreachable:
-    """One machine, or that of the servers, cut off in one way."""
+    """One machine with an API, that which joined, or that of the servers, cut off in one way."""
 
     way: Way
-    servers: bool = False
+    who: Literal["own", "joined", "servers"] = "own"
 
     @property
     def lasts(self) -> tuple[float, float]:
@@ -38,7 +38,9 @@ class Unreachable:
 
     @contextmanager
     def strike(self, cluster: Cluster, drawn: Random) -> Iterator[Machine | None]:
-        machine = None if self.servers else drawn.choice(cluster.machines)
+        machine: Machine | None = None
+        if self.who != "servers":
+            machine = cluster.joined if self.who == "joined" else drawn.choice(cluster.own)
         port = cluster.servers.port if machine is None else machine.port
         self.way.begin(port)
         try:
