@@ -1,6 +1,7 @@
 """Checks of what a stopped service has left: sentences on what is wrong, none if all is well."""
 
 from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from typing import Final
 
 from jointplay.chaos.history import History, Submission
@@ -14,6 +15,8 @@ from jointplay.storage.reconciliation.results import damage_of, sealed_results
 from jointplay.storage.reconciliation.rows import contradictions
 from jointplay.storage.settings import Settings
 
+_READERS: Final = 8
+"""Results that are compared at a time: a place elsewhere answers late, not slowly."""
 _TERMINAL: Final = {state.value for state in JobState if state.terminal}
 
 
@@ -46,9 +49,14 @@ def wrongs(
                 found.append(f"job {submission.job} was accepted and is lost: {error}")
                 continue
             found += _how_it_ended(catalogue, submission, jobs[submission.job])
-            if jobs[submission.job].state is JobState.succeeded:
-                files = expected[submission.template]
-                found += _bytes(service, jobs[submission.job], files)
+        succeeded = [
+            (jobs[one.job], expected[one.template])
+            for one in history.submissions
+            if one.job in jobs and jobs[one.job].state is JobState.succeeded
+        ]
+        with ThreadPoolExecutor(_READERS) as readers:
+            for sentences in readers.map(lambda one: [*_bytes(service, *one)], succeeded):
+                found += sentences
         found += _strangers(catalogue, jobs)
         found += _leftovers(service.settings, catalogue)
     finally:
