@@ -31,7 +31,10 @@ _BLOCK_STATES = {
     "cancelled": BlockState.cancelled,
 }
 _MOST_OVERHEAD = 20
-"""Restart points are made so rarely that computing takes this many times as long as they do."""
+"""Restart points are made so rarely that computing takes this many times their processor time."""
+_MOST_WAITING = 4
+"""The same of all the time that they take, most of which a slow disk or a busy machine may need:
+readers are as far behind as restart points are apart."""
 _LOOK = 0.25
 """Seconds after which the catalogue is asked again whether to go on."""
 _ASK_AGAIN = 1.0
@@ -170,12 +173,12 @@ class BlockRun:
             self._require_room()
         try:
             if now >= self._next_record:
-                took = self._keep(progress)
+                rest = self._keep(progress)
                 verdict = self._lease.record_progress(
                     progress.time, progress.fraction, progress.steps()
                 )
                 now = time.monotonic()
-                self._next_record = now + max(self._settings.progress_period, _MOST_OVERHEAD * took)
+                self._next_record = now + max(self._settings.progress_period, rest)
             elif now >= self._next_look:
                 verdict = self._lease.verdict()
             else:
@@ -208,13 +211,17 @@ class BlockRun:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(self._settings.data))
 
     def _keep(self, progress: Progress) -> float:
-        """Put a restart point on the disk, then name it in the catalogue; return the seconds."""
-        began = time.monotonic()
+        """Put a restart point on the disk, then name it in the catalogue.
+
+        Return the seconds until there should be another one.
+        """
+        began, used = time.monotonic(), time.thread_time()
         name, watermark = progress.keep()
         self._catalogue.record_checkpoint(
             self._block.id, self._block.attempt, watermark=watermark, checkpoint=name
         )
-        return time.monotonic() - began
+        took, used = time.monotonic() - began, time.thread_time() - used
+        return max(_MOST_OVERHEAD * used, _MOST_WAITING * took)
 
     def _say_that_it_compiles(self) -> None:
         try:

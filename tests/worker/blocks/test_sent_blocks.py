@@ -81,7 +81,8 @@ def address(
 
 @pytest.fixture
 def settings(tmp_path: Path, address: str, monkeypatch: pytest.MonkeyPatch) -> Settings:
-    monkeypatch.setattr(block_run, "_MOST_OVERHEAD", 0)  # a restart point with every slice
+    for name in ("_MOST_OVERHEAD", "_MOST_WAITING"):
+        monkeypatch.setattr(block_run, name, 0)  # a restart point with every slice
     return Settings(data=tmp_path, results_url=address, running="results", progress_period=1e-3)
 
 
