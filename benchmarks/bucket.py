@@ -203,6 +203,18 @@ def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
         )
 
 
+@contextmanager
+def installation() -> Iterator[tuple[Settings, Catalogue]]:
+    """Keep a store of its own for a while: long jobs would fill one that others use, too."""
+    with tempfile.TemporaryDirectory() as folder, running_store() as endpoint:
+        place = f"s3://{BUCKET}/one?endpoint={endpoint}"
+        settings = Settings(data=Path(folder), results_url=place)
+        catalogue = Catalogue(settings.catalogue_url)
+        catalogue.migrate()
+        yield settings, catalogue
+        catalogue.close()
+
+
 def main() -> None:
     """Print all of it."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks bucket")
@@ -210,16 +222,13 @@ def main() -> None:
         "--samples", type=int, nargs="+", default=[10_000_000], help="of long jobs, one a number"
     )
     samples = parser.parse_args().samples
-    with tempfile.TemporaryDirectory() as name, running_store() as endpoint:
-        folder = Path(name)
-        alone, together = (f"s3://{BUCKET}/{one}?endpoint={endpoint}" for one in ("one", "many"))
-        settings = Settings(data=folder, results_url=alone)
-        catalogue = Catalogue(settings.catalogue_url)
-        catalogue.migrate()
-        press_jobs(settings, catalogue)
-        for number in samples:
+    for number in samples:
+        with installation() as (settings, catalogue):
             long_job(settings, catalogue, number)
-        catalogue.close()
+    with installation() as (settings, catalogue):
+        press_jobs(settings, catalogue)
+    with tempfile.TemporaryDirectory() as name, running_store() as endpoint:
+        folder, together = Path(name), f"s3://{BUCKET}/many?endpoint={endpoint}"
         for where, place in (("bucket", together), ("folder", f"file:{folder / 'results'}")):
             found = many_jobs(folder / where, place)
             print(f"{JOBS} press jobs, {WORKERS} workers, {where}: {found}")
