@@ -24,6 +24,7 @@ import jointplay.service.scenes.looks
 import jointplay.service.studies.endpoints
 import jointplay.service.workers.attempts
 import jointplay.service.workers.claims
+import jointplay.service.workers.drops
 import jointplay.service.workers.files
 import jointplay.service.workers.present
 import jointplay.service.zarr.endpoints
@@ -83,6 +84,7 @@ _BEHIND_THE_DOOR = (
     (jointplay.service.workers.present, needs("jobs:read")),
     (jointplay.service.workers.claims, _WORKERS),
     (jointplay.service.workers.files, _WORKERS),
+    (jointplay.service.workers.drops, _WORKERS),
     (jointplay.service.workers.attempts, _WORKERS),
 )
 _OPEN = (

@@ -8,19 +8,30 @@ attempt, or ``sealed/study``.
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from hashlib import sha256
 from typing import Final
 
 from jointplay.storage import durable
 from jointplay.storage.catalogue.records import Block
-from jointplay.storage.packed.running import DOCUMENTS, make_folders
+from jointplay.storage.packed.running import DOCUMENTS, ROWS, make_folders
 from jointplay.storage.places import StoredObject
 from jointplay.storage.running_files.folder import InFolder
+from jointplay.storage.running_files.objects import InPlace
 from jointplay.storage.settings import Settings
 
 _NAME: Final = re.compile(r"(?:(?!\.{1,2}/)[A-Za-z0-9._-]{1,80}/){0,2}(?!\.)[A-Za-z0-9._-]{1,120}")
 _SEALED: Final = "sealed/"
 _STUDY: Final = "study"
 _PIECE: Final = 2**20
+_PART: Final = 2**23
+"""Bytes that are read from a place at once, where each reading is a request."""
+_DROPS: Final = "drops"
+"""Where workers put what is not found right yet, below what else a running job needs."""
+
+
+def is_written_once(name: str) -> bool:
+    """Whether a file is never replaced: sealed results, and rows."""
+    return name.startswith(_SEALED) or f"/{ROWS}/" in name
 
 
 class AttemptFiles:
@@ -119,6 +130,53 @@ class AttemptFiles:
         with suppress(FileExistsError):  # the answer to an earlier try was lost
             sealed.put(pieces)
 
+    def drop(self, name: str, digest: str) -> StoredObject | None:
+        """Return the object that a worker may put for a file, by the SHA-256 of its bytes.
+
+        It is no file of the job until `take` was called. None for files that are replaced or
+        appended to, and where files of running jobs are in no place.
+
+        Raises
+        ------
+        ValueError
+            There is no file of this name.
+        """
+        if not isinstance(self.running, InPlace) or self._target(name) is None:
+            return None
+        key = f"{self.running.prefix}/{_DROPS}/{self._block.index}-a{self._block.attempt}-{digest}"
+        return StoredObject(self.running.place, key)
+
+    def take(self, name: str, digest: str, size: int, md5: str) -> None:
+        """Make a file of what was dropped for it, once its bytes were found right, and remove that.
+
+        They are where the store says that they have this MD5; else all of them are read. Either
+        finds a fault of the way; the worker itself may put what it likes.
+
+        Raises
+        ------
+        FileNotFoundError
+            Nothing was dropped.
+        ValueError
+            It has other bytes, or can be no such file.
+        """
+        dropped, target = self.drop(name, digest), self._target(name)
+        if dropped is None or target is None:
+            raise ValueError(f"{name!r} is no file that can be dropped")
+        if not target.exists():
+            if dropped.size() != size or (
+                dropped.place.entity_tag(dropped.key) != md5 and _sha256(dropped, size) != digest
+            ):
+                raise ValueError(f"{name!r} has other bytes than were told")
+            target.place.adopt(target.key, dropped.key)
+        dropped.place.remove(dropped.key)
+
+    def _target(self, name: str) -> StoredObject | None:
+        """Return the object of a file that is written once; None for other files."""
+        sealed = self.sealed(name)
+        if sealed is not None:
+            return sealed
+        return self.running.object(self.checked(name)) if is_written_once(name) else None
+
     def append(self, name: str, offset: int, pieces: Iterable[bytes]) -> None:
         """See `RunningFiles.append`."""
         self.running.append(self.checked(name), offset, pieces)
@@ -130,3 +188,10 @@ class AttemptFiles:
     def remove(self, name: str) -> None:
         """Remove a file of the running job, if it is there."""
         self.running.remove(self.checked(name))
+
+
+def _sha256(stored: StoredObject, size: int) -> str:
+    found = sha256()
+    for start in range(0, size, _PART):
+        found.update(stored.read(start, min(start + _PART, size)))
+    return found.hexdigest()

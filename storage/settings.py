@@ -58,7 +58,8 @@ class Settings(BaseSettings):
         "",
         max_length=2048,
         description="Address at which clients reach the store of a bucket, such as"
-        " https://s3.example.org: whole stores are then sent from there; empty: by the API.",
+        " https://s3.example.org: whole stores are then sent from there, and large files of workers"
+        " that joined to there; empty: by the API.",
     )
     redis_url: str | None = Field(
         None,

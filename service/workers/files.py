@@ -110,6 +110,11 @@ def _store(
             files.append(name, offset, pieces)
     except (ValueError, FileNotFoundError) as error:
         raise _no_file(name, error) from error
+    require_still_held(catalogue, settings, held)
+
+
+def require_still_held(catalogue: Catalogue, settings: Settings, held: Block) -> None:
+    """Raise `Fenced` if the block was lost while a file of it was stored, which is then removed."""
     try:
         catalogue.held(held.id, held.attempt)
     except Fenced:

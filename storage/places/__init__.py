@@ -9,7 +9,7 @@ job needs is replaced; see `storage.running_files`.
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Final, Protocol
+from typing import Final, Literal, Protocol
 
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.places.s3 import Bucket
@@ -57,6 +57,13 @@ class Place(Protocol):
         """
         ...
 
+    def entity_tag(self, key: str) -> str | None:
+        """Return what the server says of an object's bytes, in most stores their MD5 in hex.
+
+        None: the place has no server, or no such object.
+        """
+        ...
+
     def list(self, prefix: str) -> Iterator[str]:
         """Yield the keys of all objects that begin with a prefix, in no order."""
         ...
@@ -79,8 +86,10 @@ class Place(Protocol):
         """
         ...
 
-    def link(self, key: str, endpoint: str, seconds: float) -> str | None:
-        """Sign an address below `endpoint` at which anyone may GET an object, for some time.
+    def link(
+        self, key: str, endpoint: str, seconds: float, *, method: Literal["GET", "PUT"] = "GET"
+    ) -> str | None:
+        """Sign an address below `endpoint` at which anyone may GET or PUT an object, for some time.
 
         None: the place answers no requests.
         """

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from glob import escape
 from pathlib import Path
-from typing import Final
+from typing import Final, Literal
 
 from jointplay.storage import durable
 
@@ -66,6 +66,10 @@ class Folder:
             os.close(descriptor)
         return pieces[0] if len(pieces) == 1 else b"".join(pieces)
 
+    def entity_tag(self, key: str) -> str | None:
+        """Return nothing: no server answers for a folder."""
+        return None
+
     def list(self, prefix: str) -> Iterator[str]:
         """Walk the folder that the prefix ends in."""
         return (key for key in self._files(prefix) if not key.endswith(durable.PARTIAL))
@@ -96,7 +100,9 @@ class Folder:
         durable.sync(path.parent)
         return True
 
-    def link(self, key: str, endpoint: str, seconds: float) -> str | None:
+    def link(
+        self, key: str, endpoint: str, seconds: float, *, method: Literal["GET", "PUT"] = "GET"
+    ) -> str | None:
         """Return nothing: no server answers for a folder."""
         return None
 

@@ -47,7 +47,10 @@ class OneDatabase:
         except sqlite3.IntegrityError as error:
             raise FileExistsError(key) from error
 
-    def link(self, key: str, endpoint: str, seconds: float) -> str | None:
+    def link(self, key: str, endpoint: str, seconds: float, *, method: str = "GET") -> str | None:
+        return None
+
+    def entity_tag(self, key: str) -> str | None:
         return None
 
     def replace(self, key: str, pieces: Iterable[bytes]) -> None:

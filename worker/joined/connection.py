@@ -10,13 +10,14 @@ import httpx
 
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import Block
-from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Document
+from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Document, Drop, DropAt
 
 Answer = TypeVar("Answer", bound=Document)
 _LOOPBACK: Final = frozenset({"127.0.0.1", "localhost", "::1"})
 _CONNECT: Final = 5.0  # s
 _TIMEOUT: Final = httpx.Timeout(20.0, connect=_CONNECT)
 _PATIENCE: Final = 15.0  # s, beyond what a service may take to find a block
+_LONGEST_TAKING: Final = 120.0  # s, in which a service reads and copies the largest file
 _MAY_PASS: Final = frozenset({408, 422, 425, 429})  # 422: bytes that were changed on their way
 _FULL: Final = 507
 _LARGEST_KEY: Final = 4096
@@ -46,12 +47,11 @@ class Connection:
             parsed = httpx.URL(self.url)
         except httpx.InvalidURL as error:
             raise Refused(f"{url!r} is no address of a service: {error}") from error
-        local = parsed.host in _LOOPBACK
-        if parsed.scheme != "https" and not (local and parsed.scheme == "http"):
+        if not is_private(parsed):
             raise Refused(f"{url!r} must begin with https://; a key is sent there")
         headers = {} if key is None else {"Authorization": f"Bearer {key}"}
         self._http = httpx.Client(
-            base_url=self.url, headers=headers, timeout=_TIMEOUT, trust_env=not local
+            base_url=self.url, headers=headers, timeout=_TIMEOUT, trust_env=not is_local(parsed)
         )
 
     def close(self) -> None:
@@ -122,6 +122,27 @@ class Connection:
             )
         _require_success(response, block)
 
+    def offered(self, block: Block, drop: Drop) -> str | None:
+        """POST what shall be put into the bucket; return the address there, or None."""
+        with self._answering():
+            response = self._http.post(f"{_path(block)}/drops", **_json(drop))
+        if response.status_code in (httpx.codes.NO_CONTENT, httpx.codes.NOT_FOUND):
+            return None  # a service of an earlier version knows of none
+        _require_success(response, block)
+        return DropAt.model_validate_json(response.content).address
+
+    def taken(self, block: Block, drop: Drop) -> bool:
+        """POST what was put; whether the service found it, with the right bytes."""
+        patient = httpx.Timeout(_LONGEST_TAKING, connect=5.0)
+        with self._answering():
+            response = self._http.post(
+                f"{_path(block)}/drops/taken", **_json(drop), timeout=patient
+            )
+        if response.status_code == httpx.codes.UNPROCESSABLE_ENTITY:
+            return False
+        _require_success(response, block)
+        return True
+
     def remove(self, block: Block, name: str) -> None:
         """DELETE a file."""
         with self._answering():
@@ -135,6 +156,16 @@ class Connection:
         except httpx.TransportError as error:
             reason = f"cannot be reached at {self.url} ({str(error) or type(error).__name__})"
             raise Unavailable(reason) from error
+
+
+def is_private(url: httpx.URL) -> bool:
+    """Whether nobody on the way reads what is sent to an address."""
+    return url.scheme == "https" or (url.scheme == "http" and is_local(url))
+
+
+def is_local(url: httpx.URL) -> bool:
+    """Whether an address is this machine's own."""
+    return url.host in _LOOPBACK
 
 
 def key_in(path: Path) -> str:

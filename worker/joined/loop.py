@@ -13,6 +13,7 @@ from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.settings import Settings
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.joined.attempt import JoinedAttempt
+from jointplay.worker.joined.bucket import BucketOfService
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.files import FilesOfService
 from jointplay.worker.joined.protocol import Activity, Claimed, ClaimRequest
@@ -44,6 +45,7 @@ def work(connection: Connection, draining: threading.Event, idle: float | None) 
         processor=solver.processor,
         wait=_WAIT if idle is None else min(_WAIT, idle),
     )
+    bucket = BucketOfService(connection)
     last = time.monotonic()
     pause = _FIRST_PAUSE
     blocks = 0
@@ -51,7 +53,7 @@ def work(connection: Connection, draining: threading.Event, idle: float | None) 
         try:
             claimed = connection.claim(request)
             if claimed is not None:
-                _compute(connection, claimed, draining)
+                _compute(connection, bucket, claimed, draining)
                 blocks += 1
                 last = time.monotonic()
             pause = _FIRST_PAUSE
@@ -64,17 +66,21 @@ def work(connection: Connection, draining: threading.Event, idle: float | None) 
     return blocks
 
 
-def _compute(connection: Connection, claimed: Claimed, draining: threading.Event) -> None:
+def _compute(
+    connection: Connection, bucket: BucketOfService, claimed: Claimed, draining: threading.Event
+) -> None:
     """Compute a block; where this machine has no room for its files, put it off."""
     try:
-        _compute_here(connection, claimed, draining)
+        _compute_here(connection, bucket, claimed, draining)
     except OSError as fault:
         block = claimed.claim.block
         _log.warning("block %s is put off: %s", block.id, fault)
         connection.tell(block, "put-off", Activity(activity=waits_for(fault)))
 
 
-def _compute_here(connection: Connection, claimed: Claimed, draining: threading.Event) -> None:
+def _compute_here(
+    connection: Connection, bucket: BucketOfService, claimed: Claimed, draining: threading.Event
+) -> None:
     claim = claimed.claim
     with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
         settings = Settings(
@@ -85,7 +91,7 @@ def _compute_here(connection: Connection, claimed: Claimed, draining: threading.
             redis_url=None,
             **claimed.customs.model_dump(),
         )
-        scratch = Scratch(FilesOfService(connection, claim.block), settings, claim.block)
+        scratch = Scratch(FilesOfService(connection, bucket, claim.block), settings, claim.block)
         attempt = JoinedAttempt(connection, claim, scratch)
         next_beat = time.monotonic() + settings.heartbeat
 

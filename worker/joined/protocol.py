@@ -79,6 +79,21 @@ class Files(Document):
     files: tuple[File, ...]
 
 
+class Drop(Document):
+    """A file that is put into the bucket itself, or was."""
+
+    name: Annotated[str, Field(min_length=1, max_length=300)]
+    size: Annotated[int, Field(ge=1, le=5 * 10**9)]  # the most of one request
+    sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+    md5: Annotated[str, Field(pattern=r"^[0-9a-f]{32}$")]  # what most stores say of an object
+
+
+class DropAt(Document):
+    """Address at which a file may be put for a quarter of an hour."""
+
+    address: str
+
+
 class Progress(Document):
     """Progress of a block; see `Catalogue.record_progress`."""
 

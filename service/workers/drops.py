@@ -1,0 +1,51 @@
+"""``/v1/worker/blocks/{block}/{attempt}/drops``: files that a worker puts into the bucket."""
+
+from typing import Annotated, Final
+
+from fastapi import APIRouter, Response
+
+from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
+from jointplay.service.problems import RequestRefused
+from jointplay.service.workers.files import require_still_held
+from jointplay.service.workers.words import HeldBlock, said
+from jointplay.storage.attempt_files import AttemptFiles
+from jointplay.worker.joined.protocol import Drop, DropAt
+
+router = APIRouter(prefix="/v1/worker/blocks/{block}/{attempt}/drops", include_in_schema=False)
+_SIGNED_FOR: Final = 900.0  # s
+Told = Annotated[Drop, said(Drop)]
+
+
+@router.post("", response_model=None)
+def offer(settings: SettingsDependency, held: HeldBlock, told: Told) -> DropAt | Response:
+    """Return where a file may be put, or 204 if it is to be sent here.
+
+    What is put there is no file of the job: an attempt that is late changes nothing.
+    """
+    address = None
+    if settings.results_redirect:
+        try:
+            dropped = AttemptFiles(settings, held).drop(told.name, told.sha256)
+        except ValueError as error:
+            raise _refused(error) from error
+        if dropped is not None:
+            address = dropped.place.link(
+                dropped.key, settings.results_redirect, _SIGNED_FOR, method="PUT"
+            )
+    return Response(status_code=204) if address is None else DropAt(address=address)
+
+
+@router.post("/taken", status_code=204)
+def take(
+    catalogue: CatalogueDependency, settings: SettingsDependency, held: HeldBlock, told: Told
+) -> None:
+    """Make a file of the job of what was put, once its size and digest were found right."""
+    try:
+        AttemptFiles(settings, held).take(told.name, told.sha256, told.size, told.md5)
+    except (ValueError, FileNotFoundError) as error:
+        raise _refused(error) from error
+    require_still_held(catalogue, settings, held)
+
+
+def _refused(error: Exception) -> RequestRefused:
+    return RequestRefused.of_parameter("name", f"The file is not taken: {error}.")
