@@ -2,6 +2,7 @@
 
 import argparse
 import json
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 from benchmarks.lies import named
 from benchmarks.lies.covered import coverage_of
 from benchmarks.lies.extremes import extremes_of
+from benchmarks.lies.journal import Journal
 from benchmarks.lies.measures import MEASURES
 from benchmarks.lies.scenes import SCENES
 from benchmarks.lies.search import Judged, Measure, report, search
@@ -24,6 +26,9 @@ def main() -> None:
     options.add_argument("--runs", type=int, default=100, help="of each search")
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--job", type=Path, help="a file with a job to be judged instead")
+    options.add_argument(
+        "--journal", type=Path, help="a folder to write verdicts to, where a search goes on later"
+    )
     given = options.parse_args()
     if given.job is not None:
         job = json.loads(given.job.read_text())
@@ -32,6 +37,10 @@ def main() -> None:
     for name in (part for part in given.only if part in MEASURES):
         print(f"\n{name}: seed {given.seed}, {given.runs} runs")
         measure: Measure[Any] = MEASURES[name]
+        if given.journal is not None:
+            given.journal.mkdir(parents=True, exist_ok=True)
+            path = given.journal / f"{name}-{given.seed}.jsonl"
+            measure = replace(measure, judge=Journal(path, measure.judge, measure.verdict))
         search(measure, given.seed, given.runs, given.scenes, partial(_tell, measure))
     if "named" in given.only:
         print(f"\n{named.report()}")

@@ -41,6 +41,7 @@ def _row_of_extremes(group: list[Extremes]) -> tuple[str, ...]:
 
 MEASURES = {
     "coverage": Measure(
+        Verdict,
         coverage_of,
         _badness_of_bars,
         (
@@ -54,6 +55,7 @@ MEASURES = {
         lambda v: f"{percent(v.covered)} inside, {v.worst:.3g} bars: {v.where}",
     ),
     "extremes": Measure(
+        Extremes,
         extremes_of,
         lambda found: found.worst,
         ("extremes", f"off by more than {ALLOWED:g}", "runs with one", "worst"),

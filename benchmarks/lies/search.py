@@ -33,12 +33,14 @@ class Measure(Generic[V]):
 
     Attributes
     ----------
+    verdict : class of its judgements
     judge : of a job
     badness : what the search makes as large as it can, of a verdict
     heads, row : columns of a table, and their entries for the verdicts of a group
     sentence : about one verdict
     """
 
+    verdict: type[V]
     judge: Callable[[dict[str, Any]], V]
     badness: Callable[[V], float]
     heads: tuple[str, ...]
