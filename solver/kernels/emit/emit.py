@@ -18,31 +18,11 @@ from jointplay.solver.kernels.watched import require_wanted
 
 HEADER = '''"""A generated kernel: see jointplay.solver.kernels.emit."""
 
-from numba import float64, int64, void
-
 from jointplay.solver.kernels.emit.tapes import Tapes
 
 tapes = Tapes()
 '''
-FOOTER = """define_all = tapes.definitions()
-
-
-def definitions():
-    define_all()
-
-
-tapes.compile(definitions, globals())
-"""
-DECORATOR = "@tapes.function(void(float64[:, ::1]), inner=False)"
-RETURNING = "@tapes.function(float64(float64[:, ::1]), inner=False)"
-
-SIGNATURES = {
-    "lanes": ("void(float64[:, ::1])", "W"),
-    "instants": ("void(float64[:, ::1], float64[:, ::1], int64)", "W, S, lane"),
-    "row": ("void(float64[:, ::1], int64)", "W, row"),
-    "rows": ("int64(float64[:, ::1])", "W"),
-}
-"""Types and arguments, by what a function goes over."""
+FOOTER = "globals().update(tapes.compiled(__file__))\n"
 
 LONGEST = 3 * MOST_STATEMENTS
 """Lines of a tape: dense output, equations and channels, each within the limit, are on some."""
@@ -131,29 +111,10 @@ class Tape:
         for (name, _), value in zip(outputs, values, strict=True):
             self.lines.append(f"store {self.layout[name]}+ {value}")
 
-    def function(
-        self, name: str, over: str = "lanes", rows: int = 0, *, inner: bool = False
-    ) -> str:
-        """Return the source of a function; see `straight_line` for what it goes over.
-
-        Kernels of this source alone may call `inner` ones. They need no function of Numba's, nor do
-        those need what Python calls that it never calls: a fifth of their compilation.
-        """
+    def function(self, name: str, over: str = "lanes", rows: int = 0) -> str:
+        """Return the source of a function; see `straight_line` for what it goes over."""
         require_wanted()
-        taped = name if inner else f"{name}_tape"
-        lines = [f'{taped} = tapes.add("{name}", """', *self.lines, f'""", "{over}", {rows})']
-        if not inner:
-            types, arguments = SIGNATURES[over]
-            if self.lines[-1].startswith("return"):
-                types = types.replace("void", "float64")
-            lines += [
-                "",
-                "",
-                f"@tapes.function({types}, inner={over != 'lanes'})",
-                f"def {name}({arguments}):",
-                f"    return {taped}({arguments})",
-            ]
-        return "\n".join(lines) + "\n"
+        return _function(name, self.lines, over, rows)
 
     def _evaluate(self, expression: Expression) -> str:
         if expression not in self.values:
@@ -200,13 +161,21 @@ def lane_function(
     layout: Layout,
     fixed: FixedNodes | None = None,
     known: Known = NONE,
-    *,
-    inner: bool = False,
 ) -> str:
     """Return the source of a function W -> W that evaluates `outputs`."""
     tape = Tape(layout, fixed, known)
     tape.store(outputs)
-    return tape.function(name, inner=inner)
+    return tape.function(name)
+
+
+def statements(name: str, lines: Iterable[str]) -> str:
+    """Return the source of a function of W of these lines of a tape."""
+    return _function(name, lines, "lanes", 0)
+
+
+def nothing(name: str) -> str:
+    """Return the source of a function W -> W that does nothing."""
+    return statements(name, [])
 
 
 def module_source(parts: Iterable[str]) -> str:
@@ -214,6 +183,5 @@ def module_source(parts: Iterable[str]) -> str:
     return "\n\n".join([HEADER, *parts, FOOTER])
 
 
-def nothing(name: str) -> str:
-    """Return the source of a function W -> W that does nothing."""
-    return f"{DECORATOR}\ndef {name}(W):\n    pass\n"
+def _function(name: str, lines: Iterable[str], over: str, rows: int) -> str:
+    return "\n".join([f'tapes.add("{name}", """', *lines, f'""", "{over}", {rows})', ""])

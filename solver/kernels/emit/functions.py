@@ -72,11 +72,9 @@ def addresses_of(*modules: ModuleType) -> NDArray[np.void]:
 
 def address_of(function: Any, expected: types.FunctionType) -> int:
     """Return the address of a compiled function of the expected signature."""
-    compiled = next(iter(function.overloads.values()))
-    if not expected.check_signature(compiled.signature):
-        raise TypeError(f"'{function.__name__}' is {compiled.signature}, not {expected}")
-    name = compiled.fndesc.llvm_cfunc_wrapper_name
-    return int(compiled.library.get_pointer_to_function(name))
+    if not expected.check_signature(function.signature):
+        raise TypeError(f"'{function.__name__}' is {function.signature}, not {expected}")
+    return int(function.address)
 
 
 def _functions_at(_typing: Any, record: Any) -> Any:

@@ -7,9 +7,8 @@ which nothing feeds back on, is integrated by Lobatto's formula on the dense out
 import math
 
 from jointplay.solver.integrators.method import Rosenbrock
-from jointplay.solver.kernels.emit.emit import DECORATOR, FixedNodes, Known, lane_function
+from jointplay.solver.kernels.emit.emit import FixedNodes, Known, lane_function, statements
 from jointplay.solver.kernels.emit.stepping import StepRecorder
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import Equations
@@ -79,57 +78,13 @@ class RosenbrockRecorder(StepRecorder):
         firsts = (self.layout.block(name).start for name in (*VECTORS, "factor"))
         direction, product, drift, right, pivot, factor = firsts
         n, time, tried = self.states, self.layout["direction_time"], self.layout["tried"]
-        return f"""{DECORATOR}
-def jacobian(W):
-    for i in range({n}):
-        for l in range({LANES}):
-            W[{direction} + i, l] = 0.0
-    for l in range({LANES}):
-        W[{time}, l] = 1.0
-    product(W)
-    for i in range({n}):
-        for l in range({LANES}):
-            W[{drift} + i, l] = W[{product} + i, l]
-    for l in range({LANES}):
-        W[{time}, l] = 0.0
-    for j in range({n}):
-        for l in range({LANES}):
-            W[{direction} + j, l] = 1.0
-        product(W)
-        for i in range({n}):
-            one = 1.0 if i == j else 0.0
-            for l in range({LANES}):
-                slope = {self.method.gamma!r} * W[{product} + i, l]
-                slope *= W[{tried}, l]
-                W[{factor} + i * {n} + j, l] = one - slope
-        for l in range({LANES}):
-            W[{direction} + j, l] = 0.0
-    for k in range({n}):
-        top = {factor} + k * {n}
-        for l in range({LANES}):
-            W[{pivot} + k, l] = 1.0 / W[top + k, l]
-        for i in range(k + 1, {n}):
-            here = {factor} + i * {n}
-            for l in range({LANES}):
-                W[here + k, l] *= W[{pivot} + k, l]
-            for j in range(k + 1, {n}):
-                for l in range({LANES}):
-                    W[here + j, l] -= W[here + k, l] * W[top + j, l]
-
-
-{DECORATOR}
-def solve(W):
-    for i in range({n}):
-        for k in range(i):
-            for l in range({LANES}):
-                W[{right} + i, l] -= W[{factor} + i * {n} + k, l] * W[{right} + k, l]
-    for i in range({n} - 1, -1, -1):
-        for k in range(i + 1, {n}):
-            for l in range({LANES}):
-                W[{right} + i, l] -= W[{factor} + i * {n} + k, l] * W[{right} + k, l]
-        for l in range({LANES}):
-            W[{right} + i, l] *= W[{pivot} + i, l]
-"""
+        numbers = (n, self.method.gamma, time, tried, direction, product, drift, pivot, factor)
+        return "\n\n".join(
+            [
+                statements("jacobian", [f"jacobian {' '.join(map(repr, numbers))}"]),
+                statements("solve", [f"solve {n} {right} {pivot} {factor}"]),
+            ]
+        )
 
     def _moved(self, weights: tuple[float, ...], i: int, newest: int = 0) -> Expression:
         """State i after h times a weighted sum of stages; the newest is in `right` still."""
@@ -201,9 +156,9 @@ def solve(W):
 
     def _calls(self) -> list[str]:
         place = self.layout["slope0"] - self.layout["k1_0"]
-        calls = ["start(W)", "jacobian(W)", "right_1(W)", "solve(W)"]
+        calls = ["start", "jacobian", "right_1", "solve"]
         for s in range(2, len(self.method.nodes) + 1):
-            calls += [f"point_{s}(W)", f"slopes(W, {place})", f"right_{s}(W)", "solve(W)"]
+            calls += [f"point_{s}", f"slopes {place}", f"right_{s}", "solve"]
         for name in ("inner_1", "inner_2", "finish"):
-            calls += [f"{name}(W)", "right_hand_side(W)"]
+            calls += [name, "right_hand_side"]
         return calls

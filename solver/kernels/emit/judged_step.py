@@ -62,7 +62,7 @@ class JudgedStep:
         return total
 
     def _function(self, name: str, outputs: Outputs) -> str:
-        return lane_function(name, outputs, self.layout, inner=True)
+        return lane_function(name, outputs, self.layout)
 
     def _slope(self, s: int, i: int) -> str:
         """Return the slot of the slope of state i at stage s: the last is where the step ends."""

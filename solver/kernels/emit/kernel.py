@@ -170,7 +170,7 @@ def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> 
     kept = {"slope": "k1_", "ledger": "kledger1_"}
     named = [(name.rstrip("0123456789"), name, value) for name, value in slopes(equations)]
     tape.store_rows([(name.replace(block, kept[block]), value) for block, name, value in named])
-    return tape.function("slopes", "row", inner=True)
+    return tape.function("slopes", "row")
 
 
 def values_of(nodes: Sequence[Expression], scene: Scene) -> Floats:

@@ -57,12 +57,12 @@ class KnotRecorder:
     @property
     def calls_before(self) -> list[str]:
         """Calls before the first stage."""
-        return ["look_from_start(W)", "look_for_knots(W)"] if self.clocked else []
+        return ["look_from_start", "look_for_knots"] if self.clocked else []
 
     @property
     def calls_after(self) -> list[str]:
         """Calls before the judge."""
-        return ["meet_knots(W)"] if self.met else []
+        return ["meet_knots"] if self.met else []
 
     def at_end(self) -> Outputs:
         """Return the arguments and their rates where a step ends."""
@@ -88,8 +88,8 @@ class KnotRecorder:
             soonest = _sooner(soonest, path)
         start = [("stage_time", variable("time"))]
         return [
-            lane_function("look_from_start", start, self.layout, inner=True),
-            lane_function("look_for_knots", [("to_knot", soonest)], self.layout, fixed, inner=True),
+            lane_function("look_from_start", start, self.layout),
+            lane_function("look_for_knots", [("to_knot", soonest)], self.layout, fixed),
         ]
 
     def _passed(self, fixed: FixedNodes) -> list[str]:
@@ -105,7 +105,7 @@ class KnotRecorder:
             ways = begun * variable("tried"), ended * variable("tried")
             first = minimum(first, _share(path.knots, start, end, *ways))
         outputs = [("knot_share", first)]
-        return [lane_function("meet_knots", outputs, self.layout, fixed, inner=True)]
+        return [lane_function("meet_knots", outputs, self.layout, fixed)]
 
 
 def _inside(knots: Knots, x: Expression) -> tuple[Expression, list[Expression]]:

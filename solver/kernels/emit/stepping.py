@@ -9,12 +9,12 @@ from itertools import count
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit import closing, enclosure
 from jointplay.solver.kernels.emit.emit import (
-    RETURNING,
     FixedNodes,
     Known,
     Outputs,
     Tape,
     lane_function,
+    statements,
 )
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
 from jointplay.solver.kernels.layout import Layout
@@ -90,8 +90,8 @@ class StepRecorder(JudgedStep):
         calls = []
         for s in range(2, last):
             place = self.layout[f"k{s}_0"] - self.layout["k1_0"]
-            calls += [f"stage_{s}(W)", f"slopes(W, {place})"]
-        return [*calls, f"stage_{last}(W)", "right_hand_side(W)"]
+            calls += [f"stage_{s}", f"slopes {place}"]
+        return [*calls, f"stage_{last}", "right_hand_side"]
 
     def _ledger_weights(self) -> tuple[float, ...]:
         return self.tableau.matrix[-1]
@@ -147,10 +147,9 @@ class StepRecorder(JudgedStep):
         """Attempt a step; the largest flag of a lane."""
         calls = self._calls()
         if self.equations.corrections:  # where the step ends, before its slopes are evaluated
-            calls.insert(-1, "project(W)")
+            calls.insert(-1, "project")
         calls = [*self.knots.calls_before, *calls, *self.knots.calls_after]
-        calls = [f"    {call}" for call in calls]
-        return "\n".join([RETURNING, "def attempt(W):", *calls, "    return judge(W)", ""])
+        return statements("attempt", [f"call {each}" for each in calls] + ["return call judge"])
 
     def _take(self, energies: Outputs, fixed: FixedNodes) -> str:
         """Take the step in the lanes that accept it.

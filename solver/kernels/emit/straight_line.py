@@ -19,28 +19,28 @@ something is positive::
     v0 = load 12+           slot 12 + row
     mark 14 v3              byte `row` of slot 14 and those behind it: bit k is set where lane k is
 
-As Python's arithmetic in a loop over the lanes, which it was once, the types of a thousand scalars
-had to be inferred and the loop found to be one of vectors: it took five times as long to compile
-and ran no faster.
+A step is a tape that calls others of its module, and has equations solved::
+
+    call stage_2            a function of W
+    call slopes 42          a function of W and a row
+    return call judge       its value
+    jacobian 12 0.25 ...    see `solver.kernels.emit.elimination`
+    solve 12 ...
+
+As Python's arithmetic in a loop over the lanes, which Numba compiled, it took five times as long to
+compile and ran no faster.
 """
 
-# mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
+from collections.abc import Callable
 
-from __future__ import annotations
-
-from typing import Any
-
-from numba.core import cgutils
-
+from jointplay.solver.kernels.emit.elimination import factorise, substitute
 from jointplay.solver.kernels.emit.lane_arithmetic import (
-    MARKS,
     NUMBERS,
-    WORD,
     Lanes,
     everywhere,
     largest,
     lower_and_upper,
-    positive,
+    mask,
     same,
 )
 from jointplay.solver.kernels.lanes import LANES
@@ -51,12 +51,20 @@ PARTS = INSTANTS // LANES
 """Halves, or the whole, of the instants."""
 ALIGNED = 8
 """Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
+ARGUMENTS: dict[str, dict[str, str]] = {
+    "lanes": {"%W": "ptr"},
+    "instants": {"%W": "ptr", "%S": "ptr", "%index": "i64"},
+    "row": {"%W": "ptr", "%index": "i64"},
+    "rows": {"%W": "ptr"},
+}
+"""Arguments of a function and their types, by what its tape goes over."""
+
+Symbol = Callable[[str], str]
+"""Gives the name by which LLVM knows a function of the module."""
 
 
-def write(
-    tape: str, builder: Any, over: str, rows: int, source: Any, target: Any, index: Any
-) -> Any:
-    """Generate what a tape says; the function's value, None where it has none.
+def write(tape: str, over: str, rows: int, value: str, symbol: Symbol) -> list[str]:
+    """Return the lines of a function that does what a tape says.
 
     Parameters
     ----------
@@ -67,92 +75,122 @@ def write(
     rows
         Number of rows. They are a loop: written out, they would push everything else that a step
         does out of the cache of instructions.
-    source, target
-        Where numbers are loaded from, and where they are stored.
+    value
+        Type of the function's value.
+    symbol
+        How functions are called that the tape calls.
     """
+    lanes = Lanes()
     if over == "rows":
-        marks = cgutils.alloca_once_value(builder, MARKS(0))
-        with cgutils.for_range(builder, WORD(rows)) as loop:
-            _run(tape, _Tape(builder, source, target, row=loop.index, marks=marks))
-        return builder.zext(builder.load(marks), WORD)
-    if over == "instants" and PARTS > 1:
-        with cgutils.for_range(builder, WORD(PARTS)) as loop:
-            _run(tape, _Tape(builder, source, target, lane=index, part=loop.index))
-        return None
-    return _run(tape, _Tape(builder, source, target, lane=index, row=index))
-
-
-def _run(tape: str, state: _Tape) -> Any:
-    """Generate the code of a tape's lines; the value that it returns."""
-    for line in tape.strip().splitlines():
-        match line.replace("= ", "").split():
-            case ["store", slot, value]:
-                state.store(slot, state.value(value))
-            case ["mark", slot, value]:
-                state.mark(slot, state.value(value))
-            case ["return", value]:
-                return largest(state.builder, state.value(value))
-            case [name, "load", slot]:
-                state.values[name] = state.load(state.source, slot)
-            case [name, "given", slot]:
-                state.values[name] = state.load(state.target, slot)
-            case [name, "spread", *slots]:
-                state.values[name] = state.spread(*slots)
-            case [name, operation, *operands]:
-                values = map(state.value, operands)
-                state.values[name] = OPERATIONS[operation].on_lanes(state.lanes, *values)
-    return None
+        lanes.lines += ["%marks = alloca i8", "store i8 0, ptr %marks"]
+        with lanes.loop("0", str(rows)) as row:
+            _Tape(lanes, symbol, row=row).run(tape)
+        found = lanes.new("load i8, ptr %marks")
+        lanes.lines.append(f"ret i64 {lanes.new(f'zext i8 {found} to i64')}")
+    elif over == "instants" and PARTS > 1:
+        with lanes.loop("0", str(PARTS)) as part:
+            _Tape(lanes, symbol, target="%S", part=part).run(tape)
+    elif over == "instants":
+        _Tape(lanes, symbol, target="%S").run(tape)
+    else:
+        _Tape(lanes, symbol, row="%index").run(tape)
+    if value == "void":
+        lanes.lines.append("ret void")
+    return lanes.lines
 
 
 class _Tape:
     """The arrays that a tape works on, and the values that it has made so far."""
 
     def __init__(
-        self, builder, source, target, *, lane=None, row=None, marks=None, part=None
+        self, lanes: Lanes, symbol: Symbol, *, target: str = "%W", row: str = "", part: str = ""
     ) -> None:
-        self.builder, self.numbers = builder, source
-        kind = NUMBERS.as_pointer()
-        self.source, self.target = (builder.bitcast(array, kind) for array in (source, target))
-        self.lanes = Lanes(builder)
-        self.lane, self.row, self.marks, self.part = lane, row, marks, part
-        self.values: dict[str, Any] = {}
+        self.lanes, self.symbol = lanes, symbol
+        self.target, self.row, self.part = target, row, part
+        self.values: dict[str, str] = {}
 
-    def value(self, text: str) -> Any:
+    def run(self, tape: str) -> None:
+        """Write the code of a tape's lines."""
+        for line in tape.strip().splitlines():
+            words = line.split()
+            if words[1] == "=":
+                self.values[words[0]] = self._made(*words[2:])
+            else:
+                self._do(words)
+
+    def _made(self, what: str, *operands: str) -> str:
+        """Write a value."""
+        if what == "load":
+            return self._load("%W", *operands)
+        if what == "given":
+            return self._load(self.target, *operands)
+        if what == "spread":
+            return self._spread(*operands)
+        on_lanes = OPERATIONS[what].on_lanes
+        assert on_lanes is not None  # noqa: S101  (tapes have no others)
+        found: str = on_lanes(self.lanes, *map(self._value, operands))
+        return found
+
+    def _do(self, words: list[str]) -> None:
+        """Write what is no value."""
+        lanes = self.lanes
+        match words:
+            case ["store", slot, value]:
+                self._store(slot, self._value(value))
+            case ["mark", slot, value]:
+                self._mark(slot, self._value(value))
+            case ["return", "call", name]:
+                found = lanes.new(f"call double {self.symbol(name)}(ptr %W)")
+                lanes.lines.append(f"ret double {found}")
+            case ["return", value]:
+                lanes.lines.append(f"ret double {largest(lanes, self._value(value))}")
+            case ["call", name]:
+                lanes.lines.append(f"call void {self.symbol(name)}(ptr %W)")
+            case ["call", name, row]:
+                lanes.lines.append(f"call void {self.symbol(name)}(ptr %W, i64 {row})")
+            case ["jacobian", *numbers]:
+                factorise(lanes, self.symbol("product"), *numbers)
+            case ["solve", *numbers]:
+                substitute(lanes, *numbers)
+
+    def _value(self, text: str) -> str:
         return self.values[text] if text in self.values else same(float(text))
 
-    def load(self, array: Any, slot: str) -> Any:
-        return self.builder.load(self._place(array, slot), align=ALIGNED)
+    def _load(self, array: str, slot: str) -> str:
+        return self.lanes.new(f"load {NUMBERS}, ptr {self._place(array, slot)}, align {ALIGNED}")
 
-    def store(self, slot: str, value: Any) -> None:
-        self.builder.store(value, self._place(self.target, slot), align=ALIGNED)
+    def _store(self, slot: str, value: str) -> None:
+        place = self._place(self.target, slot)
+        self.lanes.lines.append(f"store {NUMBERS} {value}, ptr {place}, align {ALIGNED}")
 
-    def mark(self, slot: str, value: Any) -> None:
-        builder, bits = self.builder, positive(self.builder, value)
-        builder.store(builder.or_(builder.load(self.marks), bits), self.marks)
-        rows = builder.bitcast(self._place(self.target, slot), MARKS.as_pointer())
-        builder.store(bits, builder.gep(rows, [self.row]))
+    def _mark(self, slot: str, value: str) -> None:
+        lanes, bits = self.lanes, mask(self.lanes, value)
+        marked = lanes.new("load i8, ptr %marks")
+        lanes.lines.append(f"store i8 {lanes.new(f'or i8 {marked}, {bits}')}, ptr %marks")
+        first = self._place(self.target, slot)
+        place = lanes.new(f"getelementptr i8, ptr {first}, i64 {self.row}")
+        lanes.lines.append(f"store i8 {bits}, ptr {place}")
 
-    def spread(self, slot: str, later_slot: str = "") -> Any:
-        builder, early = self.builder, self._spread(slot)
+    def _spread(self, slot: str, later_slot: str = "") -> str:
+        lanes, early = self.lanes, self._spread_one(slot)
         if not later_slot:
             return early
-        late = self._spread(later_slot)
-        if self.part is None:
-            return lower_and_upper(builder, early, late)
-        return builder.select(self._is_early(), early, late)
+        late = self._spread_one(later_slot)
+        if not self.part:
+            return lower_and_upper(lanes, early, late)
+        is_early = lanes.new(f"icmp eq i64 {self.part}, 0")
+        return lanes.new(f"select i1 {is_early}, {NUMBERS} {early}, {NUMBERS} {late}")
 
-    def _is_early(self) -> Any:
-        return self.builder.icmp_unsigned("==", self.part, WORD(0))
-
-    def _place(self, array: Any, slot: str) -> Any:
-        place = WORD(int(slot.removesuffix("+")))
+    def _place(self, array: str, slot: str) -> str:
+        place = slot.removesuffix("+")
         if slot.endswith("+"):
-            place = self.builder.add(place, self.row)
-        if self.part is not None:  # only S is loaded from or stored to
-            place = self.builder.add(self.builder.mul(place, WORD(PARTS)), self.part)
-        return self.builder.gep(array, [place])
+            place = self.lanes.new(f"add i64 {place}, {self.row}")
+        if self.part:  # only S is loaded from or stored to
+            whole = self.lanes.new(f"mul i64 {place}, {PARTS}")
+            place = self.lanes.new(f"add i64 {whole}, {self.part}")
+        return self.lanes.new(f"getelementptr {NUMBERS}, ptr {array}, i64 {place}")
 
-    def _spread(self, slot: str) -> Any:
-        place = self.builder.add(WORD(int(slot) * LANES), self.lane)
-        number = self.builder.load(self.builder.gep(self.numbers, [place]))
-        return everywhere(self.builder, number)
+    def _spread_one(self, slot: str) -> str:
+        place = self.lanes.new(f"add i64 {int(slot) * LANES}, %index")
+        place = self.lanes.new(f"getelementptr double, ptr %W, i64 {place}")
+        return everywhere(self.lanes, self.lanes.new(f"load double, ptr {place}"))

@@ -14,7 +14,7 @@ same nodes and weights as in Bogacki and Shampine 1989, Applied Mathematics Lett
 
 from collections.abc import Sequence
 
-from jointplay.solver.kernels.emit.emit import DECORATOR, lane_function
+from jointplay.solver.kernels.emit.emit import lane_function, statements
 from jointplay.solver.kernels.emit.kinks import MEMORY
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import Equations
@@ -50,13 +50,13 @@ class TangentRecorder:
         it is taken: ``y`` and ``k1_`` then belong to its start, ``stage`` and ``slope`` to its end,
         and ``accept`` tells which lanes take it.
         """
-        calls = [line for s in range(STAGES) for line in (f"carry_{s}(W)", "carried_slopes(W)")]
-        calls.append("arrive(W)")
+        calls = [line for s in range(STAGES) for line in (f"carry_{s}", "carried_slopes")]
+        calls = ["kinks", *calls, "arrive"]
         if self.closed:
-            calls.append("hold_tangent(W)")
-        body = "\n    ".join(["def tangent_step(W):", "kinks(W)", *calls])
+            calls.append("hold_tangent")
         parts = [self._begin(), *(self._carry(s) for s in range(1, STAGES)), self._arrive()]
-        return "\n\n".join([*parts, f"{DECORATOR}\n{body}\n"])
+        step = statements("tangent_step", [f"call {each}" for each in calls])
+        return "\n\n".join([*parts, step])
 
     def _begin(self) -> str:
         """Stage 0, where the step begins."""
@@ -64,7 +64,7 @@ class TangentRecorder:
         outputs = [("passing_time", v("time"))]
         for i in range(self.states):
             outputs += [(f"passing{i}", v(f"y{i}")), (f"carried{i}", v(f"tangent{i}"))]
-        return lane_function("carry_0", outputs, self.layout, inner=True)
+        return lane_function("carry_0", outputs, self.layout)
 
     def _carry(self, s: int) -> str:
         """Stage s: the point that the base passes there, and the tangent carried there."""
@@ -83,7 +83,7 @@ class TangentRecorder:
             kept = "first_slope" if stage == 1 else "second_slope"
             outputs.append((f"carried{i}", begun + (0.5 * NODES[stage]) * v("tried") * slope))
             outputs.append((f"{kept}{i}", slope))
-        return lane_function(f"carry_{s}", outputs, self.layout, inner=True)
+        return lane_function(f"carry_{s}", outputs, self.layout)
 
     def _slope(self, i: int) -> Expression:
         """Slope of component i at the stage just evaluated: of a coordinate's, its speed's."""
@@ -110,7 +110,7 @@ class TangentRecorder:
         moved = [(f"tangent{i}", self._after_half(v(f"middle{i}"), i)) for i in range(self.states)]
         moved += [(f"kink_start{i}", v(f"kink_end{i}")) for i in range(MEMORY * self.kinks)]
         taken = [(name, select_positive(v("accept"), new, v(name))) for name, new in moved]
-        return lane_function("arrive", taken, self.layout, inner=True)
+        return lane_function("arrive", taken, self.layout)
 
 
 def _sum(weights: Sequence[float], terms: Sequence[Expression]) -> Expression:

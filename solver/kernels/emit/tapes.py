@@ -1,39 +1,32 @@
-"""Functions of tapes: each is compiled once, in one library, and known to callers by name alone.
+"""Functions of tapes: all of a generated module are compiled in one piece, and call one another.
 
-Numba links the code of whatever a function calls into that function's own library, optimises it
-there again and writes it out again; for a step and its stages that was a third of compilation.
+Each can be called in two ways: with addresses of numbers, as they do among themselves and as Python
+does, and with arrays, as the loops do, which Numba compiles.
 """
 
-# mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
-
 import hashlib
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
+from pathlib import Path
 
-from llvmlite import ir
-from numba import float64, int64, njit, types, void
-from numba.core import cgutils
-from numba.extending import intrinsic
+from numba.core.datamodel.registry import default_manager
 
-from jointplay.solver.kernels.emit.lane_arithmetic import DOUBLE, WORD
-from jointplay.solver.kernels.emit.straight_line import write
+from jointplay.solver.kernels.emit.function import ARRAY, OF_ARRAYS, Function
+from jointplay.solver.kernels.emit.functions import WORK
+from jointplay.solver.kernels.emit.lane_arithmetic import DECLARED
+from jointplay.solver.kernels.emit.machine_code import load_code
+from jointplay.solver.kernels.emit.straight_line import ARGUMENTS, write
 
-OPTIONS: dict[str, Any] = {
-    "cache": True,
-    "error_model": "numpy",
-    "fastmath": {"contract", "nsz", "arcp"},
-}
-ARRAYS = {"lanes": 1, "instants": 2, "row": 1, "rows": 1}
-"""Arrays that a tape takes, by what it goes over; see `straight_line`."""
-INDEXED = ("instants", "row")
-"""Over what tapes take an index behind the arrays."""
+_ARRAY_MODEL = default_manager[WORK]
+ARRAY_IN_LOOPS = re.sub(r"\w+\*", "ptr", str(_ARRAY_MODEL.get_value_type()))
+"""LLVM's type of a work array in loops, a structure; the numbers' address is one of its parts."""
+ADDRESS_OF_NUMBERS = _ARRAY_MODEL.get_field_position("data")
 
 
 @dataclass(frozen=True)
-class _Function:
-    """A tape and what it goes over."""
+class _Source:
+    """A tape and what it goes over; see `solver.kernels.emit.straight_line`."""
 
     name: str
     tape: str
@@ -41,99 +34,71 @@ class _Function:
     rows: int
 
     @property
-    def value(self) -> Any:
-        """Numba's type of its value."""
-        return {"rows": int64}.get(self.over, float64 if "\nreturn " in self.tape else types.void)
+    def value(self) -> str:
+        """LLVM's type of the function's value."""
+        if self.over == "rows":
+            return "i64"
+        return "double" if "\nreturn " in self.tape else "void"
 
-    def declared(self, module: Any, prefix: str) -> Any:
-        """Return the function in a module of the intermediate language, where it may be defined."""
-        values = {int64: WORD, float64: DOUBLE, types.void: ir.VoidType()}
-        arguments = [DOUBLE.as_pointer()] * ARRAYS[self.over] + [WORD] * (self.over in INDEXED)
-        kind = ir.FunctionType(values[self.value], arguments)
-        return cgutils.get_or_insert_function(module, kind, f"{prefix}.{self.name}")
+    def text(self, symbol: Callable[[str], str]) -> str:
+        """Return both functions in LLVM's language."""
+        arguments, name = ARGUMENTS[self.over], symbol(self.name)
+        lines = [
+            # within another function its numbers would be joined with others to other bits
+            f"define {self.value} {name}({_listed(arguments, ARRAY)}) noinline nounwind {{",
+            "entry:",
+            *write(self.tape, self.over, self.rows, self.value, symbol),
+            "}",
+            f"define {self.value} {symbol(self.name + OF_ARRAYS)}("
+            f"{_listed(arguments, ARRAY_IN_LOOPS)}) nounwind {{",
+        ]
+        for argument, kind in arguments.items():
+            if kind == ARRAY:
+                part = f"extractvalue {ARRAY_IN_LOOPS} {argument}, {ADDRESS_OF_NUMBERS}"
+                lines.append(f"{argument}.numbers = {part}")
+        given = {f"{a}.numbers" if kind == ARRAY else a: kind for a, kind in arguments.items()}
+        call = f"call {self.value} {name}({_listed(given, ARRAY)})"
+        if self.value == "void":
+            return "\n".join([*lines, call, "ret void", "}"])
+        return "\n".join([*lines, f"%value = {call}", f"ret {self.value} %value", "}"])
 
-    def define(self, module: Any, prefix: str) -> None:
-        """Write the function's code."""
-        function = self.declared(module, prefix)
-        function.attributes.add("nounwind")
-        builder = ir.IRBuilder(function.append_basic_block("entry"))
-        source, target = function.args[0], function.args[ARRAYS[self.over] - 1]
-        index = function.args[-1] if self.over in INDEXED else None
-        value = write(self.tape, builder, self.over, self.rows, source, target, index)
-        if value is None:
-            builder.ret_void()
-        else:
-            builder.ret(value)
+
+def _listed(arguments: Mapping[str, str], array: str) -> str:
+    """Return arguments with their types, `array` being that of arrays."""
+    return ", ".join(f"{array if k == ARRAY else k} {a}" for a, k in arguments.items())
 
 
 class Tapes:
-    """Functions of one generated module: of tapes, and of Numba's that call them."""
+    """Functions of one generated module."""
 
     def __init__(self) -> None:
-        self._functions: list[_Function] = []
-        self._callers: list[tuple[Any, dict[str, Any], Callable[..., Any]]] = []
+        self._sources: list[_Source] = []
 
-    @cached_property
-    def _prefix(self) -> str:
-        text = repr(self._functions)  # all are there when the first is asked for its name
-        return f"jointplay.{hashlib.sha256(text.encode()).hexdigest()[:24]}"
-
-    def add(self, name: str, tape: str, over: str, rows: int = 0) -> Any:
-        """Return a tape as a function inside kernels: of W, of W and S, of an index behind them.
+    def add(self, name: str, tape: str, over: str = "lanes", rows: int = 0) -> None:
+        """Add a function that does what a tape says.
 
         Parameters
         ----------
         over, rows
             See `solver.kernels.emit.straight_line`.
         """
-        one = _Function(name, tape, over, rows)
-        self._functions.append(one)
+        self._sources.append(_Source(name, f"\n{tape}", over, rows))
 
-        def generate(context, builder, signature, arguments):
-            count = ARRAYS[over]
-            pointers = [
-                context.make_array(kind)(context, builder, value=array).data
-                for kind, array in zip(signature.args[:count], arguments, strict=False)
-            ]
-            function = one.declared(builder.module, self._prefix)
-            value = builder.call(function, [*pointers, *arguments[count:]])
-            return context.get_dummy_value() if one.value == types.void else value
+    def compiled(self, file: str | None = None) -> dict[str, Function]:
+        """Return all functions by name, compiled or, beside the module's file, found to be."""
+        digest = hashlib.sha256(repr(self._sources).encode()).hexdigest()[:24]
+        prefix = f"jointplay.{digest}"
 
-        def over_one(_typing, W):  # noqa: N803  (as in every generated kernel)
-            return one.value(W), generate
+        def symbol(name: str) -> str:
+            return f'@"{prefix}.{name}"'
 
-        def at_index(_typing, W, index):  # noqa: N803
-            return one.value(W, int64), generate
+        def text() -> str:
+            return "\n".join([*(one.text(symbol) for one in self._sources), DECLARED])
 
-        def inside(_typing, W, S, index):  # noqa: N803
-            return one.value(W, S, int64), generate
-
-        return intrinsic({"row": at_index, "instants": inside}.get(over, over_one))
-
-    def function(self, signature: Any, *, inner: bool) -> Callable[[Any], Any]:
-        """Note a function that `compile` compiles; Python may call it unless it is an inner one."""
-
-        def note(function: Callable[..., Any]) -> Callable[..., Any]:
-            self._callers.append((signature, {"no_cpython_wrapper": inner}, function))
-            return function
-
-        return note
-
-    def definitions(self) -> Any:
-        """Return a function inside kernels in whose library all tapes are defined."""
-
-        def write_all(_typing):
-            def generate(context, builder, _signature, _arguments):
-                for one in self._functions:
-                    one.define(builder.module, self._prefix)
-                return context.get_dummy_value()
-
-            return types.void(), generate
-
-        return intrinsic(write_all)
-
-    def compile(self, definitions: Callable[[], None], names: dict[str, Any]) -> None:
-        """Compile what defines all tapes, then the noted functions, in place of their names."""
-        first: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-        for signature, without, function in [(void(), first, definitions), *self._callers]:
-            names[function.__name__] = njit(signature, **OPTIONS, **without)(function)
+        load_code(text, None if file is None else Path(file))
+        return {
+            one.name: Function(
+                one.name, f"{prefix}.{one.name}", one.value, list(ARGUMENTS[one.over].values())
+            )
+            for one in self._sources
+        }

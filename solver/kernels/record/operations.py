@@ -23,7 +23,6 @@ Lanes = Any
 Vector = Any
 """A vector of that code, a number a lane."""
 
-FLAGS = ("contract", "nsz", "arcp")
 MANTISSA_BITS, BIAS = 52, 1023
 MANTISSA_MASK = (1 << MANTISSA_BITS) - 1
 SIGN_BIT = 63
@@ -102,31 +101,29 @@ def _power_rate(node: Node, rates: Rates) -> Node:
 
 
 def _select(lanes: Lanes, x: Vector, a: Vector, b: Vector) -> Vector:
-    """Return a where x > 0, else b; a difference is compared, not formed: it may be a maximum."""
-    if getattr(x, "opname", "") == "fsub":
-        return lanes.builder.select(lanes.greater(*x.operands), a, b)
-    return lanes.builder.select(lanes.greater(x, lanes.same(0.0)), a, b)
+    """Return a where x > 0, else b."""
+    return lanes.choose(lanes.positive(x), a, b)
 
 
 def _exponent(lanes: Lanes, x: Vector) -> Vector:
     """Return e with x = m 2^e, 1 <= m < 2, for a normal positive x."""
-    shifted = lanes.builder.lshr(lanes.bits(x), lanes.word(MANTISSA_BITS))
-    return lanes.builder.sitofp(lanes.builder.sub(shifted, lanes.word(BIAS)), x.type)
+    shifted = lanes.on_words("lshr", lanes.bits(x), lanes.word(MANTISSA_BITS))
+    return lanes.from_whole(lanes.on_words("sub", shifted, lanes.word(BIAS)))
 
 
 def _mantissa(lanes: Lanes, x: Vector) -> Vector:
     """Return m with x = m 2^e, 1 <= m < 2, for a normal positive x."""
-    kept = lanes.builder.and_(lanes.bits(x), lanes.word(MANTISSA_MASK))
-    return lanes.numbers(lanes.builder.or_(kept, lanes.word(BIAS << MANTISSA_BITS)))
+    kept = lanes.on_words("and", lanes.bits(x), lanes.word(MANTISSA_MASK))
+    return lanes.numbers(lanes.on_words("or", kept, lanes.word(BIAS << MANTISSA_BITS)))
 
 
 def _power_of_two(lanes: Lanes, x: Vector) -> Vector:
     """Return 2^x for a whole x, limited to -1022..1023; NaN gives the lower limit."""
-    builder, low, high = lanes.builder, lanes.same(-1022.0), lanes.same(1023.0)
-    x = builder.select(lanes.greater(x, low), x, low)
-    x = builder.select(lanes.greater(high, x), x, high)
-    bits = builder.add(lanes.whole(x), lanes.word(BIAS))
-    return lanes.numbers(builder.shl(bits, lanes.word(MANTISSA_BITS)))
+    low, high = lanes.same(-1022.0), lanes.same(1023.0)
+    x = lanes.choose(lanes.greater(x, low), x, low)
+    x = lanes.choose(lanes.greater(high, x), x, high)
+    bits = lanes.on_words("add", lanes.whole(x), lanes.word(BIAS))
+    return lanes.numbers(lanes.on_words("shl", bits, lanes.word(MANTISSA_BITS)))
 
 
 def _quarter_turns(lanes: Lanes, n: Vector, sine: Vector, cosine: Vector) -> Vector:
@@ -134,35 +131,35 @@ def _quarter_turns(lanes: Lanes, n: Vector, sine: Vector, cosine: Vector) -> Vec
 
     The lowest bits of n swap both and change the sign, which takes no multiplication.
     """
-    builder, one = lanes.builder, lanes.word(1)
-    bits = lanes.bits(builder.fadd(n, lanes.same(WHOLE)))
-    odd = builder.icmp_unsigned("!=", builder.and_(bits, one), lanes.word(0))
-    sign = builder.and_(builder.shl(bits, lanes.word(SIGN_BIT - 1)), lanes.word(1 << SIGN_BIT))
-    turned = lanes.bits(builder.select(odd, cosine, sine))
-    return lanes.numbers(builder.xor(turned, sign))
+    on_words, word = lanes.on_words, lanes.word
+    bits = lanes.bits(lanes.arithmetic("fadd", n, lanes.same(WHOLE)))
+    odd = on_words("icmp ne", on_words("and", bits, word(1)), word(0))
+    sign = on_words("and", on_words("shl", bits, word(SIGN_BIT - 1)), word(1 << SIGN_BIT))
+    turned = lanes.bits(lanes.choose(odd, cosine, sine))
+    return lanes.numbers(on_words("xor", turned, sign))
 
 
 OPERATIONS: dict[str, Operation] = {
     "add": Operation(
         operator.add,
         lambda _node, rates: rates[0] + rates[1],
-        lambda lanes, x, y: lanes.builder.fadd(x, y, flags=FLAGS),
+        lambda lanes, x, y: lanes.arithmetic("fadd", x, y),
     ),
     "sub": Operation(
         operator.sub,
         lambda _node, rates: rates[0] - rates[1],
-        lambda lanes, x, y: lanes.builder.fsub(x, y, flags=FLAGS),
+        lambda lanes, x, y: lanes.arithmetic("fsub", x, y),
     ),
     "mul": Operation(
-        operator.mul, _product_rate, lambda lanes, x, y: lanes.builder.fmul(x, y, flags=FLAGS)
+        operator.mul, _product_rate, lambda lanes, x, y: lanes.arithmetic("fmul", x, y)
     ),
     "div": Operation(
-        operator.truediv, _quotient_rate, lambda lanes, x, y: lanes.builder.fdiv(x, y, flags=FLAGS)
+        operator.truediv, _quotient_rate, lambda lanes, x, y: lanes.arithmetic("fdiv", x, y)
     ),
     "neg": Operation(
         operator.neg,
         lambda _node, rates: -rates[0],
-        lambda lanes, x: lanes.builder.fneg(x, flags=FLAGS),
+        lambda lanes, x: lanes.negative(x),
     ),
     "abs": Operation(
         abs,

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numba import njit, void
 
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.emit.tapes import Tapes
@@ -32,13 +31,8 @@ EVERY_OPERATION = dict.fromkeys(ON_LANES, 1) | {
 def compiled(tape, over="lanes", rows=0):
     """Return what a tape does to W, to W, S and a lane, or to W and a row."""
     tapes = Tapes()
-    run, define_all = tapes.add("run", tape, over, rows), tapes.definitions()
-    njit(void(), error_model="numpy")(lambda: define_all())
-    if over == "instants":
-        return njit(lambda work, spare, lane: run(work, spare, lane))
-    if over == "row":
-        return njit(lambda work, row: run(work, row))
-    return njit(lambda work: run(work))
+    tapes.add("run", tape, over, rows)
+    return tapes.compiled()["run"]
 
 
 RUNS = {

@@ -1,44 +1,74 @@
-"""Functions of tapes: compiled once, whoever calls them."""
+"""Functions of tapes: they call one another, are kept in a file, and take work arrays alone."""
 
-from typing import Any
+from pathlib import Path
 
 import numpy as np
-from numba import njit, void
+import pytest
+from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import WORK
 from jointplay.solver.kernels.emit.tapes import Tapes
 from jointplay.solver.kernels.lanes import LANES
 
 SQUARED = "v0 = load 0\nv1 = mul v0 v0\nstore 1 v1"
+MOVED = "v0 = load 0+\nstore 2+ v0"
+STEP = "call square\ncall move 1\nreturn call judge"
 
 
-def test_a_tape_is_in_one_library_and_its_callers_have_none_of_its_code() -> None:
+def step() -> Tapes:
     tapes = Tapes()
-    square, define_all = tapes.add("square", SQUARED, "lanes"), tapes.definitions()
-    defined = njit(void())(lambda: define_all())
-    once = njit(void(WORK))(lambda work: square(work))
-    twice = njit(void(WORK))(lambda work: (once(work), square(work), None)[2])
-    multiplying = [
-        "fmul" in code for one in (defined, once, twice) for code in one.inspect_llvm().values()
-    ]
-    assert multiplying == [True, False, False]
-    for function in (once, twice):
-        work = np.full((2, LANES), 3.0)
-        function(work)
-        assert work[1].tolist() == [9.0] * LANES
+    tapes.add("square", SQUARED)
+    tapes.add("move", MOVED, "row")
+    tapes.add("judge", "v0 = load 3\nreturn v0")
+    tapes.add("step", STEP)
+    return tapes
 
 
-def compiled(tape: str) -> Any:
-    """Return a kernel that does what a tape says, which every module here calls the same."""
-    tapes = Tapes()
-    run, define_all = tapes.add("square", tape, "lanes"), tapes.definitions()
-    njit(void())(lambda: define_all())
-    return njit(void(WORK))(lambda work: run(work))
+def work_of(value: float) -> np.ndarray:
+    work = np.zeros((4, LANES))
+    work[0] = value
+    return work
+
+
+def test_a_tape_calls_others_and_has_the_value_of_the_last() -> None:
+    functions = step().compiled()
+    work = work_of(3.0)
+    assert functions["step"](work) == 9.0
+    assert work[3].tolist() == [9.0] * LANES
+    signatures = {name: function.signature for name, function in functions.items()}
+    assert signatures["square"] == void(WORK)
+    assert signatures["move"] == void(WORK, int64)
+    assert signatures["step"] == signatures["judge"] == float64(WORK)
+    assert len({function.address for function in functions.values()}) == len(functions)
 
 
 def test_tapes_of_one_name_in_two_modules_are_two() -> None:
-    functions = [compiled(SQUARED), compiled(SQUARED.replace("mul", "add"))]
+    functions = []
+    for tape in (SQUARED, SQUARED.replace("mul", "add")):
+        tapes = Tapes()
+        tapes.add("square", tape)
+        functions.append(tapes.compiled()["square"])
     for function, expected in zip(functions, (9.0, 6.0), strict=True):
-        work = np.full((2, LANES), 3.0)
+        work = work_of(3.0)
         function(work)
         assert work[1].tolist() == [expected] * LANES
+
+
+def test_code_is_compiled_once_and_the_same_each_time(tmp_path: Path) -> None:
+    source, other = tmp_path / "kernel.py", tmp_path / "other.py"
+    step().compiled(str(source))
+    (kept,) = tmp_path.iterdir()
+    assert kept.suffix == ".o"
+    changed = kept.stat().st_mtime_ns
+    work = work_of(2.0)
+    assert step().compiled(str(source))["step"](work) == 4.0
+    assert [(one, one.stat().st_mtime_ns) for one in tmp_path.iterdir()] == [(kept, changed)]
+    step().compiled(str(other))
+    (again,) = tmp_path.glob("other.*")
+    assert again.read_bytes() == kept.read_bytes()
+
+
+@pytest.mark.parametrize("work", [work_of(1.0).astype(np.float32), work_of(1.0)[:, ::2]])
+def test_what_is_no_work_array_is_not_taken(work: np.ndarray) -> None:
+    with pytest.raises(TypeError, match="contiguous arrays of floats"):
+        step().compiled()["square"](work)

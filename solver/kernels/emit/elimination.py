@@ -1,0 +1,103 @@
+"""Linear equations of a step, solved by Gaussian elimination: a system a lane, without pivoting.
+
+Blocks of work arrays hold vectors and the matrix, row after row. These are loops, not straight
+lines: there are n^3 / 3 products.
+"""
+
+from jointplay.solver.kernels.emit.lane_arithmetic import NUMBERS, Lanes, same
+
+
+def factorise(
+    lanes: Lanes,
+    product: str,
+    states: str,
+    gamma: str,
+    time: str,
+    tried: str,
+    direction: str,
+    products: str,
+    drift: str,
+    pivot: str,
+    factor: str,
+) -> None:
+    """Write what leaves the factors of I - h γ J, inverse pivots and the drift, J's part of time.
+
+    `product` : a function that multiplies J with the direction; `tried` : the slot of h; `states` :
+    how many, n; the other names are slots, of the first number of a block.
+    """
+    place = _Places(lanes)
+    one, none = same(1.0), same(0.0)
+    with lanes.loop("0", states) as i:
+        place.store(none, direction, i)
+    place.store(one, time)
+    lanes.lines.append(f"call void {product}(ptr %W)")
+    with lanes.loop("0", states) as i:
+        place.store(place.load(products, i), drift, i)
+    place.store(none, time)
+    with lanes.loop("0", states) as j:
+        place.store(one, direction, j)
+        lanes.lines.append(f"call void {product}(ptr %W)")
+        with lanes.loop("0", states) as i:
+            slope = lanes.arithmetic("fmul", same(float(gamma)), place.load(products, i))
+            slope = lanes.arithmetic("fmul", slope, place.load(tried))
+            diagonal = lanes.new(f"icmp eq i64 {i}, {j}")
+            unit = lanes.new(f"select i1 {diagonal}, {NUMBERS} {one}, {NUMBERS} {none}")
+            rest = lanes.arithmetic("fsub", unit, slope)
+            place.store(rest, factor, place.entry(i, states), j)
+        place.store(none, direction, j)
+    with lanes.loop("0", states) as k:
+        top = place.entry(k, states)
+        place.store(lanes.arithmetic("fdiv", one, place.load(factor, top, k)), pivot, k)
+        below = lanes.new(f"add i64 {k}, 1")
+        with lanes.loop(below, states) as i:
+            row = place.entry(i, states)
+            share = place.load(factor, row, k)
+            share = lanes.arithmetic("fmul", share, place.load(pivot, k))
+            place.store(share, factor, row, k)
+            with lanes.loop(below, states) as j:
+                less = lanes.arithmetic("fmul", share, place.load(factor, top, j))
+                rest = lanes.arithmetic("fsub", place.load(factor, row, j), less)
+                place.store(rest, factor, row, j)
+
+
+def substitute(lanes: Lanes, states: str, right: str, pivot: str, factor: str) -> None:
+    """Write what solves the factorised equations, in place of their right side."""
+    place = _Places(lanes)
+    last = str(int(states) - 1)
+    with lanes.loop("0", states) as i, lanes.loop("0", i) as k:
+        place.reduce(right, i, factor, states, k)
+    with lanes.loop("0", states) as done:
+        i = lanes.new(f"sub i64 {last}, {done}")
+        with lanes.loop(lanes.new(f"add i64 {i}, 1"), states) as k:
+            place.reduce(right, i, factor, states, k)
+        scaled = lanes.arithmetic("fmul", place.load(right, i), place.load(pivot, i))
+        place.store(scaled, right, i)
+
+
+class _Places:
+    """Numbers of all lanes in blocks, at a slot and what is to be added to it."""
+
+    def __init__(self, lanes: Lanes) -> None:
+        self.lanes = lanes
+
+    def load(self, *parts: str) -> str:
+        return self.lanes.new(f"load {NUMBERS}, ptr {self._at(parts)}, align 8")
+
+    def store(self, value: str, *parts: str) -> None:
+        self.lanes.lines.append(f"store {NUMBERS} {value}, ptr {self._at(parts)}, align 8")
+
+    def entry(self, row: str, states: str) -> str:
+        return self.lanes.new(f"mul i64 {row}, {states}")
+
+    def reduce(self, right: str, i: str, factor: str, states: str, k: str) -> None:
+        """Subtract a product of a factor and the right side from the right side."""
+        share = self.load(factor, self.entry(i, states), k)
+        less = self.lanes.arithmetic("fmul", share, self.load(right, k))
+        rest = self.lanes.arithmetic("fsub", self.load(right, i), less)
+        self.store(rest, right, i)
+
+    def _at(self, parts: tuple[str, ...]) -> str:
+        place, *others = parts
+        for other in others:
+            place = self.lanes.new(f"add i64 {place}, {other}")
+        return self.lanes.new(f"getelementptr {NUMBERS}, ptr %W, i64 {place}")

@@ -1,0 +1,99 @@
+"""Machine code of generated modules: compiled by LLVM, kept in files, loaded into the process.
+
+Numba, which compiles the loops that call it, would optimise such a module three times, and compile
+and keep an entry to each function for itself: two fifths of the compilation of a press.
+"""
+
+import hashlib
+import os
+import platform
+import tempfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import llvmlite
+from llvmlite import binding
+
+from jointplay.solver.kernels.lanes import target_processor
+
+LEVEL_OF_FUNCTIONS, LEVEL_OF_MODULE = 1, 3
+"""Levels of optimisation before code is generated. The passes that Numba runs, the highest level of
+functions, too, and some between both, make the same machine code, and take half as long again."""
+CODE_LEVEL = 3
+"""Level of optimisation of what generates code: the choice of instructions and registers."""
+
+
+def load_code(text: Callable[[], str], source: Path | None) -> None:
+    """Load what a module's text in LLVM's language comes to; compiled once, then from a file.
+
+    `source` : beside which the file is; None: nothing is kept.
+    """
+    path = None if source is None else _beside(source)
+    if path is not None and path.exists():
+        code = path.read_bytes()
+    else:
+        code = _compiled(text())
+        if path is not None:
+            with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as partial:
+                partial.write(code)
+            os.replace(partial.name, path)
+    _engine().add_object_file(binding.ObjectFileRef.from_data(code))
+
+
+def address_of_symbol(name: str) -> int:
+    """Return the address of a loaded function."""
+    address = int(_engine().get_function_address(name))
+    if address == 0:
+        raise LookupError(f"no code is loaded of '{name}'")
+    return address
+
+
+def _beside(source: Path) -> Path:
+    """Return the file of a source's code for this processor and this compiler."""
+    about = (*target_processor(), llvmlite.__version__, binding.llvm_version_info)
+    return source.with_suffix(f".{hashlib.sha256(repr(about).encode()).hexdigest()[:12]}.o")
+
+
+def _compiled(text: str) -> bytes:
+    machine = _machine()
+    module = binding.parse_assembly(text)
+    module.data_layout = str(machine.target_data)
+    module.verify()
+    # without those of functions some sums are written in another order, and have other bits
+    for function in module.functions:
+        builder = _passes(machine, LEVEL_OF_FUNCTIONS)
+        builder.getFunctionPassManager().run(function, builder)
+    builder = _passes(machine, LEVEL_OF_MODULE)
+    builder.getModulePassManager().run(module, builder)
+    return bytes(machine.emit_object(module))
+
+
+def _passes(machine: Any, level: int) -> Any:
+    options = binding.create_pipeline_tuning_options()
+    options.speed_level = level
+    return binding.create_pass_builder(machine, options)
+
+
+def _machine() -> Any:
+    """Return the generator of code for this processor, set as Numba sets its own."""
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    name, features = target_processor()
+    on_x86 = platform.machine().lower() in ("x86_64", "amd64")
+    return binding.Target.from_triple(binding.get_process_triple()).create_target_machine(
+        cpu=name,
+        features=features,
+        opt=CODE_LEVEL,
+        reloc="static" if on_x86 else "default",
+        codemodel="jitdefault",
+        jit=True,
+    )
+
+
+@cache
+def _engine() -> Any:
+    """Return what holds all code that is loaded, as long as the process lives."""
+    machine = _machine()
+    return binding.create_mcjit_compiler(binding.parse_assembly(""), machine)
