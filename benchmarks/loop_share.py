@@ -26,9 +26,7 @@ REPEATS, CALLS = 40, 2000
 def lines(kernel: Kernel) -> dict[str, int]:
     """Return how many lines each function of a kernel has."""
     with open(str(kernel.module.__file__)) as source:
-        tapes = re.finditer(
-            r'^tapes.add\("(\w+)".*?^"""', source.read(), re.DOTALL | re.MULTILINE
-        )
+        tapes = re.finditer(r'^tapes.add\("(\w+)".*?^"""', source.read(), re.DOTALL | re.MULTILINE)
         return {tape[1]: tape[0].count("\n") - 1 for tape in tapes}
 
 
