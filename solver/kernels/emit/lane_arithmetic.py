@@ -1,7 +1,6 @@
 """Vectors of lanes in LLVM's language: what operations are built from.
 
-Code is written as text at once. Built as objects and then turned into text, it took three times as
-long, a fifth of compilation.
+Code is written as text at once: to build objects and then turn them into text took longer.
 """
 
 import struct

@@ -1,7 +1,7 @@
 """Machine code of generated modules: compiled by LLVM, kept in files, loaded into the process.
 
 Numba, which compiles the loops that call it, would optimise such a module three times, and compile
-and keep an entry to each function for itself: two fifths of the compilation of a press.
+and keep an entry to each function for itself: more than half of the compilation of a press.
 """
 
 import hashlib
@@ -20,7 +20,7 @@ from jointplay.solver.kernels.lanes import target_processor
 
 LEVEL_OF_FUNCTIONS, LEVEL_OF_MODULE = 1, 3
 """Levels of optimisation before code is generated. The passes that Numba runs, the highest level of
-functions, too, and some between both, make the same machine code, and take half as long again."""
+functions, too, and some between both, make the same machine code, and take longer."""
 CODE_LEVEL = 3
 """Level of optimisation of what generates code: the choice of instructions and registers."""
 
