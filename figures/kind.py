@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from jointplay.figures import page
-from jointplay.records.channel_choice import choose_in_turn
+from jointplay.records.channel_choice import choose
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 
@@ -36,7 +36,7 @@ class NotDrawable(FigureError):
     ----------
     cause : str
         What to change: ``name`` of the figure, or of the selection ``channels``, ``joints``,
-        or ``start``.
+        ``start`` or ``stop``.
     """
 
     def __init__(self, sentence: str, cause: str = "name") -> None:
@@ -142,8 +142,12 @@ def select(
     ------
     NoSuchChannel
         A name or glob matches nothing.
+    NotDrawable
+        The window ends before it begins.
     """
+    if start is not None and stop is not None and start > stop:
+        raise NotDrawable(f"stop ({stop:g}) is before start ({start:g}); swap them.", "stop")
     offered = (*source.observables, *source.channels) if is_study(source) else source.channels
     known = [channel.name for channel in offered]
-    chosen = choose_in_turn(",".join(channels), known) if channels else ()
+    chosen = choose(",".join(channels), known) if channels else ()
     return Selection(tuple(chosen), tuple(joints), start, stop)

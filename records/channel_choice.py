@@ -30,7 +30,7 @@ def choose(text: str | None, names: Sequence[str]) -> list[str]:
     Returns
     -------
     list of str
-        In the order of ``names``.
+        In the order in which the text names them; those of one glob in the order of ``names``.
 
     Raises
     ------
@@ -45,13 +45,7 @@ def choose(text: str | None, names: Sequence[str]) -> list[str]:
         raise no_such_channel(unknown, names)
     if not patterns:
         raise NoSuchChannel(["The list of channels is empty; name some, or leave it out."])
-    return [name for name in names if any(_matches(name, p) for p in patterns)]
-
-
-def choose_in_turn(text: str, names: Sequence[str]) -> list[str]:
-    """Return what `choose` does, in the order in which the text names it."""
-    found = choose(text, names)
-    in_turn = (name for pattern in _patterns(text) for name in found if _matches(name, pattern))
+    in_turn = (name for pattern in patterns for name in names if _matches(name, pattern))
     return list(dict.fromkeys(in_turn))
 
 

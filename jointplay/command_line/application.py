@@ -137,6 +137,7 @@ def run(arguments: list[str] | None = None) -> int:
 
 def _misused(why: str) -> int:
     """Say what is wrong with what was typed; nothing of a group alone, whose help was told."""
+    why = why.replace("Value error, ", "")  # pydantic's, which reads options for typer
     return _reported(Exit.BAD_INPUT, f"{why} (see: jointplay --help)") if why else Exit.OK
 
 

@@ -12,6 +12,7 @@ from jointplay.command_line.figure_options import form_of, page_of, with_figure_
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, job_of
 from jointplay.command_line.output import tell
 from jointplay.command_line.peaks import Row, peak_rows, peak_table
+from jointplay.command_line.typed_window import check_ends, check_start
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -50,6 +51,7 @@ def compare(
     """
     from jointplay.figures.overlay import MOST_CURVES, Curve
 
+    check_ends(start, stop)
     form, page = form_of(output), page_of(options)
     if not 2 <= len(results) <= MOST_CURVES:
         raise Stopped(f"compare takes 2 to {MOST_CURVES} runs, not {len(results)}.")
@@ -59,6 +61,7 @@ def compare(
         for name, job in zip(results, jobs, strict=True):
             if job.is_study:
                 raise Stopped(f"{name} is a {job.kind}; compare simulations.")
+            check_start(job, start)
         peaks = [{row["channel"]: row for row in peak_rows(job.results.peaks())} for job in jobs]
         common = [name for name in peaks[0] if all(name in one for one in peaks)]
         labels = _labels(jobs) or results
@@ -164,13 +167,13 @@ def _short(value: object) -> str:
 
 
 def _chosen(jobs: list["Job"], common: list[str], wanted: str | None) -> list[str]:
-    from jointplay.records.channel_choice import NoSuchChannel, choose_in_turn
+    from jointplay.records.channel_choice import NoSuchChannel, choose
 
     if not common:
         raise Stopped("The runs have no channel in common.")
     if wanted is not None:
         try:
-            return choose_in_turn(wanted, common)
+            return choose(wanted, common)
         except NoSuchChannel as error:
             raise Stopped(str(error)) from None
     declared = [one["name"] for job in jobs for one in job.job["scene"].get("outputs", [])]

@@ -8,6 +8,7 @@ import typer
 
 from jointplay.command_line.exporting import Asked, Form, Table, Text, text_of
 from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, URL, job_of, listed
+from jointplay.command_line.typed_window import check_start
 
 
 def export(
@@ -69,6 +70,7 @@ def export(
     asked = Asked(table, channels, start, stop, points, text_form or "csv", step)
     asked.check()
     with job_of(results, url) as job:
+        check_start(job, start)
         if binary and output is not None:
             job.export(output, table, listed(channels), start, stop, points=points, step=step)
             return

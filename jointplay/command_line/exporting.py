@@ -1,11 +1,11 @@
 """The text of an export: which table, as CSV or JSON, in pieces."""
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import listed
+from jointplay.command_line.typed_window import check_ends
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -31,11 +31,7 @@ class Asked(NamedTuple):
 
     def check(self) -> None:
         """Refuse windows that are none, with `Stopped`."""
-        for option, time in (("--start", self.start), ("--stop", self.stop)):
-            if time is not None and not math.isfinite(time):
-                raise Stopped(f"{option} {time}: give a time in seconds.")
-        if self.start is not None and self.stop is not None and self.start > self.stop:
-            raise Stopped(f"--stop {self.stop:g} is before --start {self.start:g}; swap them.")
+        check_ends(self.start, self.stop)
         for option, asked in (("--points", self.points), ("--step", self.step)):
             if asked is not None and self.table not in (None, "history"):
                 raise Stopped(f"{option} is of a history; {self.table} is written as it is.")

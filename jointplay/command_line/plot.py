@@ -19,6 +19,7 @@ from jointplay.command_line.options import (
     listed,
 )
 from jointplay.command_line.output import tell
+from jointplay.command_line.typed_window import check_ends, check_start
 from jointplay.progress import progress
 from jointplay.records.figure_form import FilmForm, Form
 
@@ -76,6 +77,7 @@ def plot(
     given = [name for name, value in chosen.items() if value is not None]
     if given and not names:
         raise Stopped(f"--{given[0]} chooses what a figure shows; name the figure.")
+    check_ends(start, stop)
     page = page_of(options)
     asked = {
         "rate": rate,
@@ -85,6 +87,7 @@ def plot(
     pace = {name: value for name, value in asked.items() if value is not None}
     shown = {"joint": listed(joints) or (), "start": start, "stop": stop, **page.given()}
     with job_of(results, url) as job, refused_as_typed():
+        check_start(job, start)
         if is_film(names, form, pace):
             if channels is not None:
                 raise Stopped("--channels: a film shows none; leave them out.")

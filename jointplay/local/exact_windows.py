@@ -40,15 +40,9 @@ def exact_window(
     if step is not None:
         if points is not None or not step > 0.0 or not np.isfinite(step):
             return "Give either a positive step in s, or points."
-        count = max(np.floor((last - first) / step * (1.0 + 1e-12)), 0.0) + 1.0
-        if count * (len(names) + 1) > MOST_VALUES:
-            return f"{count:.3g} instants are too many at once; ask for a shorter window."
-        times = np.minimum(first + step * np.arange(int(count)), last)
-        found = trajectory.values(names, times)
-        if found.values is None:
-            return found.refused
-        columns = dict(zip(names, found.values.T, strict=True))
-        return window_of(run, times, columns, note=found.note, resolution=found.resolution)
+        if first > last:
+            return f"The run is known to {trajectory.reached:g} s; {first:g} s is after it."
+        return _values(run, trajectory, names, first, last, step)
     edges = trajectory.edges(first, last, points or 1)
     found = trajectory.extremes(names, edges)
     if found.values is None:
@@ -64,6 +58,25 @@ def exact_window(
         note=found.note,
         resolution=found.resolution,
     )
+
+
+def _values(
+    run: ResultReader,
+    trajectory: Trajectory,
+    names: Sequence[str],
+    first: float,
+    last: float,
+    step: float,
+) -> Window | str:
+    count = max(np.floor((last - first) / step * (1.0 + 1e-12)), 0.0) + 1.0
+    if count * (len(names) + 1) > MOST_VALUES:
+        return f"{count:.3g} instants are too many at once; ask for a shorter window."
+    times = np.minimum(first + step * np.arange(int(count)), last)
+    found = trajectory.values(names, times)
+    if found.values is None:
+        return found.refused
+    columns = dict(zip(names, found.values.T, strict=True))
+    return window_of(run, times, columns, note=found.note, resolution=found.resolution)
 
 
 def exact_peaks(

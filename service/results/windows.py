@@ -33,6 +33,11 @@ class ExactRun:
     ) -> schemas.History:
         """Return channels every `step` s, or refuse."""
         first, last = self._window(start, stop)
+        if first > last:
+            sentence = (
+                f"The run is known to {self.trajectory.reached:g} s; {first:g} s is after it."
+            )
+            raise RequestRefused.of_parameter("start", sentence)
         count = max(np.floor((last - first) / step * (1.0 + 1e-12)), 0.0) + 1.0
         check_size(count, len(names) + 1, "instants", last - first)
         times = np.minimum(first + step * np.arange(int(count)), last)

@@ -49,7 +49,8 @@ def sections(store: StudyReader, query: SectionRange, chosen: str | None) -> sch
     window = query.sections(store)
     width = (len(names) + 1) * len(window) + _columns(store)
     points, following = page(query.points(store), width)
-    rows = _rows(store, points, window, [one for one in store.observables if one.name in names])
+    described = by_name(store.observables)
+    rows = _rows(store, points, window, [described[name] for name in names])
     return schemas.Sections.model_construct(
         **_judged(store, points, following), time=rows.pop(""), channels=rows
     )

@@ -37,7 +37,13 @@ class SimulateJob(Job):
     duration: Annotated[float, quantity("s", ge=1e-9, le=1e12, description="simulated time")]
     output_step: Annotated[
         float | None,
-        quantity("s", ge=1e-15, description="time between samples; default duration/2000"),
+        quantity(
+            "s",
+            ge=1e-15,
+            description=(
+                "time between samples; default duration/2000; longer than the run: its two ends"
+            ),
+        ),
     ] = None
     settle: Annotated[
         float,

@@ -65,7 +65,8 @@ WRONG = {
     "more to resume": (["run", "slider-crank", "--resume", "missing"], "beside it there can only"),
     "no such results": (["export", "missing"], "missing"),
     "a folder without results": (["plot", "."], "no results"),
-    "unknown format": (["export", "missing", "--format", "xls"], "--format"),
+    "unknown format": (["export", "missing", "--format", "xls"], "'--format': 'xls' is not one of"),
+    "unknown table": (["export", "missing", "--table", "x"], "'--table': 'x' is not one of"),
     "no such scene": (["scene", "show", "six-bar-press"], "six-bar-press"),
     "a scene that cannot be drawn into that": (
         ["scene", "draw", "pendulum", "-o", "pendulum.doc"],
@@ -73,6 +74,14 @@ WRONG = {
     ),
     "a window that ends before it begins": (
         ["export", "missing", "--start", "1", "--stop", "0.5"],
+        "--stop 0.5 is before --start 1",
+    ),
+    "a figure that ends before it begins": (
+        ["plot", "missing", "orbit", "--start", "1", "--stop", "0.5"],
+        "--stop 0.5 is before --start 1",
+    ),
+    "a comparison that ends before it begins": (
+        ["compare", "missing", "missing", "--start", "1", "--stop", "0.5"],
         "--stop 0.5 is before --start 1",
     ),
     "a window from nowhere": (["export", "missing", "--start", "nan"], "--start nan"),

@@ -1,5 +1,6 @@
 """Runs over one another, what to cite, and the description of the interface."""
 
+import csv
 import json
 import re
 from importlib.metadata import version
@@ -43,6 +44,41 @@ def test_local_runs_are_drawn_over_one_another_with_a_table_of_peaks(jointplay, 
     assert {row["run"] for row in rows} == {"mass=1", "mass=2"}
     for row in rows:
         assert row["minimum"] <= row["maximum"]
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("export",),
+        ("export", "--table", "peaks"),
+        ("export", "--points", "4"),
+        ("plot", "energy"),
+        ("compare",),
+    ],
+    ids=" ".join,
+)
+def test_a_window_after_the_end_of_a_run_is_refused(jointplay, runs, tmp_path, command):
+    name, *more = command
+    both = [runs / "b"] if name == "compare" else []
+    aside = [] if name == "export" else ["-o", tmp_path / "both.png"]
+    ended = jointplay(name, runs / "a", *both, *more, "--start", "2", *aside)
+    assert ended.code == 2
+    assert "--start 2 is after the end of" in ended.line()
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("more", [(), ("--step", "0.1"), ("--points", "3")], ids=" ".join)
+def test_exported_channels_stand_in_the_order_asked_for(jointplay, runs, more):
+    def columns(*channels):
+        found = jointplay("export", runs / "a", "--stop", "0.5", *channels, *more)
+        rows = csv.reader(line for line in found.out.splitlines() if not line.startswith("#"))
+        return {title: values for title, *values in zip(*rows, strict=True)}
+
+    whole = columns()
+    part = columns("--channels", "angular_velocity,angle")
+    assert [title.split()[0] for title in part] == ["time", "angular_velocity", "angle"]
+    for title, values in part.items():
+        assert values == whole[title]
 
 
 def test_runs_of_a_scene_of_ones_own_are_told_apart_by_its_parameters(

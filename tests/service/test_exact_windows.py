@@ -107,6 +107,8 @@ def test_peaks_of_a_window_are_reached_in_it(http, job):
 def test_what_cannot_be_computed_is_refused_or_said(http, job, worker):
     assert "not both" in ask(http, job, points=3, step=1e-3, status=422)["detail"]
     assert "most" in ask(http, job, step=1e-9, status=422)["detail"]
+    after = ask(http, job, step=1e-3, start=2 * DURATION, status=422)
+    assert after["errors"][0]["parameter"] == "start"
     by_hand = worker.finished(label="without steps")
     assert "keeps no steps" in ask(http, by_hand, step=1e-3, status=422)["detail"]
     assert "keeps no steps" in ask(http, by_hand, "peaks", start=0.5, status=422)["detail"]
