@@ -17,7 +17,7 @@ from jointplay.storage.catalogue.records import BlockState, Claim, Verdict
 from jointplay.storage.errors import ResultsError
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import Answer, Outcome, Progress
-from jointplay.worker.holding import Holding
+from jointplay.worker.holding import Holding, Refused
 from jointplay.worker.lease import Lease
 from jointplay.worker.passing import PASSING, waits_for
 from jointplay.worker.removal import tidy, withdraw
@@ -74,6 +74,11 @@ class BlockRun:
         """Compute the block and tell the catalogue how it ended, waiting until it answers.
 
         A block that another worker has taken over is left alone without a word.
+
+        Raises
+        ------
+        Refused
+            The service does not take this worker any more; others take the block over.
         """
         with about(job=self._job.id, block=self._block.id, attempt=self._block.attempt):
             self._run()
@@ -136,7 +141,7 @@ class BlockRun:
             self._compiling.start()
             with watched(self._while_compiling, self._settings.longest_compilation):
                 return self._work.execute(self._report, self._lease.advanced)
-        except (Fenced, *PASSING):
+        except (Fenced, Refused, *PASSING):
             raise
         except InvalidInput as error:
             # admitted when it was submitted: this solver is stricter than that one
@@ -226,5 +231,5 @@ class BlockRun:
     def _say_that_it_compiles(self) -> None:
         try:
             self._catalogue.note_activity(self._block.id, self._block.attempt, "compiling")
-        except (Fenced, Unavailable) as error:
+        except (Fenced, Refused, Unavailable) as error:
             _log.debug("block %s compiles, which could not be noted: %s", self._block.id, error)

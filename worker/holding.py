@@ -3,14 +3,20 @@
 from typing import Protocol
 
 from jointplay.records.job import JobError
+from jointplay.storage.catalogue.errors import CatalogueError
 from jointplay.storage.catalogue.records import BlockState, Job, JobState, Verdict
+
+
+class Refused(CatalogueError):
+    """The service does not take this worker, or not any more; the sentence says why."""
 
 
 class Holding(Protocol):
     """The catalogue itself, or a service that is asked over HTTP.
 
     The methods are those of `storage.catalogue.catalogue.Catalogue`, and raise what they raise:
-    `Fenced` where the attempt does not hold the block, `Unavailable` for what may pass.
+    `Fenced` where the attempt does not hold the block, `Unavailable` for what may pass; a service
+    may raise `Refused`, too, as when the worker's key is revoked.
     """
 
     def get(self, job: str, /) -> Job:

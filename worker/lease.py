@@ -12,7 +12,7 @@ from typing import Self
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import Claim, Verdict
 from jointplay.storage.settings import Settings
-from jointplay.worker.holding import Holding
+from jointplay.worker.holding import Holding, Refused
 
 _log = logging.getLogger(__name__)
 
@@ -78,6 +78,9 @@ class Lease:
                 self._catalogue.heartbeat(self._block, self._attempt, self._settings.lease)
             except Fenced:
                 self._fenced.set()
+                return
+            except Refused as refused:  # which the next report hears, too, and ends the block
+                _log.debug("no more heartbeats of block %s: %s", self._block, refused)
                 return
             except Unavailable as error:
                 # it may be back before the lease runs out

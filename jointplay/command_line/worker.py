@@ -53,7 +53,8 @@ def worker(
 
     from jointplay.records.log_lines import begin
     from jointplay.storage.settings import Settings
-    from jointplay.worker.joined.connection import Refused, key_in
+    from jointplay.worker.holding import Refused
+    from jointplay.worker.joined.connection import key_in
     from jointplay.worker.joined.processes import work_in
 
     begin(Settings().log_format)

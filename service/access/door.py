@@ -3,7 +3,7 @@
 import logging
 import time
 from collections import OrderedDict
-from typing import Final
+from typing import Final, TypeVar
 
 from fastapi import Request
 from fastapi.concurrency import run_in_threadpool
@@ -20,8 +20,11 @@ from jointplay.storage.settings import Settings
 
 _REMEMBERED: Final = 10.0
 """Seconds after which a key is looked up again: a revoked one opens for so long."""
+_UNKNOWN: Final = 2.0
+"""Seconds for which a key that is not there stays unknown; a new one has an id of its own."""
 _MOST: Final = 1024
 _USE_PERIOD: Final = 60.0  # s; how exactly the last use of a key is known
+_Kept = TypeVar("_Kept")
 _BEARER: Final = "bearer "
 _log = logging.getLogger(__name__)
 
@@ -35,6 +38,7 @@ class Door:
         self._hosts = settings.host_names
         self._rates = Rates(settings.rate, settings.redis_url)
         self._known: OrderedDict[str, tuple[Key, float]] = OrderedDict()
+        self._unknown: OrderedDict[str, float] = OrderedDict()
 
     async def caller(self, request: Request) -> Caller:
         """Return who asks, or refuse.
@@ -78,19 +82,19 @@ class Door:
         return Caller(key.owner, key.scopes & {"results:read", "admin"}, key.id)
 
     async def _key(self, name: str) -> Key | None:
-        known = self._known.get(name)
         now = time.monotonic()
+        if now < self._unknown.get(name, 0.0):
+            return None
+        known = self._known.get(name)
         if known is not None and now < known[1]:
             return known[0]
         try:
             key = await run_in_threadpool(self._looked_up, name)
         except KeyNotFound:
             self._known.pop(name, None)
+            _remember(self._unknown, name, now + _UNKNOWN)
             return None
-        self._known[name] = key, now + _REMEMBERED
-        self._known.move_to_end(name)
-        if len(self._known) > _MOST:
-            self._known.popitem(last=False)
+        _remember(self._known, name, (key, now + _REMEMBERED))
         return key
 
     def _looked_up(self, name: str) -> Key:
@@ -101,3 +105,11 @@ class Door:
             except Unavailable as fault:
                 _log.debug("the use of key %s is not noted: %s", name, fault)
         return key
+
+
+def _remember(kept: OrderedDict[str, _Kept], name: str, what: _Kept) -> None:
+    """Keep something of a name; what was kept longest goes where there is no room."""
+    kept[name] = what
+    kept.move_to_end(name)
+    if len(kept) > _MOST:
+        kept.popitem(last=False)

@@ -14,7 +14,7 @@ from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results import schemas
 from jointplay.service.results.certificate_schema import Certificate
-from jointplay.service.results.forms import AS_FILES, JSON, Form, as_file
+from jointplay.service.results.forms import AS_FILES, JSON, VARY, Form, as_file
 from jointplay.service.results.queries import (
     ChannelsQuery,
     HistoryQuery,
@@ -186,7 +186,7 @@ def _overview(
 def _shown_as(form: str, name: str, answer: schemas.History | schemas.Overview) -> Response:
     """Return an answer as JSON, or its columns as a file of a name."""
     if form == JSON:
-        return as_json(answer)
+        return as_json(answer, VARY)
     if isinstance(answer, schemas.History):
         series = {"time": answer.time} | answer.channels
         shown = [(channel, one.unit, one.values, "") for channel, one in series.items()]

@@ -28,6 +28,10 @@ AS_FILES: Final[dict[int | str, dict[str, Any]]] = {
 """The forms of an answer beside JSON, for the OpenAPI document."""
 
 
+VARY: Final = {"Vary": "Accept"}
+"""Header of all these answers: caches must not give one form for another."""
+
+
 def as_file(form: str, name: str, columns: list[Column], *, complete: bool) -> Response:
     """Give a table as a file of the form.
 
@@ -44,7 +48,7 @@ def as_file(form: str, name: str, columns: list[Column], *, complete: bool) -> R
     """
     found = _FILES[form]
     content = found.encode(columns, complete=complete)
-    headers = {"Content-Disposition": f'attachment; filename="{name}{found.SUFFIXES[0]}"'}
+    headers = VARY | {"Content-Disposition": f'attachment; filename="{name}{found.SUFFIXES[0]}"'}
     media_type = f"{form}; charset=utf-8; header=present" if form == CSV else form
     return Response(content, headers=headers, media_type=media_type)
 
@@ -78,6 +82,7 @@ async def _form(request: Request) -> str:
         raise RequestRefused(
             kinds.NOT_ACCEPTABLE,
             f"Accept is {clipped(accept)!r}; this answer is there as {', '.join(FORMS)}.",
+            headers=VARY,
         )
     return form
 

@@ -1,5 +1,6 @@
 """Results as the API shows them. Where nothing was computed a value is null."""
 
+from collections.abc import Mapping
 from typing import Any, Self, cast
 
 import numpy as np
@@ -200,6 +201,6 @@ class Figures(BaseModel):
     figures: list[FigureLink]
 
 
-def as_json(document: BaseModel) -> Response:
+def as_json(document: BaseModel, headers: Mapping[str, str] | None = None) -> Response:
     """Serialise once, without validating a million numbers of our own; NaN becomes null."""
-    return Response(document.model_dump_json(), media_type="application/json")
+    return Response(document.model_dump_json(), media_type="application/json", headers=headers)

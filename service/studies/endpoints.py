@@ -7,7 +7,7 @@ from fastapi import APIRouter, Query, Response
 from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results.endpoints import show_sections
-from jointplay.service.results.forms import AS_FILES, JSON, Form
+from jointplay.service.results.forms import AS_FILES, JSON, VARY, Form
 from jointplay.service.results.schemas import Poincare, as_json
 from jointplay.service.results.stores import ResultsOfThePath, StudyOfThePath
 from jointplay.service.studies import answers, schemas
@@ -88,6 +88,9 @@ def show_poincare(
         return show_sections(results.job.id, run, query, form)
     if form != JSON:
         raise RequestRefused(
-            kinds.NOT_ACCEPTABLE, f"Sections of a study are there as {JSON} and as Zarr."
+            kinds.NOT_ACCEPTABLE,
+            f"Sections of a study are there as {JSON} and as Zarr.",
+            headers=VARY,
         )
-    return as_json(answers.sections(results.study(), query.range_of_points(), query.channels))
+    sections = answers.sections(results.study(), query.range_of_points(), query.channels)
+    return as_json(sections, VARY)

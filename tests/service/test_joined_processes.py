@@ -12,13 +12,17 @@ from pathlib import Path
 import httpx
 import pytest
 
+from jointplay.service.access import door
 from jointplay.service.app import create_app
+from jointplay.solver.kinds import admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
+from jointplay.worker.holding import Refused
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.loop import work
+from tests.service.guarded import SWING
 from tests.service_in_thread import serving
 from tests.waiting import descendants, is_alive, until
 
@@ -50,6 +54,32 @@ def test_a_block_for_which_there_is_no_room_is_put_off(
             working.result()
         assert {one.outcome for one in books.attempts(job)} == {"put-off"}
         assert (books.get(job).activity or "").startswith("waiting for")
+
+
+def test_a_key_revoked_in_mid_block_ends_the_worker_with_a_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(door, "_REMEMBERED", 0.0)
+    settings = Settings(data=tmp_path, keys="required")
+    draining = threading.Event()
+    with serving(create_app(settings)) as url, closing(Catalogue(settings.catalogue_url)) as books:
+        books.migrate()
+        job = admit({**SWING, "duration": 1e5, "output_step": 1e5, "tolerance": 1e-12})
+        new = NewJob("simulate", job.job, job.digest, SOLVER_VERSION)
+        block = books.submit(new).job.id
+        text, key = books.make_key("lab", ["worker"], "", None)
+        with closing(Connection(url, text)) as connection, ThreadPoolExecutor(1) as threads:
+            working = threads.submit(work, connection, draining, None)
+            try:
+                until(lambda: books.get(block).progress_fraction > 0.0 or working.done())
+                books.revoke_key(key.id)
+                until(working.done)
+            finally:
+                draining.set()
+            with pytest.raises(Refused, match="asks for a key that is valid"):
+                working.result()
+        assert [one.outcome for one in books.attempts(block)] == [None]
+    assert [line.message for line in caplog.records if line.levelname == "ERROR"] == []
 
 
 def test_processes_end_with_the_one_that_began_them(tmp_path: Path) -> None:

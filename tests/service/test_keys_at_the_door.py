@@ -10,6 +10,8 @@ import xarray
 from jointplay.client import Client, ClientError
 from jointplay.service import events
 from jointplay.service.access import door
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.keys import Key
 from tests.service.guarded import SWING, Guarded
 
 OPEN = ("/healthz", "/readyz", "/v1/scenes", "/v1/laws", "/v1/schemas", "/problems")
@@ -114,6 +116,26 @@ def test_a_revoked_key_opens_nothing(guarded: Guarded, monkeypatch: pytest.Monke
         assert name in {key.id for key in used}
         guarded.catalogue.revoke_key(name)
         assert http.get("/v1/jobs").status_code == 401
+
+
+def test_a_key_that_is_not_there_is_looked_up_once_in_a_while(
+    guarded: Guarded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(door, "_UNKNOWN", 1000.0)
+    text, key = guarded.catalogue.make_key("eve", ["jobs:read"], "", None)
+    strange = f"jp_{int(key.id, 16) ^ 1:08x}_{'A' * 43}"
+    looked_up, plain = [], Catalogue.key
+
+    def key_of(catalogue: Catalogue, name: str) -> Key:
+        looked_up.append(name)
+        return plain(catalogue, name)
+
+    monkeypatch.setattr(Catalogue, "key", key_of)
+    for bearer, status in ((strange, 401), (strange, 401), (text, 200), (strange, 401)):
+        headers = {"Authorization": f"Bearer {bearer}"}
+        answer = httpx.get(f"{guarded.url}/v1/jobs", headers=headers, trust_env=False)
+        assert answer.status_code == status
+    assert looked_up == [strange.split("_")[1], key.id]
 
 
 def test_a_stream_ends_when_its_key_is_revoked(

@@ -88,11 +88,14 @@ def test_too_many_points_of_too_many_channels_are_refused_with_how_many_there_ma
 def test_accept_chooses_the_form(http, job, accept, media_type):
     answer = ask(http, job, accept, stop=0.01)
     assert answer.headers["Content-Type"].partition(";")[0] == media_type
+    assert answer.headers["Vary"].split(", ")[0] == "Accept"
 
 
 @pytest.mark.parametrize("accept", ["text/html", "image/png", "application/json;q=0", "nonsense"])
 def test_a_form_that_there_is_not_is_refused_with_those_there_are(http, job, accept):
-    problem = ask(http, job, accept, status=406).json()
+    answer = ask(http, job, accept, status=406)
+    assert answer.headers["Vary"] == "Accept"
+    problem = answer.json()
     assert problem["type"] == "/problems/not-acceptable"
     assert "text/csv" in problem["detail"]
 

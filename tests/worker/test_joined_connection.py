@@ -11,8 +11,9 @@ from fastapi import FastAPI
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import Block, BlockState, Claim, Job, Verdict
 from jointplay.storage.settings import Settings
+from jointplay.worker.holding import Refused
 from jointplay.worker.joined.attempt import JoinedAttempt
-from jointplay.worker.joined.connection import Connection, Refused
+from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.files import FilesOfService
 from jointplay.worker.joined.protocol import Answered, ClaimRequest, Files
 from jointplay.worker.scratch.files import Scratch

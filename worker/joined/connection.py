@@ -10,6 +10,7 @@ import httpx
 
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import Block
+from jointplay.worker.holding import Refused
 from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Document, Drop, DropAt
 
 Answer = TypeVar("Answer", bound=Document)
@@ -21,10 +22,6 @@ _LONGEST_TAKING: Final = 120.0  # s, in which a service reads and copies the lar
 _MAY_PASS: Final = frozenset({408, 422, 425, 429})  # 422: bytes that were changed on their way
 _FULL: Final = 507
 _LARGEST_KEY: Final = 4096
-
-
-class Refused(Exception):
-    """The service does not take this worker; the sentence says why."""
 
 
 class Connection:

@@ -11,7 +11,8 @@ from collections.abc import Sequence
 from multiprocessing.connection import wait
 from typing import Any, Final
 
-from jointplay.worker.joined.connection import Connection, Refused
+from jointplay.worker.holding import Refused
+from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.loop import work
 from jointplay.worker.presence import has_ended, own_name
 
