@@ -12,7 +12,7 @@ from tests.seams.conftest import Platform
 
 
 class Crest(ChannelStatistic):
-    """Of the samples, about zero."""
+    """Largest magnitude of the samples."""
 
     long_name = "largest magnitude"
 

@@ -14,7 +14,7 @@ from tests.solver.random_mechanisms import numbers
 from tests.solver.readable_mechanics import Instant
 
 MASS, INERTIA, LENGTH, GRAVITY = 1.5, 0.02, 0.3, 9.81
-"""Of the pendulum: kg, kg m^2 about its centre of mass, m from the pin to that; m/s^2."""
+"""Pendulum: kg, kg m^2 about its centre of mass, m from the pin to that; m/s^2."""
 
 
 rates = numbers(-5.0, 5.0)

@@ -18,7 +18,7 @@ JERKED = {
 }
 """Motion of a carrier, m, whose acceleration jumps."""
 STIFFNESS, STEADY, FULL_RATE = 30.0, 1.0, 0.5
-"""Of the ball's spring, N/m, of what pulls it, N, and of what acts while it rises, m/s."""
+"""Values of the ball's spring, N/m, of what pulls it, N, and of what acts while it rises, m/s."""
 
 
 def knotted_scene() -> dict[str, Any]:

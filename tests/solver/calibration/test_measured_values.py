@@ -1,4 +1,4 @@
-"""What candidates give: extremes over windows and on grids, as whole runs have them."""
+"""Values that candidates give: extremes over windows and on grids, as whole runs have them."""
 
 from itertools import pairwise
 from typing import Any

@@ -14,7 +14,7 @@ from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
 Floats = NDArray[np.float64]
 
 MOST_CORRECTIONS = 30
-"""Of Newton's iteration for an onset; from so near, a few are enough."""
+"""Steps of Newton's iteration for an onset; from so near, a few are enough."""
 
 
 class Companion:

@@ -21,8 +21,8 @@ from tests.solver.kernels.test_recorder import evaluate
 from tests.solver.readable_mechanics import preset
 
 STEP = 1e-5
-"""Of a central difference: its error is about STEP² f''' / 6 + 1e-16 f / STEP, 1e-10 where f and
-its derivatives are about 1."""
+"""Step of a central difference: its error is about STEP² f''' / 6 + 1e-16 f / STEP, 1e-10 where
+f and its derivatives are about 1."""
 
 
 def rates(

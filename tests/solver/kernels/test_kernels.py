@@ -26,8 +26,8 @@ from tests.solver.completed_runs import CASE_3
 from tests.solver.readable_mechanics import Instant, at_start, preset
 
 ROUNDING = 1e-12
-"""Of the largest acceleration, force or power. Both sides do the same operations on numbers of at
-most 2 m; our sine and cosine differ from the library's in the last place, 2e-16, and a contact
+"""Part of the largest acceleration, force or power. Both sides do the same operations on numbers of
+at most 2 m; our sine and cosine differ from the library's in the last place, 2e-16, and a contact
 stiffness times 2e-16 m is 1e-12 of the force at the depths drawn here, about 0.1 mm."""
 
 

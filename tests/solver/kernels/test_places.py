@@ -1,4 +1,4 @@
-"""What loops find by name: slots, functions and columns of dense rows."""
+"""Places that loops find by name: slots, functions and columns of dense rows."""
 
 from types import SimpleNamespace
 from typing import Any, cast

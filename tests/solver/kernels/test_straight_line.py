@@ -25,7 +25,7 @@ EVERY_OPERATION = dict.fromkeys(ON_LANES, 1) | {
     "select": 3,
     "quarter_turns": 3,
 }
-"""How many operands each has."""
+"""Number of operands that each has."""
 
 
 def compiled(tape, over="lanes", rows=0):

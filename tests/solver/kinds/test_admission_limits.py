@@ -1,4 +1,4 @@
-"""What is larger than the service takes is refused at once, with its size and the limit."""
+"""Jobs too large for the service are refused at once, with their size and the limit."""
 
 from typing import Any
 
@@ -62,7 +62,7 @@ def test_equations_too_long_to_compile_are_refused_before_anything_is_assembled(
 
 
 def test_the_largest_scene_that_is_admitted_is_parsed_again() -> None:
-    """What is accepted runs: all channels of 96 bodies are listed in the job that workers read."""
+    """Accepted jobs run: all channels of 96 bodies are listed in the job that workers read."""
     bodies = {f"b{i}": {"mass": 1.0, "inertia": 1.0, "points": {"a": [0, 0]}} for i in range(96)}
     clearance = {
         "radial_clearance": 1e-3,

@@ -67,7 +67,7 @@ def test_few_bodies_are_compiled_within_any_limit_but_a_short_one() -> None:
 
 
 def test_whatever_is_admitted_is_compiled_within_the_default_limit() -> None:
-    """Of 96 bodies, all with play, and as many statements of slopes and of channels as may be."""
+    """A scene of 96 bodies, all with play, with the most statements of slopes and of channels."""
     most = {"statement": 2 * MOST_STATEMENTS, "state": 6 * 96, "pair": 128}
     seconds = SECONDS_PER_LINE * sum(lines * most[what] for what, lines in LINES.items())
     assert seconds < 600.0 / 5  # a core that four others share

@@ -1,4 +1,4 @@
-"""What admission makes of a sound study: every default, times, points, and one digest."""
+"""A sound study after its admission: every default, times, points, and one digest."""
 
 import math
 

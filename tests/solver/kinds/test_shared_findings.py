@@ -1,4 +1,4 @@
-"""What admission keeps from one job to the next never shows in another."""
+"""Findings that admission keeps from one job to the next never show in another."""
 
 import copy
 

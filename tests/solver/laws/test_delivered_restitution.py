@@ -109,7 +109,7 @@ JOURNALS = [
     },
 ]
 KNOWN = {0: 0.5503, 1: 0.4946, 5: 0.3, 6: 0.4877, 7: 1.0}
-"""Of the table above, by journal."""
+"""Values of the table above, by journal."""
 
 
 @cache

@@ -53,7 +53,7 @@ PAIRS = [
 
 
 class TestStiffnessAndDissipation(ContactSpecification):
-    """What any two of the rosters share with other contact laws, on some of them."""
+    """Promises that any two of the rosters share with other contact laws, on some of them."""
 
     model = StiffnessAndDissipation
     laws = st.sampled_from(

@@ -8,7 +8,7 @@ from jointplay.solver.scene.document import Scene
 CLEARANCE, SPEED, MASS = 5e-4, 0.2, 1.0
 SPIN, INERTIA = 200.0, 5e-5
 APART = 1e-5
-"""How much nearer to its bearing than the one before each journal starts, m."""
+"""Distance by which each journal starts nearer to its bearing than the one before, m."""
 
 
 def pair(stiffness: dict[str, Any], dissipation: dict[str, Any]) -> dict[str, Any]:

@@ -19,8 +19,8 @@ from tests.solver.random_mechanisms import instants, near_start, numbers, trees
 from tests.solver.readable_mechanics import Instant, at_start, preset
 
 CLOSE = 1e-9
-"""Of the largest value of its kind: positions move by up to 10 m, so lose two digits, and chains
-of five bodies multiply rounding by their condition, at most about 1e5."""
+"""Part of the largest value of its kind: positions move by up to 10 m, so lose two digits, and
+chains of five bodies multiply rounding by their condition, at most about 1e5."""
 
 PRESETS = {
     "press": preset("seven-bar-press", friction=0.1),

@@ -63,7 +63,7 @@ def test_it_is_the_published_formula(series: np.ndarray) -> None:
 
 
 def test_a_mean_that_is_kept_would_be_taken_out_by_the_oscillating_term() -> None:
-    """What the published form does with a series whose mean is not zero, we do beforehand."""
+    """The published form corrects for a mean that is not zero, which we do beforehand."""
     series = LOGISTIC_4.orbit(600)[:, 0]
     drawn = np.random.default_rng(0).random(FREQUENCIES)[:10]
     frequencies = math.pi / 5.0 + 3.0 * math.pi / 5.0 * drawn

@@ -31,7 +31,8 @@ METHODS = [
     {"method": "rk4", "step": 1e-3},
 ]
 SPEEDS = -np.geomspace(0.01, 5.0, 40)
-"""Of cranks that fall from upright: the slowest take seconds to leave it, the fastest go round."""
+"""Speeds of cranks that fall from upright: the slowest take seconds to leave it, the fastest go
+round."""
 
 
 def gaps(found: Run, four_bar: int = 0) -> float:

@@ -37,7 +37,7 @@ AT_LENGTH: dict[str, Case] = {
     "leg": ("jansen-leg", 0.5, {}, "reduced"),
     "test bed": ("seven-bar-test-bed", 0.2, REQUIRED["seven-bar-test-bed"], "reduced"),
 }
-"""What takes long, or kernels that the short run does not compile."""
+"""Cases that take long, or kernels that the short run does not compile."""
 
 
 @pytest.mark.parametrize("tolerance", [1e-6, pytest.param(1e-8, marks=pytest.mark.long)])

@@ -34,7 +34,7 @@ JUDGED = [
     case for case in ALL if not case.long and case.id not in TYPED and case.id not in WITHOUT_TRUTH
 ]
 SAMPLE = random.Random(5).sample([case for case in JUDGED if isinstance(case.scene, str)], 16)
-"""Of presets: the tangents of other scenes take seconds to compile."""
+"""Cases of presets: the tangents of other scenes take seconds to compile."""
 
 
 @pytest.mark.parametrize(

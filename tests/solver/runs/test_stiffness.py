@@ -1,4 +1,4 @@
-"""What `"auto"` runs with: explicit, unless its steps hardly bring the run on."""
+"""The method that `"auto"` takes: explicit, unless its steps hardly bring the run on."""
 
 from typing import Any
 

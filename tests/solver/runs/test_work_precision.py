@@ -34,7 +34,7 @@ class Failed:
 
 
 class Collected:
-    """What a store would hold of the runs that ended."""
+    """The runs that ended, as a store would hold them."""
 
     def __init__(self, study: Study, ends: list[PointEnd]) -> None:
         runs = [run.document() for run in study.runs]
@@ -72,7 +72,7 @@ def measured(job: dict[str, Any]) -> Collected:
 
 
 def repeatable(ends: list[PointEnd]) -> list[dict[str, Any]]:
-    """What does not depend on the clock."""
+    """The findings that do not depend on the clock."""
     return [
         asdict(end) | {"statistics": repr({**end.statistics, "seconds": 0.0}), "peaks": None}
         for end in ends

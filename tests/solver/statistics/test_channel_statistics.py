@@ -1,4 +1,4 @@
-"""What every statistic of channels promises, and what each of them is."""
+"""Promises of every statistic of channels, and the definition of each of them."""
 
 import math
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""What every statistic of contacts promises, and what each of them is."""
+"""Promises of every statistic of contacts, and the definition of each of them."""
 
 import math
 

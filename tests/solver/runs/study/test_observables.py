@@ -1,4 +1,4 @@
-"""What a study keeps unless it is told otherwise."""
+"""Channels that a study keeps unless it is told otherwise."""
 
 import copy
 from typing import Any

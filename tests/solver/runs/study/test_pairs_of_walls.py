@@ -17,7 +17,7 @@ PLAY: dict[str, Any] = {
 }
 SCENE = bead() | {"parameters": {"play": PLAY}}
 LASTS = 2.9432750574 * (1.25 * MASS * SPEED**2 / STIFFNESS) ** 0.4 / SPEED
-"""Of an impact at a spring of Hertz, s (Johnson 1985, eq. 11.24)."""
+"""Duration of an impact at a spring of Hertz, s (Johnson 1985, eq. 11.24)."""
 
 
 def cycle(clearance: float) -> float:
