@@ -13,6 +13,7 @@ from jointplay.storage.catalogue.records import Block, BlockState, Claim, Job, V
 from jointplay.storage.settings import Settings
 from jointplay.worker.holding import Refused
 from jointplay.worker.joined.attempt import JoinedAttempt
+from jointplay.worker.joined.bucket import BucketOfService
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.files import FilesOfService
 from jointplay.worker.joined.protocol import Answered, ClaimRequest, Files
@@ -60,7 +61,8 @@ def test_no_answer_is_waited_for_until_the_lease_is_over(tmp_path: Path) -> None
         return Answered(verdict=Verdict.go_on)
 
     with serving(late) as url, closing(Connection(url, None)) as connection:
-        scratch = Scratch(FilesOfService(connection, BLOCK), Settings(data=tmp_path), BLOCK)
+        files = FilesOfService(connection, BucketOfService(connection), BLOCK)
+        scratch = Scratch(files, Settings(data=tmp_path), BLOCK)
         job = Job("simulate", {}, "d" * 64, "1", id="job", created=0.0)
         attempt = JoinedAttempt(connection, Claim(BLOCK, job), scratch)
         with pytest.raises(Unavailable):
