@@ -1,12 +1,12 @@
 """Claims that were wrong once, by name, each held to the truth since."""
 
-from benchmarks.lies.named import companions, exponents, flight, friction, ramps
+from benchmarks.lies.named import chatter, companions, exponents, flight, friction, ramps
 from benchmarks.lies.named.lie import Lie
 from benchmarks.lies.tables import table
 
 LIES: tuple[Lie, ...] = (
     *(*flight.LIES, *friction.LIES, *ramps.LIES),
-    *(*companions.LIES, *exponents.LIES),
+    *(*companions.LIES, *exponents.LIES, *chatter.LIES),
 )
 
 

@@ -16,13 +16,13 @@ BLOCKS = ("channel", "previous", "change", "highest", "lowest")
 BYTES = 8 * min(WIDTHS.values())
 """Marks in a slot, one byte for each row, whose bits are the lanes, at any width."""
 
-REACH, SPARE = 3.0, 0.03
+REACH, SPARE = 3.0, 0.06
 """Bounds of an extreme beyond the step end between two steps, within which it is looked for.
 
 The parabola through three step ends reaches (r q² + c)² / (4 q (q + 1) |c - r q|) beyond the middle
 one, if the changes are r (before) and c (after) and the second step is q times as long; a sine
 sampled every 1.5 rad, the limit of stability, up to 1.6 times as far. REACH covers that, SPARE the
-even case."""
+even case: steps of a third order at that limit turn at every end, 0.035 of both changes beyond."""
 
 
 def allocate(layout: Layout, rows: int, rest: int) -> None:

@@ -51,7 +51,7 @@ def may_set_records(lane: int, run: Run, at: Places, work: np.ndarray, spare: np
     Channels are known at eight even instants. Notes if the step is rough, and after how many steps
     one that swings is to be looked at: the next one, or the longer the longer no record is near.
     """
-    widest, rough, near = 0.0, False, False
+    widest, rough, near, ahead = 0.0, False, False, False
     for r in range(at.contact_row):  # behind are records of single contacts
         widest = max(widest, work[at.highest + r, lane] - work[at.lowest + r, lane])
     for r in range(at.contact_row):
@@ -68,12 +68,15 @@ def may_set_records(lane: int, run: Run, at: Places, work: np.ndarray, spare: np
         rough |= max(above, below) > ROUGH * spread
         near |= above > SEEN * spread and high + REACH * above > highest
         near |= below > SEEN * spread and low - REACH * below < lowest
+        # steps swing in turn: one that dips is followed by one that tops
+        ahead |= below > SEEN * spread and high + REACH * below > highest
+        ahead |= above > SEEN * spread and low - REACH * above < lowest
     steps = int(work[at.steps, lane])
     if rough:
         run.rough += 1
     if rough and near and not int(work[at.flag, lane]) & SWINGING:
         run.rough_until = steps + EVERY
     begins = steps > int(work[at.look_at, lane]) + EVERY
-    run.far = 0 if near or begins else min(run.far + run.far // 2 + 1, EVERY - 1)
+    run.far = 0 if near or ahead or begins else min(run.far + run.far // 2 + 1, EVERY - 1)
     work[at.look_at, lane] = float(steps + 1 + run.far)
     return near

@@ -1,16 +1,18 @@
-"""Error bars that were lies once, and extremes at ramps of friction."""
+"""Error bars that were lies once, and extremes at ramps of friction and in chatter."""
 
 import pytest
 
-from benchmarks.lies.named import companions, friction, ramps
+from benchmarks.lies.named import chatter, companions, friction, ramps
 from benchmarks.lies.named.lie import Lie
 
-BARS = (*friction.BARS, *ramps.LIES, *companions.LIES)
+BARS = (*friction.BARS, *ramps.LIES, *companions.LIES, *chatter.LIES)
 AT_LENGTH = (
     "press as a draft, its bars",
     "press, an unlucky step",
     "press, fixed steps",
     "pendulum at the longest step",
+    "press, a zigzag of step ends",
+    "press, steps that swing in turn",
     "slider-crank, friction full at 0.0001 m/s",
     "slider-crank, friction full at 1e-05 m/s",
     "slider-crank, friction full at 3e-05 m/s",

@@ -1,0 +1,60 @@
+"""Claims about extremes in steps that an explicit method takes at its limit of stability."""
+
+from typing import Any
+
+from benchmarks.lies.named.lie import Lie, by_extremes
+
+
+def _press(duration: float, tolerance: float, parameters: dict[str, Any]) -> dict[str, Any]:
+    return {
+        "kind": "simulate",
+        "scene": {"preset": "seven-bar-press", "parameters": parameters},
+        "duration": duration,
+        "method": "bogacki-shampine",
+        "tolerance": tolerance,
+    }
+
+
+IN_TURN = _press(
+    0.0008715456654689208,
+    9.59479e-07,
+    {
+        "clearance_A": 0.000113489851789,
+        "clearance_B": 0.000147200650089,
+        "bearing_radius": 0.00033021274840164955,
+        "speed": 17.6033122042,
+        "speed_crank4": 528.0993661260001,
+        "gravity_x": 9.81,
+        "slip_velocity": "material",
+        "stiffness": 20047939647.1,
+        "restitution": 0.467237508076,
+        "friction": 0.218761299636,
+        "dynamic_velocity": 0.0205663140769,
+        "static_velocity": 0.01028315703845,
+    },
+)
+"""Every other step dips, and those between top."""
+ZIGZAG = _press(
+    0.0011156488175746288,
+    6.34674e-10,
+    {
+        "clearance_A": 0.000422299057635,
+        "clearance_B": 0.0012555490713,
+        "bearing_radius": 0.006697675356258422,
+        "speed": 7.16003102622,
+        "speed_crank4": 214.80093078660002,
+        "gravity_x": 0.0,
+        "slip_velocity": "as-published",
+        "stiffness": 2234991081.03,
+        "restitution": 0.179194832564,
+        "friction": 0.0883620422277,
+        "dynamic_velocity": 2.68403448946e-05,
+        "static_velocity": 2.6840344894600004e-06,
+    },
+)
+"""Values at the ends of steps go up and down, by less than a step's tolerance."""
+
+LIES = (
+    Lie("press, steps that swing in turn", "7.2e-6 too low", lambda: by_extremes(IN_TURN)),
+    Lie("press, a zigzag of step ends", "6.2e-6 too low", lambda: by_extremes(ZIGZAG)),
+)
