@@ -145,6 +145,7 @@ def computed(
             with measures(calibration, processes or cores(), asked_to_end) as (fitted, every):
                 if kept is not None:
                     fitted, every = kept.of(fitted, every=False), kept.of(every, every=True)
+                report(0.0, "searching")  # from here on time tells how much is left
                 cost = search.costs_of(calibration, fitted)
                 outcome = search.calibrate(calibration, cost, every, report)
         except Interrupted:

@@ -4,10 +4,13 @@ import json
 import signal
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
+from jointplay import progress
+from jointplay.command_line.calibrate import computed
 from jointplay.command_line.exits import Exit
 from jointplay.solver.kinds import admit, admit_calibration
 from jointplay.worker.local.measured import Measured
@@ -50,6 +53,16 @@ def document(tmp_path: Path) -> Path:
         )
     )
     return path
+
+
+@pytest.mark.long
+def test_the_time_that_is_left_is_told_from_when_the_kernels_are_prepared(document, monkeypatch):
+    told = []
+    recorder = contextmanager(lambda title: iter([lambda share, note: told.append((share, note))]))
+    monkeypatch.setattr(progress, "progress", recorder)
+    computed(admit_calibration(json.loads(document.read_text())), processes=1)
+    assert told[:2] == [(0.0, "preparing the kernels"), (0.0, "searching")]
+    assert told[2][0] > 0.0
 
 
 @pytest.mark.long
