@@ -113,7 +113,7 @@ def test_local_results_are_drawn(jointplay, press, tmp_path):
     assert unknown.code == 2
     assert "orbit" in unknown.line()
     late = jointplay("plot", press, "orbit", "--start", "99", "-o", tmp_path)
-    assert late.line().startswith("jointplay: --start: There are no")
+    assert late.line().startswith("jointplay: --start 99 is after the end of")
     wrong = jointplay("plot", press, "orbit", "--joints", "Z", "-o", tmp_path)
     assert wrong.line().startswith("jointplay: --joints: ")
 

@@ -191,7 +191,7 @@ def test_of_a_simulation_there_are_no_points_and_no_samples_beyond_its_end(
     assert "--table points" in ended.line()
     beyond = jointplay("export", finished_job, "--start", "5", *at)
     assert beyond.code == 2
-    assert "no samples in this window" in beyond.line()
+    assert "--start 5 is after the end of" in beyond.line()
 
 
 def test_figures_of_a_study_are_fetched(jointplay, at, finished_study, tmp_path):
