@@ -123,8 +123,15 @@ class Called(Connection):
         super().__init__(url, None)
         self.away = threading.Event()
 
-    def tell(self, block: Block, what: str, document: Document | None = None) -> bytes:
-        answer = super().tell(block, what, document)
+    def tell(
+        self,
+        block: Block,
+        what: str,
+        document: Document | None = None,
+        *,
+        within: float | None = None,
+    ) -> bytes:
+        answer = super().tell(block, what, document, within=within)
         if what == "checkpoint":
             self.away.set()
         return answer
