@@ -11,8 +11,8 @@ LINES = {"statement": 8, "state": 200, "pair": 1300}
 """Lines of the longest source for each statement of the equations, state, and contact pair: that of
 the methods of order 8 or implicit, at most half as much again; others have down to half as many
 lines, tangents a third."""
-SECONDS_PER_LINE = 2.5e-4
-"""Seconds of one core; measured: 0.15 to 0.3 ms (`python -m benchmarks compilation`)."""
+SECONDS_PER_LINE = 1.5e-4
+"""Seconds of one core; measured: 0.08 to 0.11 ms (`python -m benchmarks compilation`)."""
 SURELY_ENOUGH = 60.0
 """Seconds within which every scene of few bodies is compiled: recording it would only cost time."""
 

@@ -16,6 +16,7 @@ from typing import Any
 import llvmlite
 from llvmlite import binding
 
+from jointplay.solver.kernels.compiler import order_instructions
 from jointplay.solver.kernels.lanes import target_processor
 
 LEVEL_OF_FUNCTIONS, LEVEL_OF_MODULE = 1, 3
@@ -23,6 +24,9 @@ LEVEL_OF_FUNCTIONS, LEVEL_OF_MODULE = 1, 3
 functions, too, and some between both, make the same machine code, and take longer."""
 CODE_LEVEL = 3
 """Level of optimisation of what generates code: the choice of instructions and registers."""
+LONG = 8_000_000
+"""Bytes of text (26 four-bars in `reduced`, 14 in `lagrange`) beyond which instructions stay in the
+order in which they are written: to order them takes three times as long for twice the length."""
 
 
 def load_code(text: Callable[[], str], source: Path | None) -> None:
@@ -67,6 +71,7 @@ def _compiled(text: str) -> bytes:
         builder.getFunctionPassManager().run(function, builder)
     builder = _passes(machine, LEVEL_OF_MODULE)
     builder.getModulePassManager().run(module, builder)
+    order_instructions(len(text) < LONG)
     return bytes(machine.emit_object(module))
 
 

@@ -20,8 +20,8 @@ from jointplay.solver.kernels.record import lane_functions
 from jointplay.solver.kernels.record.operations import OPERATIONS
 from jointplay.solver.kernels.watched import require_wanted
 
-MOST_STATEMENTS = 12_000
-"""Beyond it compilation takes minutes (12 bodies with 4 loops need about 7000); see
+MOST_STATEMENTS = 22_000
+"""Beyond it compilation takes a minute (40 four-bars need 21 555 in `lagrange`); see
 `solver.kinds.compilation`."""
 
 _LOOK = 2048

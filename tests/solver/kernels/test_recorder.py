@@ -187,7 +187,7 @@ def test_names_of_a_scene_select_nothing_and_stand_in_no_source(names: list[str]
 
 
 def test_equations_beyond_the_limit_are_refused_with_their_length_before_compilation() -> None:
-    scene = chain(40)
+    scene = chain(60)
     with pytest.raises(LimitExceeded) as refused:
         compile_kernel(scene, spanning_tree(scene), "reduced", TSITOURAS5)
     (problem,) = refused.value.problems
