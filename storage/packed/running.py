@@ -106,7 +106,7 @@ class Running:
 
     def has(self, key: str) -> bool:
         """Whether the chunks at the place of a key were written, and the folder is there."""
-        return self._source.version(self.file_of(key)) is not None
+        return self._source.has(self.file_of(key))
 
     @staticmethod
     def file_of(key: str) -> str:
@@ -237,7 +237,7 @@ class Running:
     def _pack(self, key: str) -> Packed:
         name = _name(key)
         found = self._source.object(f"{ROWS}/{name}")
-        version = self._source.version(f"{ROWS}/{name}")
+        version = found.version()  # what is remembered of it is true of this one alone
         if version is None:
             raise FileNotFoundError(f"{self} has no {key!r}")
         known = self._packs.get(name)

@@ -26,8 +26,8 @@ class RunningFiles(Protocol):
         """Yield the names of all files, or of those in a folder, in order; none is half written."""
         ...
 
-    def version(self, name: str) -> str | None:
-        """Return what changes with a file that is written once; none if it is not there."""
+    def has(self, name: str) -> bool:
+        """Tell whether a file is there, or was when the files were last listed."""
         ...
 
     def size(self, name: str) -> int:

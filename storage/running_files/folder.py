@@ -40,9 +40,9 @@ class InFolder:
             if not path.name.endswith(durable.PARTIAL) and path.is_file():
                 yield path.relative_to(self.path).as_posix()
 
-    def version(self, name: str) -> str | None:
+    def has(self, name: str) -> bool:
         """Look the file up."""
-        return self.object(name).version()
+        return self.object(name).exists()
 
     def size(self, name: str) -> int:
         """Look the file up."""

@@ -53,9 +53,9 @@ class InPlace:
             if key.endswith(_FIRST) and key.startswith(inside):
                 yield key.removesuffix(_FIRST)
 
-    def version(self, name: str) -> str | None:
+    def has(self, name: str) -> bool:
         """Look into the list."""
-        return "there" if f"{name}{_FIRST}" in self._known() else None
+        return f"{name}{_FIRST}" in self._known()
 
     def size(self, name: str) -> int:
         """Return where the last piece ends."""

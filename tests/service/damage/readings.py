@@ -15,8 +15,6 @@ from jointplay.command_line.application import run as run_command
 from jointplay.service.results.forms import ARROW, CSV, MATLAB, NPZ
 from jointplay.service.zarr.contents import is_key
 from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from tests.service.damage.subjects import Subject
 
 FORMS: Final = {"CSV": CSV, "NPZ": NPZ, "MATLAB": MATLAB, "Arrow": ARROW}
@@ -83,9 +81,8 @@ def _keys(http: httpx.Client, subject: Subject) -> Iterator[Reading]:
     if subject.running:
         keys = set(_announced(http.get(f"{base}/zarr.json").json()))
     else:
-        path = subject.store
-        packed = Packed(StoredObject(Folder(str(path.parent)), path.name))
-        keys = {key for key in packed if is_key(key)}
+        (file,) = subject.files
+        keys = {key for key in Packed(file.stored) if is_key(key)}
     for key in sorted(keys | {"zarr.json"}):
         yield _get(http, "Zarr key", f"{base}/{key}", key)
         if not key.endswith("zarr.json"):

@@ -5,7 +5,6 @@ The other's files have the same names: each can be exchanged for its like.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -16,8 +15,10 @@ from jointplay.records.run import CertificateRecord, LabelledArray
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState, Claim
+from jointplay.storage.places import StoredObject
 from jointplay.storage.results.layout import Partition, ResultLayout
 from jointplay.storage.results.writer import ResultWriter
+from jointplay.storage.running_files import RunningFiles
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import Answer, Progress
 from jointplay.worker.study_block import run_block
@@ -33,42 +34,68 @@ INSTANTS: Final = np.linspace(0.0, 2.0, 5)  # s
 
 
 @dataclass(frozen=True)
+class File:
+    """A file of a store by its name there; `like` is that of another job."""
+
+    name: str
+    stored: StoredObject
+    like: StoredObject
+
+    @property
+    def folder(self) -> str:
+        """Folder of the store that it is in."""
+        return self.name.rpartition("/")[0]
+
+
+@dataclass(frozen=True)
 class Subject:
-    """A job and its results; `other` are those of another job, to exchange files with."""
+    """A job and the files of its store; a running one has a folder of them."""
 
     job: str
-    store: Path
-    other: Path
+    files: list[File]
+    filled: RunningFiles | None
 
     @property
     def running(self) -> bool:
-        """The store is a folder that is being filled."""
-        return self.store.is_dir()
-
-    @property
-    def files(self) -> list[Path]:
-        """Every file of the store."""
-        found = self.store.rglob("*") if self.running else [self.store]
-        return sorted(path for path in found if path.is_file())
-
-    def like(self, path: Path) -> Path:
-        """Return the file of the other job that stands for a file of this one."""
-        return self.other / path.relative_to(self.store) if self.running else self.other
+        """The store is being filled."""
+        return self.filled is not None
 
 
 class Subjects:
-    """Makes them, one a kind of store."""
+    """Makes them, one a kind of store.
+
+    Parameters
+    ----------
+    settings
+        Of the service. Jobs are computed in its data folder, from where those that run are sent if
+        they are read elsewhere.
+    """
 
     def __init__(self, worker: Worker, catalogue: Catalogue, settings: Settings) -> None:
         self._worker = worker
         self._catalogue = catalogue
-        self._settings = settings
+        self._reads = settings
+        self._settings = computing(settings)
 
     def made(self, kind: str) -> Subject:
         """Make a subject of a kind in `KINDS`."""
         make, place = KINDS[kind]
         job, other = make(self), make(self, **OTHER)
-        return Subject(job, place(self._settings, job), place(self._settings, other))
+        found, like = place(self._reads, job), place(self._reads, other)
+        if isinstance(found, StoredObject):
+            assert isinstance(like, StoredObject)
+            return Subject(job, [File(found.key.rpartition("/")[2], found, like)], None)
+        if self._reads.sends:
+            self._send(job)
+            self._send(other)
+        files = [File(name, found.object(name), like.object(name)) for name in found.names()]
+        return Subject(job, files, found)
+
+    def _send(self, job: str) -> None:
+        """Put the files of a running job where the service reads them."""
+        here, there = self._settings.running_files(job), self._reads.running_files(job)
+        for name in here.names():
+            there.put(name, [here.read(name)])
 
     def run(self, **fields: Any) -> str:
         """Compute a simulation that succeeded, with a certificate, and a pyramid of extremes."""
@@ -178,20 +205,25 @@ def certificate_of(claim: Claim) -> CertificateRecord:
     return CertificateRecord({"note": "", "horizon": 2.0, "converged": [[0.0, 2.0]]}, arrays)
 
 
-def _sealed_run(settings: Settings, job: str) -> Path:
-    return settings.data / "results" / settings.sealed_run(job, 1).key
+def computing(settings: Settings) -> Settings:
+    """Return the settings of whoever computes in the data folder of a service."""
+    return settings.model_copy(update={"running": "data"})
 
 
-def _sealed_study(settings: Settings, job: str) -> Path:
-    return settings.data / "results" / settings.sealed_study(job).key
+def _sealed_run(settings: Settings, job: str) -> StoredObject:
+    return settings.sealed_run(job, 1)
 
 
-def _running_run(settings: Settings, job: str) -> Path:
-    return settings.running_run(job, 1).folder
+def _sealed_study(settings: Settings, job: str) -> StoredObject:
+    return settings.sealed_study(job)
 
 
-def _running_study(settings: Settings, job: str) -> Path:
-    return settings.running_study(job).folder
+def _running_run(settings: Settings, job: str) -> RunningFiles:
+    return settings.running_files(job).below("a1")
+
+
+def _running_study(settings: Settings, job: str) -> RunningFiles:
+    return settings.running_files(job).below("study")
 
 
 def _study_of(fields: dict[str, Any]) -> Callable[..., str]:
@@ -212,7 +244,8 @@ LONG: Final = {"record": 5000}
 """Sections enough for a chunk that is full before its point has ended."""
 WIDE: Final = {"grid": {"clearance": {"from": 1e-4, "to": 1e-3, "count": 20}}}
 """More points than one block has."""
-KINDS: Final[dict[str, tuple[Callable[..., str], Callable[[Settings, str], Path]]]] = {
+_Store = Callable[[Settings, str], StoredObject | RunningFiles]
+KINDS: Final[dict[str, tuple[Callable[..., str], _Store]]] = {
     "simulate": (Subjects.run, _sealed_run),
     "failed simulate": (Subjects.failed_run, _sealed_run),
     "bifurcation": (_study_of(BIFURCATION), _sealed_study),

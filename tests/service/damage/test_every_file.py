@@ -9,17 +9,13 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
-import httpx
 import pytest
 
-from jointplay.client import Client
-from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.settings import Settings
-from tests.service.damage.damages import WHOLE, Damage, damages, restore
+from tests.service.damage.damages import WHOLE, Damage, content_of, damages, put
+from tests.service.damage.installations import PLACES, Installation
 from tests.service.damage.readings import Denied, Reading, readings
-from tests.service.damage.subjects import KINDS, Subject, Subjects
+from tests.service.damage.subjects import KINDS
 from tests.service.damage.table import Outcome, Table, outcome_of
-from tests.worker_by_hand import Worker
 
 SOME = 6
 """Readings of what is struck, and as many of other results."""
@@ -28,19 +24,16 @@ pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
 
 
 @pytest.fixture(scope="module")
-def subjects(worker: Worker, catalogue: Catalogue, settings: Settings) -> dict[str, Subject]:
-    made = Subjects(worker, catalogue, settings)
-    return {kind: made.made(kind) for kind in KINDS}
+def installation(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Installation]:
+    with PLACES[request.param](tmp_path_factory.mktemp("damaged")) as made:
+        yield made
 
 
 @pytest.fixture(scope="module")
-def client(service_url: str) -> Iterator[Client]:
-    with Client(service_url) as client:
-        yield client
-
-
-@pytest.fixture(scope="module")
-def table() -> Iterator[Table]:
+def table(installation: Installation, request: pytest.FixtureRequest) -> Iterator[Table]:
+    """Of one place."""
     table = Table()
     yield table
     print("\n" + "\n".join(table.lines()))  # noqa: T201 - shown by -s
@@ -49,26 +42,19 @@ def table() -> Iterator[Table]:
 class Striker:
     """Damages files of a subject, one after the other, and reads its results each time."""
 
-    def __init__(
-        self,
-        http: httpx.Client,
-        client: Client,
-        catalogue: Catalogue,
-        table: Table,
-        scratch: Path,
-        seed: int,
-    ) -> None:
-        self._http = http
-        self._client = client
-        self._catalogue = catalogue
+    def __init__(self, installation: Installation, table: Table, scratch: Path, seed: int) -> None:
+        self._http = installation.http
+        self._catalogue = installation.catalogue
+        self._installation = installation
         self._table = table
         self._scratch = scratch
         self._seed = seed
 
-    def strike(self, kind: str, subject: Subject, few: int | None = None) -> None:
+    def strike(self, kind: str, few: int | None = None) -> None:
         """Do all damages, or a few; after each, read what it strikes and some other results."""
         chance = random.Random(f"{self._seed} {kind}")
-        ways = readings(self._http, self._client, subject, self._scratch)
+        subject = self._installation.subject(kind)
+        ways = readings(self._http, self._installation.client, subject, self._scratch)
         found = list(damages(subject, chance))
         if few is not None:  # of as many sorts
             chance.shuffle(found)
@@ -79,7 +65,7 @@ class Striker:
         status = "409" if subject.running else "410"
         wrong: list[str] = []
         for damage, chosen in plan.items():
-            whole = damage.path.read_bytes()
+            whole = content_of(damage.file.stored)
             damage.strike()
             self._table.damages[kind, damage.name] += 1
             told = [way for way in chosen if way in before]
@@ -95,7 +81,7 @@ class Striker:
                 wrong.append(f"{damage}: marked as {marked}")
             if not subject.running and damage.name in WHOLE and detected < len(told):
                 wrong.append(f"{damage}: noticed by {detected} of {len(told)} readings")
-            restore(damage.path, whole)
+            put(damage.file.stored, whole)
             self._catalogue.mark_damaged(subject.job, None)
         assert not wrong, f"{len(wrong)} readings:\n" + "\n".join(wrong[:20])
         assert dict(self._results(before)) == before
@@ -118,27 +104,28 @@ class Striker:
 
 @pytest.fixture
 def striker(
-    http: httpx.Client,
-    client: Client,
-    catalogue: Catalogue,
-    table: Table,
-    tmp_path: Path,
-    request: pytest.FixtureRequest,
+    installation: Installation, table: Table, tmp_path: Path, request: pytest.FixtureRequest
 ) -> Striker:
-    return Striker(http, client, catalogue, table, tmp_path, request.config.getoption("--seed"))
+    return Striker(installation, table, tmp_path, request.config.getoption("--seed"))
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_nothing_is_served_that_was_not_stored(
-    striker: Striker, subjects: dict[str, Subject], kind: str
-) -> None:
-    """A sample of what the next test does."""
-    striker.strike(kind, subjects[kind], few=2)
+@pytest.mark.parametrize("installation", ["folder"], indirect=True)
+def test_nothing_is_served_that_was_not_stored(striker: Striker, kind: str) -> None:
+    """A sample of what the last test does."""
+    striker.strike(kind, few=2)
+
+
+@pytest.mark.parametrize("kind", ["simulate", "running simulate", "running sweep"])
+@pytest.mark.parametrize("installation", ["bucket"], indirect=True)
+def test_nothing_is_served_from_a_bucket_that_was_not_stored(striker: Striker, kind: str) -> None:
+    striker.strike(kind, few=2)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("installation", PLACES, indirect=True)
 def test_nothing_is_served_that_was_not_stored_whatever_is_done(
-    striker: Striker, subjects: dict[str, Subject], kind: str
+    striker: Striker, kind: str
 ) -> None:
-    striker.strike(kind, subjects[kind])
+    striker.strike(kind)

@@ -34,7 +34,7 @@ class RunningFilesContract(ABC):
     def test_what_is_not_there_is_said_to_be_missing(self) -> None:
         files = self.opened()
         assert [*files.names()] == [*files.names("a1/parts")] == []
-        assert files.version(ROWS) is None
+        assert not files.has(ROWS)
         files.put(f"{ROWS}x", [b"x"])
         for missing in (self.opened(), files):
             with pytest.raises(FileNotFoundError):
@@ -100,7 +100,7 @@ class RunningFilesContract(ABC):
         files.remove(ROWS)
         left = self.opened()
         assert [*left.names()] == ["a2/rows/history-0.zip"]
-        assert left.version("a2/rows/history-0.zip") is not None
+        assert left.has("a2/rows/history-0.zip")
         assert left.object("a2/rows/history-0.zip").read(3, 6) == b"345"
 
     def test_one_file_is_removed_and_then_all(self) -> None:
@@ -132,7 +132,7 @@ class InPlaceContract(RunningFilesContract):
         files, reader = self.opened(), self.opened()
         files.put(JOURNAL, [b"begin"])
         files.append(JOURNAL, 5, [b" more"])
-        assert reader.version(JOURNAL) is not None
+        assert reader.has(JOURNAL)
         files.put(JOURNAL, [b"begin more and more"])
         assert reader.read(JOURNAL) == b"begin more and more"
 
