@@ -5,6 +5,7 @@ from pathlib import Path
 
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import NewJob, Solver
 from jointplay.storage.settings import Settings
 from jointplay.worker.measuring import measure_results
 from jointplay.worker.removal import remove_expired
@@ -25,6 +26,23 @@ def test_whoever_asks_too_often_is_told_when_to_come_back(tmp_path: Path) -> Non
             assert 1 <= int(refused[0].headers["Retry-After"]) <= 10
             assert "more than 5 requests in 10 s" in refused[0].json()["detail"]
             assert bob.get("/v1/jobs").status_code == 200
+    catalogue.close()
+
+
+def test_workers_hold_blocks_at_any_rate(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, keys="required", rate=0.5)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    job = catalogue.submit(NewJob("simulate", {}, "d" * 64, "1")).job.id
+    with serving(create_app(settings)) as url:
+        guarded = Guarded(url, catalogue, "", "")
+        with guarded.as_("lab", "worker") as lab, guarded.as_("ada") as ada:
+            worker = f"{lab.headers['authorization'].split('_')[1]}@w"  # of this key
+            assert catalogue.claim_block(f"{job}-0", worker, 600.0, Solver("1", "zen4"))
+            beat = f"/v1/worker/blocks/{job}-0/1/heartbeat"
+            assert {lab.post(beat).status_code for _ in range(12)} == {200}
+            # whose key is for something else is counted there, too
+            assert {ada.post(beat).status_code for _ in range(12)} == {403, 429}
     catalogue.close()
 
 
