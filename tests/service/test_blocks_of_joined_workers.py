@@ -63,6 +63,13 @@ def test_what_a_worker_says_is_read_strictly(
     if not given:
         del told["time"]
     assert http.post(f"{address}/progress", json=told).status_code == 422
+    for words in ("", "a\0b", "a\nb", 33 * "a"):
+        for verb in ("activity", "put-off"):
+            assert http.post(f"{address}/{verb}", json={"activity": words}).status_code == 422
+    fault = {"error_class": "platform", "code": "odd", "detail": "a\0b", "time": None}
+    ended = http.post(f"{address}/finish", json={"outcome": "failed", "error": fault})
+    assert ended.status_code == 422
+    assert "no NUL" in ended.text
     odd = {"watermark": 1, "checkpoint": "../block0-a1"}
     assert http.post(f"{address}/checkpoint", json=odd).status_code == 422
     assert http.post(f"{address}/finish", json={"outcome": "waiting"}).status_code == 422

@@ -22,6 +22,12 @@ def _an_end(state: BlockState) -> BlockState:
     return state
 
 
+def _of_text(error: JobError) -> JobError:
+    if "\0" in error.code + error.detail:
+        raise ValueError("PostgreSQL stores no NUL")
+    return error
+
+
 class Document(BaseModel):
     """A document with these fields and no others, and finite numbers."""
 
@@ -112,14 +118,14 @@ class Checkpoint(Document):
 class Activity(Document):
     """A few words for what takes long."""
 
-    activity: Annotated[str, Field(min_length=1, max_length=32)]
+    activity: Annotated[str, Field(min_length=1, max_length=32, pattern=r"^[ -~]+$")]
 
 
 class Finish(Document):
     """The end of a block."""
 
     outcome: Annotated[BlockState, AfterValidator(_an_end)]
-    error: JobError | None = None
+    error: Annotated[JobError, AfterValidator(_of_text)] | None = None
     time: _Time | None = None
     fraction: _Fraction | None = None
     steps: _Count | None = None
