@@ -2,6 +2,7 @@
 
 A page of the web can have a browser send requests to a service on this machine, as the page's own
 name may be given this machine's address (DNS rebinding). That name is then in Host, and in Origin.
+A page of another program on this machine has another port in Origin than in Host.
 """
 
 import ipaddress
@@ -18,15 +19,16 @@ from jointplay.service.problems import RequestRefused, clipped, kinds
 def require_own_host(request: Request, names: Collection[str]) -> None:
     """Refuse what was sent to a foreign name or by a foreign page; `names` are further own ones.
 
-    An address in place of a name was looked up by nobody.
+    An address in place of a name was looked up by nobody. Pages are the service's own, or of a
+    further name at any port, which a proxy may have left out of Host.
     """
     host, origin = request.headers.get("host", ""), request.headers.get("origin")
     own = _name_in(host)
     if not (own in names or is_loopback(own) or _is_address(own)):
         raise _foreign("Host", host)
     if origin is not None:
-        page = _name_in(origin)
-        if not (page == own or page in names or is_loopback(page)):
+        page = origin.partition("://")[2]  # a browser writes both with a port, or both without
+        if not (page.lower() == host.lower() or _name_in(origin) in names):
             raise _foreign("Origin", origin)
 
 
