@@ -99,7 +99,8 @@ class Settings(BaseSettings):
         0.0,
         ge=0,
         le=1e12,
-        description="Core seconds of one owner in the last 24 hours; 0: any number.",
+        description="Core seconds of one owner in the last 24 hours, the time that workers, each of"
+        " one core, held blocks; 0: any number.",
     )
     log_format: LogFormat = Field(
         "text", description="Lines of the logs: text, or json, an object each."

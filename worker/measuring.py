@@ -11,14 +11,21 @@ _log = logging.getLogger(__name__)
 
 
 def measure_results(catalogue: Catalogue, settings: Settings) -> None:
-    """Note the bytes of some jobs' sealed results; what cannot be measured is tried again."""
+    """Note the bytes of some jobs' results; what cannot be measured is tried again."""
     try:
         jobs = catalogue.unmeasured(_AT_ONCE)
-        catalogue.note_stored({job: _size(settings, job) for job in jobs})
+        catalogue.note_stored({job: _size(catalogue, settings, job) for job in jobs})
     except PASSING as fault:
         _log.warning("results are not measured now: %s", fault)
 
 
-def _size(settings: Settings, job: str) -> int:
+def _size(catalogue: Catalogue, settings: Settings, job_id: str) -> int:
+    """Sum up the bytes of sealed results, or, where there are none, of what a job left."""
     place = settings.place
-    return sum(place.size(key) for key in place.list(settings.results_prefix(job)))
+    sealed = sum(place.size(key) for key in place.list(settings.results_prefix(job_id)))
+    job = catalogue.get(job_id)
+    whole = settings.sealed_run(job.id, job.attempt), settings.sealed_study(job.id)
+    if any(results.exists() for results in whole):
+        return sealed  # what it needed while it ran goes
+    files = settings.running_files(job_id)
+    return sealed + sum(files.size(name) for name in files.names())

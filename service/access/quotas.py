@@ -21,7 +21,9 @@ class Usage(BaseModel):
     most_running_blocks: int = Field(description="Further ones wait, and others go by.")
     stored_bytes: int = Field(description="Bytes of results, of jobs that have ended.")
     most_stored_bytes: int
-    core_seconds: float = Field(description="Processor time in the last 24 hours, s.")
+    core_seconds: float = Field(
+        description="Time in the last 24 hours for which workers, of one core each, held blocks, s."
+    )
     most_core_seconds: float
 
 

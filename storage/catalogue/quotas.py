@@ -1,4 +1,4 @@
-"""Quotas of owners: jobs that have not ended, bytes of results, processor time of a day.
+"""Quotas of owners: jobs that have not ended, bytes of results, core seconds of a day.
 
 What an owner has is counted in the unit that would add to it.
 """

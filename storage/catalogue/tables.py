@@ -218,7 +218,7 @@ api_key = Table(
     Column("last_used", Float(53)),
 )
 
-# Processor time of owners; see `storage.catalogue.usage`.
+# Core seconds of owners; see `storage.catalogue.usage`.
 usage = Table(
     "usage",
     metadata,

@@ -124,7 +124,7 @@ def holders(unit: Unit) -> tuple[str, ...]:
 def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = ()) -> Reaped:
     """Take back the blocks whose lease ran out, or whose worker is one of those that have ended.
 
-    Idempotency keys and processor times past their time are forgotten.
+    Idempotency keys and core seconds past their time are forgotten.
     """
     block = tables.block
     lost = (block.c.lease_until < unit.now) | block.c.worker.in_(ended)

@@ -1,4 +1,7 @@
-"""Processor time that owners have used: core seconds of each hour, kept for a day.
+"""Core seconds that owners have used, of each hour, kept for a day.
+
+They are the time that workers, each of one core, held blocks of an owner: computing, compiling,
+reading and writing.
 
 They are counted when an attempt at a block ends, however it does, by owner and worker: so no two
 units wait for each other. What runs is added when it is asked for.
