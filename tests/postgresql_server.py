@@ -9,7 +9,7 @@ import shutil
 import socket
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
@@ -29,10 +29,20 @@ TEMPLATE = "jointplay_template"
 class Server:
     """A running server; `new` makes databases in which the catalogue's tables are empty."""
 
-    def __init__(self, binaries: Path, folder: Path, host: str, port: int, *, fsync: bool) -> None:
+    def __init__(
+        self,
+        binaries: Path,
+        folder: Path,
+        host: str,
+        port: int,
+        *,
+        fsync: bool,
+        environment: Mapping[str, str],
+    ) -> None:
         self.port = port
         self.url = f"postgresql://postgres@{host}:{port}"
         self._binaries, self._folder, self._host = binaries, folder, host
+        self._environment = os.environ | environment
         self._process: subprocess.Popen[bytes] | None = None
         self._number = itertools.count()
         self._options = {
@@ -47,7 +57,8 @@ class Server:
         with (self._folder / f"{program}.log").open("ab") as log:
             return subprocess.Popen(
                 [str(self._binaries / program), "-D", str(self._folder / "data"), *arguments],
-                stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd="/", **nobody
+                stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd="/",
+                env=self._environment, **nobody,
             )  # fmt: skip
 
     def initialise(self) -> None:
@@ -112,8 +123,10 @@ class Server:
 
 
 @contextmanager
-def running_server(*, fsync: bool = False, host: str = "127.0.0.1") -> Iterator[Server]:
-    """Start a server in a folder of its own."""
+def running_server(
+    *, fsync: bool = False, host: str = "127.0.0.1", environment: Mapping[str, str] | None = None
+) -> Iterator[Server]:
+    """Start a server in a folder of its own, with variables beside those of this process."""
     folder = Path(tempfile.mkdtemp(prefix="jointplay-postgresql-"))
     server: Server | None = None
     try:
@@ -122,7 +135,7 @@ def running_server(*, fsync: bool = False, host: str = "127.0.0.1") -> Iterator[
             os.chown(folder, pwd.getpwnam("nobody").pw_uid, -1)
         with socket.create_server((host, 0)) as free:
             port = free.getsockname()[1]
-        server = Server(binaries, folder, host, port, fsync=fsync)
+        server = Server(binaries, folder, host, port, fsync=fsync, environment=environment or {})
         server.initialise()
         server.start()
         server.make_template()

@@ -43,10 +43,10 @@ class Relay:
         self._app = make_app(settings.redis_url)
         self._redis = connection(settings.redis_url or "redis://")
         self._name = own_name()
-        self._reap_next = self._look_for_solvers_next = 0.0
+        self._reap_next = self._look_for_solvers_next = self._trust_leases = 0.0
         self._clear_up_pause = settings.lease
         self._clear_up_next = time.monotonic() + settings.lease
-        self._last_turn = time.time()
+        self._last_turn, self._last_seen = time.monotonic(), catalogue.clock()
         self._queues_empty_since: float | None = None
         self._results: threading.Thread | None = None
         self._lead_until = 0.0
@@ -54,7 +54,8 @@ class Relay:
     def turn(self) -> None:
         """Do what is due now, if this process leads."""
         now = time.monotonic()
-        self._give_the_sleeping_time(now)
+        seen = self._catalogue.clock()
+        self._give_the_living_time(now, seen)
         if now > self._lead_until - _LEAD_SECONDS / 2:
             if not self._lead():
                 return
@@ -65,7 +66,8 @@ class Relay:
                 self._settings.lease, self._settings.republish_after
             )
             ended = [name for name in self._catalogue.holders() if has_ended(name)]
-            reaped = self._catalogue.reap(self._settings.max_attempts, ended)
+            until = seen if now >= self._trust_leases else 0.0
+            reaped = self._catalogue.reap(self._settings.max_attempts, ended, until=until)
             for block in reaped.requeued:
                 with about(block=block):
                     _log.warning("block %s lost its worker and is queued again", block)
@@ -105,16 +107,19 @@ class Relay:
             self._clear_up_pause = self._settings.lease if found else longer
             self._clear_up_next = time.monotonic() + self._clear_up_pause
 
-    def _give_the_sleeping_time(self, now: float) -> None:
-        """Take no block back yet where the machine slept, or the clock was set.
+    def _give_the_living_time(self, now: float, seen: float) -> None:
+        """Call no lease run out yet where the catalogue's clock was set, or all here was stopped.
 
         All leases seem to have run out then; the living extend theirs with their next heartbeat.
         """
-        turn = time.time()
-        if abs(turn - self._last_turn) > _LONGEST_TURN:
-            _log.warning("%.1f s have passed since the last turn", turn - self._last_turn)
-            self._reap_next = now + self._settings.heartbeat + 1.0
-        self._last_turn = turn
+        awake, passed = now - self._last_turn, seen - self._last_seen
+        if abs(passed - awake) > _LONGEST_TURN:  # it was set, or this machine slept
+            _log.warning("the clock has gone on by %.1f s in %.1f s", passed, awake)
+            self._trust_leases = now + self._settings.lease
+        elif awake > _LONGEST_TURN:
+            _log.warning("%.1f s have passed since the last turn", awake)
+            self._trust_leases = max(self._trust_leases, now + self._settings.heartbeat + 1.0)
+        self._last_turn, self._last_seen = now, seen
 
     def publish(self) -> None:
         """Send every due wake-up to Redis; what cannot be sent stays due."""

@@ -20,6 +20,7 @@ from jointplay.storage.catalogue.rows import find_job, lock_job
 
 _job = tables.job
 _REAP_AT_ONCE = 200
+_APART = 1.0  # s; processes know the time as well as that
 _RAREST_REPEAT = 16  # a wake-up is repeated after at most this many times `republish_after`
 
 
@@ -103,7 +104,8 @@ def too_far_ahead(
     held = (block.c.state == BlockState.running.value) & (
         block.c.lease_until > unit.now + 2 * lease
     )
-    late = outbox.c.due > unit.now + 2 * _RAREST_REPEAT * republish_after + LONGEST_PAUSE
+    longest = 2 * _RAREST_REPEAT * republish_after + LONGEST_PAUSE
+    late = (outbox.c.due > unit.now + longest) | (outbox.c.created > unit.now + _APART)
     return held, late
 
 
@@ -111,7 +113,7 @@ def mend_after_setting_back(unit: Unit, lease: float, republish_after: float) ->
     """Shorten what waits longer than can be, because the clock was set back: leases, wake-ups."""
     held, late = too_far_ahead(unit, lease, republish_after)
     unit.execute(update(tables.block).where(held).values(lease_until=unit.now + lease))
-    unit.execute(update(tables.outbox).where(late).values(due=unit.now))
+    unit.execute(update(tables.outbox).where(late).values(created=unit.now, due=unit.now))
 
 
 def holders(unit: Unit) -> tuple[str, ...]:
@@ -121,13 +123,14 @@ def holders(unit: Unit) -> tuple[str, ...]:
     return tuple(unit.execute(held).scalars())
 
 
-def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = ()) -> Reaped:
+def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = (), *, until: float = inf) -> Reaped:
     """Take back the blocks whose lease ran out, or whose worker is one of those that have ended.
 
-    Idempotency keys and core seconds past their time are forgotten.
+    A lease that runs out after the time `until` [epoch s] is left, whatever the time is: the clock
+    may have been set. Idempotency keys and core seconds past their time are forgotten.
     """
     block = tables.block
-    lost = (block.c.lease_until < unit.now) | block.c.worker.in_(ended)
+    lost = (block.c.lease_until < min(unit.now, until)) | block.c.worker.in_(ended)
     found = unit.execute(
         select(block.c.id, block.c.attempt, block.c.job)
         .where(block.c.state == BlockState.running, lost)

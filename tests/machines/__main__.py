@@ -36,6 +36,7 @@ def main() -> int:
         command = [sys.executable, "-m", "tests.machines", _INSIDE, *sys.argv[1:]]
         os.execvp(_ALONE[0], [*_ALONE, *command])
     folder = Path(tempfile.mkdtemp(prefix="jointplay-machines-"))
+    folder.chmod(0o755)  # the database is another user, whose clock is in there
     report = campaign(
         folder, seed=given.seed, jobs=given.jobs, faults=given.fault or [*FAULTS], tell=_tell
     )
@@ -56,13 +57,15 @@ def _tell(line: str) -> None:
 
 def lines(report: Report) -> Iterator[str]:
     """Yield a table of faults that struck, with times, and what is to be said beside it."""
-    row = "{:22}{:>6}{:>18}{:>13}{:>30}{:>26}".format
+    row = "{:22}{:>6}{:>18}{:>13}{:>6}{:>30}{:>27}{:>24}".format
     yield row(
         "fault",
         "times",
         "lasted up to [s]",
         "blocks held",
+        "lost",
         "taken over: median, most [s]",
+        "started: median, most [s]",
         "back: median, most [s]",
     )
     for name in dict.fromkeys(one.fault for one in report.struck):
@@ -72,11 +75,14 @@ def lines(report: Report) -> Iterator[str]:
             len(those),
             f"{max(one.lasted for one in those):.0f}",
             sum(one.held for one in those),
+            sum(one.lost for one in those),
             median_and_most(those, lambda one: one.taken_over),
+            median_and_most(those, lambda one: one.started),
             median_and_most(those, lambda one: one.back),
         )
     yield f"jobs: {report.jobs}, in {report.seconds:.0f} s; attempts that were lost: {report.lost}"
     yield f"answers: {report.answers}"
+    yield f"files of workers that joined: {report.puts}"
     loads = [one.load for one in report.struck]
     yield f"load of the machine: {min(loads):.1f} to {max(loads):.1f} on {os.cpu_count()} cores"
     yield from (f"WRONG: {sentence}" for sentence in report.wrong)

@@ -1,13 +1,10 @@
-"""A balancer before the APIs, which encrypts: what the users of an installation know."""
+"""A balancer before the APIs: what the users of an installation know."""
 
 import asyncio
 import ssl
 from collections.abc import Sequence
 from contextlib import suppress
 from itertools import count
-from pathlib import Path
-
-from trustme import CA
 
 from tests.machines.network import Port
 from tests.machines.passing import Passing, Streams, passed_on, refused
@@ -25,18 +22,16 @@ class Balancer(Passing):
         Where it listens.
     apis
         Address and port number of each.
-    authority
-        File that is made: the certificate of the authority that has certified the balancer.
+    certified
+        What it encrypts with.
     """
 
-    def __init__(self, port: Port, apis: Sequence[tuple[str, int]], authority: Path) -> None:
-        known = CA()
-        known.cert_pem.write_to_path(authority)
-        encrypted = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
-        known.issue_cert(port.address).configure_cert(encrypted)
+    def __init__(
+        self, port: Port, apis: Sequence[tuple[str, int]], certified: ssl.SSLContext
+    ) -> None:
         self._apis = apis
         self._turn = count()
-        super().__init__(port, encrypted)
+        super().__init__(port, certified)
 
     async def answer(self, here: Streams) -> None:
         """Pass a connection on."""

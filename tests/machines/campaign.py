@@ -20,7 +20,8 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.reconciliation.leftovers import left_after
 from tests.machines.cluster import WORKERS, Cluster, running_cluster
 from tests.machines.faults import FAULTS
-from tests.machines.recovery import back, taken_over
+from tests.machines.puts import ways
+from tests.machines.recovery import back, lost, started, taken_over
 
 _AHEAD = 3  # open jobs for each block that is computed at a time
 _LONGEST = 360.0  # s; a sixth of it is the longest that a fault lasts
@@ -37,7 +38,9 @@ class Struck:
     at: float  # s since the campaign began
     lasted: float  # s
     held: int  # blocks that the machine, or all, held when it struck
+    lost: int  # attempts that lost their block meanwhile
     taken_over: float | None  # s from its begin until blocks of a lost machine went on
+    started: float | None  # s from its end until all processes of a killed machine were there
     back: float | None  # s from its end until those who were struck came further
     load: float  # processes that ran or would have, as the mean of the last minute
 
@@ -51,6 +54,7 @@ class Report:
     jobs: dict[str, int] = field(default_factory=dict)
     answers: dict[str, int] = field(default_factory=dict)
     lost: int = 0  # attempts that lost their block
+    puts: dict[str, int] = field(default_factory=dict)
     seconds: float = 0.0
     wrong: list[str] = field(default_factory=list)
 
@@ -87,8 +91,10 @@ def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell:
         tell("checking")
         report.answers = user.history.answers
         report.jobs = dict(Counter(str(one.state) for one in user.history.submissions))
-        tries = [catalogue.attempts(one.job) for one in user.history.submissions if one.job]
-        report.lost = sum(one.outcome == "lost" for some in tries for one in some)
+        report.lost = lost(catalogue)
+        report.puts = ways(
+            [one.folder / "api.log" for one in cluster.own], [cluster.joined.folder / "worker.log"]
+        )
         report.wrong += wrongs(cluster, user.history, expected)
         catalogue.close()
     return report
@@ -137,7 +143,8 @@ def _strike(
         report.struck.append(one)
         tell(
             f"{one.at:6.0f} s  {one.fault} of {one.on} for {one.lasted:.1f} s, {one.held} held,"
-            f" taken over {_said(one.taken_over)}, back {_said(one.back)}"
+            f" {one.lost} lost, taken over {_said(one.taken_over)},"
+            f" started {_said(one.started)}, back {_said(one.back)}"
         )
 
 
@@ -150,18 +157,23 @@ def _one(
 ) -> Struck:
     everybody = Recovery(catalogue, WORKERS * len(cluster.machines))
     held = {machine: taken_over(cluster, machine) for machine in cluster.machines}
+    boots, before = [machine.boot for machine in cluster.machines], lost(catalogue)
     began = time.monotonic()
     with FAULTS[strike.fault].strike(cluster, drawn) as machine:
         time.sleep(strike.lasts)  # as drawn: leases run out in the longer ones
     over = time.monotonic()
     if machine is None:
         again = everybody.wait(over)
-        on, count, taken = "servers", len(everybody.held), None
+        on, count, taken, start = "servers", len(everybody.held), None, None
     else:
         on, (count, went_on) = machine.name, held[machine]
+        starts = None if machine.boot in boots else started(cluster, machine, over)
         again = back(cluster, machine, over)
         taken = went_on.result() if count else None
-    return Struck(strike.fault, on, at, over - began, count, taken, again, os.getloadavg()[0])
+        start = starts.result() if starts else None
+    left = lost(catalogue) - before
+    load = os.getloadavg()[0]
+    return Struck(strike.fault, on, at, over - began, count, left, taken, start, again, load)
 
 
 def median_and_most(struck: Sequence[Struck], of: Callable[[Struck], float | None]) -> str:

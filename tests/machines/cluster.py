@@ -1,21 +1,24 @@
 """Machines that compute for one service, and the servers that they share."""
 
-import socket
 import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from functools import partial
 from itertools import count
 from pathlib import Path
+from urllib.parse import urlsplit
+
+from trustme import CA
 
 from jointplay.chaos.installation import LEASE
 from jointplay.chaos.processes import Process
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from tests.machines.balancer import Balancer
+from tests.machines.door import Door
 from tests.machines.joined_machine import JoinedMachine
 from tests.machines.machine import API, Machine
 from tests.machines.network import Port, make_bridge
+from tests.machines.passing import certified
 from tests.machines.servers import Servers, running_servers
 from tests.waiting import until
 
@@ -23,7 +26,6 @@ WORKERS = 2
 """Blocks that each of the machines computes at a time."""
 _NAMES = ("first", "second")
 _SCOPES = ("jobs:write", "jobs:read", "results:read")
-_CONNECT = 1.0  # s
 _PAUSE = 5.0  # s, in which an API that did not answer is asked nothing
 
 
@@ -35,7 +37,9 @@ class Cluster:
     own
         Machines that reach the servers; each has an API.
     joined
-        The one that reaches the APIs alone.
+        The one that reaches the APIs and the door alone.
+    door
+        To the bucket.
     key
         Of the user.
     """
@@ -45,10 +49,12 @@ class Cluster:
         servers: Servers,
         own: tuple[Machine, ...],
         joined: JoinedMachine,
+        door: Door,
         settings: Settings,
         key: str,
     ) -> None:
         self.servers, self.joined, self.settings, self.key = servers, joined, settings, key
+        self.door = door
         self.own, self.machines = own, (*own, joined)
         self._turn = count()
         self._silent_until = dict.fromkeys(own, 0.0)
@@ -61,7 +67,7 @@ class Cluster:
             machine = self.own[(turn + number) % len(self.own)]
             now = time.monotonic()
             if now > self._silent_until[machine]:
-                if _answers(machine):
+                if machine.answers():
                     return machine.url
                 self._silent_until[machine] = now + _PAUSE
         return self.own[turn % len(self.own)].url
@@ -69,14 +75,6 @@ class Cluster:
     def running(self) -> list[Process]:
         """Return the processes of all machines."""
         return [process for machine in self.machines for process in machine.running()]
-
-
-def _answers(machine: Machine) -> bool:
-    try:
-        socket.create_connection((machine.port.address, API), _CONNECT).close()
-        return True
-    except OSError:
-        return False
 
 
 @contextmanager
@@ -96,27 +94,31 @@ def running_cluster(folder: Path) -> Iterator[Cluster]:
             catalogue.migrate()
             key, _ = catalogue.make_key("user", _SCOPES, "", None)
             worker_key, _ = catalogue.make_key("lab", ("worker",), "", None)
+        authority, file = CA(), folder / "authority.pem"
+        authority.cert_pem.write_to_path(file)
+        outside, balanced, gate = Port("door", 22), Port("balancer", 21), urlsplit(servers.gate.url)
+        door = Door(outside, (gate.hostname, gate.port), certified(authority, outside))
+        environment = servers.environment | {"JOINTPLAY_RESULTS_REDIRECT": door.url}
         own = tuple(
-            Machine(folder / name, Port(name, 11 + number), WORKERS, servers.environment)
+            Machine(folder / name, Port(name, 11 + number), WORKERS, environment)
             for number, name in enumerate(_NAMES)
         )
-        authority = folder / "authority.pem"
         apis = [(machine.port.address, API) for machine in own]
         joined = JoinedMachine(
             folder / "joined",
             Port("joined", 20),
             WORKERS,
-            url=Balancer(Port("balancer", 21), apis, authority).url,
-            authority=authority,
+            url=Balancer(balanced, apis, certified(authority, balanced)).url,
+            authority=file,
             key=worker_key,
             servers=servers.port.address,
         )
-        cluster = Cluster(servers, own, joined, settings, key)
+        cluster = Cluster(servers, own, joined, door, settings, key)
         try:
             for machine in cluster.machines:
                 machine.start()
             for machine in own:
-                until(partial(_answers, machine))
+                until(machine.answers)
             yield cluster
         finally:
             for machine in cluster.machines:

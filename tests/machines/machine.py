@@ -6,12 +6,14 @@ It has a network, process ids, a name and a boot of its own; what it writes is i
 import shlex
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import uuid
 from pathlib import Path
 
 from jointplay.chaos.installation import Installation
+from tests.machines.clock import Clock
 from tests.machines.network import Port
 from tests.waiting import until
 
@@ -21,6 +23,7 @@ mount --bind boot /proc/sys/kernel/random/boot_id
 keep() { log=$1; shift; while [ ! -e stopping ]; do "$@" >> $log 2>&1; sleep 1; done; }
 """
 """Ended processes are started again, as by Docker or systemd."""
+_CONNECT = 1.0  # s
 API = 8000
 """Port number of its API."""
 
@@ -40,13 +43,16 @@ class Machine(Installation):
         self.name, self.port = folder.name, port
         self.url = f"http://{port.address}:{API}"
         self._given = environment
+        self.clock = Clock(folder)
+        self.boot = ""
         self._scratch = folder / "scratch"
 
     def start(self) -> None:
         """Start it on empty disks; return at once."""
         for made in (self.data, self._scratch):
             made.mkdir(exist_ok=True)
-        (self.folder / "boot").write_text(f"{uuid.uuid4()}\n")
+        self.boot = str(uuid.uuid4())
+        (self.folder / "boot").write_text(f"{self.boot}\n")
         (self.folder / "stopping").unlink(missing_ok=True)
         command = ["unshare", "--pid", "--fork", "--kill-child", "--mount-proc", "--uts"]
         kept = [
@@ -58,6 +64,14 @@ class Machine(Installation):
             self._service = subprocess.Popen(
                 command, cwd=self.folder, env=self.environment(), stdin=subprocess.DEVNULL
             )
+
+    def answers(self) -> bool:
+        """Whether its API can be reached."""
+        try:
+            socket.create_connection((self.port.address, API), _CONNECT).close()
+            return True
+        except OSError:
+            return False
 
     def kept(self) -> dict[str, list[str]]:
         """Return modules with arguments that run all the time, by the name of their log."""
@@ -73,9 +87,10 @@ class Machine(Installation):
         own = {
             "JOINTPLAY_DATA": str(self.data),
             "JOINTPLAY_KEYS": "required",
+            "JOINTPLAY_LOG_FORMAT": "json",  # with a line for every request
             "TMPDIR": str(self._scratch),
         }
-        return super().environment() | self._given | own
+        return super().environment() | self._given | self.clock.environment | own
 
     def stop(self) -> None:
         """End its processes as an administrator does."""

@@ -7,6 +7,8 @@ import ssl
 import threading
 from contextlib import suppress
 
+from trustme import CA
+
 from tests.machines.network import Port
 
 _LENGTH = re.compile(rb"\r\ncontent-length: *(\d+)", re.IGNORECASE)
@@ -52,6 +54,13 @@ class Passing:
             writer.transport.abort()
         finally:
             writer.close()
+
+
+def certified(authority: CA, port: Port) -> ssl.SSLContext:
+    """Return what a server at a port encrypts with, as an authority says."""
+    encrypted = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    authority.issue_cert(port.address).configure_cert(encrypted)
+    return encrypted
 
 
 async def passed_on(here: Streams, there: Streams) -> None:

@@ -3,7 +3,10 @@
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
 
+from sqlalchemy import func, select
+
 from jointplay.chaos.recovery import PATIENCE, Recovery
+from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import Block, BlockState, JobState
@@ -11,7 +14,7 @@ from tests.machines.cluster import WORKERS, Cluster
 from tests.machines.machine import Machine
 
 _LOOK = 0.2  # s
-_threads = ThreadPoolExecutor(3, "recovery")
+_threads = ThreadPoolExecutor(4, "recovery")
 
 
 def is_of(machine: Machine | None, block: Block) -> bool:
@@ -31,6 +34,41 @@ def taken_over(cluster: Cluster, machine: Machine) -> "tuple[int, Future[float |
     elsewhere = WORKERS * (len(cluster.machines) - 1)
     recovery = Recovery(catalogue, elsewhere, lambda block: is_of(machine, block))
     return len(recovery.held), _threads.submit(recovery.wait, time.monotonic())
+
+
+def started(cluster: Cluster, machine: Machine, since: float) -> "Future[float | None]":
+    """Return soon the time until all processes of a machine that was booted are there [s]."""
+
+    def there() -> bool:
+        try:
+            workers = sum(machine.boot in name for name in catalogue.workers())
+        except Unavailable:
+            return False
+        return workers >= WORKERS and (machine is cluster.joined or machine.answers())
+
+    def wait() -> float | None:
+        try:
+            while time.monotonic() - since < PATIENCE:
+                if there():
+                    return time.monotonic() - since
+                time.sleep(_LOOK)
+            return None
+        finally:
+            catalogue.close()
+
+    catalogue = Catalogue(cluster.settings.catalogue_url)
+    return _threads.submit(wait)
+
+
+def lost(catalogue: Catalogue) -> int:
+    """Count the attempts that lost their block; 0 while the catalogue does not answer."""
+    attempt = tables.attempt
+    count = select(func.count()).select_from(attempt).where(attempt.c.outcome == "lost")
+    try:
+        with catalogue.connections.reading() as connection:
+            return int(connection.execute(count).scalar_one())
+    except Unavailable:
+        return 0
 
 
 def back(cluster: Cluster, machine: Machine, since: float) -> float | None:

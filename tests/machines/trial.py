@@ -1,18 +1,27 @@
 """A balancer, and faults of the network and of the store, do what they say, without a service."""
 
 import http.server
+import os
 import socket
 import ssl
+import subprocess
+import sys
 import tempfile
 import threading
+import time
 from contextlib import suppress
 from pathlib import Path
 
 import httpx
+from trustme import CA
 
 from tests.machines.balancer import Balancer
+from tests.machines.clock import COMPILER, Clock
 from tests.machines.gate import Gate
 from tests.machines.network import Port, make_bridge
+from tests.machines.passing import certified
+
+_TELL = "import sys, time\nfor _ in sys.stdin: print(time.time(), time.monotonic(), flush=True)"
 
 
 class _Store(http.server.BaseHTTPRequestHandler):
@@ -44,6 +53,8 @@ def main() -> None:
         gate.pass_on()
         assert _answer(gate.url) == b"cba"
     _try_balancer(there, store.server_port)
+    if COMPILER is not None:
+        _try_clock()
     here.pull_out()
     with here.inside():
         assert _reaches(there.address, store.server_port) == "refused at once"
@@ -63,15 +74,40 @@ def _try_balancer(server: Port, number: int) -> None:
     absent = (server.address, 1)
     with tempfile.TemporaryDirectory() as folder, outside.inside():
         assert _reaches(server.address, number) == "refused at once"
-        authority = Path(folder) / "authority.pem"
+        authority, file = CA(), Path(folder) / "authority.pem"
+        authority.cert_pem.write_to_path(file)
         for known, expected in (
             ([absent, (server.address, number)], b"cba"),
             ([absent], 502),
         ):
-            balancer = Balancer(between, known, authority)
-            trusted = ssl.create_default_context(cafile=authority)
+            balancer = Balancer(between, known, certified(authority, between))
+            trusted = ssl.create_default_context(cafile=file)
             assert [_answer(balancer.url, trusted) for _ in range(2)] == [expected, expected]
             assert _answer(balancer.url) is None  # its authority is unknown
+
+
+def _try_clock() -> None:
+    """Set the clock of a program while it runs: that of the system and no interval."""
+    with tempfile.TemporaryDirectory() as folder:
+        clock = Clock(Path(folder))
+        told = subprocess.Popen(
+            [sys.executable, "-c", _TELL],
+            env=os.environ | clock.environment,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert told.stdin is not None
+        assert told.stdout is not None
+        for ahead in (0.0, 3600.0, -3600.0, 0.0):
+            clock.set(ahead)
+            told.stdin.write("\n")
+            told.stdin.flush()
+            seconds, interval = map(float, told.stdout.readline().split())
+            assert abs(seconds - time.time() - ahead) < 600.0
+            assert abs(interval - time.monotonic()) < 600.0
+        told.stdin.close()
+        told.wait()
 
 
 def _answer(url: str, trusted: ssl.SSLContext | bool = True) -> bytes | int | None:

@@ -19,7 +19,8 @@ from jointplay.storage.catalogue.errors import BUSY, SILENT, Interrupted, Unavai
 
 _CONNECTIONS: Final = 5
 """Connections that stay open; as many again are opened when all are in use."""
-_CLOCK_PERIOD: Final = 60.0  # s
+_CLOCK_PERIOD: Final = 1.0
+"""Seconds after which the server's clock, which may be set, is looked at again."""
 _TCP: Final = {
     "connect_timeout": 5,
     "keepalives_idle": 5,
@@ -113,10 +114,13 @@ class PostgreSQL:
         began = _steady()
         if self._ahead is not None and began - self._compared < _CLOCK_PERIOD:
             return
+        self._compared = began  # other threads need not
         asked = "SELECT extract(epoch FROM clock_timestamp())::float8"
         told: float = connection.exec_driver_sql(asked).scalar_one()
-        self._compared = _steady()
-        self._ahead = told - (began + self._compared) / 2.0
+        uncertain = (_steady() - began) / 2.0
+        ahead = told - (began + uncertain)
+        if self._ahead is None or abs(ahead - self._ahead) > uncertain:
+            self._ahead = ahead  # else time would go to and fro with the network
 
     def fault(self, error: DBAPIError) -> Unavailable | None:
         """Recognise faults by SQLSTATE; those after which a unit may be repeated at once, too."""

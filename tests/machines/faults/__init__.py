@@ -5,7 +5,7 @@ struck; none: the servers, and so everybody.
 """
 
 from tests.machines.faults.broker_lost import BrokerLost
-from tests.machines.faults.clock_set import ClockSet
+from tests.machines.faults.clock_set import ClockSet, KilledAsClockIsSet
 from tests.machines.faults.database import BackendsTerminated, DatabaseRestarted
 from tests.machines.faults.machine_killed import MachineKilled
 from tests.machines.faults.network import BLACK_HOLE, LINK_CUT, Unreachable
@@ -18,12 +18,17 @@ FAULTS = {
     "black-hole": Unreachable(BLACK_HOLE),
     "joined-black-hole": Unreachable(BLACK_HOLE, "joined"),
     "servers-black-hole": Unreachable(BLACK_HOLE, "servers"),
+    "door-link-cut": Unreachable(LINK_CUT, "door"),
     "machine-killed": MachineKilled(),
     "joined-killed": MachineKilled(joined=True),
     "database-restarted": DatabaseRestarted(),
     "backends-terminated": BackendsTerminated(),
     "broker-lost": BrokerLost(),
     "store-refuses": StoreRefuses(),
-    "clock-set": ClockSet(),
+    "clock-set": ClockSet("machine"),
+    "database-clock-set": ClockSet("database"),
+    "broker-clock-set": ClockSet("broker"),
+    "store-clock-set": ClockSet("store"),
+    "killed-as-clock-set": KilledAsClockIsSet(),
 }
 """By name; the names are those of `python -m tests.machines --fault`."""

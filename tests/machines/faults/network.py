@@ -27,10 +27,10 @@ BLACK_HOLE = Way(Port.leave, Port.join, (60.0, 60.0))
 
 @dataclass(frozen=True)
 class Unreachable:
-    """One machine with an API, that which joined, or that of the servers, cut off in one way."""
+    """One machine with an API, that which joined, the servers, or the bucket's door, cut off."""
 
     way: Way
-    who: Literal["own", "joined", "servers"] = "own"
+    who: Literal["own", "joined", "servers", "door"] = "own"
 
     @property
     def lasts(self) -> tuple[float, float]:
@@ -38,10 +38,14 @@ class Unreachable:
 
     @contextmanager
     def strike(self, cluster: Cluster, drawn: Random) -> Iterator[Machine | None]:
-        machine: Machine | None = None
-        if self.who != "servers":
-            machine = cluster.joined if self.who == "joined" else drawn.choice(cluster.own)
+        machine: Machine | None = cluster.joined
+        if self.who == "own":
+            machine = drawn.choice(cluster.own)
+        elif self.who == "servers":
+            machine = None
         port = cluster.servers.port if machine is None else machine.port
+        if self.who == "door":  # to which only those who joined go
+            port = cluster.door.port
         self.way.begin(port)
         try:
             yield machine

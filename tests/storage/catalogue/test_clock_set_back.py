@@ -1,5 +1,6 @@
-"""A clock that was set back delays nothing for as long as it was set."""
+"""A clock that was set takes no block from the living, and delays nothing for long."""
 
+import pytest
 from stepped_clock import Clock
 
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -27,6 +28,32 @@ def test_a_wake_up_is_sent_again_at_once(catalogue: Catalogue, clock: Clock) -> 
     assert catalogue.due_wake_ups(10) == ()
     catalogue.mend_after_setting_back(LEASE, REPUBLISH_AFTER)
     assert [wake_up.block for wake_up in catalogue.due_wake_ups(10)] == [block]
+
+
+def test_a_block_that_was_queued_just_before_is_announced(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    block = f"{catalogue.submit(NEW).job.id}-0"
+    clock.now -= 60.0
+    assert catalogue.due_wake_ups(10) == ()
+    catalogue.mend_after_setting_back(LEASE, REPUBLISH_AFTER)
+    assert [wake_up.block for wake_up in catalogue.due_wake_ups(10)] == [block]
+    catalogue.mark_published((block,), REPUBLISH_AFTER)
+    catalogue.mend_after_setting_back(LEASE, REPUBLISH_AFTER)
+    assert catalogue.due_wake_ups(10) == ()
+
+
+@pytest.mark.parametrize("jump", [60.0, -60.0])
+def test_a_clock_that_is_set_while_leases_are_looked_at_takes_no_block(
+    catalogue: Catalogue, clock: Clock, jump: float
+) -> None:
+    job = catalogue.submit(NEW).job.id
+    catalogue.claim_block(f"{job}-0", "worker", LEASE)
+    seen = clock.now
+    clock.now += jump
+    if jump < 0.0:
+        catalogue.heartbeat(f"{job}-0", 1, LEASE)  # by a worker that knows of it
+    assert catalogue.reap(3, until=seen).requeued == ()
 
 
 def test_nothing_is_mended_where_the_clock_is_right(catalogue: Catalogue, clock: Clock) -> None:

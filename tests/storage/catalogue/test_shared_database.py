@@ -17,6 +17,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, SubmissionKey
 from tests.postgresql_server import Server
+from tests.waiting import until
 
 NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc")
 APIS = 4
@@ -234,3 +235,23 @@ def test_an_address_of_nothing_that_holds_a_catalogue_is_refused() -> None:
         Catalogue("mysql://localhost/jobs")
     with pytest.raises(ValueError, match="no address of a database"):
         Catalogue("somewhere")
+
+
+def test_a_clock_of_the_server_that_is_set_is_known_to_all_a_second_later(url: str) -> None:
+    now = "pg_catalog.clock_timestamp() + (SELECT ahead FROM own.clock)"
+    with psycopg.connect(url, autocommit=True) as server:
+        server.execute("CREATE SCHEMA own")
+        server.execute("CREATE TABLE own.clock AS SELECT interval '0' AS ahead")
+        server.execute(
+            f"CREATE FUNCTION own.clock_timestamp() RETURNS timestamptz LANGUAGE sql RETURN {now}"
+        )
+        options = "?options=-csearch_path%3Down,public,pg_catalog"
+        with (
+            closing(Catalogue(f"{url}{options}")) as one,
+            closing(Catalogue(f"{url}{options}")) as other,
+        ):
+            before = [api.clock() for api in (one, other)]
+            server.execute("UPDATE own.clock SET ahead = interval '1 hour'")
+            until(lambda: other.jobs() and other.clock() > before[1] + 3600.0)
+            until(lambda: one.jobs() and one.clock() > before[0] + 3600.0)
+            assert abs(one.clock() - other.clock()) < 5.0
