@@ -19,6 +19,7 @@ def begin(log_format: LogFormat, level: int = logging.INFO) -> None:
     handler.setFormatter(JsonLines() if log_format == "json" else logging.Formatter(_TEXT))
     logging.basicConfig(level=level, handlers=[handler])
     logging.captureWarnings(True)
+    logging.getLogger("httpx").setLevel(logging.WARNING)  # else it writes signed addresses
 
 
 @contextmanager

@@ -74,5 +74,5 @@ class Readiness:
 
     def _try_place(self) -> None:
         if self._place_proved is None or time.monotonic() > self._place_proved + _PLACE_PERIOD:
-            require_fit(self._settings.place)
+            require_fit(self._settings.place, large=False)
             self._place_proved = time.monotonic()

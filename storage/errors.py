@@ -41,6 +41,10 @@ class IncompleteStudy(ResultsError):
     """Blocks of a study are missing that should be there when it is sealed."""
 
 
+class TooLarge(ResultsError):
+    """An object has more bytes than its place takes."""
+
+
 class UnknownChannel(ResultsError):
     """A channel was asked for that the store does not have."""
 

@@ -48,7 +48,6 @@ def worker(
 
     Example: `jointplay worker --join https://lab.example.org --key-file worker.key --idle 300`
     """
-    import logging
     import os
 
     from jointplay.records.log_lines import begin
@@ -58,7 +57,6 @@ def worker(
     from jointplay.worker.joined.processes import work_in
 
     begin(Settings().log_format)
-    logging.getLogger("httpx").setLevel(logging.WARNING)
     end = None if until is None else _moment(until) - _MARGIN
     try:
         key = os.environ.get("JOINTPLAY_KEY") if key_file is None else key_in(key_file)

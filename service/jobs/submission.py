@@ -7,6 +7,7 @@ from typing import Any
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.kinds.compilation import check_compilation
+from jointplay.solver.kinds.limits import check_room
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
@@ -61,6 +62,7 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
     try:
         admission = admit(document)
         check_compilation(admission, settings.longest_compilation)
+        check_room(admission, settings.place.largest)
     except InvalidInput as error:
         if not problems:
             raise

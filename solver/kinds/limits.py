@@ -1,6 +1,7 @@
 """Limits of a job: lengths, counts and bytes."""
 
 from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.study.plan import Study
 
 LONGEST_RUN = 1e6
@@ -68,3 +69,24 @@ def check_size(study: Study, run: float, place: str) -> None:
         )
     if problems:
         raise LimitExceeded(Problem(place, sentence) for sentence in problems)
+
+
+def check_room(admitted: Admission | Study, most: float) -> None:
+    """Refuse (LimitExceeded) results that might have more than `most` bytes, before compression."""
+    kept = admitted.steps_limit if isinstance(admitted, Admission) else 0
+    total = admitted.stored_bytes + kept
+    if total <= most:
+        return
+    if isinstance(admitted, Study):
+        place, remedy = "/record" if admitted.record else "", "Record less, or at fewer points."
+    elif kept > admitted.stored_bytes:
+        place, remedy = "/steps_limit", "Keep fewer bytes of steps."
+    elif admitted.samples >= admitted.sections:
+        place, remedy = "/output_step", "Choose a larger output_step, or fewer channels."
+    else:
+        place, remedy = "/duration", "Choose a shorter duration, or fewer channels."
+    raise LimitExceeded.at(
+        place,
+        f"The results may have {total / 1e9:.3g} GB before compression; the place where this"
+        f" service keeps them takes {most / 1e9:g} GB. {remedy}",
+    )

@@ -18,6 +18,11 @@ from jointplay.storage.places.s3 import Bucket
 class Place(Protocol):
     """Objects by key; keys are names with slashes between them, as those of files."""
 
+    @property
+    def largest(self) -> float:
+        """Most bytes that an object may have."""
+        ...
+
     def put(self, key: str, pieces: Iterable[bytes]) -> None:
         """Store an object, given in pieces; it is there whole, and durable, on return.
 
@@ -27,6 +32,8 @@ class Place(Protocol):
         ------
         FileExistsError
             There is an object of this key, which stays as it is.
+        storage.errors.TooLarge
+            It has more bytes than `largest`.
         OSError
             It cannot be stored; nothing can be seen of it.
         """

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from glob import escape
+from math import inf
 from pathlib import Path
 from typing import Final, Literal
 
@@ -19,6 +20,11 @@ class Folder:
     """See `storage.places.Place`; made when something is put there."""
 
     root: str
+
+    @property
+    def largest(self) -> float:
+        """Any number: the disk is what limits it."""
+        return inf
 
     def put(self, key: str, pieces: Iterable[bytes]) -> None:
         """Write a partial file, sync it, and link it to its name, which fails if it is taken."""

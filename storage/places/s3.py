@@ -18,12 +18,18 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Final, Literal
 from urllib.parse import parse_qsl, urlsplit
 
+from jointplay.storage.errors import TooLarge
+
 if TYPE_CHECKING:
     from obstore.store import RetryConfig, S3Store
 
 _IN_MEMORY: Final = 2**22
 """Bytes of an object that is gathered in memory; of a larger one the system has the pages."""
 _RETRIES: "Final[RetryConfig]" = {"max_retries": 5, "retry_timeout": timedelta(seconds=20)}
+_LIMIT: Final = "120s"
+"""Time for a whole request, but that which puts a large object; see `storage.places.sending`."""
+_SIGNED: Final = timedelta(hours=1)
+"""Time in which such a request must begin."""
 _OPTIONS: Final = {"endpoint", "region"}
 _ADDRESS: Final = "s3://bucket/prefix?endpoint=http://host:8333&region=us-east-1"
 
@@ -55,6 +61,11 @@ class Bucket:
             raise ValueError(f"'s3:{self.address}' is no bucket; an address is like {_ADDRESS}")
         found = parts.netloc, parts.path.strip("/"), tuple(sorted(options.items()))
         object.__setattr__(self, "_parts", found)
+
+    @property
+    def largest(self) -> float:
+        """Bytes of one PUT, the most that Amazon's S3 and others take."""
+        return 5e9
 
     def put(self, key: str, pieces: Iterable[bytes]) -> None:
         """Gather the object, then send it in one request, which fails if the key is taken."""
@@ -157,6 +168,18 @@ class Bucket:
         from obstore.exceptions import AlreadyExistsError
 
         content = _gathered(pieces)
+        if len(content) > self.largest:
+            raise TooLarge(
+                f"{key} would have {len(content) / 1e9:.3g} GB; an object of a bucket has at most"
+                f" {self.largest / 1e9:g} GB"
+            )
+        if isinstance(content, mmap.mmap):
+            from jointplay.storage.places.sending import put_at
+
+            with _answering(key):
+                address = obstore.sign(self._store, "PUT", key, _SIGNED)
+            put_at(address, key, content, once=mode == "create")
+            return
         with _answering(key, AlreadyExistsError):
             obstore.put(self._store, key, content, mode=mode, use_multipart=False)
 
@@ -177,7 +200,7 @@ def _opened(parts: tuple[str, str, tuple[tuple[str, str], ...]], _process: int) 
         endpoint=given.get("endpoint", os.environ.get("AWS_ENDPOINT_URL")),
         region=given.get("region", os.environ.get("AWS_REGION", "us-east-1")),
         virtual_hosted_style_request=False,
-        client_options={"allow_http": True, "connect_timeout": "5s", "timeout": "120s"},
+        client_options={"allow_http": True, "connect_timeout": "5s", "timeout": _LIMIT},
         retry_config=_RETRIES,
     )
 

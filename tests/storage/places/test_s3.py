@@ -2,17 +2,21 @@
 
 import os
 import tracemalloc
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from datetime import timedelta
+from urllib.parse import urlsplit
 
+import httpx
 import obstore
 import pytest
 from obstore.exceptions import NotFoundError
 
-from jointplay.storage.places import Place, place_at
+from jointplay.storage.errors import TooLarge
+from jointplay.storage.places import Place, place_at, s3, sending
 from jointplay.storage.places.fitness import Unfit, require_fit
 from jointplay.storage.places.s3 import Bucket
 from tests.seaweedfs_server import BUCKET, store
+from tests.slow_link import slow_link
 from tests.storage.places.contract import CONTENT, KEY, PlaceContract, pieces
 from tests.storage.running_files.contract import InPlaceContract
 
@@ -64,9 +68,57 @@ def test_an_object_that_memory_should_not_hold_is_stored_and_adopted(
     assert place.read("2R/other", 0, len(large)) == large
 
 
-def test_a_store_that_is_away_is_a_fault_that_may_pass(monkeypatch: pytest.MonkeyPatch) -> None:
-    from jointplay.storage.places import s3
+def through(address: str, port: int) -> Bucket:
+    where, _, _ = address.removeprefix("s3:").partition("?endpoint=")
+    return Bucket(f"{where}?endpoint=http://127.0.0.1:{port}")
 
+
+def server_of(address: str) -> tuple[str, int]:
+    parts = urlsplit(address.partition("?endpoint=")[2])
+    assert parts.hostname is not None
+    assert parts.port is not None
+    return parts.hostname, parts.port
+
+
+def test_a_large_object_takes_as_long_as_its_link_needs(
+    new_address: Callable[[], str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(s3, "_LIMIT", "1s")  # of other requests
+    address, large = new_address(), os.urandom(12 * 2**20)
+    with slow_link(*server_of(address), rate=6 * 2**20) as port:
+        place = through(address, port)
+        place.put(KEY, [large])
+        with pytest.raises(FileExistsError):
+            place.put(KEY, [bytes(len(large))])
+        assert obstore.get(raw(place_at(address)), KEY).bytes() == large
+        place.replace(KEY, [large[::-1]])
+    assert obstore.get(raw(place_at(address)), KEY).bytes() == large[::-1]
+
+
+def test_a_link_that_takes_nothing_is_found_out(
+    new_address: Callable[[], str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sending, "_TIMEOUT", httpx.Timeout(5.0, write=0.2, read=0.2))
+    address = new_address()
+    with (
+        slow_link(*server_of(address), rate=0) as port,
+        pytest.raises(ConnectionError, match="does not take"),
+    ):
+        through(address, port).put(KEY, [bytes(12 * 2**20)])
+    assert list(place_at(address).list("")) == []
+
+
+def test_what_is_larger_than_one_request_may_be_is_refused(
+    new_address: Callable[[], str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    place = place_at(new_address())
+    monkeypatch.setattr(Bucket, "largest", 2**23)
+    with pytest.raises(TooLarge, match="has at most"):
+        place.put(KEY, [bytes(2**23), b"x"])
+    assert list(place.list("")) == []
+
+
+def test_a_store_that_is_away_is_a_fault_that_may_pass(monkeypatch: pytest.MonkeyPatch) -> None:
     quick = {"max_retries": 0, "retry_timeout": timedelta(seconds=1)}
     monkeypatch.setattr(s3, "_RETRIES", quick)
     monkeypatch.setenv("AWS_ACCESS_KEY_ID", "nobody")
@@ -110,12 +162,23 @@ def test_a_store_that_does_what_results_need_is_fit(new_address: Callable[[], st
 class Overwriting(Bucket):
     """Stands for a store that does not heed If-None-Match."""
 
-    def put(self, key: str, pieces: object) -> None:
-        obstore.put(raw(self), key, b"".join(pieces))  # type: ignore[call-overload]
+    def put(self, key: str, pieces: Iterable[bytes]) -> None:
+        self.replace(key, pieces)
 
 
-def test_a_store_that_writes_over_objects_is_refused(new_address: Callable[[], str]) -> None:
-    place = Overwriting(new_address().removeprefix("s3:"))
+class OverwritingLarge(Bucket):
+    """Stands for a store that does so at signed addresses alone."""
+
+    def put(self, key: str, pieces: Iterable[bytes]) -> None:
+        content = b"".join(pieces)
+        (super().put if len(content) < 2**20 else self.replace)(key, [content])
+
+
+@pytest.mark.parametrize("kind", [Overwriting, OverwritingLarge])
+def test_a_store_that_writes_over_objects_is_refused(
+    new_address: Callable[[], str], kind: type[Bucket]
+) -> None:
+    place = kind(new_address().removeprefix("s3:"))
     with pytest.raises(Unfit, match="If-None-Match"):
         require_fit(place)
     assert list(place.list("")) == []
