@@ -97,7 +97,6 @@ def array(
     attributes: Mapping[str, Any],
     *,
     shard: Sequence[int] | None = None,
-    compressor: str = COMPRESSOR,
 ) -> Document:
     """Make the document of one array whose chunks are compressed as `shards.compress` does.
 
@@ -113,12 +112,10 @@ def array(
         Names of the dimensions; units and meaning.
     shard
         Shape of one file, a whole number of chunks; none: a file is a chunk.
-    compressor
-        Name that Blosc knows.
     """
     blosc = {
         "typesize": dtype.itemsize,
-        "cname": compressor,
+        "cname": COMPRESSOR,
         "clevel": COMPRESSION_LEVEL,
         "shuffle": "shuffle",
         "blocksize": 0,

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from jointplay.storage.errors import CorruptStore
 
-COMPRESSOR: Final = "zstd"
-COMPRESSION_LEVEL: Final = 3
+COMPRESSOR: Final = "lz4"
+"""Takes a fifth of the time that zstd takes, or less, for 4 percent more bytes of a history."""
+COMPRESSION_LEVEL: Final = 5
+_NAME: Final = COMPRESSOR.encode()
 _ABSENT: Final = 2**64 - 1
 _codec: Final = blosc.Blosc(cname=COMPRESSOR, clevel=COMPRESSION_LEVEL, shuffle=blosc.SHUFFLE)
-FAST: Final = "lz4"
-"""Compressor of what is written while a run computes and seldom read: a fifth of the time."""
 _uncompressed: Final = blosc.Blosc(cname=COMPRESSOR, clevel=0, shuffle=blosc.NOSHUFFLE)
 
 # a forked worker has none of the threads that its parent's compressor started, and with threads
@@ -131,15 +131,14 @@ def decompress(content: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
     return np.frombuffer(_codec.decode(content), dtype)
 
 
-def compress(chunk: NDArray[Any], *, fast: bool = False) -> bytes:
+def compress(chunk: NDArray[Any]) -> bytes:
     """Encode one whole chunk of any shape, in C order: a file that holds a chunk has these bytes.
 
-    The same chunk gives the same bytes, on any number of threads. `fast` : with that compressor.
+    The same chunk gives the same bytes, on any number of threads.
     """
     whole = np.ascontiguousarray(chunk)
-    name = FAST if fast else COMPRESSOR
     # what a codec's `encode` does beside it takes as long as compressing a short chunk
-    compressed: bytes = blosc.compress(whole, name.encode(), COMPRESSION_LEVEL, blosc.SHUFFLE, 0)
+    compressed: bytes = blosc.compress(whole, _NAME, COMPRESSION_LEVEL, blosc.SHUFFLE, 0)
     return compressed
 
 

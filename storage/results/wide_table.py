@@ -63,7 +63,6 @@ class WideTable(GrowingTable):
             [self.table.dimension, "column"],
             {"long_name": attributes["long_name"], "columns": names, **attributes},
             shard=[rows, len(names)],
-            compressor=shards.FAST,
         )
 
     def _contents(self, columns: Columns) -> Iterator[bytes]:
@@ -71,7 +70,7 @@ class WideTable(GrowingTable):
         chunks = []
         for column in columns:
             whole[: len(column)] = column
-            chunks.append(shards.compress(whole, fast=True))
+            chunks.append(shards.compress(whole))
         yield shards.pack(chunks)
 
 
