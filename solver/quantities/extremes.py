@@ -20,12 +20,13 @@ def refined_peaks(
     times : (n,) equally spaced, s. values : (n, channels) sampled there; `evaluate` gives such
     at any times.
     """
-    peaks = {}
-    for c, (name, column) in enumerate(zip(names, values.T, strict=True)):
-        peaks[name] = sampled_peak(times, column)
-        if peaks[name].minimum != peaks[name].maximum:
-            low, high = (_refined(evaluate, c, times, column, sense) for sense in (-1.0, 1.0))
-            peaks[name] = Peak(*low, *high)
+    columns = zip(names, values.T, strict=True)
+    peaks = {name: sampled_peak(times, column) for name, column in columns}
+    moving = [c for c, peak in enumerate(peaks.values()) if peak.minimum != peak.maximum]
+    if moving:
+        found = [_refined(evaluate, moving, times, values, sense) for sense in (-1.0, 1.0)]
+        for c, *extremes in zip(moving, *found[0], *found[1], strict=True):
+            peaks[names[c]] = Peak(*(float(one) for one in extremes))
     return peaks
 
 
@@ -36,30 +37,39 @@ def sampled_peak(times: Floats, values: Floats) -> Peak:
 
 
 def _refined(
-    evaluate: Callable[[Floats], Floats], channel: int, times: Floats, values: Floats, sense: float
-) -> tuple[float, float]:
-    """Return the largest (sense 1) or smallest (sense -1) value of a channel, and its time.
+    evaluate: Callable[[Floats], Floats],
+    channels: Sequence[int],
+    times: Floats,
+    values: Floats,
+    sense: float,
+) -> tuple[Floats, Floats]:
+    """Return the largest (sense 1) or smallest (sense -1) values of channels, and their times.
 
     Where that is an end, it may still be surpassed between this end and the instant beside it.
+    All channels are looked at together: an evaluation takes as long for one as for many.
     """
-    best = int((sense * values).argmax())
-    at, value = float(times[best]), float(values[best])
-    middle = float(times[min(max(best, 1), len(times) - 2)])
-    spacing = float(times[1] - times[0])
+    best = (sense * values[:, channels]).argmax(axis=0)
+    value, at = values[best, channels], times[best]
+    middle, spacing = times[np.clip(best, 1, len(times) - 2)], float(times[1] - times[0])
+    going = np.arange(len(channels))  # those whose extremes may still be surpassed
     for _ in range(REFINEMENTS):
-        around = np.clip(
-            np.array([middle - spacing, middle, middle + spacing]), times[0], times[-1]
-        )
-        a, b, c = (float(x) for x in evaluate(around)[:, channel])
+        column, count = np.take(channels, going), len(going)
+        beside = middle[going] + spacing * np.array([[-1.0], [0.0], [1.0]])
+        around = np.clip(beside, times[0], times[-1]).ravel()
+        rows = evaluate(around).reshape(3, count, -1)
+        a, b, c = rows[:, np.arange(count), column]
         curvature = a - 2.0 * b + c
-        if curvature == 0.0:
+        bent = curvature != 0.0
+        going, column = going[bent], column[bent]
+        if not len(going):
             break
-        vertex = middle + 0.5 * spacing * (a - c) / curvature
-        refined = float(np.clip(vertex, times[0], times[-1]))
-        reached = float(evaluate(np.array([refined]))[0, channel])
-        if sense * reached >= sense * value:
-            at, value = refined, reached
-        if at in (times[0], times[-1]):
+        vertex = middle[going] + 0.5 * spacing * (a - c)[bent] / curvature[bent]
+        refined = np.clip(vertex, times[0], times[-1])
+        reached = evaluate(refined)[np.arange(len(going)), column]
+        better = sense * reached >= sense * value[going]
+        value[going[better]], at[going[better]] = reached[better], refined[better]
+        going = going[(at[going] != times[0]) & (at[going] != times[-1])]
+        if not len(going):
             break
-        middle, spacing = at, 0.1 * spacing
+        middle[going], spacing = at[going], 0.1 * spacing
     return value, at
