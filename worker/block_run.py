@@ -63,7 +63,7 @@ class BlockRun:
         self._lease = Lease(catalogue, claim, settings)
         self._draining = draining
         self._next_record = time.monotonic() + settings.progress_period
-        self._next_look = 0.0
+        self._next_look = time.monotonic() + _LOOK
         self._reports = 0
         self._reached = (claim.block.progress_time, claim.block.progress_fraction)
         self._work: Work | None = None
