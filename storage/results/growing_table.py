@@ -1,7 +1,8 @@
 """Rows of one table on their way to the disk: buffered until a whole file of them is there."""
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,9 @@ class GrowingTable:
         Where shards are written.
     """
 
+    _AT_ONCE: ClassVar = 1
+    """Files that are written one after the other when all are full."""
+
     def __init__(self, table: Table, files: Running) -> None:
         self.table = table
         self.durable = 0
@@ -34,7 +38,12 @@ class GrowingTable:
         self._files = files
         self._file_shards = places_in_file(self.shard_keys(0)[0])
         self._file_rows = table.shard_rows * self._file_shards
-        self._buffers = [np.empty(self._file_rows, column.dtype) for column in table.columns]
+
+    @cached_property
+    def _buffers(self) -> list[NDArray[Any]]:
+        """Room for the rows that wait; many a table never has any."""
+        rows = self._file_rows * self._AT_ONCE
+        return [np.empty(rows, column.dtype) for column in self.table.columns]
 
     def append(self, columns: Columns) -> None:
         """Add rows, writing every file that fills up but the one with the table's last rows.
@@ -46,16 +55,16 @@ class GrowingTable:
         columns
             One (k,) array a column, in the order of the table.
         """
-        count = len(columns[0])
+        count, room = len(columns[0]), self._file_rows * self._AT_ONCE
         taken = 0
         while taken < count:
             start = self.rows - self.durable
-            step = min(self._file_rows - start, count - taken)
+            step = min(room - start, count - taken)
             for buffer, column in zip(self._buffers, columns, strict=True):
                 buffer[start : start + step] = column[taken : taken + step]
             taken += step
             self.rows += step
-            if self.rows - self.durable == self._file_rows and self.rows != self.table.capacity:
+            if self.rows - self.durable == room and self.rows != self.table.capacity:
                 self._write()
 
     def check_capacity(self, count: int) -> None:
@@ -94,7 +103,7 @@ class GrowingTable:
         """Give key and content of every file of the table, in order of their rows."""
         for key in self._files_of(self.durable):
             yield from self._files.chunks(key)
-        yield from self._waiting()
+        yield from self._chunks(self.durable, self.rows)
 
     def shard_keys(self, index: int) -> list[str]:
         """Name the chunks of a shard: by default one of every column."""
@@ -106,18 +115,18 @@ class GrowingTable:
         return [self.shard_keys(index)[0] for index in range(0, durable // shard_rows, together)]
 
     def _write(self) -> None:
-        self._files.write(
-            self._waiting(), self.shard_keys(self.durable // self.table.shard_rows)[0]
-        )
+        for first in range(self.durable, self.rows, self._file_rows):
+            key = self.shard_keys(first // self.table.shard_rows)[0]
+            self._files.write(self._chunks(first, first + self._file_rows), key)
         self.durable = self.rows
 
-    def _waiting(self) -> Iterator[tuple[str, bytes]]:
-        """Encode the waiting rows as the chunks of the next shards."""
+    def _chunks(self, first: int, last: int) -> Iterator[tuple[str, bytes]]:
+        """Encode waiting rows [first, last), from the first of a shard on, as chunks."""
         rows = self.table.shard_rows
-        for first in range(self.durable, self.rows, rows):
-            begin = first - self.durable
-            columns = [column[begin : begin + rows] for column in self.pending()]
-            yield from zip(self.shard_keys(first // rows), self._contents(columns), strict=True)
+        for begin in range(first, last, rows):
+            start, stop = (row - self.durable for row in (begin, min(begin + rows, last)))
+            columns = [buffer[start:stop] for buffer in self._buffers]
+            yield from zip(self.shard_keys(begin // rows), self._contents(columns), strict=True)
 
     def _contents(self, columns: Columns) -> Iterator[bytes]:
         """Encode the rows of one shard, in the order of `shard_keys`."""

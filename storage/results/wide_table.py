@@ -5,6 +5,7 @@ One array of (rows, columns). It is no part of what clients are shown.
 
 import json
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -37,6 +38,8 @@ class WideTable(GrowingTable):
         Where its files are written.
     """
 
+    _AT_ONCE = 2  # files are small, and a short run has no more rows: it writes none
+
     def __init__(
         self,
         group: str,
@@ -45,8 +48,8 @@ class WideTable(GrowingTable):
         attributes: Mapping[str, Any],
         files: Running,
     ) -> None:
-        named = tuple(Column(name, DOUBLE, {}) for name in columns)
-        super().__init__(Table(group, group[:-1], named, None, rows, rows, dict(attributes)), files)
+        table = Table(group, group[:-1], _named(columns), None, rows, rows, dict(attributes))
+        super().__init__(table, files)
 
     def shard_keys(self, index: int) -> list[str]:
         """Name the one chunk of a shard, which holds all columns."""
@@ -72,6 +75,11 @@ class WideTable(GrowingTable):
             whole[: len(column)] = column
             chunks.append(shards.compress(whole))
         yield shards.pack(chunks)
+
+
+@lru_cache(maxsize=8)
+def _named(columns: tuple[str, ...]) -> tuple[Column, ...]:
+    return tuple(Column(name, DOUBLE, {}) for name in columns)
 
 
 class StoredRows:
