@@ -1,6 +1,7 @@
 """A scene seen through abstract scalars: the same names, every number replaced by a scalar."""
 
 from collections.abc import Callable, Collection
+from functools import cache
 from typing import Any, cast
 
 from pydantic import BaseModel
@@ -46,15 +47,14 @@ class _View:
 
     def of_model(self, model: BaseModel, path: str, without: Collection[str] = ()) -> BaseModel:
         fields = {}
-        for name, field in type(model).model_fields.items():
-            if name in without:
-                continue
-            extra = field.json_schema_extra
-            structural = extra.get("structural", ()) if isinstance(extra, dict) else ()
-            fields[name] = self.of(getattr(model, name), f"{path}/{name}", structural, name)
+        for name, structural in _fields(type(model)).items():
+            if name not in without:
+                fields[name] = self.of(getattr(model, name), f"{path}/{name}", structural, name)
         return type(model).model_construct(**fields)
 
     def of(self, value: Any, path: str, structural: Any, field: str) -> Any:
+        if value is None or isinstance(value, str):
+            return value
         if isinstance(value, BaseModel):
             return self.of_model(value, path)
         if isinstance(value, dict):
@@ -68,3 +68,13 @@ class _View:
             values = FOLDED[field]
             folded = values is None or value in values
         return float(value) if folded else self.number(path, float(value))
+
+
+@cache
+def _fields(model: type[BaseModel]) -> dict[str, Any]:
+    """Return which values of each field shape the equations."""
+    extras = {name: field.json_schema_extra for name, field in model.model_fields.items()}
+    return {
+        name: extra.get("structural", ()) if isinstance(extra, dict) else ()
+        for name, extra in extras.items()
+    }

@@ -22,6 +22,10 @@ LOCATOR: Final = struct.Struct("<4sIQI")
 _VERSION: Final = 45  # the first with zip64
 _UTF_8: Final = 0x800
 _DATE: Final = 0x21  # 1980-01-01, the first there is
+_LOCAL_BEGIN: Final = struct.pack("<4sH", b"PK\3\4", _VERSION)
+_CENTRAL_BEGIN: Final = struct.pack("<4s2H", b"PK\1\2", _VERSION, _VERSION)
+_ABOUT: Final = struct.Struct("<4H3IH")
+_PLACE: Final = struct.Struct("<4H2I")
 _SHORT: Final = 2**16 - 1
 LONG: Final = 2**32 - 1
 
@@ -40,20 +44,14 @@ def pack(entries: Iterable[tuple[str, bytes]], owner: bytes = b"") -> Iterator[b
     central: list[bytes] = []
     offset = 0
     for key, content in entries:
-        name, crc, size = key.encode(), crc32(content), len(content)
-        header = local_header(name, crc, size)
-        yield header
+        name = key.encode()
+        about = _about(name, crc32(content), len(content))
+        yield _local(about, name)
         yield content
-        about = _about(name, crc, size)
         far = struct.pack("<2HQ", 1, 8, offset) if offset >= LONG else b""
-        central.append(
-            CENTRAL.pack(
-                b"PK\1\2", _VERSION, _VERSION, *about, len(far), 0, 0, 0, 0, min(offset, LONG)
-            )
-            + name
-            + far
-        )
-        offset += len(header) + size
+        place = _PLACE.pack(len(far), 0, 0, 0, 0, min(offset, LONG))
+        central.append(b"".join((_CENTRAL_BEGIN, about, place, name, far)))
+        offset += LOCAL.size + len(name) + len(content)
     end = b"".join(central)
     count, length = len(central), len(end)
     if count >= _SHORT or length >= LONG or offset >= LONG:
@@ -68,7 +66,7 @@ def pack(entries: Iterable[tuple[str, bytes]], owner: bytes = b"") -> Iterator[b
 
 def local_header(name: bytes, crc: int, size: int) -> bytes:
     """Return what stands before the content of an entry."""
-    return LOCAL.pack(b"PK\3\4", _VERSION, *_about(name, crc, size), 0) + name
+    return _local(_about(name, crc, size), name)
 
 
 def comment(end: bytes, owner: bytes) -> bytes:
@@ -76,5 +74,10 @@ def comment(end: bytes, owner: bytes) -> bytes:
     return COMMENT.pack(MARK, crc32(end, crc32(owner)).to_bytes(4, "little"))
 
 
-def _about(name: bytes, crc: int, size: int) -> tuple[int, ...]:
-    return _UTF_8, 0, 0, _DATE, crc, size, size, len(name)
+def _local(about: bytes, name: bytes) -> bytes:
+    return b"".join((_LOCAL_BEGIN, about, b"\0\0", name))
+
+
+def _about(name: bytes, crc: int, size: int) -> bytes:
+    """Return what both headers of an entry have in common."""
+    return _ABOUT.pack(_UTF_8, 0, 0, _DATE, crc, size, size, len(name))

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterable, Iterator
 from hashlib import sha256
+from json.encoder import encode_basestring_ascii as _quoted
 
 from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.packed import Files, Packed
@@ -16,7 +17,7 @@ def listed(entries: Iterable[tuple[str, bytes]]) -> Iterator[tuple[str, bytes]]:
     files = []
     for key, content in entries:
         about = f'{{\n"bytes": {len(content)},\n"sha256": "{sha256(content).hexdigest()}"\n}}'
-        files.append(f"{json.dumps(key)}: {about}")
+        files.append(f"{_quoted(key)}: {about}")
         yield key, content
     # as json.dumps writes it with indent=0, which takes ten times as long
     listed = "{\n" + ",\n".join(files) + "\n}" if files else "{}"
