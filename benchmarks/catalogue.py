@@ -1,8 +1,9 @@
 """Submissions and claims a second that SQLite and PostgreSQL sustain, waiting for the disk.
 
 ``python -m benchmarks catalogue [--seconds S]``. Submissions have a key and look for a job that
-asks for the same, as those of the API do; APIs and claimants are processes. Processor time is that
-of the clients.
+asks for the same, as those of the API do. Claims are of the block whose turn it is, among those of
+four owners, just submitted. APIs and claimants are processes, which begin together once each has
+done it for the first time. Processor time is that of the clients.
 """
 
 import argparse
@@ -11,7 +12,7 @@ import os
 import secrets
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
@@ -19,23 +20,28 @@ from typing import Any
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
-from jointplay.storage.catalogue.records import NewJob, SubmissionKey
+from jointplay.storage.catalogue.records import NewJob, Solver, SubmissionKey
 from tests.postgresql_server import running_server
 
 PROCESSES = multiprocessing.get_context("fork")
-CLAIMANTS, CLAIMS = 32, 2000
+CLAIMANTS, CLAIMS = 32, 50
+OWNERS = ("ada", "bob", "eve", "")
+SOLVER = Solver("0.1.0+abc", "x86")
+Ready = Callable[[], object]
 
 
-def new() -> NewJob:
+def new(owner: str = "") -> NewJob:
     spec = {"scene": {"preset": "press"}, "duration": 2.0, "channels": ["*"] * 10, "x": "x" * 1500}
-    return NewJob("simulate", spec, secrets.token_hex(32), "0.1.0+abc", scene="press")
+    digest = secrets.token_hex(32)
+    return NewJob("simulate", spec, digest, SOLVER.version, scene="press", owner=owner)
 
 
-def submitting(url: str, threads: int, seconds: float) -> list[float]:
+def submitting(ready: Ready, url: str, threads: int, seconds: float) -> list[float]:
     """Return how long each submission took, s."""
     took: list[float] = []
     with closing(Catalogue(url)) as catalogue, ThreadPoolExecutor(threads) as pool:
-        catalogue.ping()
+        catalogue.submit(new())
+        ready()
         end = time.monotonic() + seconds
 
         def submit(_: int) -> None:
@@ -48,22 +54,23 @@ def submitting(url: str, threads: int, seconds: float) -> list[float]:
     return took
 
 
-def claimed(catalogue: Catalogue, block: str) -> bool:
-    """Claim a block, unless others held the database for too long."""
-    with suppress(Unavailable):
-        return catalogue.claim_block(block, "worker", 30.0) is not None
-    return False
+def claim(catalogue: Catalogue) -> None:
+    """Claim a block, again where others held the database for too long."""
+    while True:
+        with suppress(Unavailable):
+            assert catalogue.claim_next(f"worker {os.getpid()}", 30.0, SOLVER)
+            return
 
 
-def claiming(url: str, blocks: Sequence[str]) -> list[float]:
+def claiming(ready: Ready, url: str, count: int) -> list[float]:
     """Return how long each claim took, s."""
     took = []
     with closing(Catalogue(url)) as catalogue:
-        catalogue.ping()
-        for block in blocks:
+        claim(catalogue)
+        ready()
+        for _ in range(count):
             began = time.perf_counter()
-            while not claimed(catalogue, block):
-                pass
+            claim(catalogue)
             took.append(time.perf_counter() - began)
     return took
 
@@ -71,21 +78,28 @@ def claiming(url: str, blocks: Sequence[str]) -> list[float]:
 def measure(name: str, act: Callable[..., list[float]], *arguments: tuple[Any, ...]) -> None:
     """Print what processes do at once, each with its arguments."""
     results = PROCESSES.Queue()
+    together = PROCESSES.Barrier(len(arguments))
 
     def run(given: tuple[Any, ...]) -> None:
-        before = time.process_time()
-        results.put((act(*given), time.process_time() - before))
+        begun: list[tuple[float, float]] = []
 
-    begun = time.monotonic()
+        def ready() -> None:
+            together.wait()
+            begun.append((time.monotonic(), time.process_time()))
+
+        took = act(ready, *given)
+        ((since, before),) = begun
+        results.put((took, since, time.monotonic(), time.process_time() - before))
+
     running = [PROCESSES.Process(target=run, args=(given,)) for given in arguments]
     for process in running:
         process.start()
-    found = [results.get() for _ in running]
-    lasted = time.monotonic() - begun
+    parts, began, ended, spent = zip(*[results.get() for _ in running], strict=True)
+    lasted = max(ended) - min(began)
     for process in running:
         process.join()
-    took = sorted(seconds for some, _ in found for seconds in some)
-    processor = sum(seconds for _, seconds in found) / len(took)
+    took = sorted(seconds for some in parts for seconds in some)
+    processor = sum(spent) / len(took)
     print(
         f"  {name:34} {len(took) / lasted:5.0f} a second,"
         f" median {1e3 * took[len(took) // 2]:4.0f} ms,"
@@ -112,13 +126,13 @@ def main() -> None:
             print(f"{name}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
             measure("submissions, 1 API, 32 threads", submitting, (url, 32, seconds))
             measure("submissions, 2 APIs, 16 threads", submitting, *[(url, 16, seconds)] * 2)
-            with closing(Catalogue(url)) as catalogue:
-                jobs = catalogue.submit_batch([new() for _ in range(CLAIMS)]).jobs
-            blocks = [f"{job}-0" for job in jobs]
             for claimants in (1, CLAIMANTS):
-                some = blocks[: CLAIMS // 3] if claimants == 1 else blocks[CLAIMS // 3 :]
-                parts = [(url, some[first::claimants]) for first in range(claimants)]
-                measure(f"claims, {claimants} claimants", claiming, *parts)
+                with closing(Catalogue(url)) as catalogue:
+                    for owner in OWNERS:
+                        some = [new(owner) for _ in range(CLAIMANTS * CLAIMS // len(OWNERS))]
+                        catalogue.submit_batch(some, owner=owner)
+                share = CLAIMANTS // claimants * CLAIMS - 1
+                measure(f"claims, {claimants} claimants", claiming, *[(url, share)] * claimants)
 
 
 if __name__ == "__main__":

@@ -59,6 +59,8 @@ def run_block(block: str) -> None:
         if claim.block.id != block:
             wake_relay(settings.redis_url)  # somebody else may be free for that one
         compute(catalogue, settings, claim, _draining)
+        if settings.most_running:
+            wake_relay(settings.redis_url)  # its owner may have another block computed
 
 
 @setup_logging.connect  # type: ignore[untyped-decorator]

@@ -6,10 +6,12 @@ from fastapi import APIRouter
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused
+from jointplay.service.workers.bell import BellDependency
 from jointplay.service.workers.words import HELD, Attempt, BlockId, HeldBlock, said
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.protocol import Answered, Finished
 from jointplay.worker.removal import tidy
+from jointplay.worker.wake_up import wake_relay
 
 router = APIRouter(
     prefix="/v1/worker/blocks/{block}/{attempt}", dependencies=[HELD], include_in_schema=False
@@ -80,6 +82,7 @@ def put_off(
 def finish(
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
+    bell: BellDependency,
     held: HeldBlock,
     told: Annotated[protocol.Finish, said(protocol.Finish)],
 ) -> Finished:
@@ -97,6 +100,9 @@ def finish(
         )
     except ValueError as error:
         raise RequestRefused.of_parameter("outcome", f"{error}.") from error
+    if settings.most_running:  # its owner may have another block computed
+        wake_relay(settings.redis_url)
+        bell.ring(1)
     if state.terminal:
         tidy(settings, held)
     return Finished(state=state)

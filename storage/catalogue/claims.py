@@ -12,6 +12,7 @@ from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.holding import job_of
 from jointplay.storage.catalogue.numbers import number_of
 from jointplay.storage.catalogue.records import (
+    FRESH_QUEUE,
     Block,
     BlockState,
     Claim,
@@ -33,15 +34,15 @@ _TAKE: Final = (
     .returning(*_block.c)
 )
 _SENT: Final = (
-    delete(_outbox)
-    .where(_outbox.c.block == bindparam("of_block"))
-    .returning(_outbox.c.queue, _outbox.c.turn)
+    delete(_outbox).where(_outbox.c.block == bindparam("of_block")).returning(_outbox.c.queue)
 )
 _BEGIN: Final = insert(tables.attempt).values(
     block=bindparam("of_block"),
     number=bindparam("number_of"),
     worker=bindparam("claimant"),
     started=bindparam("moment"),
+    account=bindparam("of_account"),
+    charged=bindparam("paid"),
 )
 _CHANGE: Final = (
     update(_job)
@@ -113,10 +114,10 @@ def _claim(
     if row is None:
         return None
     held = Block(**row._mapping)
-    for queue, turn in unit.execute(_SENT, {"of_block": block_id}).all():
-        if turn:
-            turns.pass_by(unit, queue, turn)
-    unit.execute(_BEGIN, {**holder, **moment, "number_of": held.attempt})
+    queue = unit.execute(_SENT, {"of_block": block_id}).scalar_one_or_none()
+    account = turns.account_of(queue or FRESH_QUEUE)
+    charge = {"of_account": account, "paid": turns.charge(unit, account, job.owner)}
+    unit.execute(_BEGIN, {**holder, **moment, **charge, "number_of": held.attempt})
     begins = job.state is JobState.queued
     changes: dict[str, Any] = {
         "attempt": max(job.attempt, held.attempt),

@@ -19,7 +19,7 @@ RETURNS TABLE (held block, of_job job) LANGUAGE plpgsql AS $$
 DECLARE
   last integer;
   of_queue text;
-  passed bigint;
+  paid float8;
 BEGIN
   SELECT * INTO of_job FROM job
     WHERE id = (SELECT block.job FROM block WHERE block.id = wanted) FOR NO KEY UPDATE;
@@ -35,12 +35,14 @@ BEGIN
   IF NOT FOUND THEN
     RETURN;
   END IF;
-  DELETE FROM outbox WHERE block = wanted RETURNING queue, turn INTO of_queue, passed;
-  UPDATE turn SET next = passed WHERE queue = of_queue AND owner = '' AND queue IN (
-    SELECT queue FROM turn WHERE queue = of_queue AND owner = '' AND next < passed
-    FOR UPDATE SKIP LOCKED);
-  INSERT INTO attempt (block, number, worker, started)
-    VALUES (wanted, held.attempt, claimant, moment);
+  DELETE FROM outbox WHERE block = wanted RETURNING queue INTO of_queue;
+  of_queue := CASE WHEN of_queue = 'interactive' THEN of_queue ELSE 'jobs' END;
+  UPDATE share SET began = next, next = next + cost
+    WHERE queue = of_queue AND owner IN (
+      SELECT owner FROM share WHERE queue = of_queue AND owner = of_job.owner
+      FOR UPDATE SKIP LOCKED) RETURNING cost INTO paid;
+  INSERT INTO attempt (block, number, worker, started, account, charged)
+    VALUES (wanted, held.attempt, claimant, moment, of_queue, coalesce(paid, 0));
   SELECT coalesce(max(seq), 0) INTO last FROM event WHERE job = of_job.id;
   IF of_job.state = 'queued' THEN
     last := last + 1;
@@ -61,26 +63,44 @@ END $$
     """
 CREATE OR REPLACE FUNCTION claim_next(claimant text, moment float8, lease float8,
   by_version text, by_processor text, queues text[], busy text[])
-RETURNS TABLE (held block, of_job job) LANGUAGE plpgsql AS $$
+RETURNS TABLE (held block, of_job job) LANGUAGE plpgsql
+SET plan_cache_mode = force_generic_plan SET enable_bitmapscan = off SET enable_hashjoin = off
+SET enable_mergejoin = off SET enable_seqscan = off SET enable_sort = off AS $$
 #variable_conflict use_column
 DECLARE
   of_queue text;
+  account text;
+  of_owner text;
   wanted text;
 BEGIN
   FOREACH of_queue IN ARRAY queues LOOP
-    FOR wanted IN
-      SELECT outbox.block FROM outbox
-        JOIN block ON block.id = outbox.block JOIN job ON job.id = block.job
-        WHERE queue = of_queue AND (due <= moment OR tries > 0) AND NOT outbox.owner = ANY(busy)
-          AND solver_version = by_version AND (processor IS NULL OR processor = by_processor)
-        ORDER BY turn, outbox.block LIMIT 100
+    account := CASE WHEN of_queue = 'interactive' THEN of_queue ELSE 'jobs' END;
+    FOR of_owner IN
+      WITH RECURSIVE waiting(owner) AS (
+        SELECT min(owner) FROM outbox WHERE queue = of_queue
+        UNION ALL
+        SELECT (SELECT min(outbox.owner) FROM outbox
+          WHERE queue = of_queue AND outbox.owner > waiting.owner)
+        FROM waiting WHERE waiting.owner IS NOT NULL)
+      SELECT waiting.owner FROM waiting
+        LEFT JOIN share ON share.queue = account AND share.owner = waiting.owner
+        WHERE waiting.owner IS NOT NULL AND NOT waiting.owner = ANY(busy)
+        ORDER BY coalesce(share.next, 0), waiting.owner
     LOOP
-      CONTINUE WHEN NOT pg_try_advisory_xact_lock(hashtextextended(wanted, 0));
-      RETURN QUERY
-        SELECT * FROM claim_block(wanted, claimant, moment, lease, by_version, by_processor);
-      IF FOUND THEN
-        RETURN;
-      END IF;
+      FOR wanted IN
+        SELECT outbox.block FROM outbox
+          JOIN block ON block.id = outbox.block JOIN job ON job.id = block.job
+          WHERE queue = of_queue AND outbox.owner = of_owner AND (due <= moment OR tries > 0)
+            AND solver_version = by_version AND (processor IS NULL OR processor = by_processor)
+          ORDER BY outbox.block LIMIT 100
+      LOOP
+        CONTINUE WHEN NOT pg_try_advisory_xact_lock(hashtextextended(wanted, 0));
+        RETURN QUERY
+          SELECT * FROM claim_block(wanted, claimant, moment, lease, by_version, by_processor);
+        IF FOUND THEN
+          RETURN;
+        END IF;
+      END LOOP;
     END LOOP;
   END LOOP;
 END $$
@@ -124,6 +144,9 @@ DECLARE
   of_job job;
   by_worker text;
   since float8;
+  of_queue text;
+  paid float8;
+  spent float8;
   states text[];
   last text;
 BEGIN
@@ -141,10 +164,12 @@ BEGIN
     RETURN 'was not asked to be cancelled';
   END IF;
   UPDATE attempt SET ended = moment, outcome = ending
-    WHERE block = wanted AND number = holder RETURNING worker, started INTO by_worker, since;
+    WHERE block = wanted AND number = holder
+    RETURNING worker, started, account, charged INTO by_worker, since, of_queue, paid;
+  spent := greatest(moment - since, 0);
   IF of_job.owner <> '' THEN
     INSERT INTO usage (owner, hour, worker, seconds) VALUES
-      (of_job.owner, floor(moment / 3600), by_worker, greatest(moment - since, 0))
+      (of_job.owner, floor(moment / 3600), by_worker, spent)
       ON CONFLICT (owner, hour, worker) DO UPDATE SET seconds = usage.seconds + excluded.seconds;
   END IF;
   IF ending = 'failed' THEN
@@ -184,6 +209,12 @@ BEGIN
       SELECT of_job.id, coalesce(max(seq), 0) + 1, moment, last,
         CASE WHEN failure IS NULL THEN '{}' ELSE json_build_object('error', failure) END
       FROM event WHERE job = of_job.id;
+  END IF;
+  IF of_queue IS NOT NULL THEN  -- last: others wait from here on until it is on the disk
+    INSERT INTO share (queue, owner, began, next, cost) VALUES (of_queue, of_job.owner, 0, spent
+        + (SELECT coalesce(max(began), 0) FROM share WHERE queue = of_queue), spent)
+      ON CONFLICT (queue, owner) DO UPDATE
+        SET next = share.next + spent - paid, cost = share.cost + 0.25 * (spent - share.cost);
   END IF;
   RETURN of_job.state;
 END $$

@@ -1,6 +1,7 @@
 """Reading jobs: pages by key, histories, and what changes while they are computed."""
 
 from collections.abc import Sequence
+from dataclasses import fields
 from typing import Any
 
 from sqlalchemy import and_, func, not_, select
@@ -86,7 +87,7 @@ def attempts_of(unit: Unit, job_id: str) -> tuple[Attempt, ...]:
     """Return every attempt at a job's blocks, by block index and number."""
     table, block = tables.attempt, tables.block
     rows = unit.execute(
-        select(table)
+        select(*(table.c[field.name] for field in fields(Attempt)))
         .join(block, block.c.id == table.c.block)
         .where(block.c.job == job_id)
         .order_by(block.c.index, table.c.number)

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from sqlalchemy import ColumnElement, and_, bindparam, delete, insert, or_, select, update
 
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import tables, turns
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.records import LIVE, QUEUES, BlockState, Job, Solver
 
@@ -43,7 +43,7 @@ def _is_of(version: Any, processor: Any) -> ColumnElement[bool]:
 
 
 _outbox = tables.outbox
-_QUEUED: Final = (  # of one queue, by index: the cost is that of the answer
+_QUEUED: Final = (  # of one queue, by index
     select(_outbox.c.block)
     .join(_block, _block.c.id == _outbox.c.block)
     .join(_job, _job.c.id == _block.c.job)
@@ -51,12 +51,14 @@ _QUEUED: Final = (  # of one queue, by index: the cost is that of the answer
         _outbox.c.queue == bindparam("of_queue"),
         # sent: only others are woken by it
         or_(_outbox.c.due <= bindparam("moment"), _outbox.c.tries > 0),
-        _outbox.c.owner.not_in(bindparam("busy", expanding=True)),
         _waits,
     )
-    .order_by(_outbox.c.turn, _outbox.c.block)
+    .order_by(_outbox.c.owner, _outbox.c.block)
 )
-_NEXT: Final = _QUEUED.where(_is_of(bindparam("of_version"), bindparam("of_processor"))).limit(1)
+_NEXT: Final = _QUEUED.where(
+    _outbox.c.owner == bindparam("of_owner"),
+    _is_of(bindparam("of_version"), bindparam("of_processor")),
+).limit(1)
 
 
 def _served(unit: Unit) -> ColumnElement[bool]:
@@ -78,18 +80,19 @@ def _abandoned(unit: Unit) -> ColumnElement[bool]:
 def waiting_for(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
     """Return the queued block whose turn it is of a solver's, if there is one, of idle owners."""
     own = {"of_version": solver.version, "of_processor": solver.processor}
-    asked = {**own, "moment": unit.now, "busy": list(busy)}
     for queue in QUEUES:
-        found = unit.execute(_NEXT, {**asked, "of_queue": queue}).scalar_one_or_none()
-        if found is not None:
-            return (found,)
+        for owner in turns.in_turn(unit, queue):
+            asked = {**own, "moment": unit.now, "of_queue": queue, "of_owner": owner}
+            found = None if owner in busy else unit.execute(_NEXT, asked).scalar_one_or_none()
+            if found is not None:
+                return (found,)
     return ()
 
 
 def abandoned(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
-    """Return queued blocks that a solver may take over from others, in the order of their turn."""
-    asked = {"moment": unit.now, "busy": list(busy)}
-    waiting = _QUEUED.where(~_fits(solver), _abandoned(unit))
+    """Return queued blocks that a solver may take over from others, of idle owners."""
+    asked = {"moment": unit.now}
+    waiting = _QUEUED.where(~_fits(solver), _abandoned(unit), _outbox.c.owner.not_in(busy))
     found: list[str] = []
     for queue in QUEUES:
         if len(found) < _CANDIDATES:

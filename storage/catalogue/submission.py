@@ -225,11 +225,10 @@ def insert_jobs(unit: Unit, jobs: Sequence[tuple[Row, NewJob]]) -> None:
         for block in queued
     ]
     fresh = {"created": now, "due": now, "tries": 0}
+    turns.arrive(unit, places)
     wake_ups = [
-        {"block": block["id"], "queue": queue, "owner": owner, "turn": turn, **fresh}
-        for block, (queue, owner), turn in zip(
-            queued, places, turns.take(unit, places), strict=True
-        )
+        {"block": block["id"], "queue": queue, "owner": owner, **fresh}
+        for block, (queue, owner) in zip(queued, places, strict=True)
     ]
     unit.execute(insert(tables.outbox), wake_ups)
     first = {"seq": 1, "time": now, "type": JobState.queued.value, "data": {}}

@@ -151,6 +151,8 @@ attempt = Table(
     Column("started", Float(53), nullable=False),
     Column("ended", Float(53)),
     Column("outcome", String(16)),
+    Column("account", String(32)),  # and the seconds its owner was charged; see `turns`
+    Column("charged", Float(53)),
     PrimaryKeyConstraint("block", "number"),
 )
 
@@ -175,13 +177,25 @@ outbox = Table(
     Column("due", Float(53), nullable=False),
     Column("tries", Integer, nullable=False),
     Column("owner", String(64), nullable=False, server_default=""),
-    Column("turn", BigInteger, nullable=False, server_default="0"),
+    Column("turn", BigInteger, nullable=False, server_default="0"),  # of programs before 0009
     Index("ix_outbox_due", "due", "tries"),
-    # whose turn it is, however many wait
-    Index("ix_outbox_queue_turn", "queue", "turn", "block", "owner", "due"),
+    # the next block of each owner, however many wait
+    Index("ix_outbox_queue_owner", "queue", "owner", "block", "due"),
 )
 
-# The turn that follows an owner's last one; see `storage.catalogue.turns`. Nobody's: the present.
+# What each owner has been charged in a queue, s; see `storage.catalogue.turns`.
+share = Table(
+    "share",
+    metadata,
+    Column("queue", String(32), nullable=False),
+    Column("owner", String(64), nullable=False),
+    Column("began", Float(53), nullable=False),  # where his last block was claimed
+    Column("next", Float(53), nullable=False),  # where his next one will be
+    Column("cost", Float(53), nullable=False, server_default="1"),  # of a block, lately
+    PrimaryKeyConstraint("queue", "owner"),
+)
+
+# Of programs before revision 0009.
 turn = Table(
     "turn",
     metadata,

@@ -1,44 +1,88 @@
-"""Whose turn it is: owners that have work waiting in one queue are served alike.
+"""Whose turn it is: owners with work waiting in one queue get equal shares of the workers' time.
 
-Start-time fair queueing (Goyal, Vin & Cheng, IEEE/ACM Trans. Networking 5, 1997) with blocks of
-equal cost: a block's turn is the later of the queue's time, which is the turn of the last block
-that was claimed, and the turn after its owner's last one. So owners that wait come one after the
-other however many blocks each has, and whoever did not wait has saved up nothing. Work of nobody
-has the queue's time as its turn: it comes in the order in which it was submitted.
+Start-time fair queueing (Goyal, Vin & Cheng, IEEE/ACM Trans. Networking 5, 1997) of work whose cost
+is known afterwards (Mace et al., 2DFQ, SIGCOMM 2016): a claim charges its owner what his blocks
+have cost lately, and the end of the attempt corrects that to the seconds that it took. The owner
+who has been charged least comes first. Whoever had nothing waiting begins where the queue is, which
+is where the owner of the last claim was: he has saved up nothing. Blocks that were given back or
+lost, and those that seal a study, are charged with batches and studies.
 """
 
-from collections import Counter
-from collections.abc import Sequence
-from itertools import count
+from collections.abc import Collection
+from typing import Final
 
-from sqlalchemy import select, text, update
+from sqlalchemy import bindparam, text, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.records import FRESH_QUEUE, RECOVERED_QUEUE
 
-_turn = tables.turn
-_BEGIN = text("INSERT INTO turn VALUES (:queue, '', 0) ON CONFLICT (queue, owner) DO NOTHING")
-_TAKE = text(
-    "INSERT INTO turn VALUES (:queue, :owner, :time + :count) ON CONFLICT (queue, owner) DO UPDATE"
-    " SET next = CASE WHEN turn.next > :time THEN turn.next ELSE :time END + :count RETURNING next"
+_share = tables.share
+_PART: Final = 0.25
+"""Weight of the newest cost in the mean that the next block is charged."""
+_TIME = "coalesce((SELECT max(began) FROM share WHERE queue = :queue), 0)"
+# Nothing is written, and nobody waited for, where he has work waiting or is not behind.
+_ARRIVE = text(
+    "INSERT INTO share (queue, owner, began, next)"  # noqa: S608 - our own names
+    f" SELECT CAST(:queue AS varchar), CAST(:owner AS varchar), 0, {_TIME}"
+    " WHERE NOT EXISTS (SELECT block FROM outbox WHERE queue = :queue AND owner = :owner)"
+    " AND NOT EXISTS (SELECT owner FROM share"
+    f" WHERE queue = :queue AND owner = :owner AND next >= {_TIME})"
+    " ON CONFLICT (queue, owner) DO UPDATE"
+    " SET next = CASE WHEN share.next < excluded.next THEN excluded.next ELSE share.next END"
+)
+_WAITING = text(  # one look at the index for each owner, however many blocks he has
+    """
+    WITH RECURSIVE waiting(owner) AS (
+      SELECT min(owner) FROM outbox WHERE queue = :queue
+      UNION ALL
+      SELECT (SELECT min(outbox.owner) FROM outbox
+        WHERE queue = :queue AND outbox.owner > waiting.owner)
+      FROM waiting WHERE waiting.owner IS NOT NULL)
+    SELECT waiting.owner FROM waiting
+    LEFT JOIN share ON share.queue = :account AND share.owner = waiting.owner
+    WHERE waiting.owner IS NOT NULL ORDER BY coalesce(share.next, 0), waiting.owner
+    """
+)
+_of_owner = (_share.c.queue == bindparam("account")) & (_share.c.owner == bindparam("of_owner"))
+_CHARGE = (
+    update(_share)
+    .where(_of_owner)
+    .values(began=_share.c.next, next=_share.c.next + _share.c.cost)
+    .returning(_share.c.cost)
+)
+_SETTLE = text(
+    "INSERT INTO share (queue, owner, began, next, cost)"  # noqa: S608
+    f" VALUES (CAST(:queue AS varchar), CAST(:owner AS varchar), 0, {_TIME} + :seconds, :seconds)"
+    " ON CONFLICT (queue, owner) DO UPDATE SET next = share.next + :seconds - :charged,"
+    f" cost = share.cost + {_PART} * (:seconds - share.cost)"
 )
 
 
-def take(unit: Unit, queued: Sequence[tuple[str, str]]) -> list[int]:
-    """Return the turns of new blocks, by their queues and owners, in order of submission."""
-    of_queues = select(_turn.c.queue, _turn.c.next).where(_turn.c.owner == "")
-    times = {row.queue: row.next for row in unit.execute(of_queues)}
-    own = {}
-    for (queue, owner), blocks in sorted(Counter(one for one in queued if one[1]).items()):
-        if queue not in times:
-            times[queue] = 0
-            unit.execute(_BEGIN, {"queue": queue})
-        asked = {"queue": queue, "owner": owner, "time": times[queue], "count": blocks}
-        own[queue, owner] = count(unit.execute(_TAKE, asked).scalar_one() - blocks)
-    return [next(own[one]) if one in own else times.get(one[0], 0) for one in queued]
+def account_of(queue: str) -> str:
+    """Return the queue whose shares a block is charged to."""
+    return FRESH_QUEUE if queue == RECOVERED_QUEUE else queue
 
 
-def pass_by(unit: Unit, queue: str, turn: int) -> None:
-    """Let a queue's time go on to the turn of a block that was claimed."""
-    of_queue = (_turn.c.queue == queue) & (_turn.c.owner == "") & (_turn.c.next < turn)
-    unit.execute(update(_turn).where(of_queue).values(next=turn))
+def arrive(unit: Unit, places: Collection[tuple[str, str]]) -> None:
+    """Let owners begin where the queue is: before they have blocks, by queue and owner, wait."""
+    for queue, owner in sorted(set(places)):
+        unit.execute(_ARRIVE, {"queue": queue, "owner": owner})
+
+
+def in_turn(unit: Unit, queue: str) -> list[str]:
+    """Return the owners with blocks that wait in a queue, in the order of their turn."""
+    asked = {"queue": queue, "account": account_of(queue)}
+    return list(unit.execute(_WAITING, asked).scalars())
+
+
+def charge(unit: Unit, account: str, owner: str) -> float:
+    """Charge an owner what a block will probably cost; return the seconds."""
+    charged = unit.execute(_CHARGE, {"account": account, "of_owner": owner}).scalar_one_or_none()
+    return float(charged or 0.0)
+
+
+def settle(unit: Unit, account: str, owner: str, charged: float, seconds: float) -> None:
+    """Correct what was charged for a block by the seconds that it took."""
+    paid = {"queue": account, "owner": owner, "charged": charged, "seconds": seconds}
+    unit.execute(_SETTLE, paid)

@@ -41,7 +41,9 @@ class Reaped:
 
 
 def due_wake_ups(unit: Unit, outstanding: int, most_running: int = 0) -> tuple[WakeUp, ...]:
-    """Return what to publish now: due wake-ups in the order of their turn, recovered blocks first.
+    """Return what to publish now: due wake-ups, recovered blocks first.
+
+    Any owner's: whoever is woken takes the block whose turn it is.
 
     At most `outstanding` may be on their way at one time: what Redis holds stays small however many
     blocks wait, and losing it costs little. Owners of whose blocks `most_running` are computed are
@@ -56,7 +58,7 @@ def due_wake_ups(unit: Unit, outstanding: int, most_running: int = 0) -> tuple[W
         rows = unit.execute(
             select(outbox.c.block)
             .where(outbox.c.queue == queue, outbox.c.due <= unit.now, idle)
-            .order_by(outbox.c.turn, outbox.c.block)
+            .order_by(outbox.c.owner, outbox.c.block)
             .limit(max(outstanding - underway - len(due), 0))
         )
         due += [WakeUp(block, queue) for block in rows.scalars()]

@@ -13,9 +13,11 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker import relay as relay_module
+from jointplay.worker import tasks
+from jointplay.worker.own_solver import own_solver
 from jointplay.worker.presence import own_name
 from jointplay.worker.relay import Relay
-from jointplay.worker.wake_up import WakeUpListener, WakeUpPublisher
+from jointplay.worker.wake_up import CHANNEL, WakeUpListener, WakeUpPublisher
 from tests.waiting import until
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
@@ -230,3 +232,16 @@ def test_the_results_of_owners_jobs_are_measured_when_they_have_ended(
     until(lambda: catalogue.get(ended).stored is not None, act=relay.turn)
     assert catalogue.get(ended).stored == len(b"resultsagain")
     assert catalogue.get(running).stored is None
+
+
+def test_the_end_of_a_block_wakes_the_relay_where_owners_are_limited(
+    catalogue: Catalogue, settings: Settings, redis: Redis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    limited = settings.model_copy(update={"most_running": 1})
+    monkeypatch.setattr(tasks, "_platform", lambda: (limited, catalogue))
+    job = catalogue.submit(replace(NEW, solver_version=own_solver().version)).job.id
+    with redis.pubsub(ignore_subscribe_messages=True) as listening:
+        listening.subscribe(CHANNEL)
+        tasks.run_block(f"{job}-0")
+        assert catalogue.get(job).state.terminal
+        until(lambda: listening.get_message(timeout=0.1) is not None)

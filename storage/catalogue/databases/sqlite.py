@@ -4,6 +4,7 @@ One write-ahead log, every writing unit starts with BEGIN IMMEDIATE. A deferred 
 first and writes later fails at once under contention, whatever the busy timeout.
 """
 
+import random
 import sqlite3
 import threading
 import time
@@ -19,6 +20,10 @@ from sqlalchemy.exc import DBAPIError, InterfaceError, OperationalError
 from jointplay.storage.catalogue.errors import BUSY, SILENT, Unavailable
 
 _NEW_DATABASE_PATIENCE = 30.0
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.001, 0.02  # s
+_OLD = 0.1
+"""Seconds after which a unit that waits for other processes' asks twice as often, after twice that
+three times: SQLite's own waiting asks ever more rarely, so that the latest comer goes first."""
 _CANNOT = ("SQLITE_IOERR", "SQLITE_CANTOPEN", "SQLITE_PROTOCOL", "SQLITE_READONLY")
 
 
@@ -43,22 +48,21 @@ class SQLite:
         existing = {"mode": "rw", "uri": "true"}
         url = url.set(database=f"file:{quote(url.database)}", query=existing)
         self._patience = patience
-        self._readers = self._engine(url, "NORMAL", "BEGIN")
-        self._writer = self._engine(url, "NORMAL", "BEGIN IMMEDIATE")
+        self._readers = self._engine(url, "NORMAL", writes=False)
+        self._writer = self._engine(url, "NORMAL", writes=True)
         # what a submission answers with 202 must survive a power cut; progress need not
-        self._durable_writer = self._engine(url, "FULL", "BEGIN IMMEDIATE")
+        self._durable_writer = self._engine(url, "FULL", writes=True)
         self._turn = threading.Lock()  # without the database's lock, for which others only poll
 
-    def _engine(
-        self, url: URL, synchronous: Literal["NORMAL", "FULL"], begin_statement: str
-    ) -> Engine:
+    def _engine(self, url: URL, synchronous: Literal["NORMAL", "FULL"], *, writes: bool) -> Engine:
         engine = create_engine(url)
+        patience = 0.0 if writes else self._patience  # a writer waits by itself
 
         @event.listens_for(engine, "connect")
         def _configure(dbapi_connection: Any, _record: object) -> None:
             dbapi_connection.isolation_level = None  # no implicit BEGIN: ours comes below
             cursor = dbapi_connection.cursor()
-            cursor.execute(f"PRAGMA busy_timeout={self._patience * 1000:.0f}")
+            cursor.execute(f"PRAGMA busy_timeout={patience * 1000:.0f}")
             _write_ahead(cursor)
             cursor.execute(f"PRAGMA synchronous={synchronous}")
             cursor.execute("PRAGMA foreign_keys=ON")
@@ -66,9 +70,24 @@ class SQLite:
 
         @event.listens_for(engine, "begin")
         def _begin(connection: Connection) -> None:
-            connection.exec_driver_sql(begin_statement)
+            if not (writes and self._begin_writing(connection.connection.driver_connection)):
+                connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
 
         return engine
+
+    def _begin_writing(self, connection: Any) -> bool:
+        """Wait until no other process writes, and begin; False if that takes too long."""
+        began = time.monotonic()
+        while (waited := time.monotonic() - began) <= self._patience:
+            try:
+                connection.execute("BEGIN IMMEDIATE")
+                return True
+            except sqlite3.OperationalError as error:
+                if not error.sqlite_errorname.startswith("SQLITE_BUSY"):
+                    break
+            pause = min(_FIRST_PAUSE + waited, _LONGEST_PAUSE) / (1.0 + waited / _OLD)
+            time.sleep(random.uniform(0.5, 1.5) * pause)  # noqa: S311 - not all at once
+        return False
 
     def make(self) -> None:
         """Make the file and its folder, where there are none yet."""

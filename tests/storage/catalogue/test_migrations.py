@@ -15,7 +15,10 @@ from jointplay.storage.catalogue.records import NewJob
 from tests.postgresql_server import Server
 
 LATER = (
-    "DROP INDEX ix_outbox_queue_turn",
+    "DROP INDEX ix_outbox_queue_owner",
+    "DROP TABLE share",
+    "ALTER TABLE attempt DROP COLUMN account",
+    "ALTER TABLE attempt DROP COLUMN charged",
     "ALTER TABLE outbox DROP COLUMN owner",
     "ALTER TABLE outbox DROP COLUMN turn",
     "CREATE INDEX ix_outbox_queue_due ON outbox (queue, due, block)",

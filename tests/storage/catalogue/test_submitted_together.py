@@ -27,11 +27,10 @@ def at_the_same_time(
 
     Another process's transaction lasts until all of them wait.
     """
-    begun: list[str] = []
+    committed: list[Any] = []
 
-    def count(*arguments: Any) -> None:
-        if arguments[2] == "BEGIN IMMEDIATE":
-            begun.append(arguments[2])
+    def count(connection: Any) -> None:
+        committed.append(connection)
 
     def outcome(submission: Callable[[], Submitted]) -> Any:
         try:
@@ -42,14 +41,14 @@ def at_the_same_time(
     other = Catalogue(url)
     with ThreadPoolExecutor(len(submissions)) as threads:
         with other.connections.writing():
-            event.listen(Engine, "before_cursor_execute", count)
+            event.listen(Engine, "commit", count)
             waiting = [threads.submit(outcome, submission) for submission in submissions]
             while len(catalogue._submissions._waiting) < len(submissions) - 1:
                 pass  # the first has taken its own
         found = [one.result() for one in waiting]
-    event.remove(Engine, "before_cursor_execute", count)
+    event.remove(Engine, "commit", count)
     other.close()
-    return found, len(begun)
+    return found, len(committed) - 1  # without the other process's
 
 
 def test_many_jobs_are_stored_in_few_transactions(new_file: Callable[[], str]) -> None:

@@ -3,7 +3,8 @@
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
-from itertools import combinations
+from heapq import heappop, heappush
+from itertools import combinations, cycle
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -73,13 +74,6 @@ def test_jobs_of_one_owner_and_of_nobody_come_as_they_were_submitted(catalogue: 
         assert [one and one.job.id for one in claims] == jobs
 
 
-def test_wake_ups_are_sent_in_turn(catalogue: Catalogue) -> None:
-    batch(catalogue, "ada", 5)
-    batch(catalogue, "bob", 5)
-    owners = [catalogue.get(one.block[:26]).owner for one in catalogue.due_wake_ups(4)]
-    assert sorted(owners) == ["ada"] * 2 + ["bob"] * 2
-
-
 @st.composite
 def histories(draw: st.DrawFn) -> list[tuple[str, int]]:
     """Draw submissions by an owner, and claims by nobody, of so many blocks."""
@@ -114,6 +108,77 @@ def test_no_owner_with_work_waiting_is_behind_by_more_than_a_job_of_each(
                     gained[pair] = lead, min(least, lead), max(greatest, lead)
                     assert gained[pair][2] - gained[pair][1] <= 2
         assert claim(catalogue) is None
+
+
+@st.composite
+def costs(draw: st.DrawFn) -> dict[str, list[float]]:
+    """Draw what the blocks of each owner take, s, one after the other and again."""
+    some = st.lists(st.sampled_from([0.01, 1.0, 3.0, 60.0, 600.0]), min_size=1, max_size=4)
+    return {owner: draw(some) for owner in OWNERS}
+
+
+@settings(
+    max_examples=4, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(costs=costs(), workers=st.integers(1, 3), late=st.integers(0, 30))
+def test_no_owner_with_work_waiting_gets_less_time_by_more_than_a_block_of_each_for_each_worker(
+    new_url: Callable[[], str], costs: dict[str, list[float]], workers: int, late: int
+) -> None:
+    clock = Clock()
+    with closing(Catalogue(new_url(), clock=clock)) as catalogue:
+        seconds = {owner: cycle(some) for owner, some in costs.items()}
+        gained = dict.fromkeys(combinations(OWNERS, 2), (0.0, 0.0, 0.0))
+        waiting = set(OWNERS[:2])
+        for owner in waiting:
+            batch(catalogue, owner, 60)
+        running: list[tuple[float, str]] = []
+        for number in range(45):
+            if number == late:  # after others have had much
+                batch(catalogue, OWNERS[2], 60)
+                waiting.add(OWNERS[2])
+            if len(running) == workers:
+                clock.now, block = heappop(running)
+                catalogue.finish(block, 1, BlockState.done)
+            held = claim(catalogue)
+            assert held is not None
+            takes = next(seconds[held.job.owner])
+            heappush(running, (clock.now + takes, held.block.id))
+            for pair in combinations(sorted(waiting), 2):
+                lead, least, greatest = gained[pair]
+                lead += takes * ((held.job.owner == pair[0]) - (held.job.owner == pair[1]))
+                gained[pair] = lead, min(least, lead), max(greatest, lead)
+                allowed = workers * sum(max(costs[owner]) for owner in pair)
+                assert gained[pair][2] - gained[pair][1] <= allowed + 1e-6
+
+
+def test_whoever_has_long_blocks_has_fewer_turns(catalogue: Catalogue, clock: Clock) -> None:
+    batch(catalogue, "ada", 5)
+    batch(catalogue, "bob", 50)
+    seconds = {"ada": 100.0, "bob": 10.0}
+    owners = []
+    for _ in range(33):
+        held = claim(catalogue)
+        assert held is not None
+        owners.append(held.job.owner)
+        clock.now += seconds[held.job.owner]
+        catalogue.finish(held.block.id, 1, BlockState.done)
+    assert owners.count("ada") == 3
+
+
+def test_what_was_given_back_counts_as_well(catalogue: Catalogue, clock: Clock) -> None:
+    batch(catalogue, "ada", 3)
+    batch(catalogue, "bob", 15)
+    held = claim(catalogue)
+    assert held is not None
+    assert held.job.owner == "ada"
+    clock.now += 10.0
+    catalogue.release(held.block.id, 1)
+    again = claim(catalogue)  # what was begun comes first
+    assert again is not None
+    assert again.job.id == held.job.id
+    clock.now += 1.0
+    catalogue.finish(again.block.id, 2, BlockState.done)
+    assert claimed(catalogue, 9) == ["bob"] * 9  # of a second, as it is thought
 
 
 def test_owners_are_computed_at_most_so_many_blocks_at_a_time(catalogue: Catalogue) -> None:
