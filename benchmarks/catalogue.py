@@ -55,11 +55,11 @@ def submitting(ready: Ready, url: str, threads: int, seconds: float) -> list[flo
 
 
 def claim(catalogue: Catalogue) -> None:
-    """Claim a block, again where others held the database for too long."""
+    """Claim a block, again where others were quicker or held the database for too long."""
     while True:
         with suppress(Unavailable):
-            assert catalogue.claim_next(f"worker {os.getpid()}", 30.0, SOLVER)
-            return
+            if catalogue.claim_next(f"worker {os.getpid()}", 30.0, SOLVER) is not None:
+                return
 
 
 def claiming(ready: Ready, url: str, count: int) -> list[float]:
