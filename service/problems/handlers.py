@@ -7,6 +7,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.routing import compile_path
 
 from jointplay.records.failure import InvalidInput, LimitExceeded
@@ -99,6 +100,12 @@ def _(error: HTTPException) -> RequestRefused:
     fallback = kinds.INVALID_REQUEST if error.status_code < 500 else kinds.INTERNAL
     kind = _BY_STATUS.get(error.status_code, fallback)
     return RequestRefused(kind, f"{kind.title}. {kind.help}", headers=error.headers)
+
+
+@refusal.register
+def _(_: ClientDisconnect) -> RequestRefused:
+    """Nobody reads it: the client has gone before its body was here."""
+    return RequestRefused(kinds.INVALID_REQUEST, "The body ended before it was whole.")
 
 
 @refusal.register

@@ -2,8 +2,9 @@
 
     python -m tests.machines --seed 7 --jobs 200
 
-Needs root, for network namespaces. `--fault NAME`, repeatable, chooses faults; `--json` prints a
-document. The exit code is 1 if anything was wrong, and the folder stays then.
+Needs root, for network namespaces, and a compiler of C, for clocks. `--fault NAME`, repeatable,
+chooses faults, `--kind` a kind of jobs; `--json` prints a document. The exit code is 1 if anything
+was wrong, and the folder stays then.
 """
 
 import argparse
@@ -29,6 +30,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=200, help="how many are submitted at least")
     parser.add_argument("--fault", action="append", choices=FAULTS, help="instead of all")
+    parser.add_argument("--kind", default="", help="of jobs, instead of all: simulate, sweep, ...")
     parser.add_argument("--json", action="store_true")
     parser.add_argument(_INSIDE, action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
@@ -38,7 +40,12 @@ def main() -> int:
     folder = Path(tempfile.mkdtemp(prefix="jointplay-machines-"))
     folder.chmod(0o755)  # the database is another user, whose clock is in there
     report = campaign(
-        folder, seed=given.seed, jobs=given.jobs, faults=given.fault or [*FAULTS], tell=_tell
+        folder,
+        seed=given.seed,
+        jobs=given.jobs,
+        faults=given.fault or [*FAULTS],
+        kind=given.kind,
+        tell=_tell,
     )
     if given.json:
         print(json.dumps(asdict(report)))

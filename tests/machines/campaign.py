@@ -59,7 +59,9 @@ class Report:
     wrong: list[str] = field(default_factory=list)
 
 
-def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell: Tell) -> Report:
+def campaign(
+    folder: Path, *, seed: int, jobs: int, faults: Sequence[str], kind: str, tell: Tell
+) -> Report:
     """Let faults strike until all jobs have ended, and each of the faults has struck.
 
     Parameters
@@ -70,8 +72,10 @@ def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell:
         Of jobs and schedule.
     jobs
         How many are submitted at least.
+    kind
+        Of all jobs; empty: of every kind.
     """
-    mix = jobs_of(seed)[:jobs]
+    mix = [job for job in jobs_of(seed) if kind in ("", job["kind"])][:jobs]
     tell(f"computing {len(mix)} jobs undisturbed")
     expected = {number: undisturbed(job, folder / f"{number}") for number, job in enumerate(mix)}
     report = Report(seed)
