@@ -74,6 +74,7 @@ class Relay:
             for job in reaped.ended:
                 with about(job=job):
                     _log.error("job %s lost too many workers", job)
+            self._catalogue.settle()
             self._look_after_results()
         if now >= self._look_for_solvers_next:
             self._look_for_solvers_next = now + _SOLVERS_PERIOD

@@ -24,6 +24,7 @@ from jointplay.storage.catalogue import (
     solvers,
     stored,
     submission,
+    turns,
     upkeep,
 )
 from jointplay.storage.catalogue.connections import Connections, Unit
@@ -252,6 +253,7 @@ class Catalogue:
     mark_published = writing(upkeep.mark_published)
     holders = reading(upkeep.holders)
     reap = durably(upkeep.reap)
+    settle = writing(turns.settle)
     removable = reading(upkeep.removable)
     mark_removed = writing(upkeep.mark_removed)
     unmeasured = reading(stored.unmeasured)

@@ -8,7 +8,7 @@ from typing import Any, Final
 from sqlalchemy import bindparam, func, insert, select, update
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import calls, tables, turns, usage
+from jointplay.storage.catalogue import calls, tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.holding import change_held, lock_held, sum_progress
 from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockState, Job, JobState
@@ -28,7 +28,7 @@ _END: Final = (
     update(_attempt)
     .where(_attempt.c.block == bindparam("of_block"), _attempt.c.number == bindparam("of_number"))
     .values(ended=bindparam("moment"), outcome=bindparam("ending"))
-    .returning(_attempt.c.worker, _attempt.c.started, _attempt.c.account, _attempt.c.charged)
+    .returning(_attempt.c.worker, _attempt.c.started)
 )
 
 
@@ -212,9 +212,5 @@ def queue_again(unit: Unit, block_id: str, pause: float = 0.0) -> None:
 def _end_attempt(unit: Unit, job: Job, block_id: str, attempt: int, outcome: str) -> None:
     of_attempt = {"of_block": block_id, "of_number": attempt}
     row = unit.execute(_END, {**of_attempt, "moment": unit.now, "ending": outcome}).one()
-    seconds = max(unit.now - row.started, 0.0)
     if job.owner:
-        usage.add(unit, job.owner, row.worker, seconds)
-    # the lost stay charged as was thought: who takes back many waits for no owner's other blocks
-    if row.account is not None and outcome != _LOST:
-        turns.settle(unit, row.account, job.owner, row.charged, seconds)
+        usage.add(unit, job.owner, row.worker, max(unit.now - row.started, 0.0))

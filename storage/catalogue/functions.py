@@ -144,9 +144,6 @@ DECLARE
   of_job job;
   by_worker text;
   since float8;
-  of_queue text;
-  paid float8;
-  spent float8;
   states text[];
   last text;
 BEGIN
@@ -164,12 +161,10 @@ BEGIN
     RETURN 'was not asked to be cancelled';
   END IF;
   UPDATE attempt SET ended = moment, outcome = ending
-    WHERE block = wanted AND number = holder
-    RETURNING worker, started, account, charged INTO by_worker, since, of_queue, paid;
-  spent := greatest(moment - since, 0);
+    WHERE block = wanted AND number = holder RETURNING worker, started INTO by_worker, since;
   IF of_job.owner <> '' THEN
     INSERT INTO usage (owner, hour, worker, seconds) VALUES
-      (of_job.owner, floor(moment / 3600), by_worker, spent)
+      (of_job.owner, floor(moment / 3600), by_worker, greatest(moment - since, 0))
       ON CONFLICT (owner, hour, worker) DO UPDATE SET seconds = usage.seconds + excluded.seconds;
   END IF;
   IF ending = 'failed' THEN
@@ -209,12 +204,6 @@ BEGIN
       SELECT of_job.id, coalesce(max(seq), 0) + 1, moment, last,
         CASE WHEN failure IS NULL THEN '{}' ELSE json_build_object('error', failure) END
       FROM event WHERE job = of_job.id;
-  END IF;
-  IF of_queue IS NOT NULL THEN  -- last: others wait from here on until it is on the disk
-    INSERT INTO share (queue, owner, began, next, cost) VALUES (of_queue, of_job.owner, 0, spent
-        + (SELECT coalesce(max(began), 0) FROM share WHERE queue = of_queue), spent)
-      ON CONFLICT (queue, owner) DO UPDATE
-        SET next = share.next + spent - paid, cost = share.cost + 0.25 * (spent - share.cost);
   END IF;
   RETURN of_job.state;
 END $$

@@ -151,10 +151,13 @@ attempt = Table(
     Column("started", Float(53), nullable=False),
     Column("ended", Float(53)),
     Column("outcome", String(16)),
-    Column("account", String(32)),  # and the seconds its owner was charged; see `turns`
+    # whose share was charged so many seconds, until it is settled; see `storage.catalogue.turns`
+    Column("account", String(32)),
     Column("charged", Float(53)),
     PrimaryKeyConstraint("block", "number"),
 )
+UNSETTLED: Final = attempt.c.account.is_not(None)
+Index("ix_attempt_unsettled", attempt.c.account, sqlite_where=UNSETTLED, postgresql_where=UNSETTLED)
 
 event = Table(
     "event",

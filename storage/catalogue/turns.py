@@ -2,16 +2,16 @@
 
 Start-time fair queueing (Goyal, Vin & Cheng, IEEE/ACM Trans. Networking 5, 1997) of work whose cost
 is known afterwards (Mace et al., 2DFQ, SIGCOMM 2016): a claim charges its owner what his blocks
-have cost lately, and the end of the attempt corrects that to the seconds that it took. The owner
-who has been charged least comes first. Whoever had nothing waiting begins where the queue is, which
-is where the owner of the last claim was: he has saved up nothing. Blocks that were given back or
-lost, and those that seal a study, are charged with batches and studies.
+have cost lately, and once the attempt has ended the relay corrects that to the seconds that it
+took. The owner who has been charged least comes first. Whoever had nothing waiting begins where the
+queue is, which is where the owner of the last claim was: he has saved up nothing. Blocks that were
+given back or lost, and those that seal a study, are charged with batches and studies.
 """
 
 from collections.abc import Collection
 from typing import Final
 
-from sqlalchemy import bindparam, text, update
+from sqlalchemy import bindparam, select, text, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
@@ -19,7 +19,9 @@ from jointplay.storage.catalogue.records import FRESH_QUEUE, RECOVERED_QUEUE
 
 _share = tables.share
 _PART: Final = 0.25
-"""Weight of the newest cost in the mean that the next block is charged."""
+"""Weight of the newest costs in the mean that the next block is charged."""
+_AT_ONCE: Final = 1000
+"""Attempts that are settled in one unit."""
 _TIME = "coalesce((SELECT max(began) FROM share WHERE queue = :queue), 0)"
 # Nothing is written, and nobody waited for, where he has work waiting or is not behind.
 _ARRIVE = text(
@@ -52,10 +54,23 @@ _CHARGE = (
     .returning(_share.c.cost)
 )
 _SETTLE = text(
-    "INSERT INTO share (queue, owner, began, next, cost)"  # noqa: S608
-    f" VALUES (CAST(:queue AS varchar), CAST(:owner AS varchar), 0, {_TIME} + :seconds, :seconds)"
-    " ON CONFLICT (queue, owner) DO UPDATE SET next = share.next + :seconds - :charged,"
-    f" cost = share.cost + {_PART} * (:seconds - share.cost)"
+    "INSERT INTO share (queue, owner, began, next, cost)"  # noqa: S608 - our own names
+    f" VALUES (CAST(:queue AS varchar), CAST(:owner AS varchar), 0, {_TIME} + :more, :mean)"
+    f" ON CONFLICT (queue, owner) DO UPDATE SET next = share.next + :more,"
+    f" cost = share.cost + {_PART} * (:mean - share.cost)"
+)
+_attempt = tables.attempt
+_ENDED = (
+    select(_attempt, tables.job.c.owner)
+    .join(tables.block, tables.block.c.id == _attempt.c.block)
+    .join(tables.job, tables.job.c.id == tables.block.c.job)
+    .where(tables.UNSETTLED, _attempt.c.ended.is_not(None))
+    .limit(_AT_ONCE)
+)
+_IS_SETTLED = (
+    update(_attempt)
+    .where(_attempt.c.block == bindparam("of_block"), _attempt.c.number == bindparam("of_number"))
+    .values(account=None)
 )
 
 
@@ -82,7 +97,21 @@ def charge(unit: Unit, account: str, owner: str) -> float:
     return float(charged or 0.0)
 
 
-def settle(unit: Unit, account: str, owner: str, charged: float, seconds: float) -> None:
-    """Correct what was charged for a block by the seconds that it took."""
-    paid = {"queue": account, "owner": owner, "charged": charged, "seconds": seconds}
-    unit.execute(_SETTLE, paid)
+def settle(unit: Unit) -> None:
+    """Correct what was charged for attempts that have ended by the seconds that they took.
+
+    By the relay, now and then: workers that end blocks of one owner would wait for each other.
+    """
+    rows = unit.execute(_ENDED).all()
+    if rows:
+        keys = [{"of_block": row.block, "of_number": row.number} for row in rows]
+        unit.execute(_IS_SETTLED, keys)
+    took: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    for row in rows:
+        seconds = max(row.ended - row.started, 0.0)
+        took.setdefault((row.account, row.owner), []).append((seconds, row.charged))
+    for (queue, owner), some in sorted(took.items()):
+        spent = sum(seconds for seconds, _ in some)
+        more = spent - sum(charged for _, charged in some)
+        paid = {"queue": queue, "owner": owner, "more": more, "mean": spent / len(some)}
+        unit.execute(_SETTLE, paid)

@@ -26,6 +26,14 @@ def upgrade() -> None:
     )
     op.add_column("attempt", sa.Column("account", sa.String(32)))
     op.add_column("attempt", sa.Column("charged", sa.Float(53)))
+    unsettled = sa.text("account IS NOT NULL")
+    op.create_index(
+        "ix_attempt_unsettled",
+        "attempt",
+        ["account"],
+        sqlite_where=unsettled,
+        postgresql_where=unsettled,
+    )
     op.create_index("ix_outbox_queue_owner", "outbox", ["queue", "owner", "block", "due"])
     op.drop_index("ix_outbox_queue_turn", "outbox")
     functions.make(op.get_bind())

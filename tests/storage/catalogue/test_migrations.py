@@ -17,6 +17,7 @@ from tests.postgresql_server import Server
 LATER = (
     "DROP INDEX ix_outbox_queue_owner",
     "DROP TABLE share",
+    "DROP INDEX ix_attempt_unsettled",
     "ALTER TABLE attempt DROP COLUMN account",
     "ALTER TABLE attempt DROP COLUMN charged",
     "ALTER TABLE outbox DROP COLUMN owner",

@@ -139,6 +139,7 @@ def test_no_owner_with_work_waiting_gets_less_time_by_more_than_a_block_of_each_
             if len(running) == workers:
                 clock.now, block = heappop(running)
                 catalogue.finish(block, 1, BlockState.done)
+                catalogue.settle()
             held = claim(catalogue)
             assert held is not None
             takes = next(seconds[held.job.owner])
@@ -162,6 +163,7 @@ def test_whoever_has_long_blocks_has_fewer_turns(catalogue: Catalogue, clock: Cl
         owners.append(held.job.owner)
         clock.now += seconds[held.job.owner]
         catalogue.finish(held.block.id, 1, BlockState.done)
+        catalogue.settle()
     assert owners.count("ada") == 3
 
 
@@ -178,6 +180,7 @@ def test_what_was_given_back_counts_as_well(catalogue: Catalogue, clock: Clock) 
     assert again.job.id == held.job.id
     clock.now += 1.0
     catalogue.finish(again.block.id, 2, BlockState.done)
+    catalogue.settle()
     assert claimed(catalogue, 9) == ["bob"] * 9  # of a second, as it is thought
 
 
