@@ -23,12 +23,14 @@ from jointplay.solver.runs.dense_output.intervals import IntervalExtremes
 from jointplay.solver.runs.ideal.run import IdealRun
 from jointplay.solver.runs.lane_results import failure_of, out_of_time, peaks_of, statistics_of
 from jointplay.solver.runs.results import Slice, Summary
+from jointplay.solver.runs.sampled_extremes import SampledExtremes
 from jointplay.solver.runs.settled_peaks import SettledPeaks
 from jointplay.solver.version import SOLVER_VERSION
 
 _KIND = "simulation"
 _INTERVALS = "intervals"
 _SETTLED = "settled"
+_SAMPLED = "sampled"
 LANE = 0
 """The lane of the trajectory; its bits do not depend on what the seven others do."""
 
@@ -121,6 +123,7 @@ class DynamicRun:
         self.steps_kept = 0
         self.intervals: IntervalExtremes | None = None
         self.settled = SettledPeaks(self.admission, method) if self.admission.settle else None
+        self.sampled = SampledExtremes(len(channels), self.admission.settle or 0.0)
 
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
@@ -171,6 +174,7 @@ class DynamicRun:
             arrays |= self.intervals.state(_INTERVALS)
         if self.settled is not None:
             arrays |= self.settled.state(_SETTLED)
+        arrays |= self.sampled.state(_SAMPLED)
         arrays |= self.bundle.state("lanes")
         return encode(_KIND, SOLVER_VERSION, facts, arrays)
 
@@ -188,6 +192,7 @@ class DynamicRun:
             self.intervals.restore(saved, _INTERVALS)
         if self.settled is not None:
             self.settled.restore(saved, _SETTLED)
+        self.sampled.restore(saved, _SAMPLED)
         if self.survey:
             self.survey.restore(saved)
         self.samples_done, self.sections_done = facts["samples"], facts["sections"]
@@ -201,9 +206,9 @@ class DynamicRun:
             "method_reason": self.reason,
             "solver_seconds": self.seconds,
         }
-        if self.settled is not None:
-            return Summary(self.settled.peaks(), statistics)
-        return Summary(peaks_of(self.bundle, LANE, names), statistics)
+        settled = self.settled
+        peaks = peaks_of(self.bundle, LANE, names) if settled is None else settled.peaks()
+        return Summary(self.sampled.held_against(peaks), statistics)
 
     def certificate(self) -> Certificate | None:
         """See `Simulation.certificate`."""
@@ -226,6 +231,7 @@ class DynamicRun:
         duration = self.admission.job["duration"]
         if self.samples_done == self.admission.samples:
             sample_time[-1:] = reached = duration
+        self.sampled.add(sample_time, samples)
         slowest = min(reached, self.survey.time) if self.survey else reached
         return Slice(
             reached,

@@ -128,7 +128,7 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
         if law is not None and not law.is_off:
             lane["bend"][BENDS * j : BENDS * (j + 1)] = law.bends
         for quantity, slot in ROWS.items():
-            lane[slot][j] = lane.kernel.rows.index(f"{name}.{quantity}")
+            lane[slot][j] = lane.kernel.rows.watched_row(f"{name}.{quantity}")
 
 
 def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> None:

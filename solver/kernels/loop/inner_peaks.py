@@ -24,6 +24,7 @@ from jointplay.solver.kernels.loop.roughness import is_due, may_set_records
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.tops import open_windows
 from jointplay.solver.kernels.loop.windows import CLOSER
+from jointplay.solver.kernels.record.rows import NO_ROW
 
 EXACT = 0.0
 """Share of its range by which what is counted may be off: a quartic through such instants may pass
@@ -58,10 +59,11 @@ def look_at_passages(
             place_evenly(low, high, at, spare)
             channels_within(work, spare, lane)
             waiting = 0
-            for row in (work[at.slip_row + j, lane], work[at.penetration_row + j, lane]):
-                waiting = look_at_instants(
-                    int(row), waiting, low, high, lane, run, at, work, spare, table
-                )
+            for row in (int(work[at.slip_row + j, lane]), int(work[at.penetration_row + j, lane])):
+                if row != NO_ROW:
+                    waiting = look_at_instants(
+                        row, waiting, low, high, lane, run, at, work, spare, table
+                    )
             look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
 
 
@@ -75,13 +77,13 @@ def may_be_fastest(
     """
     distance, speed = distance_and_speed(j, share, lane, at, work)
     slip, depth = int(work[at.slip_row + j, lane]), int(work[at.penetration_row + j, lane])
-    spinning = work[at.channel + slip, lane] - orbiting_at_end(j, lane, at, work)
-    beyond = SLACK * speed
-    return bool(
-        spinning + speed + beyond > work[at.highest + slip, lane]
-        or spinning - speed - beyond < work[at.lowest + slip, lane]
-        or distance - work[at.inner + j, lane] < work[at.lowest + depth, lane]
-    )
+    found = depth != NO_ROW and distance - work[at.inner + j, lane] < work[at.lowest + depth, lane]
+    if slip != NO_ROW:
+        spinning = work[at.channel + slip, lane] - orbiting_at_end(j, lane, at, work)
+        beyond = SLACK * speed
+        found |= spinning + speed + beyond > work[at.highest + slip, lane]
+        found |= spinning - speed - beyond < work[at.lowest + slip, lane]
+    return bool(found)
 
 
 @inner_kernel()

@@ -12,6 +12,8 @@ from jointplay.solver.kernels.record.reachable import reachable
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.scene.document import Scene
 
+NO_ROW = -1
+"""Row of a channel that is not watched."""
 IN_TIME = ("stage_time", "phase")
 """First words of variables that follow from time alone."""
 
@@ -42,6 +44,14 @@ class Rows:
     def index(self, name: str) -> int:
         """Return the first row of a channel."""
         return self.names.index(name)
+
+    def watched_row(self, name: str) -> int:
+        """Return the row that has a channel's records, its own or that which it equals.
+
+        `NO_ROW` if it has none: a constant, or a function of time alone.
+        """
+        source = self.multiples[name][0] if name in self.multiples else name
+        return self.watched.index(source) if source in self.watched else NO_ROW
 
 
 def arrange(scene: Scene, equations: Equations) -> Rows:

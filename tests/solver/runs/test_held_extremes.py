@@ -1,0 +1,96 @@
+"""Extremes of a run: each is reached at its own time, and none falls short of a sample."""
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from jointplay.records.arrays import Floats
+from jointplay.records.peak import Peak
+from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.runs.dense_output.columns import method_of
+from jointplay.solver.runs.dense_output.replay import Replay
+from jointplay.solver.runs.sampled_extremes import SampledExtremes
+from jointplay.solver.runs.simulate import Simulation
+
+PROMISED = 1e-6
+"""Share of a channel's range by which its extremes may be off."""
+NOISE = 1e-9
+"""Of channels that are nothing but rounding, in SI units."""
+LONG = pytest.mark.long
+
+
+def computed(name: str, duration: float, **more: Any) -> tuple[Admission, Simulation, Floats]:
+    fields = {"kind": "simulate", "scene": {"preset": name}, "certificate": False}
+    admission = admit(fields | {"duration": duration} | more)
+    assert isinstance(admission, Admission)
+    simulation = Simulation(admission)
+    return admission, simulation, np.concatenate([one.steps for one in simulation.slices()])
+
+
+@pytest.mark.parametrize(
+    ("name", "duration"),
+    [
+        ("impact-oscillator", 0.7),  # its slip is nothing: it has no row among those with records
+        ("bouncing-journal", 0.1),
+        pytest.param("seven-bar-press", 0.1, marks=LONG),
+        pytest.param("slider-crank", 0.05, marks=LONG),
+        pytest.param("double-pendulum", 1.0, marks=LONG),
+        pytest.param("andrews-squeezer", 0.03, marks=LONG),
+        pytest.param("jansen-leg", 0.5, marks=LONG),
+        pytest.param("quick-return", 0.5, marks=LONG),
+        pytest.param("driven-pendulum", 3.0, marks=LONG),
+        pytest.param("seven-bar-press-punching", 0.1, marks=LONG),
+    ],
+)
+def test_each_extreme_is_reached_at_its_own_time(name: str, duration: float) -> None:
+    admission, simulation, rows = computed(name, duration)
+    peaks = simulation.summary().peaks
+    replay = Replay(admission, method_of(rows[0, -1]))
+    steps = np.ascontiguousarray(rows[:, :-1])
+    for kind in ("minimum", "maximum"):
+        times = np.array([getattr(peak, f"{kind}_time") for peak in peaks.values()])
+        order = np.argsort(times, kind="stable")
+        moments = np.column_stack([times[order], np.ones_like(times)])
+        found = replay.channels(list(peaks), steps, moments)[np.argsort(order), range(len(order))]
+        said = np.array([getattr(peak, kind) for peak in peaks.values()])
+        ranges = np.array([peak.maximum - peak.minimum for peak in peaks.values()])
+        # a time is stored to 1e-16 of the run: a kink rises by its slope times that
+        wrong = np.abs(found - said) > PROMISED * ranges + NOISE
+        assert not wrong.any(), [name for name, bad in zip(peaks, wrong, strict=True) if bad]
+
+
+def test_no_sample_is_beyond_an_extreme_where_reactions_have_a_pole() -> None:
+    """At 0.714 s all bars are in line: the reactions of the middle crank have no limit there."""
+    _, simulation, _ = computed("double-four-bar", 0.75)
+    samples = np.concatenate([one.samples for one in Simulation(simulation.admission).slices()])
+    names = [channel.name for channel in simulation.admission.channels]
+    peaks = simulation.summary().peaks
+    assert samples[:, names.index("A0.force_x")].min() < -400.0
+    for name, values in zip(names, samples.T, strict=True):
+        allowed = PROMISED * np.ptp(values)
+        assert peaks[name].minimum - allowed <= values.min(), name
+        assert peaks[name].maximum + allowed >= values.max(), name
+
+
+def test_samples_count_where_they_are_beyond_and_since_when_they_shall() -> None:
+    time = np.linspace(0.0, 1.0, 11)
+    samples = np.column_stack([time, -time, np.where(time == 0.1, 9.0, 0.0)])
+    peaks = {"a": Peak(0.0, 0.0, 1.0, 1.0), "b": Peak(-0.5, 0.5, 0.0, 0.0)}
+    peaks["c"] = Peak(0.0, 0.0, 0.0, 0.0)
+    for cuts in ([0, 11], [0, 1, 2, 7, 11]):
+        held = SampledExtremes(3, 0.0)
+        for first, last in pairwise(cuts):
+            held.add(time[first:last], samples[first:last])
+        found = held.held_against(peaks)
+        assert found["a"] == peaks["a"]
+        assert found["b"] == Peak(-1.0, 1.0, 0.0, 0.0)
+        assert found["c"] == Peak(0.0, 0.0, 9.0, 0.1)
+        again = SampledExtremes(3, 0.0)
+        again.restore(held.state("x"), "x")
+        assert again.held_against(peaks) == found
+    settled = SampledExtremes(3, 0.15)
+    settled.add(time, samples)
+    assert settled.held_against(peaks)["c"] == peaks["c"]
+    assert SampledExtremes(3, 2.0).held_against(peaks) == peaks
