@@ -33,7 +33,7 @@ def installation(
 
 @pytest.fixture(scope="module")
 def table(installation: Installation, request: pytest.FixtureRequest) -> Iterator[Table]:
-    """Of one place."""
+    """Counts of one place."""
     table = Table()
     yield table
     print("\n" + "\n".join(table.lines()))  # noqa: T201 - shown by -s

@@ -17,7 +17,7 @@ from jointplay.solver.runs.simulate import Simulation
 PROMISED = 1e-6
 """Share of a channel's range by which its extremes may be off."""
 NOISE = 1e-9
-"""Of channels that are nothing but rounding, in SI units."""
+"""Error allowed of channels that are nothing but rounding, in SI units."""
 LONG = pytest.mark.long
 
 
