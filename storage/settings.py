@@ -1,12 +1,13 @@
-"""Settings all processes of the service share, read from ``JOINTPLAY_*`` in the environment."""
+"""Settings all processes of the service share, ``JOINTPLAY_*`` in the environment or in files."""
 
+import os
 import re
 import shutil
 from pathlib import Path
 from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
 
 from jointplay.records.log_lines import LogFormat
 from jointplay.storage.packed.running import Running
@@ -14,6 +15,7 @@ from jointplay.storage.places import Place, StoredObject, place_at
 from jointplay.storage.running_files import RunningFiles
 from jointplay.storage.running_files.folder import InFolder
 from jointplay.storage.running_files.objects import InPlace
+from jointplay.storage.settings_files import named_files, with_password
 
 RUNNING: Final = "running"
 """Folder of jobs that run, or beginning of their keys."""
@@ -43,6 +45,9 @@ class Settings(BaseSettings):
         description="SQLAlchemy URL of the catalogue, sqlite:///FILE or postgresql://USER@HOST/NAME;"
         " empty: SQLite inside the data folder.",
     )
+    catalogue_password: str = Field(
+        "", description="Password of PostgreSQL, kept out of its address."
+    )
     results_url: str = Field(
         "",
         description="Place for finished results, such as file:/srv/results; empty: the folder"
@@ -64,6 +69,13 @@ class Settings(BaseSettings):
     redis_url: str | None = Field(
         None,
         description="redis://host:port/0 or unix:///path; none: `jointplay serve` starts one.",
+    )
+    redis_password: str = Field("", description="Password of Redis, kept out of its address.")
+    aws_access_key_id: str = Field(
+        "", validation_alias="AWS_ACCESS_KEY_ID", description="Key of a bucket."
+    )
+    aws_secret_access_key: str = Field(
+        "", validation_alias="AWS_SECRET_ACCESS_KEY", description="Its secret."
     )
     keys: Literal["", "none", "required"] = Field(
         "",
@@ -147,13 +159,30 @@ class Settings(BaseSettings):
         description="A worker process that advances nothing for this long kills itself.",
     )
 
+    @classmethod
+    def settings_customise_sources(
+        cls,
+        settings_cls: type[BaseSettings],
+        init_settings: PydanticBaseSettingsSource,
+        env_settings: PydanticBaseSettingsSource,
+        dotenv_settings: PydanticBaseSettingsSource,
+        file_secret_settings: PydanticBaseSettingsSource,
+    ) -> tuple[PydanticBaseSettingsSource, ...]:
+        """Take what is given, then the environment, then the files that it names."""
+        return init_settings, env_settings, *named_files(settings_cls)
+
     @model_validator(mode="before")
     @classmethod
     def _catalogue_beside_the_data(cls, values: dict[str, object]) -> dict[str, object]:
         data = Path(str(values.get("data") or cls.model_fields["data"].default)).absolute()
         url = values.get("catalogue_url") or f"sqlite:///{data / 'catalogue.sqlite'}"
         results = values.get("results_url") or f"file:{data / 'results'}"
-        return values | {"data": data, "catalogue_url": url, "results_url": results}
+        if password := values.get("catalogue_password"):
+            url = with_password(str(url), str(password))
+        made = {"data": data, "catalogue_url": url, "results_url": results}
+        if (redis := values.get("redis_url")) and (password := values.get("redis_password")):
+            made["redis_url"] = with_password(str(redis), str(password))
+        return values | made
 
     @field_validator("catalogue_url")
     @classmethod
@@ -192,6 +221,13 @@ class Settings(BaseSettings):
                 f"JOINTPLAY_LEASE is {self.lease:g} s; it must be at least twice"
                 f" JOINTPLAY_HEARTBEAT ({self.heartbeat:g} s)"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _bucket_opens(self) -> Self:
+        for name in ("aws_access_key_id", "aws_secret_access_key"):
+            if value := getattr(self, name):  # the client of buckets looks there
+                os.environ.setdefault(name.upper(), value)
         return self
 
     @property

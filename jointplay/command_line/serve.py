@@ -10,13 +10,12 @@ def serve(
     host: Annotated[str, typer.Option(help="Address to listen at.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="0 takes a free port.")] = 8000,
     data: Annotated[
-        Path,
+        Path | None,
         typer.Option(
             metavar="FOLDER",
-            envvar="JOINTPLAY_DATA",
-            help="Where catalogue and results are kept.",
+            help="Where catalogue and results are kept; by default JOINTPLAY_DATA, or .jointplay.",
         ),
-    ] = Path(".jointplay"),
+    ] = None,
     workers: Annotated[
         int,
         typer.Option(
@@ -37,5 +36,6 @@ def serve(
     Example: `jointplay serve --port 8000 --data results --workers 4`
     """
     from jointplay.service.processes import serve as keep_serving
+    from jointplay.service.processes.supervisor import settings_of
 
-    keep_serving(host, port, data, workers, as_json=as_json)
+    keep_serving(host, port, settings_of(data).data, workers, as_json=as_json)

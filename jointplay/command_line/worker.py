@@ -1,5 +1,6 @@
-"""``jointplay worker``: compute blocks for a service elsewhere, over HTTPS alone."""
+"""``jointplay worker``: compute blocks for a service, from its settings or over HTTPS alone."""
 
+import sys
 from datetime import datetime
 from pathlib import Path
 from typing import Annotated
@@ -15,8 +16,22 @@ _MARGIN = 30.0  # s for a restart point to be stored and sent
 
 def worker(
     join: Annotated[
-        str, typer.Option(metavar="URL", envvar="JOINTPLAY_URL", help="Address of the service.")
-    ],
+        str | None,
+        typer.Option(
+            metavar="URL",
+            envvar="JOINTPLAY_URL",
+            help="Address of a service, for a worker that has nothing else; without it the worker"
+            " needs catalogue, Redis and results.",
+        ),
+    ] = None,
+    settings: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            envvar="JOINTPLAY_SETTINGS",
+            help="Lines such as JOINTPLAY_REDIS_URL=redis://HOST, beside the variables.",
+        ),
+    ] = None,
     key_file: Annotated[
         Path | None,
         typer.Option(
@@ -41,7 +56,11 @@ def worker(
     ] = 1,
     as_json: AS_JSON = False,
 ) -> None:
-    """Compute blocks for a service elsewhere; needs its address and a key, and no other access.
+    """Compute blocks for a service: one of whose machines this is, or one elsewhere.
+
+    With --join it needs the address of that service and a key, and no other access. Without it the
+    worker is one that `jointplay serve` would start, with JOINTPLAY_CATALOGUE_URL,
+    JOINTPLAY_RESULTS_URL and JOINTPLAY_REDIS_URL of the environment, or of a file.
 
     Uses one core for each process. SIGTERM and Ctrl-C give back what is being computed, with a
     restart point, and end it.
@@ -51,12 +70,22 @@ def worker(
     import os
 
     from jointplay.records.log_lines import begin
-    from jointplay.storage.settings import Settings
+    from jointplay.service.processes.supervisor import settings_of
     from jointplay.worker.holding import Refused
     from jointplay.worker.joined.connection import key_in
     from jointplay.worker.joined.processes import work_in
 
-    begin(Settings().log_format)
+    if settings is not None:
+        os.environ["JOINTPLAY_SETTINGS"] = str(settings.absolute())
+    found = settings_of()
+    if join is None:
+        if key_file is not None or idle is not None or until is not None:
+            raise Stopped("--key-file, --idle and --until are for a worker with --join.")
+        if found.redis_url is None:
+            raise Stopped("--join URL is missing, or JOINTPLAY_REDIS_URL, such as redis://HOST.")
+        module = ["-m", "jointplay.worker", "--processes", str(processes)]
+        os.execv(sys.executable, [sys.executable, "-P", *module])  # noqa: S606 - no shell is wanted
+    begin(found.log_format)
     end = None if until is None else _moment(until) - _MARGIN
     try:
         key = os.environ.get("JOINTPLAY_KEY") if key_file is None else key_in(key_file)

@@ -15,6 +15,7 @@ from pathlib import Path
 from types import FrameType
 
 from pydantic import ValidationError
+from pydantic_settings import SettingsError
 
 from jointplay.records.log_lines import begin
 from jointplay.service.processes.broker import Broker, answers
@@ -79,7 +80,7 @@ class Supervisor:
                 self._children.append(broker.child)
                 redis_url = broker.url
             elif not answers(redis_url):
-                raise StartFailed(f"no Redis answers at JOINTPLAY_REDIS_URL ({redis_url})")
+                raise StartFailed("no Redis answers at JOINTPLAY_REDIS_URL")
             stack.callback(self._stop_processes)
             self._start_processes(listener, redis_url)
             url = self._url(listener)
@@ -191,21 +192,23 @@ class Supervisor:
         return self._settings.data / "logs" / f"{name}.log"
 
 
-def settings_of(data: Path) -> Settings:
-    """Return the settings of a service with this data folder; WrongSetting if some are wrong."""
+def settings_of(data: Path | None = None) -> Settings:
+    """Return the settings of a service, in this folder if one is given; or WrongSetting."""
     try:
-        return Settings(data=data)
+        return Settings() if data is None else Settings(data=data)
+    except SettingsError as error:
+        raise WrongSetting(str(error)) from None
     except ValidationError as error:
         complaints = [
-            ": ".join(
-                [
-                    *(f"JOINTPLAY_{str(name).upper()}" for name in one["loc"]),
-                    one["msg"].removeprefix("Value error, "),
-                ]
-            )
+            ": ".join([*map(_variable, one["loc"]), one["msg"].removeprefix("Value error, ")])
             for one in error.errors()
         ]
         raise WrongSetting("; ".join(complaints)) from None
+
+
+def _variable(name: object) -> str:
+    """Return the variable of a field; what is no field is named as it was in a file."""
+    return f"JOINTPLAY_{name}".upper() if name in Settings.model_fields else str(name).upper()
 
 
 def _healthy(listener: socket.socket) -> bool:

@@ -12,7 +12,8 @@ ROWS = dict(re.findall(r"^\| `(JOINTPLAY_\w+)` \| ([^|]+) \|", PAGE, re.MULTILIN
 
 
 def test_the_page_lists_the_settings_and_no_others() -> None:
-    assert set(ROWS) == {f"JOINTPLAY_{name.upper()}" for name in Settings.model_fields}
+    ours = {name for name, field in Settings.model_fields.items() if not field.validation_alias}
+    assert set(ROWS) == {f"JOINTPLAY_{name.upper()}" for name in ours}
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,15 @@
+import os
 from pathlib import Path
 
 import pytest
+from kombu import Connection
 from pydantic import ValidationError
+from pydantic_settings import SettingsError
+from redis.connection import parse_url
+from sqlalchemy import make_url
 
 from jointplay.storage.settings import Settings
+from jointplay.worker.app import broker_url
 
 
 def test_everything_is_beside_the_data(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -51,3 +57,87 @@ def test_impossible_settings_are_refused(
     monkeypatch.setenv(name, value)
     with pytest.raises(ValidationError, match=complaint):
         Settings()
+
+
+@pytest.fixture
+def file(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    monkeypatch.setenv("JOINTPLAY_SETTINGS", str(tmp_path / "settings"))
+    return tmp_path / "settings"
+
+
+@pytest.fixture
+def folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    (tmp_path / "secrets").mkdir()
+    monkeypatch.setenv("JOINTPLAY_SECRETS", str(tmp_path / "secrets"))
+    return tmp_path / "secrets"
+
+
+def test_the_environment_goes_before_files(
+    monkeypatch: pytest.MonkeyPatch, file: Path, folder: Path
+) -> None:
+    monkeypatch.setenv("JOINTPLAY_LEASE", "40")
+    file.write_text(f"# a lab\nJOINTPLAY_LEASE=50\nJOINTPLAY_HEARTBEAT=7\nJOINTPLAY_DATA={folder}")
+    (folder / "jointplay_stall").write_text("9\n")
+    (folder / "jointplay_heartbeat").write_text("8\n")
+    settings = Settings()
+    assert (settings.lease, settings.heartbeat, settings.stall) == (40.0, 7.0, 9.0)
+    assert settings.catalogue_url == f"sqlite:///{folder}/catalogue.sqlite"
+
+
+@pytest.mark.parametrize(
+    ("line", "complaint"),
+    [
+        ("JOINTPLAY_LEESE=30", "jointplay_leese\n  Extra inputs"),
+        ("PASSWORD=30", "password\n  Extra inputs"),
+        ("JOINTPLAY_LEASE=6", "at least twice JOINTPLAY_HEARTBEAT"),
+        ("JOINTPLAY_LEASE=nan", "finite number"),
+    ],
+)
+def test_files_are_read_as_strictly_as_the_environment(
+    file: Path, folder: Path, line: str, complaint: str
+) -> None:
+    file.write_text(line)
+    with pytest.raises(ValidationError, match=complaint):
+        Settings()
+    file.write_text("")
+    name, _, value = line.partition("=")
+    (folder / name).write_text(value)
+    if name == "PASSWORD":  # of another program
+        Settings()
+    else:
+        with pytest.raises(ValidationError, match="(?i)" + complaint):
+            Settings()
+
+
+@pytest.mark.parametrize("name", ["JOINTPLAY_SETTINGS", "JOINTPLAY_SECRETS"])
+def test_files_that_are_not_there_are_missed(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    monkeypatch.setenv(name, "/no/such/place")
+    with pytest.raises(SettingsError, match=f"{name} is /no/such/place"):
+        Settings()
+
+
+def test_any_password_fits_into_an_address(
+    monkeypatch: pytest.MonkeyPatch, file: Path, folder: Path
+) -> None:
+    file.write_text(
+        "JOINTPLAY_CATALOGUE_URL=postgresql://lab@host/jointplay?sslmode=verify-full\n"
+        "JOINTPLAY_REDIS_URL=rediss://host:6380/1\n"
+    )
+    odd = "p@ss/w:rd ?#%&"
+    monkeypatch.setenv("AWS_ACCESS_KEY_ID", "of the environment")
+    monkeypatch.setitem(os.environ, "AWS_SECRET_ACCESS_KEY", "")  # is taken away again
+    del os.environ["AWS_SECRET_ACCESS_KEY"]
+    for name in ("JOINTPLAY_CATALOGUE_PASSWORD", "JOINTPLAY_REDIS_PASSWORD"):
+        (folder / name).write_text(f"{odd}\n")
+    for name in ("AWS_ACCESS_KEY_ID", "AWS_SECRET_ACCESS_KEY"):
+        (folder / name).write_text("of a file")
+    settings = Settings()
+    catalogue = make_url(settings.catalogue_url)
+    assert (catalogue.username, catalogue.password, catalogue.host) == ("lab", odd, "host")
+    assert catalogue.query == {"sslmode": "verify-full"}
+    redis = parse_url(settings.redis_url or "")
+    assert (redis["password"], redis["host"], redis["port"], redis["db"]) == (odd, "host", 6380, 1)
+    assert Connection(broker_url(settings.redis_url)).password == odd
+    # where the client of buckets looks
+    assert os.environ["AWS_ACCESS_KEY_ID"] == "of the environment"
+    assert os.environ["AWS_SECRET_ACCESS_KEY"] == "of a file"

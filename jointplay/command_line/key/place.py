@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
@@ -13,19 +13,18 @@ if TYPE_CHECKING:
     from jointplay.storage.catalogue.keys import Key
 
 DATA = Annotated[
-    Path,
+    Path | None,
     typer.Option(
         "--data",
         metavar="FOLDER",
-        envvar="JOINTPLAY_DATA",
-        help="Of the service; JOINTPLAY_CATALOGUE_URL counts, too.",
+        help="Of the service; by default JOINTPLAY_DATA. JOINTPLAY_CATALOGUE_URL counts, too.",
     ),
 ]
-HERE = Path(".jointplay")
+HERE: Final = None
 
 
 @contextmanager
-def catalogue_at(data: Path) -> Iterator["Catalogue"]:
+def catalogue_at(data: Path | None) -> Iterator["Catalogue"]:
     """Open the catalogue of a service, which need not run."""
     from jointplay.service.processes.supervisor import settings_of
     from jointplay.storage.catalogue.catalogue import Catalogue

@@ -1,0 +1,66 @@
+"""``jointplay worker`` without --join: the worker that `jointplay serve` starts, by itself."""
+
+import subprocess
+import sys
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from jointplay.command_line.application import run
+from jointplay.service.processes.broker import Broker
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.settings import Settings
+from tests.waiting import until
+
+COMMAND = [sys.executable, "-P", "-m", "jointplay", "worker", "--settings"]
+
+
+def test_a_worker_takes_its_addresses_from_a_file(tmp_path: Path) -> None:
+    broker = Broker(tmp_path / "broker", tmp_path / "broker.log")
+    settings = tmp_path / "settings"
+    settings.write_text(f"JOINTPLAY_DATA={tmp_path}\nJOINTPLAY_REDIS_URL={broker.url}\n")
+    broker.start()
+    try:
+        with closing(Catalogue(Settings(data=tmp_path).catalogue_url)) as books:
+            books.migrate()
+            with subprocess.Popen([*COMMAND, settings.name], cwd=tmp_path) as worker:
+                try:
+                    until(lambda: bool(books.workers()) or worker.poll() is not None)
+                finally:
+                    worker.terminate()
+            assert worker.returncode == 0
+    finally:
+        broker.stop()
+
+
+@pytest.mark.parametrize(
+    ("line", "arguments", "complaint"),
+    [
+        ("", [], "--join URL is missing, or JOINTPLAY_REDIS_URL"),
+        ("JOINTPLAY_LEESE=30", [], "JOINTPLAY_LEESE: Extra inputs are not permitted"),
+        ("JOINTPLAY_LEASE=6", [], "must be at least twice JOINTPLAY_HEARTBEAT"),
+        ("JOINTPLAY_REDIS_URL=redis://h", ["--idle", "9"], "are for a worker with --join"),
+    ],
+)
+def test_what_is_missing_or_wrong_is_said_in_a_line(
+    line: str,
+    arguments: list[str],
+    complaint: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv("JOINTPLAY_SETTINGS", "")  # is taken away again
+    file = tmp_path / "settings"
+    file.write_text(f"{line}\n")
+    assert run(["worker", "--settings", str(file), *arguments]) == 2
+    assert complaint in capsys.readouterr().err
+
+
+def test_a_file_that_is_not_there_is_named(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("JOINTPLAY_SETTINGS", "/no/such/file")
+    assert run(["worker"]) == 2
+    assert "JOINTPLAY_SETTINGS is /no/such/file, which is no file" in capsys.readouterr().err
