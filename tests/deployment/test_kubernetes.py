@@ -1,5 +1,7 @@
 """Checks of the Kubernetes manifest where there is no cluster."""
 
+import os
+import re
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
@@ -8,10 +10,11 @@ from typing import Any
 import psycopg
 import pytest
 import yaml
+from sqlalchemy import make_url
 
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import NewJob
+from jointplay.storage.catalogue.records import NewJob, Solver
 from jointplay.storage.places import place_at
 from jointplay.storage.settings import Settings
 from jointplay.worker.own_solver import own_solver
@@ -25,17 +28,29 @@ PODS = {
 }
 COMPOSE = yaml.safe_load((ROOT / "compose.cluster.yml").read_text())["services"]
 CONFIGURED: dict[str, str] = BY_NAME["ConfigMap", "jointplay"]["data"]
-SECRETS = {"JOINTPLAY_CATALOGUE_URL": "postgresql://h/d", "JOINTPLAY_REDIS_URL": "rediss://h"}
+SECRETS = set(re.findall(r"--from-file=(\w+)=", (ROOT / "kubernetes.yml").read_text()))
 
 
-def test_our_processes_take_their_environment(monkeypatch: pytest.MonkeyPatch) -> None:
-    given = CONFIGURED | SECRETS
-    for name, value in given.items():
+def test_our_processes_take_their_environment_and_its_files(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "..data").mkdir()  # as Kubernetes lays secrets out
+    for name in SECRETS:
+        monkeypatch.setenv(name, "")  # is taken away again
+        del os.environ[name]
+        (tmp_path / "..data" / name).write_text("p@ss/w:rd")
+        (tmp_path / name).symlink_to(Path("..data") / name)
+    for name, value in CONFIGURED.items():
         monkeypatch.setenv(name, value)
+    monkeypatch.setenv("JOINTPLAY_SECRETS", str(tmp_path))
     settings = Settings()
+    catalogue = make_url(settings.catalogue_url)
+    assert (catalogue.password, catalogue.query["sslmode"]) == ("p@ss/w:rd", "verify-full")
+    assert os.environ["AWS_SECRET_ACCESS_KEY"] == "p@ss/w:rd"
     assert settings.place is place_at(CONFIGURED["JOINTPLAY_RESULTS_URL"])
     assert (settings.keys, settings.log_format) == ("required", "json")
-    assert set(given) <= {f"JOINTPLAY_{name.upper()}" for name in Settings.model_fields}
+    known = {f"JOINTPLAY_{name.upper()}" for name in Settings.model_fields}
+    assert set(CONFIGURED) - {"JOINTPLAY_SECRETS"} <= known
 
 
 @pytest.mark.parametrize("name", ["api", "relay", "worker"])
@@ -55,12 +70,14 @@ def test_pods_run_what_compose_runs_without_privileges(name: str) -> None:
         "allowPrivilegeEscalation": False,
         "capabilities": {"drop": ["ALL"]},
     }
-    assert [list(source.values()) for source in container["envFrom"]] == [
-        [{"name": "jointplay"}]
-    ] * 2
-    assert container["volumeMounts"] == [
-        {"name": "data", "mountPath": CONFIGURED["JOINTPLAY_DATA"]}
+    assert container["envFrom"] == [{"configMapRef": {"name": "jointplay"}}]
+    assert [(mount["name"], mount["mountPath"]) for mount in container["volumeMounts"]] == [
+        ("data", CONFIGURED["JOINTPLAY_DATA"]),
+        ("secrets", CONFIGURED["JOINTPLAY_SECRETS"]),
     ]
+    data, secrets = pod["volumes"]
+    assert (data["name"], secrets["name"]) == ("data", "secrets")
+    assert secrets["secret"] == {"secretName": "jointplay", "defaultMode": 0o440}
 
 
 def test_probes_and_service_meet_the_api(tmp_path: Path) -> None:
@@ -80,14 +97,25 @@ def test_probes_and_service_meet_the_api(tmp_path: Path) -> None:
     assert [BY_NAME["Deployment", name]["spec"].get("replicas") for name in PODS] == [2, 2, None]
 
 
-def test_keda_counts_blocks_of_its_version_that_wait_or_are_computed() -> None:
+def test_keda_counts_blocks_of_its_version_and_class_that_wait_or_are_computed() -> None:
     scaled = BY_NAME["ScaledObject", "worker"]["spec"]
     (trigger,) = scaled["triggers"]
     assert scaled["scaleTargetRef"]["name"] in PODS
-    assert trigger["metadata"]["connectionFromEnv"] in SECRETS
+    asked, catalogue_url = trigger["metadata"], make_url(CONFIGURED["JOINTPLAY_CATALOGUE_URL"])
+    assert [asked[name] for name in ("host", "userName", "dbName", "sslmode")] == [
+        catalogue_url.host,
+        catalogue_url.username,
+        catalogue_url.database,
+        catalogue_url.query["sslmode"],
+    ]
+    (reference,) = BY_NAME["TriggerAuthentication", trigger["authenticationRef"]["name"]]["spec"][
+        "secretTargetRef"
+    ]
+    assert reference["key"] in SECRETS
     solver = own_solver()
-    query = trigger["metadata"]["query"].replace("SOLVER_VERSION", solver.version)
-    assert query != trigger["metadata"]["query"]
+    query = asked["query"].replace("SOLVER_VERSION", solver.version)
+    query = query.replace("PROCESSOR", solver.processor)
+    assert "SOLVER" not in query
     with running_server() as server:
         url = server.new()
         with (
@@ -111,4 +139,9 @@ def test_keda_counts_blocks_of_its_version_that_wait_or_are_computed() -> None:
             assert catalogue.claim_block(f"{job}-0", "worker", 30.0, solver) is not None
             assert counted() == 3
             catalogue.request_cancel(job)
+            assert counted() == 1
+            job = catalogue.submit(replace(new, digest="e" * 64)).job.id
+            assert counted() == 4
+            foreign = Solver(solver.version, "another-class")
+            assert catalogue.claim_block(f"{job}-0", "elsewhere", 30.0, foreign) is not None
             assert counted() == 1
