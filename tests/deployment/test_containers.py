@@ -126,3 +126,13 @@ def test_the_builds_steps_run(tmp_path: Path) -> None:
         home = tmp_path if step.startswith("pip") else tmp_path / "venv"
         subprocess.run(shlex.join(["sh", "-ec", step]), shell=True, check=True, cwd=home,
                        env=environment)  # fmt: skip
+
+
+@pytest.mark.parametrize("change", ["", "commands: {}\n"])
+def test_compose_files_are_of_the_schema_of_compose(change: str, tmp_path: Path) -> None:
+    pytest.importorskip("check_jsonschema")
+    check = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", "vendor.compose-spec"]
+    for name in ("docker-compose.yml", "compose.cluster.yml"):
+        (tmp_path / name).write_text((ROOT / name).read_text() + change)
+        ran = subprocess.run([*check, tmp_path / name], capture_output=True, text=True)
+        assert ran.returncode == bool(change), ran.stdout + ran.stderr

@@ -145,3 +145,14 @@ def test_keda_counts_blocks_of_its_version_and_class_that_wait_or_are_computed()
             foreign = Solver(solver.version, "another-class")
             assert catalogue.claim_block(f"{job}-0", "elsewhere", 30.0, foreign) is not None
             assert counted() == 1
+
+
+def test_core_documents_are_of_the_schemas_of_kubernetes() -> None:
+    schemas = pytest.importorskip("kubernetes_validate")
+    core = [one for one in DOCUMENTS if "keda.sh" not in one["apiVersion"]]
+    assert len(core) == len(DOCUMENTS) - 2
+    for document in core:
+        schemas.validate(document, "1.33", strict=True)
+    document["spec"]["replica"] = 1
+    with pytest.raises(schemas.ValidationError):
+        schemas.validate(document, "1.33", strict=True)

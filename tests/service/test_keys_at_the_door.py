@@ -1,6 +1,11 @@
 """A service that asks for keys: who may do what, and that others' jobs are not there."""
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
 
 import httpx
 import numpy as np
@@ -12,6 +17,7 @@ from jointplay.service import events
 from jointplay.service.access import door
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.keys import Key
+from tests.postgresql_server import running_server
 from tests.service.guarded import SWING, Guarded
 
 OPEN = ("/healthz", "/readyz", "/v1/scenes", "/v1/laws", "/v1/schemas", "/problems")
@@ -165,3 +171,19 @@ def test_clients_send_it(guarded: Guarded) -> None:
         assert answer.headers["Cache-Control"].startswith("private")
     with Client(guarded.url) as client, pytest.raises(ClientError, match="key"):
         client.job(guarded.job)
+
+
+@pytest.mark.parametrize("in_postgresql", [False, True])
+def test_a_service_that_nobody_has_a_key_to_says_how_one_is_made(
+    tmp_path: Path, *, in_postgresql: bool
+) -> None:
+    started = [sys.executable, "-P", "-m", "jointplay.service.processes.api", "--host", "0.0.0.0"]
+    environment = os.environ | {"JOINTPLAY_DATA": str(tmp_path), "JOINTPLAY_LOG_FORMAT": "json"}
+    with ExitStack() as stack:
+        if in_postgresql:
+            environment["JOINTPLAY_CATALOGUE_URL"] = stack.enter_context(running_server()).new()
+        ended = subprocess.run(started, capture_output=True, text=True, env=environment)
+    assert ended.returncode == 1
+    (line,) = ended.stderr.splitlines()
+    assert line.startswith("nobody has a key, and others can reach 0.0.0.0: make one with")
+    assert ("--data" in line) != in_postgresql
