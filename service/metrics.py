@@ -1,18 +1,30 @@
 """``/metrics``: what Prometheus asks for, of the catalogue and of this process."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from threading import Lock
 from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Depends, Request, Response
 from prometheus_client import CollectorRegistry, PlatformCollector, ProcessCollector
 from prometheus_client.exposition import CONTENT_TYPE_LATEST, generate_latest
-from prometheus_client.metrics_core import GaugeMetricFamily, Metric
+from prometheus_client.metrics_core import (
+    CounterMetricFamily,
+    GaugeMetricFamily,
+    Metric,
+    SummaryMetricFamily,
+)
 from prometheus_client.registry import Collector
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.census import Census
+from jointplay.storage.catalogue.counters import (
+    COMPILING,
+    OUTCOMES,
+    PUBLISHED,
+    PUBLISHING,
+    of_outcome,
+)
 from jointplay.storage.catalogue.records import JobState
 
 router = APIRouter(include_in_schema=False)
@@ -40,10 +52,11 @@ class Counted(Collector):
         yield _family("longest_wait_seconds", said, "queue", longest)
         yield _single("blocks_running", "Blocks that a worker has.", found.running)
         yield _single("blocks_overdue", "Blocks whose lease ran out.", found.overdue)
-        said = "Workers that blocks which have not ended lost in a row."
-        yield _single("losses", said, found.losses)
+        said = "Jobs whose solver no worker has."
+        yield _single("jobs_unserved", said, found.unserved)
         said = "Wake-ups that were sent and not answered yet."
         yield _single("wake_ups_on_the_way", said, found.on_the_way)
+        yield from _totals(found.totals)
         ahead = self._catalogue.clock() - time.time()
         said = "Clock of the catalogue less that of this machine."
         yield _single("clock_ahead_seconds", said, ahead)
@@ -77,6 +90,26 @@ def _family(name: str, said: str, label: str, values: Any) -> Metric:
     for key, value in values.items():
         family.add_metric([key.value if isinstance(key, JobState) else key], value)
     return family
+
+
+def _totals(totals: Mapping[str, float]) -> Iterator[Metric]:
+    attempts = CounterMetricFamily(
+        "jointplay_attempts", "Attempts at blocks that ended, by outcome.", labels=["outcome"]
+    )
+    for outcome in OUTCOMES:
+        attempts.add_metric([outcome], totals.get(of_outcome(outcome), 0.0))
+    yield attempts
+    yield SummaryMetricFamily(
+        "jointplay_publish_seconds",
+        "Time in which workers sealed the results of jobs and stored them.",
+        count_value=int(totals.get(PUBLISHED, 0.0)),
+        sum_value=totals.get(PUBLISHING, 0.0),
+    )
+    yield CounterMetricFamily(
+        "jointplay_compile_seconds",
+        "Time in which workers compiled kernels, or waited for them.",
+        value=totals.get(COMPILING, 0.0),
+    )
 
 
 async def _registry(request: Request) -> CollectorRegistry:

@@ -32,6 +32,7 @@ from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from jointplay.worker.certificates import record_of
 from jointplay.worker.checkpoints import RestartPoint
+from jointplay.worker.spent import publishing
 
 _log = logging.getLogger(__name__)
 _LIMIT_CODES = frozenset({"step-limit", "time-limit"})
@@ -130,13 +131,14 @@ def execute(
     if outcome.state == "left":
         return outcome
     summary, certificate = simulation.summary(), simulation.certificate()
-    writer.seal(
-        target,
-        peaks=summary.peaks,
-        summary=summary.statistics,
-        complete=outcome.state == "succeeded",
-        certificate=None if certificate is None else record_of(certificate),
-    )
+    with publishing():
+        writer.seal(
+            target,
+            peaks=summary.peaks,
+            summary=summary.statistics,
+            complete=outcome.state == "succeeded",
+            certificate=None if certificate is None else record_of(certificate),
+        )
     return replace(outcome, statistics=summary.statistics)
 
 

@@ -21,6 +21,7 @@ from jointplay.worker.presence import own_name
 from jointplay.worker.scratch.computing import (
     compute,  # before the fork: all children share numba and the solver
 )
+from jointplay.worker.spent import Telling
 from jointplay.worker.wake_up import wake_relay
 
 _log = logging.getLogger(__name__)
@@ -93,9 +94,11 @@ def _listen_for_drain(**_: Any) -> None:
 def _be_present() -> None:
     """Tell the catalogue now and then that there is a worker with this solver."""
     settings, catalogue = _platform()
+    telling = Telling()
     while True:
         try:
             catalogue.note_worker(own_name(), own_solver())
+            telling.tell(catalogue, own_name())
         except Unavailable as fault:
             _log.debug("not known to be there: %s", fault)
         time.sleep(settings.heartbeat)

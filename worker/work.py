@@ -16,6 +16,7 @@ from jointplay.storage.settings import Settings
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.store import discard_others, seal
 from jointplay.worker.execute import Outcome, Report, execute
+from jointplay.worker.spent import publishing
 from jointplay.worker.study_block import layout_of, run_block
 
 _log = logging.getLogger(__name__)
@@ -134,7 +135,8 @@ class SealWork:
         What a block left and is damaged by now is computed again.
         """
         try:
-            seal(self._folder, self._layout, self._target, advanced)
+            with publishing():
+                seal(self._folder, self._layout, self._target, advanced)
         except (CorruptStore, CheckpointMismatch, IncompleteStudy) as damage:
             _log.warning("blocks of %s are computed again: %s", self._folder, damage)
             discard_others(self._folder, self._layout)
@@ -144,7 +146,8 @@ class SealWork:
                 )
                 if outcome.state != "succeeded":
                     return outcome
-            seal(self._folder, self._layout, self._target, advanced)
+            with publishing():
+                seal(self._folder, self._layout, self._target, advanced)
         return Outcome("succeeded", 0.0, 1.0)
 
 

@@ -93,15 +93,22 @@ def load(source: str) -> ModuleType:
             partial.write(source)
         os.replace(partial.name, path)
     if not is_compiled(path):
-        compile_if_watched(path)
+        begun = time.monotonic()
+        try:
+            compile_if_watched(path)
+        finally:
+            SPENT.elsewhere += time.monotonic() - begun
     return load_file(path)
 
 
 @dataclass
 class Spent:
-    """Cost of this process so far: `seconds` of processor time on compiling sources."""
+    """Cost of compiling sources so far."""
 
     seconds: float = 0.0
+    """Processor time of this process."""
+    elsewhere: float = 0.0
+    """Time for which it waited for processes that compiled for it."""
 
 
 SPENT = Spent()

@@ -24,6 +24,7 @@ from jointplay.storage.catalogue import (
     solvers,
     stored,
     submission,
+    tally,
     turns,
     upkeep,
 )
@@ -234,6 +235,7 @@ class Catalogue:
     wake_again = writing(solvers.wake_again)
     held_by = reading(listing.held_by)
     note_worker = writing(solvers.note_worker)
+    note_spent = writing(tally.note_spent)
     held = reading(holding.held)
     verdict = reading(holding.verdict)
     heartbeat = writing(holding.heartbeat)

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 from sqlalchemy import func, select
 
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import tables, tally
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.records import LIVE, BlockState, JobState
+from jointplay.storage.catalogue.records import LIVE, QUEUES, BlockState, JobState
+from jointplay.storage.catalogue.solvers import count_unserved
 from jointplay.storage.catalogue.upkeep import on_the_way
 
 
@@ -27,8 +28,9 @@ class Census:
     waiting: Mapping[str, Waiting]  # by queue
     running: int  # blocks that a worker has
     overdue: int  # ... of those, whose lease ran out and is not taken back yet
-    losses: int  # workers that blocks which have not ended lost in a row
+    unserved: int  # jobs whose solver no worker has
     on_the_way: int  # wake-ups that were sent and not answered yet
+    totals: Mapping[str, float]  # counters that never fall; see `storage.catalogue.tally`
 
 
 def census(unit: Unit) -> Census:
@@ -37,20 +39,19 @@ def census(unit: Unit) -> Census:
     states = select(job.c.state, func.count()).where(job.c.state.in_(LIVE)).group_by(job.c.state)
     jobs = dict.fromkeys(LIVE, 0) | {row[0]: row[1] for row in unit.execute(states)}
     queues = select(outbox.c.queue, func.count(), func.min(outbox.c.created))
-    waiting = {
+    waiting = dict.fromkeys(QUEUES, Waiting(0, 0.0)) | {
         queue: Waiting(count, max(unit.now - first, 0.0))
         for queue, count, first in unit.execute(queues.group_by(outbox.c.queue))
     }
     held = block.c.state == BlockState.running
     running = unit.execute(select(func.count()).select_from(block).where(held)).scalar_one()
     late = select(func.count()).select_from(block).where(held, block.c.lease_until < unit.now)
-    live = block.c.state.in_((BlockState.queued, BlockState.running))
-    lost = select(func.coalesce(func.sum(block.c.losses), 0)).where(live)
     return Census(
         jobs,
         waiting,
         running,
         unit.execute(late).scalar_one(),
-        int(unit.execute(lost).scalar_one()),
+        count_unserved(unit),
         on_the_way(unit),
+        tally.totals(unit),
     )

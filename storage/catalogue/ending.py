@@ -8,8 +8,9 @@ from typing import Any, Final
 from sqlalchemy import bindparam, func, insert, select, update
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import calls, tables, usage
+from jointplay.storage.catalogue import calls, tables, tally, usage
 from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.counters import of_outcome
 from jointplay.storage.catalogue.holding import change_held, lock_held, sum_progress
 from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockState, Job, JobState
 from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
@@ -212,5 +213,6 @@ def queue_again(unit: Unit, block_id: str, pause: float = 0.0) -> None:
 def _end_attempt(unit: Unit, job: Job, block_id: str, attempt: int, outcome: str) -> None:
     of_attempt = {"of_block": block_id, "of_number": attempt}
     row = unit.execute(_END, {**of_attempt, "moment": unit.now, "ending": outcome}).one()
+    tally.add(unit, of_outcome(outcome), row.worker)
     if job.owner:
         usage.add(unit, job.owner, row.worker, max(unit.now - row.started, 0.0))

@@ -162,6 +162,8 @@ BEGIN
   END IF;
   UPDATE attempt SET ended = moment, outcome = ending
     WHERE block = wanted AND number = holder RETURNING worker, started INTO by_worker, since;
+  INSERT INTO tally (name, worker, value) VALUES ('attempts ' || ending, by_worker, 1)
+    ON CONFLICT (name, worker) DO UPDATE SET value = tally.value + 1;
   IF of_job.owner <> '' THEN
     INSERT INTO usage (owner, hour, worker, seconds) VALUES
       (of_job.owner, floor(moment / 3600), by_worker, greatest(moment - since, 0))

@@ -6,7 +6,7 @@ from sqlalchemy import Connection, inspect, text
 
 from jointplay.storage.catalogue import functions, tables
 
-REVISION = "0009"  # the newest migration; a test compares it with the folder storage/migrations
+REVISION = "0010"  # the newest migration; a test compares it with the folder storage/migrations
 
 
 def present_revision(connection: Connection) -> str | None:

@@ -10,14 +10,13 @@ from typing import Any, Final
 
 from sqlalchemy import ColumnElement, and_, bindparam, delete, insert, or_, select, update
 
-from jointplay.storage.catalogue import tables, turns
+from jointplay.storage.catalogue import tables, tally, turns
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.records import LIVE, QUEUES, BlockState, Job, Solver
 
 PATIENCE: Final = 60.0
 """Seconds after which a worker that is silent, or a job that none has taken, is on its own."""
-UNSERVED: Final = "no worker has its solver"
-"""Activity of a job that no worker may take."""
+UNSERVED: Final = tables.NO_SOLVER
 _CANDIDATES: Final = 8
 """Abandoned blocks that a worker tries to take over: others may be quicker."""
 _FORGOTTEN: Final = 3600.0  # s
@@ -160,6 +159,7 @@ def forget_workers(unit: Unit, ended: Sequence[str]) -> None:
     """Forget workers that have ended, and those that have been silent for long."""
     silent = _worker.c.seen < unit.now - _FORGOTTEN
     unit.execute(delete(_worker).where(or_(_worker.c.name.in_(ended), silent)))
+    tally.gather(unit)
 
 
 def workers(unit: Unit) -> dict[str, Solver]:
@@ -179,6 +179,12 @@ def unserved(unit: Unit) -> dict[str, Solver]:
         .order_by(_job.c.id)
     )
     return {row.id: Solver(row.solver_version, row.processor or "") for row in rows}
+
+
+def count_unserved(unit: Unit) -> int:
+    """Count those of them whose status says so, which is quick, and is done by the relay."""
+    found = select(_job.c.state).where(tables.UNSERVED, ~_served(unit))  # by an index of its own
+    return sum(state in LIVE for state in unit.execute(found).scalars())
 
 
 def note_unserved(unit: Unit) -> None:

@@ -110,6 +110,11 @@ Index(
     postgresql_where=MEASURED,
 )
 
+NO_SOLVER: Final = "no worker has its solver"
+"""Activity of a job that no worker may take."""
+UNSERVED: Final = job.c.activity == literal_column(f"'{NO_SOLVER}'")
+Index("ix_job_unserved", job.c.id, sqlite_where=UNSERVED, postgresql_where=UNSERVED)
+
 batch = Table(
     "batch",
     metadata,
@@ -244,6 +249,16 @@ usage = Table(
     Column("worker", String(200), nullable=False),
     Column("seconds", Float(53), nullable=False),
     PrimaryKeyConstraint("owner", "hour", "worker"),
+)
+
+# What has been counted by workers, or of them; see `storage.catalogue.tally`.
+tally = Table(
+    "tally",
+    metadata,
+    Column("name", String(32), nullable=False),
+    Column("worker", String(200), nullable=False),
+    Column("value", Float(53), nullable=False),
+    PrimaryKeyConstraint("name", "worker"),
 )
 
 # Processes that take blocks, with what each computes them, and when it was heard of last and first.

@@ -13,7 +13,8 @@ from jointplay.service import metrics, readiness
 from jointplay.service.app import create_app
 from jointplay.service.readiness import Readiness
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import NewJob
+from jointplay.storage.catalogue.counters import COMPILING, OUTCOMES, PUBLISHED, PUBLISHING
+from jointplay.storage.catalogue.records import QUEUES, BlockState, NewJob
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 from tests.waiting import until
@@ -44,6 +45,10 @@ def test_what_waits_and_what_runs_is_counted(tmp_path: Path) -> None:
     ):
         before = shown(http.get("/metrics"))
         assert before["jointplay_jobs queued"] == before["jointplay_blocks_running"] == 0
+        for queue in QUEUES:
+            assert before[f"jointplay_blocks_waiting {queue}"] == 0
+            assert before[f"jointplay_longest_wait_seconds {queue}"] == 0
+        assert {before[f"jointplay_attempts_total {outcome}"] for outcome in OUTCOMES} == {0}
         catalogue = Catalogue(settings.catalogue_url)
         jobs = [catalogue.submit(NEW).job.id for _ in range(5)]
         for job in jobs[:3]:
@@ -62,7 +67,18 @@ def test_what_waits_and_what_runs_is_counted(tmp_path: Path) -> None:
         assert abs(found["jointplay_clock_ahead_seconds"]) < 1
         assert found["process_resident_memory_bytes"] > 1e6
         assert catalogue.reap(3).requeued == (f"{jobs[0]}-0",)
-        assert shown(http.get("/metrics"))["jointplay_losses"] == 1
+        catalogue.note_spent("worker", {PUBLISHED: 2, PUBLISHING: 0.5, COMPILING: 3.0})
+        assert catalogue.finish(f"{jobs[1]}-0", 1, BlockState.done).terminal
+        for _ in range(2):
+            found = shown(http.get("/metrics"))
+            assert found["jointplay_attempts_total lost"] == 1
+            assert found["jointplay_attempts_total released"] == 1
+            assert found["jointplay_attempts_total done"] == 1
+            assert found["jointplay_publish_seconds_count"] == 2
+            assert found["jointplay_publish_seconds_sum"] == 0.5
+            assert found["jointplay_compile_seconds_total"] == 3
+            assert found["jointplay_jobs_unserved"] == 0
+            catalogue.forget_workers(["worker"])
         catalogue.close()
 
 

@@ -35,9 +35,11 @@ def marked(source: str) -> bool:
 
 def test_what_another_process_has_compiled_is_loaded(file: str) -> None:
     source = SOURCE.format(number=file)
+    before = cache.SPENT.elsewhere
     with watched.watched(lambda: None, 600.0):
         module = cache.load(source)
     assert module.twice(1.5) == 3.0
+    assert cache.SPENT.elsewhere > before
     (hits,) = module.twice.stats.cache_hits.values()
     assert hits == 1
     assert marked(source)
