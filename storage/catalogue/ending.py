@@ -3,6 +3,7 @@
 With its last block a job ends; what is given back is queued again.
 """
 
+from collections import Counter
 from typing import Any, Final
 
 from sqlalchemy import bindparam, func, insert, select, update
@@ -144,7 +145,8 @@ def _requeue(unit: Unit, block_id: str, job: Job, pause: float = 0.0) -> None:
 def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockState:
     """Take a block from a worker whose lease ran out; queue it again or give it up.
 
-    A machine that loses it again and again counts once, as long as another one could compute it.
+    It is given up when `max_attempts` machines have lost it, or each that is present has so often: one
+    that loses it again and again counts once, as long as another one could compute it.
 
     Returns
     -------
@@ -153,11 +155,11 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
     """
     job = _take_back(unit, block_id, attempt, _LOST, losses=_block.c.losses + 1)
     losses = unit.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
-    machines = _lost_by(unit, block_id, losses)
-    present = {machine_of(name) for name in workers(unit)}
-    blamed = len(machines) if present - machines else losses
-    if blamed < max_attempts and not job.state.terminal:
-        again = losses - len(machines)  # a machine may lose it in vain: give another one time
+    lost = _lost_by(unit, block_id, losses)
+    present = {machine_of(name) for name in workers(unit)} or lost.keys()
+    hopeless = len(lost) >= max_attempts or all(lost[one] >= max_attempts for one in present)
+    if not hopeless and not job.state.terminal:
+        again = losses - len(lost)  # a machine may lose it in vain: give another one time
         queue_again(unit, block_id, min(2.0**again, _LONGEST_RETREAT) if again else 0.0)
         return BlockState.queued
     given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
@@ -172,8 +174,8 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
     return given_up
 
 
-def _lost_by(unit: Unit, block_id: str, losses: int) -> set[str]:
-    """Return the machines of the last workers that lost a block."""
+def _lost_by(unit: Unit, block_id: str, losses: int) -> Counter[str]:
+    """Count the last losses of a block by machine."""
     table = tables.attempt
     rows = unit.execute(
         select(table.c.worker)
@@ -181,7 +183,7 @@ def _lost_by(unit: Unit, block_id: str, losses: int) -> set[str]:
         .order_by(table.c.number.desc())
         .limit(losses)
     )
-    return {machine_of(name) for name in rows.scalars()}
+    return Counter(machine_of(name) for name in rows.scalars())
 
 
 def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes: Any) -> Job:

@@ -139,6 +139,19 @@ def test_one_machine_alone_ends_no_job_that_another_could_compute(
     assert catalogue.due_wake_ups(10) == ()  # not at once, to the same machine
 
 
+def test_losses_of_one_machine_are_not_those_of_all_once_each_has_lost(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    for name in (GOOD, BAD):
+        catalogue.note_worker(name.format(1), OLD)
+    block = f"{catalogue.submit(RUN).job.id}-0"
+    names = [GOOD, BAD, BAD, BAD, BAD, GOOD, GOOD]
+    states = [
+        lose(catalogue, block, name.format(number), clock) for number, name in enumerate(names)
+    ]
+    assert states == [BlockState.queued] * 6 + [BlockState.failed]
+
+
 def test_losses_of_several_machines_end_a_job(catalogue: Catalogue, clock: Clock) -> None:
     catalogue.note_worker(GOOD.format(1), OLD)
     block = f"{catalogue.submit(RUN).job.id}-0"
