@@ -45,8 +45,11 @@ async def answer(request: Request, error: Exception) -> Response:
     if refused.kind is kinds.METHOD_NOT_ALLOWED:
         known = _methods_at(request).union(refused.headers.get("Allow", "").split(", "))
         refused.headers["Allow"] = ", ".join(sorted(known - {""}))
-    if refused.kind.status >= 500:
-        _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+    asked = f"{request.method} {request.url.path}"
+    if refused.kind is kinds.INTERNAL:
+        _log.error("%s failed", asked, exc_info=error)
+    elif refused.kind.status >= 500:
+        _log.warning("%s was answered with %d: %s", asked, refused.kind.status, refused.detail)
     document = ProblemDocument(
         type=refused.kind.type,
         title=refused.kind.title,

@@ -1,7 +1,10 @@
 """`jointplay doctor`: what it prints, its exit codes, and that it disturbs no worker."""
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -23,6 +26,15 @@ def flip(path: Path) -> None:
 def test_nothing_is_wrong_with_a_service_that_is_well(jointplay, installed: Installed) -> None:
     ended = jointplay("doctor", installed.settings.data)
     assert (ended.code, ended.out, ended.err) == (0, "nothing is wrong\n", "")
+
+
+def test_settings_that_contradict_are_one_sentence(tmp_path: Path) -> None:
+    """In a process of its own: the queue reads them when it is loaded."""
+    command = [sys.executable, "-P", "-m", "jointplay", "doctor", str(tmp_path)]
+    environment = os.environ | {"JOINTPLAY_LEASE": "4"}
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert ended.returncode == 2
+    assert ended.stderr.startswith("jointplay: JOINTPLAY_LEASE is 4 s; it must be at least twice")
 
 
 def test_what_is_wrong_is_told_in_a_table_mended_and_left(jointplay, installed: Installed) -> None:

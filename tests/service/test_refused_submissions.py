@@ -39,11 +39,16 @@ def held_catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[
 
 @SUBMISSIONS
 def test_a_catalogue_that_is_held_refuses_what_it_cannot_record(
-    held_catalogue: httpx.Client, path: str, document: object
+    held_catalogue: httpx.Client,
+    caplog: pytest.LogCaptureFixture,
+    path: str,
+    document: object,
 ) -> None:
     key = {"Idempotency-Key": "once"}
     answer = held_catalogue.post(path, json=document, headers=key)
     assert (answer.status_code, answer.headers["Retry-After"]) == (503, "5")
+    assert f"POST {path} was answered with 503: The catalogue is held" in caplog.text
+    assert "Traceback" not in caplog.text
     problem = answer.json()
     assert problem["type"].endswith("unavailable")
     assert problem["detail"] == "The catalogue is held by another program; nothing was recorded."
