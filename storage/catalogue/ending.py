@@ -145,8 +145,8 @@ def _requeue(unit: Unit, block_id: str, job: Job, pause: float = 0.0) -> None:
 def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockState:
     """Take a block from a worker whose lease ran out; queue it again or give it up.
 
-    It is given up when `max_attempts` machines have lost it, or each that is present has so often: one
-    that loses it again and again counts once, as long as another one could compute it.
+    It is given up when `max_attempts` machines have lost it, or each that is present has so often:
+    one that loses it again and again counts once, as long as another one could compute it.
 
     Returns
     -------
