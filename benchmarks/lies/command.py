@@ -12,7 +12,7 @@ from benchmarks.lies.covered import coverage_of
 from benchmarks.lies.extremes import extremes_of
 from benchmarks.lies.journal import Journal
 from benchmarks.lies.measures import MEASURES
-from benchmarks.lies.scenes import SCENES
+from benchmarks.lies.scenes import OTHERS, SCENES
 from benchmarks.lies.search import Judged, Measure, report, search
 
 PARTS = (*MEASURES, "named")
@@ -22,7 +22,15 @@ def main() -> None:
     """Run the searches that are asked for, judge the named claims, or one job."""
     options = argparse.ArgumentParser(prog="python -m benchmarks lies", description=__doc__)
     options.add_argument("--only", choices=PARTS, nargs="+", default=list(PARTS))
-    options.add_argument("--scenes", choices=SCENES, nargs="+", default=list(SCENES))
+    scenes = options.add_mutually_exclusive_group()
+    scenes.add_argument("--scenes", choices=SCENES | OTHERS, nargs="+", default=list(SCENES))
+    scenes.add_argument(
+        "--others",
+        action="store_const",
+        dest="scenes",
+        const=list(OTHERS),
+        help="scenes whose truth far finer runs tell",
+    )
     options.add_argument("--runs", type=int, default=100, help="of each search")
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--job", type=Path, help="a file with a job to be judged instead")

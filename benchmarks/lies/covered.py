@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.lies.run import Finished, finish
+from benchmarks.lies.scenes import OTHERS
 from benchmarks.lies.sizes import sizes
 from benchmarks.lies.truth import true_channels
 from jointplay.records.certificate import converged
-from jointplay.solver.integrators import STIFF
+from jointplay.solver.integrators import COARSE, STIFF
 from jointplay.worker.certificates import record_of
 
 Floats = NDArray[np.float64]
@@ -25,6 +26,8 @@ PROGRAMS = ((1e-12, 1.0), (1e-11, 0.7))
 """Tolerances of the independent program, and shares of its longest steps."""
 IMPLICIT = (1e-9, 4e-9)
 """Tolerances of the implicit method."""
+FINER = (1e-12, 1e-11)
+"""Tolerances of the method of order eight where the independent program does not know a scene."""
 DOUBT = 0.1
 """Where the two truths are apart by this share of what is judged, none is known."""
 ROUNDING = 1e-12
@@ -71,8 +74,10 @@ class Verdict:
 def coverage_of(job: dict[str, Any], tell: Tell | None = None) -> Verdict:
     """Run a job with its certificate and compare its errors with its bars.
 
-    tell : who tells the truth; none: the independent program.
+    tell : who tells the truth; none: the independent program, or finer runs where it cannot.
     """
+    if tell is None and not knows(job["scene"]):
+        tell = by_finer_runs
     certified = finish(job | {"certificate": True})
     if not isinstance(certified, Finished):
         return Verdict(certified)
@@ -126,11 +131,30 @@ def by_program(finished: Finished, index: NDArray[np.int64]) -> Truths | None:
     return truths[0], truths[1]
 
 
+def knows(scene: dict[str, Any]) -> bool:
+    """Tell whether the independent program knows all that is in a scene of a search."""
+    laws = (one.get("clearance", {}).get("contact", {}) for one in scene.get("joints", {}).values())
+    return scene.get("preset") not in OTHERS and not any("dissipation" in law for law in laws)
+
+
 def by_implicit_method(job: dict[str, Any], index: NDArray[np.int64]) -> Truths | None:
     """Return what far finer runs by the implicit method say.
 
     The independent program is explicit, and would take minutes where friction is that steep.
     """
-    runs = [finish(job | {"method": STIFF.name, "tolerance": t}) for t in IMPLICIT]
+    return _by_runs(job, index, STIFF.name, IMPLICIT)
+
+
+def by_finer_runs(job: dict[str, Any], index: NDArray[np.int64]) -> Truths | None:
+    """Return what far finer runs by another method, in the other formulation, say."""
+    other = "reduced" if job.get("formulation") == "lagrange" else "lagrange"
+    return _by_runs(job | {"formulation": other}, index, COARSE.name, FINER)
+
+
+def _by_runs(
+    job: dict[str, Any], index: NDArray[np.int64], method: str, tolerances: tuple[float, float]
+) -> Truths | None:
+    same = {name: value for name, value in job.items() if name != "step"}
+    runs = [finish(same | {"method": method, "tolerance": t}) for t in tolerances]
     fine, coarse = (run.samples[index] if isinstance(run, Finished) else None for run in runs)
     return None if fine is None or coarse is None else (fine, coarse)

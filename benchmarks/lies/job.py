@@ -3,7 +3,7 @@
 from typing import Any, NamedTuple
 
 from benchmarks.lies.draw import Draw
-from benchmarks.lies.scenes import SCENES
+from benchmarks.lies.scenes import OTHERS, SCENES
 from jointplay.solver.integrators import METHODS
 
 SMALLEST = 1e-10
@@ -26,8 +26,10 @@ def random_job(point: list[float], kinds: list[str]) -> Chosen:
     kind = draw.one_of(*kinds)
     method = draw.one_of("auto", "auto", *METHODS)
     fineness, length = draw.even(0.0, 1.0), draw.size(0.3, 20.0)
-    scene, unit = SCENES[kind](draw)
+    scene, unit = (SCENES | OTHERS)[kind](draw)
     job = {"kind": "simulate", "scene": scene, "duration": unit * length, "method": method}
+    if kind in OTHERS:
+        job["formulation"] = draw.one_of("reduced", "reduced", "lagrange")
     if method in METHODS and METHODS[method].fixed_step:
         job["step"] = unit * 10.0 ** (-2.0 - 2.0 * fineness)
     else:

@@ -11,7 +11,7 @@ from benchmarks.lies.draw import DIMENSIONS, anywhere
 from benchmarks.lies.extremes import beyond
 from benchmarks.lies.job import random_job
 from benchmarks.lies.measures import MEASURES
-from benchmarks.lies.scenes import SCENES
+from benchmarks.lies.scenes import OTHERS, SCENES
 from benchmarks.lies.search import report, search
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import Admission, admit
@@ -38,7 +38,7 @@ def test_a_climb_repeats_itself_and_comes_closer_to_the_worst() -> None:
     assert max(found[100:]) > max(found[:20])
 
 
-@pytest.mark.parametrize("kind", SCENES)
+@pytest.mark.parametrize("kind", SCENES | OTHERS)
 def test_every_random_job_is_admitted(kind: str) -> None:
     random = np.random.default_rng(3)
     seen = set()
