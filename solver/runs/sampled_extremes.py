@@ -11,6 +11,8 @@ from jointplay.records.peak import Peak
 
 PROMISED: Final = 1e-6
 """Share of a channel's range by which its extremes may be off."""
+ROUNDING: Final = 1e-10
+"""Share of the largest range of all channels that may be nothing but rounding."""
 
 
 class SampledExtremes:
@@ -50,9 +52,11 @@ class SampledExtremes:
         One that a sample exceeds by no more than `PROMISED` of the range stays as it is.
         """
         held = {}
+        widest = max((peak.maximum - peak.minimum for peak in peaks.values()), default=0.0)
         for index, (name, peak) in enumerate(peaks.items()):
             (low, low_time), (high, high_time) = self._found[:, index].tolist()
             allowed = PROMISED * (max(peak.maximum, high) - min(peak.minimum, low))
+            allowed += ROUNDING * widest
             lowest = (peak.minimum, peak.minimum_time)
             highest = (peak.maximum, peak.maximum_time)
             held[name] = Peak(
