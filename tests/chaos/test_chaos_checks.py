@@ -119,7 +119,10 @@ def go_on_after_the_end(left: Left) -> None:
 
 
 def finish_once_more(left: Left) -> None:
-    left.sql("INSERT INTO attempt SELECT block, 2, worker, started, ended, outcome FROM attempt")
+    left.sql(
+        "INSERT INTO attempt (block, number, worker, started, ended, outcome)"
+        " SELECT block, 2, worker, started, ended, outcome FROM attempt"
+    )
 
 
 def keep_an_attempt_open(left: Left) -> None:
