@@ -7,6 +7,7 @@ from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extreme import PLACES
+from jointplay.solver.kernels.loop.kinks_beside import look_at_kinks_beside
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, MOST_ROUNDS, is_done_by, seek
 from jointplay.solver.kernels.loop.tops import open_windows
@@ -48,17 +49,29 @@ def refine_peaks(
     for i in range(INSTANTS):
         spare[at.theta, i] = (i % HALF) / HALF
     channels_around(work, spare, lane)
-    waiting = 0
-    first = at.marked * LANES
+    rows, waiting = np.empty(at.rows, np.int64), 0
+    rows = rows[: find_marked(lane, at, marked, rows)]
+    for r in rows:
+        waiting = look_at_quarters(r, waiting, lane, run, at, work, spare, table)
+    waiting = look_at_kinks_beside(
+        rows, waiting, lane, run, at, work, spare, table, channels_around
+    )
+    look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
+
+
+@inner_kernel()
+def find_marked(lane: int, at: Places, marked: np.ndarray, rows: np.ndarray) -> int:
+    """Write the rows that the scan marked for a lane; how many."""
+    first, count = at.marked * LANES, 0
     lanes_bits = np.uint64(ONE_OF_EIGHT << lane)
     for word in range((at.rows + BYTES - 1) // BYTES):
         bits = marked[first + word] & lanes_bits
         if bits != 0:
             for r in range(min(BYTES, at.rows - BYTES * word)):  # no marks beyond
                 if bits >> np.uint64(8 * r + lane) & np.uint64(1):
-                    row = BYTES * word + r
-                    waiting = look_at_quarters(row, waiting, lane, run, at, work, spare, table)
-    look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
+                    rows[count] = BYTES * word + r
+                    count += 1
+    return count
 
 
 @inner_kernel()

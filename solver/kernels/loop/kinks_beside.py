@@ -1,0 +1,101 @@
+"""Extremes at a kink next to where a step begins: just before it, or just behind.
+
+Where friction bends or a contact ends a hundredth of a step away, a channel that goes on beyond the
+step's start and turns at the kink looks, at quarters of both steps, as if it had its corner there.
+Where such kinks are is known: a contact ended when its gap opened, and slip has a value and a rate.
+"""
+
+import numpy as np
+
+from jointplay.solver.kernels.emit.places import Places
+from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.layout import BENDS
+from jointplay.solver.kernels.loop.cuts_at_bends import has_bend
+from jointplay.solver.kernels.loop.extreme import PLACES
+from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF
+from jointplay.solver.kernels.loop.tops import open_windows
+from jointplay.solver.kernels.loop.windows import CLOSER
+
+FARTHEST = 0.25
+"""Share of a step from its end beyond which quarters of the step tell of a kink."""
+REACH = 2.0
+"""Times that a channel may change faster up to a kink than it does in either step."""
+
+
+@inner_kernel()
+def nearest_kink(step: int, lane: int, at: Places, work: np.ndarray) -> float:
+    """Return how far from the start of this step the nearest kink is: 0 if none is near.
+
+    In shares of this step, for one behind (`step` 1), or of the step before (0).
+    """
+    now, before = work[at.time, lane], work[at.before_step, lane]
+    length = work[at.tried, lane] if step else -before
+    nearest = FARTHEST
+    for j in range(at.pairs):
+        ended = (now - work[at.opened + j, lane]) / before
+        if step == 0 and 0.0 < ended < nearest:
+            nearest = ended
+        if not has_bend(j, lane, at, work):
+            continue
+        slip, slips = work[at.slip_start + j, lane], length * work[at.slip_rate_start + j, lane]
+        for k in range(BENDS * j, BENDS * (j + 1)):
+            for bend in (work[at.bend + k, lane], -work[at.bend + k, lane]):
+                ahead = bend - slip
+                if 0.0 < ahead * slips and abs(ahead) < nearest * abs(slips):
+                    nearest = ahead / slips
+    return nearest if nearest < FARTHEST else 0.0
+
+
+@inner_kernel()
+def any_in_reach(
+    rows: np.ndarray, share: float, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
+) -> bool:
+    """Whether a row may have a record at a kink a share of a step from the start of this one."""
+    for r in rows:
+        start = work[at.previous + r, lane] - work[at.change + r, lane]
+        rose, rises = start - spare[at.channel + r, HALF - 1], spare[at.channel + r, HALF + 1] - start
+        far = REACH * HALF * share * max(abs(rose), abs(rises))
+        if start + far > work[at.highest + r, lane] or start - far < work[at.lowest + r, lane]:
+            return True
+    return False
+
+
+@inner_kernel()
+def look_at_kinks_beside(
+    rows: np.ndarray,
+    waiting: int,
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    table: np.ndarray,
+    channels_around: LaneFunction,
+) -> int:
+    """Let extremes of rows at kinks next to the start of this step count, if they are sharp.
+
+    How many windows wait to be looked at more closely, of all channels. To be called while `spare`
+    has the channels at quarters of both steps.
+    """
+    before, behind = nearest_kink(0, lane, at, work), nearest_kink(1, lane, at, work)
+    share = max(before, behind)
+    if not (share > 0.0 and any_in_reach(rows, share, lane, at, work, spare)):
+        return waiting
+    for i in range(HALF):
+        spare[at.theta, i] = 1.0 - 0.5 * (HALF - i) * before
+        spare[at.theta, HALF + i] = 0.5 * (i + 1) * behind
+    channels_around(work, spare, lane)
+    for r in rows:
+        for step, beside in enumerate((before, behind)):
+            if beside == 0.0:
+                continue
+            for i in range(HALF):
+                table[CLOSER + step + i] = spare[at.channel + r, HALF * step + i]
+            junction = work[at.previous + r, lane] - work[at.change + r, lane]
+            table[CLOSER + (1 - step) * HALF] = junction
+            start, spacing = (1 - step) * (1.0 - 0.5 * HALF * beside), 0.5 * beside
+            waiting = open_windows(
+                r, step, start, spacing, PLACES, FORETOLD, waiting, lane, run, at, work, table
+            )
+    return waiting
