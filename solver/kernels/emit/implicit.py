@@ -54,8 +54,9 @@ class RosenbrockRecorder(StepRecorder):
         parts += [self._inner(1), self._inner(2), self._finish()]
         return parts
 
-    def _swinging(self) -> Expression:
-        return self.recorder.constant(0.0)  # no limit of stability makes its slopes swing
+    def _swinging(self) -> tuple[Expression, Expression]:
+        none = self.recorder.constant(0.0)
+        return none, none  # no limit of stability makes its slopes swing
 
     def _start(self) -> str:
         outputs = [*self._tried(), *self._held()]

@@ -81,7 +81,8 @@ class JudgedStep:
         good, next_step, resumed = self._at_knots(good, next_step)
         due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
         pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
-        flag = REJECTED * (1.0 - good) + due + pace + self._swinging()
+        swinging, swing = self._swinging()
+        flag = REJECTED * (1.0 - good) + due + pace + swinging
         away = self._away()
         flags = [
             contact_flags(v, j, away, shape, shortened=bool(self.tableau.error))
@@ -94,6 +95,7 @@ class JudgedStep:
             ("accept", good * v("active")),
             ("flag", flag),
             ("next_step", next_step),
+            ("swing", swing),
             *resumed,
             ("new_memory", magnitude),
             *scanning.reach(v("tried"), v(before("tried"))),
@@ -129,24 +131,26 @@ class JudgedStep:
             good = select_positive(passed, 0.0, good)
         return good, select_positive(good, onwards, next_step), resumed
 
-    def _swinging(self) -> Expression:
-        """Return SWINGING where an acceleration swings inside a step that is to be looked at.
+    def _swinging(self) -> tuple[Expression, Expression]:
+        """Return SWINGING where a step that swings inside is to be looked at, and by how much.
 
-        Methods that are watched closely need no flag for it.
+        In tolerances of the speed, of the acceleration that swings most. Methods that are watched
+        closely need no flag for it.
         """
-        if self.tableau.watched_closely:
-            return self.recorder.constant(0.0)
-        v, last = self.variable, self.tableau.stages
         most: Expression = self.recorder.constant(0.0)
+        if self.tableau.watched_closely:
+            return most, most
+        v, last = self.variable, self.tableau.stages
         for i in range(self.coordinates, 2 * self.coordinates):
             first, inside, end = (v(self._slope(s, i)) for s in (1, last - 1, last))
-            found = swings(first, inside, end, self.tableau.nodes[-2], self._weighed(i))
-            most = maximum(most, found)
-        due = maximum(v("steps") + 0.5 - v("look_at"), v("tried") - GROWN * v(before("tried")))
+            swing = swings(first, inside, end, self.tableau.nodes[-2], self._weighed(i))
+            most = maximum(most, swing)
+        late = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
+        due = maximum(late, v("tried") - GROWN * v(before("tried")))
         flag: Expression = select_positive(
             minimum(most, due), self.recorder.constant(SWINGING), 0.0
         )
-        return flag
+        return flag, most
 
     def _away(self) -> Expression:
         """Return what journals may be away from the quintic that encloses them, m."""

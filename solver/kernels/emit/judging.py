@@ -45,7 +45,7 @@ def growth(order: float, good: Expression, magnitude: Expression, memory: Expres
 
 
 def swings(first: Scalar, inside: Scalar, last: Scalar, share: float, weighed: Scalar) -> Scalar:
-    """Return what is positive where a slope is elsewhere inside a step than at both ends.
+    """Return by how much a slope is elsewhere inside a step than at both ends, 0 if hardly.
 
     `inside` : the slope at a late stage, at a `share` of the step; `weighed` : step by tolerance. A
     smooth slope leaves the line between its ends by half of what these are apart only where it
@@ -54,7 +54,8 @@ def swings(first: Scalar, inside: Scalar, last: Scalar, share: float, weighed: S
     apart = last - first
     away = abs(inside - (first + share * apart))
     least = maximum(0.5 * abs(apart), SWING * (abs(first) + abs(last)))
-    return minimum(away - least, away * abs(weighed) - NOTICED)
+    swing = away * abs(weighed)
+    return select_positive(minimum(away - least, swing - NOTICED), swing, 0.0)
 
 
 def contact_flags(

@@ -140,7 +140,7 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     for name in ("time", "stage_time", "before_time"):
         lane[name] = since
     lane["pace_at"] = PACE_STEPS
-    lane["look_at"] = 0.0
+    lane["look_at"] = lane["look_beyond"] = lane["swing"] = 0.0
     lane["smallest_step"] = period
     for k, clock in enumerate(clocks(scene).values()):
         travel = clock.rate * period / (clock.turn or 1.0)

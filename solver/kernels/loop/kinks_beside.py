@@ -51,12 +51,17 @@ def nearest_kink(step: int, lane: int, at: Places, work: np.ndarray) -> float:
 def any_in_reach(
     rows: np.ndarray, share: float, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
 ) -> bool:
-    """Whether a row may have a record at a kink a share of a step from the start of this one."""
+    """Whether a row that turns about the start of this step may have a record at a kink beside it.
+
+    `share` : of a step, how far away the kink is.
+    """
     for r in rows:
         start = work[at.previous + r, lane] - work[at.change + r, lane]
-        rose, rises = start - spare[at.channel + r, HALF - 1], spare[at.channel + r, HALF + 1] - start
-        far = REACH * HALF * share * max(abs(rose), abs(rises))
-        if start + far > work[at.highest + r, lane] or start - far < work[at.lowest + r, lane]:
+        rose, fell = start - spare[at.channel + r, HALF - 1], start - spare[at.channel + r, HALF + 1]
+        far = REACH * HALF * share * max(abs(rose), abs(fell))
+        if min(rose, fell) > 0.0 and start + far > work[at.highest + r, lane]:
+            return True
+        if max(rose, fell) < 0.0 and start - far < work[at.lowest + r, lane]:
             return True
     return False
 

@@ -67,8 +67,6 @@ class Run:
     """Steps that were found to be rough inside; see `solver.kernels.loop.roughness`."""
     rough_until: int
     """Number of the step up to which each is looked at inside for that reason."""
-    far: int
-    """Steps that were let pass after the last one that swung, for no record was near."""
     landing: int
     """Joint on whose onset the step is to end; `NO_PAIR`: none."""
     landings: int

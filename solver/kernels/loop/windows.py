@@ -4,8 +4,6 @@ A window is a channel, a sense, five equally spaced places of the step before or
 values there, and where the extreme is by them (`solver.kernels.loop.extreme`).
 """
 
-from jointplay.solver.kernels.layout import INSTANTS
-
 STRIDE = 20
 """From a window of a table to the next."""
 ROW, SENSE, IN_THIS, START, SPACING, VALUES = 0, 1, 2, 3, 4, 5
@@ -20,10 +18,11 @@ ROUNDS = 16
 BEST = 17
 """Place about which the extreme is sought: no value beside it is beyond its own."""
 CLOSER, WINDOWS = 0, STRIDE
-"""Where a table has the values of a closer look, and its windows from: of each channel and
-sense at most one for each of eight instants."""
+"""Where a table has the values of a closer look, and its windows from."""
+MOST = 20
+"""Windows of a channel: eight instants, twice; or five places of four parts of two steps."""
 
 
 def size_of_table(rows: int) -> int:
     """Return how many numbers a table has for that many channels."""
-    return WINDOWS + 2 * INSTANTS * rows * STRIDE
+    return WINDOWS + MOST * rows * STRIDE
