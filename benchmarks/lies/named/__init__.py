@@ -1,12 +1,20 @@
 """Claims that were wrong once, by name, each held to the truth since."""
 
-from benchmarks.lies.named import chatter, companions, exponents, flight, friction, ramps
+from benchmarks.lies.named import (
+    chatter,
+    companions,
+    exponents,
+    flight,
+    friction,
+    kinks_beside,
+    ramps,
+)
 from benchmarks.lies.named.lie import Lie
 from benchmarks.lies.tables import table
 
 LIES: tuple[Lie, ...] = (
     *(*flight.LIES, *friction.LIES, *ramps.LIES),
-    *(*companions.LIES, *exponents.LIES, *chatter.LIES),
+    *(*companions.LIES, *exponents.LIES, *chatter.LIES, *kinks_beside.LIES),
 )
 
 

@@ -13,14 +13,14 @@ from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.cuts_at_bends import has_bend
 from jointplay.solver.kernels.loop.extreme import PLACES
 from jointplay.solver.kernels.loop.runs import Run
-from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF
+from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, SHARP
 from jointplay.solver.kernels.loop.tops import open_windows
 from jointplay.solver.kernels.loop.windows import CLOSER
 
 FARTHEST = 0.25
 """Share of a step from its end beyond which quarters of the step tell of a kink."""
 REACH = 2.0
-"""Times that a channel may change faster up to a kink than it does in either step."""
+"""Times that a channel may change faster up to a kink than on the other side of the start."""
 
 
 @inner_kernel()
@@ -42,26 +42,36 @@ def nearest_kink(step: int, lane: int, at: Places, work: np.ndarray) -> float:
         for k in range(BENDS * j, BENDS * (j + 1)):
             for bend in (work[at.bend + k, lane], -work[at.bend + k, lane]):
                 ahead = bend - slip
-                if 0.0 < ahead * slips and abs(ahead) < nearest * abs(slips):
+                if ahead * slips > 0.0 and abs(ahead) < nearest * abs(slips):
                     nearest = ahead / slips
     return nearest if nearest < FARTHEST else 0.0
 
 
 @inner_kernel()
 def any_in_reach(
-    rows: np.ndarray, share: float, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
+    rows: np.ndarray,
+    before: float,
+    behind: float,
+    lane: int,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
 ) -> bool:
     """Whether a row that turns about the start of this step may have a record at a kink beside it.
 
-    `share` : of a step, how far away the kink is.
+    Up to a kink it goes on as on the other side of the start. `before`, `behind` : how far kinks
+    are away.
     """
     for r in rows:
         start = work[at.previous + r, lane] - work[at.change + r, lane]
-        rose, fell = start - spare[at.channel + r, HALF - 1], start - spare[at.channel + r, HALF + 1]
-        far = REACH * HALF * share * max(abs(rose), abs(fell))
-        if min(rose, fell) > 0.0 and start + far > work[at.highest + r, lane]:
-            return True
-        if max(rose, fell) < 0.0 and start - far < work[at.lowest + r, lane]:
+        rose, fell = (
+            start - spare[at.channel + r, HALF - 1],
+            start - spare[at.channel + r, HALF + 1],
+        )
+        far = REACH * HALF * max(before * abs(fell), behind * abs(rose))
+        highest, lowest = work[at.highest + r, lane], work[at.lowest + r, lane]
+        turns = start + far > highest if rose > 0.0 else start - far < lowest
+        if rose * fell > 0.0 and turns and far > SHARP * (highest - lowest):
             return True
     return False
 
@@ -84,8 +94,8 @@ def look_at_kinks_beside(
     has the channels at quarters of both steps.
     """
     before, behind = nearest_kink(0, lane, at, work), nearest_kink(1, lane, at, work)
-    share = max(before, behind)
-    if not (share > 0.0 and any_in_reach(rows, share, lane, at, work, spare)):
+    near = before > 0.0 or behind > 0.0
+    if not (near and any_in_reach(rows, before, behind, lane, at, work, spare)):
         return waiting
     for i in range(HALF):
         spare[at.theta, i] = 1.0 - 0.5 * (HALF - i) * before

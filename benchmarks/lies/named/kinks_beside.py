@@ -1,0 +1,192 @@
+"""Claims about extremes at kinks that lie next to where a step begins or ends."""
+
+from benchmarks.lies.named.lie import Lie, by_extremes
+
+BEND = {
+    "kind": "simulate",
+    "scene": {
+        "name": "loose-slider-crank",
+        "gravity": [0.0, -9.81],
+        "ground": {
+            "points": {
+                "O": [0.0, 0.0],
+            },
+        },
+        "bodies": {
+            "crank": {
+                "mass": 1.0,
+                "inertia": 0.001,
+                "points": {
+                    "O": [0.0, 0.0],
+                    "pin": [0.198938045412, 0.0],
+                },
+            },
+            "rod": {
+                "mass": 1.13888441003,
+                "inertia": 0.04788335439515304,
+                "points": {
+                    "big": [-0.3551510366475745, 0.0],
+                    "small": [0.3551510366475745, 0.0],
+                },
+            },
+            "slider": {
+                "mass": 1.13888441003,
+                "inertia": 0.001,
+                "points": {
+                    "pin": [0.0, 0.0],
+                },
+            },
+        },
+        "joints": {
+            "O": {
+                "type": "revolute",
+                "bearing": "ground.O",
+                "journal": "crank.O",
+            },
+            "P": {
+                "type": "revolute",
+                "bearing": "crank.pin",
+                "journal": "rod.big",
+                "clearance": {
+                    "radial_clearance": 0.0015172402830648175,
+                    "bearing_radius": 0.005320329586446393,
+                    "contact": {
+                        "law": "lankarani-nikravesh",
+                        "stiffness": 185111675.241,
+                        "restitution": 0.152286504311,
+                    },
+                    "friction": {
+                        "law": "modified-coulomb",
+                        "coefficient": 0.0128855955974,
+                        "dynamic_velocity": 3.17133373541e-05,
+                        "static_velocity": 0.0,
+                    },
+                },
+            },
+            "Q": {
+                "type": "revolute",
+                "bearing": "rod.small",
+                "journal": "slider.pin",
+                "clearance": {
+                    "radial_clearance": 0.001170821335801322,
+                    "bearing_radius": 0.006447208189871751,
+                    "contact": {
+                        "law": "lankarani-nikravesh",
+                        "stiffness": 2911402427.03,
+                        "restitution": 0.465705599551,
+                    },
+                    "friction": {
+                        "law": "modified-coulomb",
+                        "coefficient": 0.0245819062055,
+                        "dynamic_velocity": 0.0292822998783,
+                        "static_velocity": 0.0,
+                    },
+                },
+            },
+            "guide": {
+                "type": "prismatic",
+                "guide": "ground.O",
+                "slider": "slider.pin",
+                "axis": [1.0, 0.0],
+            },
+        },
+        "drivers": {
+            "motor": {
+                "joint": "O",
+                "position": 5.39006396388,
+                "speed": 14.8106935725,
+            },
+        },
+    },
+    "duration": 0.013324093803534803,
+    "method": "rk4",
+    "step": 7.390263732754539e-05,
+}
+"""Friction bends half a hundredth of a step of fixed length behind its start."""
+RELEASE = {
+    "kind": "simulate",
+    "scene": {
+        "name": "double-pendulum",
+        "gravity": [0.0, -9.81],
+        "ground": {
+            "points": {
+                "O": [0.0, 0.0],
+                "wall": [0.3, 0.6],
+            },
+        },
+        "bodies": {
+            "upper": {
+                "mass": 0.46550849032,
+                "inertia": 0.0013810838014061367,
+                "points": {
+                    "a": [-0.0843559232622, 0.0],
+                    "b": [0.0843559232622, 0.0],
+                },
+            },
+            "lower": {
+                "mass": 1.11572466409,
+                "inertia": 0.02500196799803979,
+                "points": {
+                    "a": [-0.336654108489, 0.0],
+                    "b": [0.336654108489, 0.0],
+                },
+            },
+        },
+        "joints": {
+            "O": {
+                "type": "revolute",
+                "bearing": "ground.O",
+                "journal": "upper.a",
+            },
+            "P": {
+                "type": "revolute",
+                "bearing": "upper.b",
+                "journal": "lower.a",
+                "clearance": {
+                    "radial_clearance": 0.000304192062619,
+                    "bearing_radius": 0.009523037359214835,
+                    "contact": {
+                        "law": "lankarani-nikravesh",
+                        "stiffness": 11103788.6786,
+                        "restitution": 0.226391129419,
+                    },
+                    "friction": {
+                        "law": "modified-coulomb",
+                        "coefficient": 0.118859472076,
+                        "dynamic_velocity": 8.61255762227e-05,
+                        "static_velocity": 7.751301860043001e-05,
+                    },
+                },
+            },
+        },
+        "forces": {
+            "spring": {
+                "type": "spring-damper",
+                "first": "ground.wall",
+                "second": "lower.b",
+                "stiffness": 1.26157608538,
+                "damping": 0.0211176622966,
+                "free_length": 0.842247712201,
+            },
+        },
+        "start": {
+            "angles": {
+                "upper": -0.265919929053,
+                "lower": 1.68046328038,
+            },
+            "angular_velocities": {
+                "upper": 1.65718647424,
+                "lower": -0.295870674626,
+            },
+        },
+    },
+    "duration": 0.0536235869769,
+    "method": "bogacki-shampine",
+    "tolerance": 6.789e-05,
+}
+"""A contact ends a fiftieth of a step before its end."""
+
+LIES = (
+    Lie("slider-crank, a bend behind a step's start", "1.3e-3 off", lambda: by_extremes(BEND)),
+    Lie("pendulum, a release before a step's end", "2.4e-6 off", lambda: by_extremes(RELEASE)),
+)
