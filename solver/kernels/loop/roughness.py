@@ -25,7 +25,7 @@ SEEN = 1e-6
 """The same, from which on a swing is worth a search."""
 REACH = 4.0
 """Times that a swing may be larger between the instants, or in the next steps."""
-GROWTH = 3.0
+GROWTH = 30.0
 """Times by which swings grow until steps are looked at again."""
 ROUNDING = 1e-13
 """Share of the largest range of all channels that a range of nothing but rounding is below."""
