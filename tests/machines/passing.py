@@ -5,6 +5,7 @@ import re
 import socket
 import ssl
 import threading
+from abc import ABC, abstractmethod
 from contextlib import suppress
 
 from trustme import CA
@@ -15,7 +16,7 @@ _LENGTH = re.compile(rb"\r\ncontent-length: *(\d+)", re.IGNORECASE)
 Streams = tuple[asyncio.StreamReader, asyncio.StreamWriter]
 
 
-class Passing:
+class Passing(ABC):
     """Listens at an address of a port, in a thread of its own that is there for good.
 
     Parameters
@@ -35,9 +36,9 @@ class Passing:
         self._loop = asyncio.new_event_loop()
         threading.Thread(target=self._run, name="passing", daemon=True).start()
 
+    @abstractmethod
     async def answer(self, here: Streams) -> None:
         """Do with a new connection what is to be done; it is closed afterwards."""
-        raise NotImplementedError
 
     def _run(self) -> None:
         with self._port.inside():
