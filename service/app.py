@@ -123,7 +123,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.in_flight = {}
         app.state.bell = Bell()
         app.state.prober = prober = Prober()
-        app.state.checker = checker = Checker(settings)
+        app.state.checker = checker = Checker(settings, catalogue)
         app.state.windows = windows = WindowProcess()
         app.state.looker = looker = SceneLooker()
         try:

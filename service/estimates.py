@@ -8,7 +8,7 @@ from pydantic import BaseModel, Field
 
 from jointplay.service.access import CallerDependency
 from jointplay.service.body import JobBody
-from jointplay.service.checking import check_job
+from jointplay.service.checking import CheckJob
 from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
@@ -65,8 +65,7 @@ def estimate_job(
     The document is checked as POST /v1/jobs checks it.  Then half a second of the job is computed
     on this machine; the pace at the end of it is taken for the rest.
     """
-    found = checker.check(check_job, body)
-    (new,) = found.jobs
-    own = replace(new, owner=caller.owner)
+    found = checker.check(CheckJob(), body)
+    own = replace(found.job, owner=caller.owner)
     cached = found.reuse and catalogue.identical(own) is not None
-    return Estimate(**prober.cost_of(new.spec), cached=cached)
+    return Estimate(**prober.cost_of(own.spec), cached=cached)

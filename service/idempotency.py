@@ -2,9 +2,11 @@
 
 import hashlib
 import json
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Annotated
+from dataclasses import dataclass
+from typing import Annotated, Self
 
 from fastapi import Depends, Header, Request
 
@@ -15,14 +17,31 @@ from jointplay.storage.catalogue.records import SubmissionKey
 _HEADER = "Idempotency-Key"
 
 
+@dataclass(frozen=True)
+class SentKey:
+    """The key of a request, before the document is known that it was sent with."""
+
+    key: str
+    owner: str
+    path: str
+    """Where it was sent; empty: the document need not be the same."""
+
+    @classmethod
+    def made_here(cls, owner: str) -> Self:
+        """Return a key like no other, with the blank that no client's own has."""
+        return cls(f" {secrets.token_hex(16)}", owner, path="")
+
+    def with_document(self, document: object) -> SubmissionKey:
+        """Return what to store with what a document makes."""
+        found = _fingerprint(self.path, document) if self.path else ""
+        return SubmissionKey(self.key, found, owner=self.owner)
+
+
 class Repeatable:
     """A request that may carry a key, which no other one may have while it is answered."""
 
     def __init__(self, request: Request, key: str | None, owner: str) -> None:
-        self.path = request.url.path if key else ""
-        """Where it was sent to, if it carries a key: its `fingerprint` is wanted then."""
-        self._key = key
-        self._owner = owner
+        self.sent_key = SentKey(key, owner, request.url.path) if key else None
         self._in_flight: dict[tuple[str, str], Repeatable] = request.app.state.in_flight
 
     @contextmanager
@@ -34,12 +53,11 @@ class Repeatable:
         RequestRefused
             409 while another request with this key is being answered.
         """
-        if self._key is None:
+        if self.sent_key is None:
             yield
             return
-        if (
-            self._in_flight.setdefault((self._owner, self._key), self) is not self
-        ):  # one step, for all threads
+        held = self.sent_key.owner, self.sent_key.key
+        if self._in_flight.setdefault(held, self) is not self:  # one step, for all threads
             sentence = "A request with this key is being answered; send it again in a moment."
             raise RequestRefused.of_parameter(
                 _HEADER, sentence, kinds.KEY_IN_FLIGHT, headers={"Retry-After": "1"}
@@ -47,19 +65,11 @@ class Repeatable:
         try:
             yield
         finally:
-            del self._in_flight[self._owner, self._key]
-
-    def key_for(self, fingerprint: str) -> SubmissionKey | None:
-        """Return what to store with what a document makes."""
-        if self._key is None:
-            return None
-        return SubmissionKey(self._key, fingerprint, owner=self._owner)
+            del self._in_flight[held]
 
 
-def fingerprint(path: str, document: object) -> str:
-    """Return what a document and the path that it is sent to are known by; nothing of no path."""
-    if not path:
-        return ""
+def _fingerprint(path: str, document: object) -> str:
+    """Return what a document and the path that it is sent to are known by."""
     body = json.dumps([path, document], sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(body.encode("utf-8", "surrogatepass")).hexdigest()
 

@@ -1,14 +1,18 @@
 """All jobs of a batch are checked before one of them is queued."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.strict_json import escaped
+from jointplay.service.idempotency import SentKey
 from jointplay.service.jobs.submission import checked
-from jointplay.storage.catalogue.records import NewJob
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.quotas import Quota
+from jointplay.storage.catalogue.records import NewJob, SubmittedBatch
 from jointplay.storage.settings import Settings
 
 MOST_JOBS = 10_000
@@ -29,6 +33,31 @@ class BatchDocument(BaseModel):
     label: str = Field(
         default="", max_length=LONGEST_LABEL, description="A name of your own for the batch."
     )
+
+
+@dataclass(frozen=True)
+class QueueBatch:
+    """The check of a batch, which is queued then: 10 000 jobs take seconds to write.
+
+    Its key lets a process that takes the place of a lost one find what that had queued.
+    """
+
+    key: SentKey
+    owner: str
+    quota: Quota
+
+    def __call__(
+        self, document: object, settings: Settings, catalogue: Catalogue
+    ) -> SubmittedBatch:
+        """Check and queue a document's jobs; raises what `admit_batch` and `submit_batch` do."""
+        jobs, label = admit_batch(document, settings)
+        return catalogue.submit_batch(
+            [replace(job, owner=self.owner) for job in jobs],
+            label=label or None,
+            key=self.key.with_document(document),
+            owner=self.owner,
+            quota=self.quota,
+        )
 
 
 def admit_batch(document: object, settings: Settings) -> tuple[list[NewJob], str]:

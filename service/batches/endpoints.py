@@ -1,7 +1,6 @@
 """``/v1/batches``: submit, look at and cancel many jobs at once."""
 
 from contextlib import suppress
-from dataclasses import replace
 from typing import Annotated, Any, Self
 
 from fastapi import APIRouter, Depends, Path, Query, Response
@@ -10,8 +9,8 @@ from pydantic import BaseModel, Field
 from jointplay.records.job import is_job_id
 from jointplay.service.access import CallerDependency
 from jointplay.service.access.quotas import quota_of
+from jointplay.service.batches.admission import QueueBatch
 from jointplay.service.body import BatchBody
-from jointplay.service.checking import check_batch
 from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
@@ -19,7 +18,7 @@ from jointplay.service.dependencies import (
     SettingsDependency,
     require_room,
 )
-from jointplay.service.idempotency import RepeatableRequest
+from jointplay.service.idempotency import RepeatableRequest, SentKey
 from jointplay.service.jobs.listing import PageQuery
 from jointplay.service.jobs.schemas import JobPage, Moment
 from jointplay.service.problems import RequestRefused, clipped, header, kinds, problems
@@ -101,7 +100,6 @@ BatchOfThePath = Annotated[Batch, Depends(_batch_of_the_path)]
 def submit_batch(
     body: BatchBody,
     checker: CheckerDependency,
-    catalogue: CatalogueDependency,
     settings: SettingsDependency,
     repeatable: RepeatableRequest,
     caller: CallerDependency,
@@ -114,12 +112,9 @@ def submit_batch(
     wrong field by the index of its job, such as `/jobs/17/duration`.
     """
     with repeatable.in_flight():
-        found = checker.check(check_batch, body, repeatable.path)
-        key, owner = repeatable.key_for(found.fingerprint), caller.owner
-        jobs = [replace(job, owner=owner) for job in found.jobs] if owner else found.jobs
-        label = found.label or None
-        quota = quota_of(caller, settings)
-        submitted = catalogue.submit_batch(jobs, label=label, key=key, owner=owner, quota=quota)
+        key = repeatable.sent_key or SentKey.made_here(caller.owner)
+        what = QueueBatch(key, caller.owner, quota_of(caller, settings))
+        submitted = checker.check(what, body)
     wake_relay(settings.redis_url)
     bell.ring(len(submitted.jobs))
     accepted = AcceptedBatch.of(submitted.batch, job_ids=submitted.jobs)

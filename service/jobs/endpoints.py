@@ -9,7 +9,7 @@ from fastapi.concurrency import run_in_threadpool
 from jointplay.service.access import Caller, CallerDependency
 from jointplay.service.access.quotas import quota_of
 from jointplay.service.body import JobBody
-from jointplay.service.checking import Checker, check_job
+from jointplay.service.checking import Checker, CheckJob
 from jointplay.service.dependencies import (
     CatalogueDependency,
     CheckerDependency,
@@ -86,15 +86,13 @@ def _submit(
     bell: Bell,
 ) -> Submitted:
     with repeatable.in_flight():
-        found = checker.check(check_job, body, repeatable.path)
-        (new,) = found.jobs
-        key = repeatable.key_for(found.fingerprint)
-        own = replace(new, owner=caller.owner)
+        found = checker.check(CheckJob(repeatable.sent_key), body)
+        own = replace(found.job, owner=caller.owner)
         quota = quota_of(caller, settings)
-        submitted = catalogue.submit(own, key, reuse=found.reuse, quota=quota)
+        submitted = catalogue.submit(own, found.key, reuse=found.reuse, quota=quota)
     if submitted.created:
         wake_relay(settings.redis_url)
-        bell.ring(len(new.blocks))
+        bell.ring(len(own.blocks))
     return submitted
 
 

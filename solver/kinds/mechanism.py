@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from jointplay.records.failure import InvalidInput, Problem
-from jointplay.solver.kernels.record.equations import check_length
+from jointplay.solver.kernels.record.length import check_length
 from jointplay.solver.kinds.job import MechanismJob, PresetScene
 from jointplay.solver.mechanics.assembly import (
     ASSEMBLED,

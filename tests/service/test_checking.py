@@ -6,8 +6,13 @@ from typing import Any
 import pytest
 
 from jointplay.records.failure import LimitExceeded
-from jointplay.service.checking import SHORT, Checker, check_batch, check_job
+from jointplay.service.batches.admission import QueueBatch
+from jointplay.service.checking import SHORT, Checker, CheckJob
+from jointplay.service.idempotency import SentKey
 from jointplay.service.problems.handlers import refusal
+from jointplay.solver.kernels.record import length
+from jointplay.solver.kernels.record.equations import record
+from jointplay.storage.catalogue.quotas import NO_QUOTA
 from tests.solver.random_mechanisms import chain
 
 JOB: dict[str, Any] = {
@@ -24,34 +29,48 @@ DOCUMENTS = {
 
 
 @pytest.fixture
-def checker(settings):
-    made = Checker(settings)
+def checker(settings, catalogue):
+    made = Checker(settings, catalogue)
     yield made
     made.close()
 
 
-def outcome(checker, document, padding=0):
+def outcome(checker, catalogue, document, padding=0):
     body = json.dumps(document).encode() + b" " * padding
-    what = check_batch if "jobs" in document else check_job
     try:
-        found = checker.check(what, body, "/v1/jobs")
-        return list(found.jobs), found.fingerprint, found.reuse, found.label
+        if "jobs" not in document:
+            return checker.check(CheckJob(SentKey("once", "ada", "/v1/jobs")), body)
+        queue = QueueBatch(SentKey.made_here("ada"), "ada", NO_QUOTA)
+        queued = checker.check(queue, body)
+        jobs = [catalogue.get(job) for job in queued.jobs]
+        return queued.batch.label, queued.created, [(job.spec, job.owner) for job in jobs]
     except Exception as error:  # noqa: BLE001 - compared
         refused = refusal(error)
         return refused.kind, refused.detail, refused.errors
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
-def test_the_answer_does_not_depend_on_the_process(checker, name):
+def test_the_answer_does_not_depend_on_the_process(checker, catalogue, name):
     document = DOCUMENTS[name]
-    assert outcome(checker, document, SHORT) == outcome(checker, document)
+    there, here = (outcome(checker, catalogue, document, padding) for padding in (SHORT, 0))
+    assert there == here
+
+
+def test_a_batch_whose_process_is_lost_is_queued_once(checker, catalogue):
+    queue = QueueBatch(SentKey.made_here(""), "", NO_QUOTA)
+    body = json.dumps(DOCUMENTS["batch"]).encode().ljust(SHORT + 1)
+    before = len(catalogue.jobs().jobs)
+    first, again = (checker.check(queue, body) for _ in range(2))
+    assert (first.created, again.created) == (True, False)
+    assert first.jobs == again.jobs
+    assert len(catalogue.jobs().jobs) == before + 2
 
 
 def test_a_long_document_is_checked_in_another_process(checker):
-    process = checker._processes[check_job]
+    process = checker._jobs
     body = json.dumps(JOB).encode()
-    for length, elsewhere in ((SHORT, False), (SHORT + 1, True)):
-        checker.check(check_job, body.ljust(length))
+    for size, elsewhere in ((SHORT, False), (SHORT + 1, True)):
+        checker.check(CheckJob(), body.ljust(size))
         assert (process._process is not None) == elsewhere
 
 
@@ -59,16 +78,31 @@ def test_a_document_that_is_no_json_is_refused_alike(checker):
     kinds = []
     for padding in (0, SHORT):
         with pytest.raises(Exception) as refused:  # noqa: PT011 - two classes, one kind
-            checker.check(check_job, b"{" + b" " * padding)
+            checker.check(CheckJob(), b"{" + b" " * padding)
         kinds.append(refusal(refused.value).kind)
     assert kinds[0] is not None
     assert kinds[0] == kinds[1]
 
 
-def test_a_check_that_takes_too_long_is_ended_and_refused(settings):
+def test_a_check_that_takes_too_long_is_ended_and_refused(settings, catalogue):
     scene = chain(63).model_dump()  # its equations are recorded, in another process
-    checker = Checker(settings, patience=0.0)
+    checker = Checker(settings, catalogue, patience=0.0)
     with pytest.raises(LimitExceeded, match="more than 0 s"):
-        checker.check(check_job, json.dumps(JOB | {"scene": scene}).encode())
+        checker.check(CheckJob(), json.dumps(JOB | {"scene": scene}).encode())
     checker.close()
-    assert checker.check(check_job, json.dumps(JOB).encode()).jobs  # not of many bodies
+    assert checker.check(CheckJob(), json.dumps(JOB).encode()).job  # not of many bodies
+
+
+def test_a_form_of_too_many_bodies_is_recorded_once_for_a_whole_batch(
+    checker, catalogue, monkeypatch
+):
+    recorded = []
+    monkeypatch.setattr(length, "record", lambda *a: recorded.append(a) or record(*a))
+    monkeypatch.setattr(length, "MOST_STATEMENTS", 10)
+    job = JOB | {"scene": chain(8).model_dump()}
+    with pytest.raises(LimitExceeded) as refused:
+        QueueBatch(SentKey.made_here(""), "", NO_QUOTA)(
+            {"jobs": [job, job | {"duration": 1.0}]}, checker._settings, catalogue
+        )
+    assert [one.pointer for one in refused.value.problems] == ["/jobs/0/scene", "/jobs/1/scene"]
+    assert len(recorded) == 1

@@ -6,12 +6,7 @@ from itertools import islice
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.knots import KnotsOnPath, knots_on_path
 from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import (
-    MOST_STATEMENTS,
-    Expression,
-    Recorder,
-    too_many,
-)
+from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.mechanics.closing_rows import closing_rows
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.kinematics import Kinematics
@@ -20,7 +15,7 @@ from jointplay.solver.mechanics.loops import Loops
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates, stored_energy
 from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import Tree
-from jointplay.solver.mechanics.view import form, view
+from jointplay.solver.mechanics.view import view
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
@@ -252,40 +247,3 @@ def needed_again(equations: Equations) -> list[Expression]:
         if node.index in functions and functions[node.index].name in ("sin", "cos")
     ]
     return [*angles, *(node for node in equations.multipliers if not node.fixed)]
-
-
-SURELY_SHORT = 7
-"""Bodies up to which no scene comes near the limit: recording it would only cost time."""
-_lengths: dict[tuple[str, Tree, str], int] = {}
-_MOST_KEPT = 64
-"""Lengths that a process keeps: jobs of a batch differ in numbers, seldom in form."""
-
-
-def check_length(scene: Scene, tree: Tree, formulation: str) -> None:
-    """Refuse (LimitExceeded) a scene whose equations have more statements than can be compiled."""
-    if len(scene.bodies) > SURELY_SHORT:
-        statements(scene, tree, formulation)
-
-
-def statements(scene: Scene, tree: Tree, formulation: str) -> int:
-    """Return how many statements slopes and channels take; raises what `check_length` does."""
-    key = (form(scene), tree, formulation)
-    if key in _lengths:
-        return _lengths[key]
-    # a third of what is recorded may never be used; closing loops records half as much again
-    most = (3 if tree.closing else 2) * MOST_STATEMENTS
-    equations = record(scene, tree, formulation, Recorder(most))
-    found = frozenset(needed_again(equations)) if tree.closing else frozenset()
-    total = len(reachable(equations.corrections))
-    for expressions, known in (
-        ([e for _, e in slopes(equations)], frozenset()),
-        (equations.channels.values(), found),
-    ):
-        count = len(reachable(expressions, known))
-        if count > MOST_STATEMENTS:
-            raise too_many(count)
-        total += count
-    while len(_lengths) >= _MOST_KEPT:
-        _lengths.pop(next(iter(_lengths)))
-    _lengths[key] = total
-    return total
