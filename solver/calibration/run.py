@@ -44,7 +44,8 @@ class CalibrationRun:
         self._reported = 0.0
         if checkpoint is not None:
             facts, saved = decode(checkpoint, _KIND, SOLVER_VERSION)
-            self._costs = np.split(saved["costs"], np.cumsum(facts["lengths"])[:-1])
+            ends = np.cumsum(facts["lengths"], dtype=int)
+            self._costs = np.split(saved["costs"], ends)[:-1]  # the last one is behind them all
             self._spent = self._kept = (facts["runs"], facts["steps"])
         self._most = _most_runs(study)
 

@@ -33,12 +33,13 @@ class InFolder:
 
     def names(self, folder: str = "") -> Iterator[str]:
         """Walk the folder."""
-        found: list[Path] = []
-        with suppress(FileNotFoundError):  # all of it is being removed
-            found.extend((self.path / folder).rglob("*"))
-        for path in sorted(found):
-            if not path.name.endswith(durable.PARTIAL) and path.is_file():
-                yield path.relative_to(self.path).as_posix()
+        found: list[str] = []
+        for parent, _, files in os.walk(self.path / folder):  # none where all is being removed
+            below = os.path.relpath(parent, self.path)
+            found += (os.path.normpath(os.path.join(below, name)) for name in files)
+        for name in sorted(found, key=lambda name: name.split("/")):
+            if not name.endswith(durable.PARTIAL):
+                yield name
 
     def has(self, name: str) -> bool:
         """Look the file up."""

@@ -7,6 +7,7 @@ import pytest
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.calibration.plan import CalibrationStudy
+from jointplay.solver.calibration.run import CalibrationRun
 from jointplay.solver.kinds import Study, admit
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import seal
@@ -71,6 +72,15 @@ def test_one_that_is_left_and_resumed_finds_what_the_local_command_finds(
     }
     undisturbed = run_block(study, 0, tmp_path / "undisturbed")
     assert dict(undisturbed.statistics or {}) == {"steps": steps}
+
+
+def test_one_that_is_left_before_any_cost_is_known_begins_anew(
+    study: CalibrationStudy, tmp_path: Path
+) -> None:
+    run = CalibrationRun(study, 0)
+    next(run.slices())
+    (*_, last) = CalibrationRun(study, 0, run.checkpoint()).slices()
+    assert [end.document for end in last.ended] == [computed(study.calibration).document()]
 
 
 def test_one_of_which_every_run_fails_says_what_to_try(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import os
 import threading
+import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -18,7 +19,9 @@ STUDY: Final = "study"
 """Folder of a study, whose blocks leave files that are not sealed yet."""
 _PIECE: Final = 2**20
 _LOOK: Final = 0.1
-"""Seconds after which it is looked for rows that are whole."""
+"""Seconds after which it is looked for rows that are whole ..."""
+_RARELY: Final = 50
+"""... and at least so many times as long as the last look took: the processor is to compute."""
 _LARGE: Final = 2**20
 """Bytes of rows that are sent at once; of fewer a run may be over before they are needed."""
 _Version = tuple[int, int, int]
@@ -130,9 +133,13 @@ class Scratch:
         ended = threading.Event()
 
         def look() -> None:
-            while not ended.wait(_LOOK):
-                for name in [*self._files.running.names()]:
-                    if _is_rows(name) and not ended.is_set():
+            pause = _LOOK
+            while not ended.wait(pause):
+                begun = time.thread_time()
+                rows = [name for name in self._files.running.names() if _is_rows(name)]
+                pause = max(_LOOK, _RARELY * (time.thread_time() - begun))
+                for name in rows:
+                    if not ended.is_set():
                         with (
                             self._sending,
                             suppress(OSError, CatalogueError),  # `send` tries again
