@@ -38,9 +38,9 @@ async def is_ready(readiness: Annotated[Readiness, of_the_application("readiness
     try:
         await readiness.proved()
     except (Unavailable, SQLAlchemyError, RuntimeError) as error:
-        _log.warning("the catalogue does not do as asked", exc_info=error)
+        _log.warning("the catalogue does not do as asked: %s", error)
         raise unavailable("The catalogue cannot be written.", 5) from error
     except (OSError, Unfit) as error:
-        _log.warning("results cannot be stored", exc_info=error)
+        _log.warning("results cannot be stored: %s", error)
         raise unavailable("Results cannot be stored.", 5) from error
     return Health()

@@ -67,8 +67,8 @@ class Catalogue:
     def migrate(self) -> None:
         """Create the tables or bring them up to date; several processes may do it at once.
 
-        Tables of a newer program are left as they are: migrations take nothing away that the
-        program before them needs, so that processes of both can run while one replaces the other.
+        Tables of a newer program are left as they are: as long as migrations only add to them,
+        processes of both can run while one replaces the other.
         """
         self.connections.make_database()
         if self.is_migrated():
@@ -81,17 +81,16 @@ class Catalogue:
         self.connections.close()
 
     def ping(self) -> None:
-        """Raise if the database does not answer, or its schema is older than this program's."""
+        """Raise if the database does not answer, or its schema is not one of this program."""
         found = self.connections.repeated(self._named_revision)
-        if found is None or found < schema.REVISION:
+        if not schema.serves(found):
             raise RuntimeError(
                 f"the catalogue is at revision {found}, this program needs {schema.REVISION}"
             )
 
     def is_migrated(self) -> bool:
-        """Tell whether the database has the tables of this program, or of a newer one."""
-        found = self.connections.repeated(self._revision)
-        return found is not None and found >= schema.REVISION
+        """Tell whether the database has all tables of this program."""
+        return schema.serves(self.connections.repeated(self._revision))
 
     def _revision(self) -> str | None:
         with self.connections.reading() as connection:

@@ -6,7 +6,9 @@ from sqlalchemy import Connection, inspect, text
 
 from jointplay.storage.catalogue import functions, tables
 
-REVISION = "0010"  # the newest migration; a test compares it with the folder storage/migrations
+REVISION = "0010"
+"""The newest migration; a test compares it with the folder storage/migrations. One that takes
+something away which programs before it need is called by the next thousand: 1001 after 0010."""
 
 
 def present_revision(connection: Connection) -> str | None:
@@ -17,13 +19,18 @@ def present_revision(connection: Connection) -> str | None:
     return None if found is None else str(found)
 
 
+def serves(found: str | None) -> bool:
+    """Tell whether this program can work at a revision: its own, or one that only added to it."""
+    return found is not None and found >= REVISION and found[0] == REVISION[0]
+
+
 def upgrade(connection: Connection) -> None:
     """Make all tables, or run the missing migrations, inside the caller's unit of writing.
 
     Raises
     ------
-    alembic.util.CommandError
-        The database is of a revision that this program does not know.
+    RuntimeError
+        The database is of a newer program that took something away which this one needs.
     """
     from alembic import command
     from alembic.config import Config
@@ -31,7 +38,10 @@ def upgrade(connection: Connection) -> None:
     configuration = Config()
     configuration.set_main_option("script_location", "jointplay.storage:migrations")
     configuration.attributes["connection"] = connection
-    if present_revision(connection) is None:
+    found = present_revision(connection)
+    if found is not None and found > REVISION:
+        raise RuntimeError(f"the catalogue {_newer(found)}; run that one")
+    if found is None:
         tables.metadata.create_all(connection)
         functions.make(connection)
         command.stamp(configuration, "head")
@@ -46,14 +56,18 @@ def flaws(connection: Connection) -> tuple[str, ...]:
         return ("has no tables; jointplay serve makes them",)
     if found < REVISION:
         return (f"is at revision {found}; jointplay serve brings it to {REVISION}",)
-    if found > REVISION:
-        return (f"is at revision {found}, of a newer jointplay than this one",)
+    if not serves(found):
+        return (_newer(found),)
     if lacking := [*_lacking(connection)]:
         return (f"lacks {', '.join(lacking)}",)
     if connection.dialect.name != "sqlite":
         return ()
     said = connection.execute(text("PRAGMA integrity_check(5)")).scalars()
     return tuple(f"is damaged: {sentence}" for sentence in said if sentence != "ok")
+
+
+def _newer(found: str) -> str:
+    return f"is at revision {found}, of a newer jointplay than this one"
 
 
 def _lacking(connection: Connection) -> Iterator[str]:

@@ -71,17 +71,32 @@ def test_the_code_knows_the_newest_revision() -> None:
     assert ScriptDirectory.from_config(configuration).get_current_head() == schema.REVISION
 
 
-def test_a_catalogue_of_a_newer_program_is_worked_with_and_left_as_it_is(
+def test_a_catalogue_to_which_a_newer_program_added_is_worked_with_and_left_as_it_is(
     new_url: Callable[[], str],
 ) -> None:
     catalogue = Catalogue(new_url())
     with catalogue.connections.writing() as connection:
         connection.exec_driver_sql("ALTER TABLE job ADD COLUMN newer TEXT")
-        connection.exec_driver_sql("UPDATE alembic_version SET version_num = '9999'")
+        connection.exec_driver_sql("UPDATE alembic_version SET version_num = '0999'")
     catalogue.migrate()
     catalogue.ping()
     assert catalogue.submit(NewJob("simulate", {}, "d" * 64, "1")).created
-    assert catalogue.flaws() == ("is at revision 9999, of a newer jointplay than this one",)
+    assert catalogue.flaws() == ()
+    catalogue.close()
+
+
+def test_a_catalogue_of_which_a_newer_program_took_something_away_is_refused(
+    new_url: Callable[[], str],
+) -> None:
+    catalogue = Catalogue(new_url())
+    with catalogue.connections.writing() as connection:
+        connection.exec_driver_sql("UPDATE alembic_version SET version_num = '1001'")
+    assert not catalogue.is_migrated()
+    with pytest.raises(RuntimeError, match="of a newer jointplay than this one; run that one"):
+        catalogue.migrate()
+    with pytest.raises(RuntimeError, match="at revision 1001"):
+        catalogue.ping()
+    assert catalogue.flaws() == ("is at revision 1001, of a newer jointplay than this one",)
     catalogue.close()
 
 
