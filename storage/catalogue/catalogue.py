@@ -29,7 +29,7 @@ from jointplay.storage.catalogue import (
     upkeep,
 )
 from jointplay.storage.catalogue.connections import Connections, Unit
-from jointplay.storage.catalogue.errors import CatalogueError, Interrupted, Unavailable
+from jointplay.storage.catalogue.errors import SILENT, CatalogueError, Interrupted, Unavailable
 from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
 from jointplay.storage.catalogue.quotas import NO_QUOTA, Quota, use_of
@@ -104,15 +104,17 @@ class Catalogue:
     def flaws(self) -> tuple[str, ...]:
         """Return sentences on why nothing else can be asked of the database; none if it is sound.
 
-        Reads all of it.
+        Reads all of it. They are for administrators: of a database that cannot be reached they
+        have the address, and why not.
         """
         try:
             with self.connections.reading() as connection:
                 return schema.flaws(connection)
         except DBAPIError as error:
             return (f"cannot be read: {error.orig}",)
-        except Interrupted:
-            return ("does not answer",)
+        except Interrupted as error:
+            said = str(getattr(error.__cause__, "orig", "")).strip().splitlines()
+            return (": ".join((SILENT, *said[-1:])),)
 
     # What users ask for
 

@@ -7,7 +7,7 @@ import socket
 import ssl
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
@@ -19,11 +19,13 @@ from trustme import CA
 
 from jointplay.client import Client
 from jointplay.service.processes.broker import Broker
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.worker.app import KEY_PREFIX, RUN_BLOCK, make_app
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.protocol import ClaimRequest
 from jointplay.worker.wake_up import connection
+from tests.postgresql_server import running_server
 from tests.waiting import until
 
 HOST = "127.0.0.2"
@@ -90,7 +92,17 @@ def test_a_worker_computes_for_a_service_that_it_can_verify(
         worker.claim(request)
 
 
-async def speak_tls(listening: socket.socket, path: str, certificate: Path) -> None:
+Streams = tuple[asyncio.StreamReader, asyncio.StreamWriter]
+_ASKS = b"\x00\x00\x00\x08\x04\xd2\x16\x2f"
+"""The request for TLS that a client of PostgreSQL begins with."""
+
+
+async def speak_tls(
+    listening: socket.socket,
+    connect: Callable[[], Coroutine[None, None, Streams]],
+    certificate: Path,
+    asks: bytes,
+) -> None:
     context = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
     context.load_cert_chain(certificate)
 
@@ -102,19 +114,26 @@ async def speak_tls(listening: socket.socket, path: str, certificate: Path) -> N
         writer.close()
 
     async def meet(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        there = await asyncio.open_unix_connection(path)
-        await asyncio.gather(copy(reader, there[1]), copy(there[0], writer))
+        if asks:
+            assert await reader.readexactly(len(asks)) == asks
+            writer.write(b"S")
+        with suppress(OSError):  # a client that does not trust us
+            await writer.start_tls(context)
+            there = await connect()
+            await asyncio.gather(copy(reader, there[1]), copy(there[0], writer))
 
-    server = await asyncio.start_server(meet, sock=listening, ssl=context)
+    server = await asyncio.start_server(meet, sock=listening)
     await server.serve_forever()
 
 
 @contextmanager
-def encrypted(path: str, certificate: Path) -> Iterator[int]:
-    """Have a server that listens on a socket speak TLS on a port, as one that has it would."""
+def encrypted(
+    connect: Callable[[], Coroutine[None, None, Streams]], certificate: Path, asks: bytes = b""
+) -> Iterator[int]:
+    """Have a server speak TLS on a port, as one that has it would."""
     with socket.create_server((HOST, 0)) as listening:
         speaking = multiprocessing.get_context("fork").Process(
-            target=lambda: asyncio.run(speak_tls(listening, path, certificate))
+            target=lambda: asyncio.run(speak_tls(listening, connect, certificate, asks))
         )
         speaking.start()
         try:
@@ -129,7 +148,7 @@ def test_wake_ups_go_through_a_redis_that_can_be_verified(files: Path, tmp_path:
     broker.start()
     try:
         path = broker.url.removeprefix("unix://")
-        with encrypted(path, files / "own.pem") as port:
+        with encrypted(lambda: asyncio.open_unix_connection(path), files / "own.pem") as port:
             url = f"rediss://{HOST}:{port}/0?ssl_ca_certs={files}/"
             with make_app(f"{url}known.pem") as app, connection(f"{url}known.pem") as redis:
                 app.send_task(RUN_BLOCK, args=["block"], queue="jobs")
@@ -144,3 +163,19 @@ def test_wake_ups_go_through_a_redis_that_can_be_verified(files: Path, tmp_path:
                     own.ensure_connection(max_retries=1, interval_start=0.0)
     finally:
         broker.stop()
+
+
+def test_a_catalogue_is_kept_by_a_postgresql_that_can_be_verified(files: Path) -> None:
+    with running_server() as server:
+        database = server.new().rpartition("/")[2]
+        with encrypted(
+            lambda: asyncio.open_connection("127.0.0.1", server.port), files / "own.pem", _ASKS
+        ) as port:
+            url = f"postgresql://postgres@{HOST}:{port}/{database}?sslmode=verify-full&sslrootcert="
+            with closing(Catalogue(f"{url}{files / 'known.pem'}")) as catalogue:
+                catalogue.ping()
+            with closing(Catalogue(f"{url}{files / 'stranger.pem'}")) as catalogue:
+                with pytest.raises(Unavailable):
+                    catalogue.ping()
+                (flaw,) = catalogue.flaws()
+                assert "certificate verify failed" in flaw
