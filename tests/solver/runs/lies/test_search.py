@@ -75,7 +75,7 @@ def searched(measure: str, seed: int, runs: int, kinds: list[str]) -> list[Any]:
 
 @pytest.mark.parametrize(
     ("runs", "kinds"),
-    [(3, PRESETS), pytest.param(150, list(SCENES), marks=pytest.mark.long)],
+    [(2, PRESETS), pytest.param(150, list(SCENES), marks=pytest.mark.long)],
 )
 def test_error_bars_of_a_search_hold(runs: int, kinds: list[str]) -> None:
     verdicts = searched("coverage", 8, runs, kinds)
