@@ -152,6 +152,16 @@ SLOW = {
     "parameters": {"speed": 300.0, "speed_crank4": 0.3, "friction": 10.0},
 }
 
+WALKING = {
+    "preset": "jansen-leg",
+    "parameters": {
+        "clearance": 5.19534483679e-05,
+        "restitution": 0.569894113827,
+        "friction": 0.1527255197,
+        "speed": 0.69869309036,
+    },
+}
+
 LIES = (
     Lie(
         "rotor on a level shaft",
@@ -185,6 +195,11 @@ LIES = (
         "journal falling about",
         "extremes in flight were missed",
         lambda: by_extremes(_job(FALLING, 0.15)),
+    ),
+    Lie(
+        "leg in a flight of one step",
+        "an extreme before an onset was missed",
+        lambda: by_extremes(_job(WALKING, 0.0125, method="tsitouras", tolerance=1.82687e-05)),
     ),
     Lie("level passed in flight", "sections were missed", _every_passage),
     Lie(

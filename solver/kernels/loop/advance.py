@@ -96,6 +96,7 @@ def look_closer(
             continue
         if at.watched_closely or due:
             look_at_passages(lane, run, at, work, spare, table, channels_around, channels_within)
+        if at.watched_closely or due or run.landing != NO_PAIR:
             look_inside(lane, run, at, work, spare, table, channels_around, channels_within)
         if may_pass_bend(lane, at, work):
             rows = np.empty(at.rows, np.int64)

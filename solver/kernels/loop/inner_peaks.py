@@ -21,8 +21,9 @@ from jointplay.solver.kernels.loop.passages import (
 )
 from jointplay.solver.kernels.loop.peaks import look_at_extremes
 from jointplay.solver.kernels.loop.roughness import is_due, may_set_records
-from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.loop.runs import NO_PAIR, Run
 from jointplay.solver.kernels.loop.tops import open_windows
+from jointplay.solver.kernels.loop.turns_before_onset import turns_before_onset
 from jointplay.solver.kernels.loop.windows import CLOSER
 from jointplay.solver.kernels.record.rows import NO_ROW
 
@@ -99,10 +100,12 @@ def look_inside(
 ) -> None:
     """Seek extremes of all channels in a step that begins or ends the run, swings or is rough.
 
-    Methods that are `watched_closely` have every step in contact looked at.
+    Also in one that ends at an onset, where a channel may turn unseen. Methods that are
+    `watched_closely` have every step in contact looked at.
     """
     wanted = np.isnan(work[at.change, lane]) or work[at.arrival, lane] >= work[at.end, lane]
     wanted |= at.watched_closely and touches(lane, at, work)
+    wanted |= run.landing != NO_PAIR and turns_before_onset(lane, at, work)
     due = int(work[at.flag, lane]) & SWINGING != 0 or is_due(lane, run, at, work)
     if not (wanted or due):
         return
