@@ -34,7 +34,7 @@ class InFolder:
     def names(self, folder: str = "") -> Iterator[str]:
         """Walk the folder."""
         found: list[str] = []
-        for parent, _, files in os.walk(self.path / folder):  # none where all is being removed
+        for parent, _, files in os.walk(self.path / folder, onerror=_raise_unless_gone):
             below = os.path.relpath(parent, self.path)
             found += (os.path.normpath(os.path.join(below, name)) for name in files)
         for name in sorted(found, key=lambda name: name.split("/")):
@@ -90,3 +90,9 @@ class InFolder:
             shutil.rmtree(self.path)
         with suppress(OSError):  # other jobs are in it
             self.path.parent.rmdir()
+
+
+def _raise_unless_gone(error: OSError) -> None:
+    """Raise what keeps names from being read: whoever misses one may take the file for removed."""
+    if not isinstance(error, FileNotFoundError | NotADirectoryError | PermissionError):
+        raise error

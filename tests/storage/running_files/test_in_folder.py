@@ -28,3 +28,8 @@ class TestInFolder(RunningFilesContract):
         self.opened().put("a1/parts/1", [b"x"])
         (self.path / f"a1/parts/2{PARTIAL}").write_bytes(b"half")
         assert [*self.opened().names()] == ["a1/parts/1"]
+
+    def test_a_folder_that_cannot_be_read_is_not_one_without_files(self) -> None:
+        self.opened().put("a1/parts/1", [b"x"])
+        with pytest.raises(OSError, match="too long"):
+            list(self.opened().names("x" * 300))
