@@ -39,15 +39,20 @@ def record_progress(
     return Answered(verdict=catalogue.record_progress(block, attempt, settings.lease, **known))
 
 
-@router.post("/checkpoint", status_code=204)
+@router.post("/checkpoint")
 def record_checkpoint(
     catalogue: CatalogueDependency,
+    settings: SettingsDependency,
     block: BlockId,
     attempt: Attempt,
     told: Annotated[protocol.Checkpoint, said(protocol.Checkpoint)],
-) -> None:
-    """Name a restart point, whose files are there."""
-    catalogue.record_checkpoint(block, attempt, **told.model_dump())
+) -> Answered:
+    """Name a restart point, whose files are there; with its progress the block is held longer."""
+    point = told.model_dump(exclude={"progress"})
+    catalogue.record_checkpoint(block, attempt, **point)
+    if told.progress is None:
+        return Answered(verdict=catalogue.verdict(block, attempt))
+    return record_progress(catalogue, settings, block, attempt, told.progress)
 
 
 @router.post("/activity", status_code=204)

@@ -15,11 +15,12 @@ from jointplay.storage.catalogue.records import Block, BlockState, Job, JobState
 from jointplay.storage.catalogue.rows import lock_job, record_event
 
 _block = tables.block
-
-
-def _is_held(block_id: Any, attempt: Any) -> ColumnElement[bool]:
-    columns = (_block.c.id == block_id, _block.c.attempt == attempt)
-    return and_(*columns, _block.c.state == BlockState.running)
+_IS_HELD: Final = and_(
+    _block.c.id == bindparam("of_block"),
+    _block.c.attempt == bindparam("of_attempt"),
+    _block.c.state == BlockState.running,
+)
+_HELD: Final = select(_block).where(_IS_HELD)
 
 
 def _over_blocks(value: ColumnElement[Any]) -> ColumnElement[Any]:
@@ -33,11 +34,7 @@ _JOB_OF: Final = (
     .where(_block.c.id == bindparam("of_block"))
     .with_for_update(of=_job, key_share=True)
 )
-_STATE: Final = (
-    select(_job.c.state)
-    .join(_block, _block.c.job == _job.c.id)
-    .where(_is_held(bindparam("of_block"), bindparam("of_attempt")))
-)
+_STATE: Final = select(_job.c.state).join(_block, _block.c.job == _job.c.id).where(_IS_HELD)
 _WEIGHTED = func.sum(_block.c.count * _block.c.progress_fraction) / func.sum(_block.c.count)
 _SUM: Final = (
     update(_job)
@@ -53,8 +50,9 @@ _SUM: Final = (
 
 def change_held(unit: Unit, block_id: str, attempt: int, **values: Any) -> str:
     """Change a block this attempt holds and return its job; Fenced if it does not hold it."""
-    change = update(_block).where(_is_held(block_id, attempt)).values(values)
-    job_id = unit.execute(change.returning(_block.c.job)).scalar_one_or_none()
+    change = update(_block).where(_IS_HELD).values(values).returning(_block.c.job)
+    asked = {"of_block": block_id, "of_attempt": attempt}
+    job_id = unit.execute(change, asked).scalar_one_or_none()
     if job_id is None:
         raise Fenced(block_id, attempt)
     return str(job_id)
@@ -76,7 +74,8 @@ def job_of(unit: Unit, block_id: str) -> Job | None:
 
 def held(unit: Unit, block_id: str, attempt: int) -> Block:
     """Return a block that this attempt holds; Fenced if it does not."""
-    row = unit.execute(select(_block).where(_is_held(block_id, attempt))).one_or_none()
+    asked = {"of_block": block_id, "of_attempt": attempt}
+    row = unit.execute(_HELD, asked).one_or_none()
     if row is None:
         raise Fenced(block_id, attempt)
     return Block(**row._mapping)

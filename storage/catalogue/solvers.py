@@ -8,7 +8,7 @@ waits, and its status says so.
 from collections.abc import Collection, Sequence
 from typing import Any, Final
 
-from sqlalchemy import ColumnElement, and_, bindparam, delete, insert, or_, select, update
+from sqlalchemy import and_, bindparam, delete, insert, or_, select, update
 
 from jointplay.storage.catalogue import tables, tally, turns
 from jointplay.storage.catalogue.connections import Unit
@@ -32,16 +32,12 @@ def fits(job: Job, solver: Solver) -> bool:
     return job.solver_version == solver.version and job.processor in (None, solver.processor)
 
 
-def _fits(solver: Solver) -> ColumnElement[bool]:
-    return _is_of(solver.version, solver.processor)
-
-
-def _is_of(version: Any, processor: Any) -> ColumnElement[bool]:
-    of_class = or_(_job.c.processor.is_(None), _job.c.processor == processor)
-    return and_(_job.c.solver_version == version, of_class)
-
-
+_FITS: Final = and_(
+    _job.c.solver_version == bindparam("of_version"),
+    or_(_job.c.processor.is_(None), _job.c.processor == bindparam("of_processor")),
+)
 _outbox = tables.outbox
+_ANY: Final = select(_outbox.c.block).limit(1)
 _QUEUED: Final = (  # of one queue, by index
     select(_outbox.c.block)
     .join(_block, _block.c.id == _outbox.c.block)
@@ -54,34 +50,40 @@ _QUEUED: Final = (  # of one queue, by index
     )
     .order_by(_outbox.c.owner, _outbox.c.block)
 )
-_NEXT: Final = _QUEUED.where(
-    _outbox.c.owner == bindparam("of_owner"),
-    _is_of(bindparam("of_version"), bindparam("of_processor")),
-).limit(1)
+_NEXT: Final = _QUEUED.where(_outbox.c.owner == bindparam("of_owner"), _FITS).limit(1)
+_SERVED: Final = (  # by a worker that was heard of lately
+    select(_worker.c.name)
+    .where(
+        _worker.c.version == _job.c.solver_version,
+        or_(_job.c.processor.is_(None), _worker.c.processor == _job.c.processor),
+        _worker.c.seen > bindparam("lately"),
+    )
+    .correlate(_job)
+    .exists()
+)
+_other = _block.alias()  # by index: a count of a study's blocks, for each, takes their square
+_SECOND: Final = select(_other.c.id).where(_other.c.job == _job.c.id, _other.c.index == 1)
+_ABANDONED: Final = and_(  # may be begun anew by any solver: none of its blocks builds on another
+    or_(_job.c.attempt == 0, ~_SECOND.correlate(_job).exists()),
+    _job.c.created <= bindparam("lately"),
+    ~_SERVED,
+)
+_TO_TAKE_OVER: Final = _QUEUED.where(
+    ~_FITS, _ABANDONED, _outbox.c.owner.not_in(bindparam("busy", expanding=True))
+).limit(_CANDIDATES)
 
 
-def _served(unit: Unit) -> ColumnElement[bool]:
-    """Whether a worker that was heard of lately may take a job."""
-    of_class = or_(_job.c.processor.is_(None), _worker.c.processor == _job.c.processor)
-    own = and_(_worker.c.version == _job.c.solver_version, of_class)
-    lately = select(_worker.c.name).where(own, _worker.c.seen > unit.now - PATIENCE)
-    return lately.correlate(_job).exists()
-
-
-def _abandoned(unit: Unit) -> ColumnElement[bool]:
-    """Whether a job may be begun anew by any solver: none of its blocks builds on another."""
-    other = _block.alias()  # by index: a count of a study's blocks, for each, takes their square
-    second = select(other.c.id).where(other.c.job == _job.c.id, other.c.index == 1)
-    alone = or_(_job.c.attempt == 0, ~second.correlate(_job).exists())
-    return and_(alone, _job.c.created <= unit.now - PATIENCE, ~_served(unit))
+def _asked_by(unit: Unit, solver: Solver) -> dict[str, Any]:
+    own = {"of_version": solver.version, "of_processor": solver.processor}
+    return {**own, "moment": unit.now, "lately": unit.now - PATIENCE}
 
 
 def waiting_for(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
     """Return the queued block whose turn it is of a solver's, if there is one, of idle owners."""
-    own = {"of_version": solver.version, "of_processor": solver.processor}
+    own = _asked_by(unit, solver)
     for queue in QUEUES:
         for owner in turns.in_turn(unit, queue):
-            asked = {**own, "moment": unit.now, "of_queue": queue, "of_owner": owner}
+            asked = {**own, "of_queue": queue, "of_owner": owner}
             found = None if owner in busy else unit.execute(_NEXT, asked).scalar_one_or_none()
             if found is not None:
                 return (found,)
@@ -90,26 +92,25 @@ def waiting_for(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple
 
 def abandoned(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
     """Return queued blocks that a solver may take over from others, of idle owners."""
-    asked = {"moment": unit.now}
-    waiting = _QUEUED.where(~_fits(solver), _abandoned(unit), _outbox.c.owner.not_in(busy))
+    if unit.execute(_ANY).first() is None:  # so it is for most who ask again and again
+        return ()
+    asked = {**_asked_by(unit, solver), "busy": [*busy]}
     found: list[str] = []
     for queue in QUEUES:
-        if len(found) < _CANDIDATES:
-            some = waiting.limit(_CANDIDATES - len(found))
-            found += unit.execute(some, {**asked, "of_queue": queue}).scalars()
-    return tuple(found)
+        found += unit.execute(_TO_TAKE_OVER, {**asked, "of_queue": queue}).scalars()
+    return tuple(found[:_CANDIDATES])
 
 
 def take_over(unit: Unit, block_id: str, solver: Solver) -> bool:
     """Make a block's job this solver's, if it was abandoned; what it had computed is left."""
     queued = and_(_block.c.id == block_id, _block.c.state == BlockState.queued)
     of_block = _job.c.id == select(_block.c.job).where(queued).scalar_subquery()
-    foreign = and_(of_block, _job.c.state.in_(LIVE), ~_fits(solver))
     taken = unit.execute(
         update(_job)
-        .where(foreign, _abandoned(unit))
+        .where(of_block, _job.c.state.in_(LIVE), ~_FITS, _ABANDONED)
         .values(solver_version=solver.version, processor=solver.processor)
-        .returning(_job.c.id)
+        .returning(_job.c.id),
+        _asked_by(unit, solver),
     ).scalar_one_or_none()
     if taken is not None:
         anew = update(_block).where(_block.c.job == taken)
@@ -126,8 +127,10 @@ def wake_again(unit: Unit, block_id: str, solver: Solver) -> None:
     outbox = tables.outbox
     of_block = outbox.c.block == block_id
     told = or_(outbox.c.tries > 0, outbox.c.due <= unit.now)  # otherwise it was put off since
-    may = select(_job.c.id).join(_block).where(_block.c.id == block_id, _waits, _fits(solver))
-    found = unit.execute(select(outbox.c.created, may.exists()).where(of_block, told)).one_or_none()
+    may = select(_job.c.id).join(_block).where(_block.c.id == block_id, _waits, _FITS)
+    found = unit.execute(
+        select(outbox.c.created, may.exists()).where(of_block, told), _asked_by(unit, solver)
+    ).one_or_none()
     if found is not None:
         created, may_take = found
         longer = min(max(_PART_OF_WAIT * (unit.now - created), 1.0), _LONGEST_PAUSE)
@@ -141,6 +144,14 @@ def machine_of(worker: str) -> str:
     return boot or host
 
 
+_HOLDER: Final = select(_block.c.worker).where(_block.c.id == bindparam("of_block"))
+_HEARD_OF: Final = (
+    update(_worker)
+    .where(_worker.c.name == _HOLDER.scalar_subquery())
+    .values(seen=bindparam("moment"))
+)
+
+
 def note_worker(unit: Unit, name: str, solver: Solver) -> None:
     """Remember that a worker was heard of just now."""
     facts = {"version": solver.version, "processor": solver.processor, "seen": unit.now}
@@ -151,8 +162,7 @@ def note_worker(unit: Unit, name: str, solver: Solver) -> None:
 
 def note_holder(unit: Unit, block_id: str) -> None:
     """Remember that the worker that holds a block was heard of just now."""
-    holder = select(_block.c.worker).where(_block.c.id == block_id).scalar_subquery()
-    unit.execute(update(_worker).where(_worker.c.name == holder).values(seen=unit.now))
+    unit.execute(_HEARD_OF, {"of_block": block_id, "moment": unit.now})
 
 
 def forget_workers(unit: Unit, ended: Sequence[str]) -> None:
@@ -175,16 +185,18 @@ def unserved(unit: Unit) -> dict[str, Solver]:
     live = _job.c.state.in_(LIVE)
     rows = unit.execute(
         select(_job.c.id, _job.c.solver_version, _job.c.processor)
-        .where(live, _job.c.created <= unit.now - PATIENCE, waits, ~_served(unit))
-        .order_by(_job.c.id)
+        .where(live, _job.c.created <= bindparam("lately"), waits, ~_SERVED)
+        .order_by(_job.c.id),
+        {"lately": unit.now - PATIENCE},
     )
     return {row.id: Solver(row.solver_version, row.processor or "") for row in rows}
 
 
 def count_unserved(unit: Unit) -> int:
     """Count those of them whose status says so, which is quick, and is done by the relay."""
-    found = select(_job.c.state).where(tables.UNSERVED, ~_served(unit))  # by an index of its own
-    return sum(state in LIVE for state in unit.execute(found).scalars())
+    found = select(_job.c.state).where(tables.UNSERVED, ~_SERVED)  # by an index of its own
+    states = unit.execute(found, {"lately": unit.now - PATIENCE}).scalars()
+    return sum(state in LIVE for state in states)
 
 
 def note_unserved(unit: Unit) -> None:

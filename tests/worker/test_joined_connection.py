@@ -8,8 +8,10 @@ from pathlib import Path
 import pytest
 from fastapi import FastAPI
 
-from jointplay.storage.catalogue.errors import Unavailable
-from jointplay.storage.catalogue.records import Block, BlockState, Claim, Job, Verdict
+from jointplay.service.app import create_app
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Fenced, Unavailable
+from jointplay.storage.catalogue.records import Block, BlockState, Claim, Job, NewJob, Verdict
 from jointplay.storage.settings import Settings
 from jointplay.worker.holding import Refused
 from jointplay.worker.joined.attempt import JoinedAttempt
@@ -67,5 +69,39 @@ def test_no_answer_is_waited_for_until_the_lease_is_over(tmp_path: Path) -> None
         attempt = JoinedAttempt(connection, Claim(BLOCK, job), scratch)
         with pytest.raises(Unavailable):
             attempt.heartbeat(BLOCK.id, 1, LEASE)
+        attempt.record_progress(BLOCK.id, 1, LEASE, time=0.0, fraction=0.0)  # waits for nothing
         with pytest.raises(Unavailable):
-            attempt.record_progress(BLOCK.id, 1, LEASE, time=0.0, fraction=0.0)
+            attempt.heartbeat(BLOCK.id, 1, LEASE)
+
+
+def test_progress_goes_with_the_next_word_and_who_computes_hears_the_answer(
+    tmp_path: Path, catalogue: Catalogue
+) -> None:
+    new = NewJob("simulate", {}, "d" * 64, "1")
+    job = catalogue.submit(new).job.id
+    claim = catalogue.claim_block(f"{job}-0", "lab:1", 60.0)
+    assert claim is not None
+    settings = Settings(data=tmp_path / "data")
+    block, told = claim.block, {"time": 1.0, "fraction": 0.5, "steps": 7}
+    with serving(create_app(settings)) as url, closing(Connection(url, None)) as connection:
+        files = FilesOfService(connection, BucketOfService(connection), block)
+        attempt = JoinedAttempt(connection, claim, Scratch(files, settings, block))
+
+        def reached() -> tuple[float, int | None, str | None]:
+            (stored,) = catalogue.blocks(job)
+            return stored.progress_fraction, stored.progress_steps, stored.checkpoint
+
+        assert attempt.record_progress(block.id, 1, 60.0, **told) is Verdict.go_on
+        assert reached() == (0.0, None, None)
+        attempt.record_checkpoint(block.id, 1, watermark=3, checkpoint="block0-a1")
+        assert reached() == (0.5, 7, "block0-a1")
+        attempt.record_progress(block.id, 1, 60.0, **told | {"fraction": 0.75})
+        catalogue.request_cancel(job)
+        attempt.heartbeat(block.id, 1, 60.0)
+        assert reached() == (0.75, 7, "block0-a1")
+        assert attempt.record_progress(block.id, 1, 60.0, **told) is Verdict.cancel
+        catalogue.release(block.id, 1)
+        for ask in (attempt.heartbeat, attempt.record_progress):
+            more = told if ask == attempt.record_progress else {}
+            with pytest.raises(Fenced):
+                ask(block.id, 1, 60.0, **more)

@@ -3,7 +3,9 @@
 from typing import Final
 
 from jointplay.records.job import JobError
+from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import BlockState, Claim, Job, JobState, Verdict
+from jointplay.worker.holding import Refused
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.scratch.files import Scratch
@@ -16,14 +18,17 @@ which one is gone, and there must be time to reach another one."""
 class JoinedAttempt:
     """Tells the service of the attempt; `SentAttempt` has sent the files that this is about.
 
-    Whether to go on is known from the last answer: asking each time would take a round trip.
+    Computing never waits for a round trip: how far it is goes with the next restart point or
+    heartbeat, and whether to go on is known from the last answer to one.
     """
 
     def __init__(self, connection: Connection, claim: Claim, scratch: Scratch) -> None:
         self._connection = connection
         self._claim = claim
         self._scratch = scratch
+        self._progress: protocol.Progress | None = None
         self._verdict = Verdict.go_on
+        self._end: Fenced | Refused | None = None
 
     def get(self, job: str, /) -> Job:
         """Return the job as it was claimed; the service itself removes what a late attempt left."""
@@ -31,12 +36,14 @@ class JoinedAttempt:
 
     def verdict(self, block_id: str, attempt: int, /) -> Verdict:
         """Return what the service answered last."""
+        if self._end is not None:
+            raise self._end
         return self._verdict
 
     def heartbeat(self, block_id: str, attempt: int, lease: float, /) -> Verdict:
-        """Hold the block for the service's own lease."""
-        block, within = self._claim.block, _PART_OF_LEASE * lease
-        return self._answered(self._connection.tell(block, "heartbeat", within=within))
+        """Hold the block for the service's own lease, and tell how far it is."""
+        what = "heartbeat" if self._progress is None else "progress"
+        return self._answered(what, self._progress, within=_PART_OF_LEASE * lease)
 
     def record_progress(
         self,
@@ -49,17 +56,18 @@ class JoinedAttempt:
         fraction: float,
         steps: int | None = None,
     ) -> Verdict:
-        """Tell how far the block is."""
-        told = protocol.Progress(time=time, fraction=fraction, steps=steps)
-        block, within = self._claim.block, _PART_OF_LEASE * lease
-        return self._answered(self._connection.tell(block, "progress", told, within=within))
+        """Note how far the block is, which is told soon; return what the service answered last."""
+        self._progress = protocol.Progress(time=time, fraction=fraction, steps=steps)
+        return self.verdict(block_id, attempt)
 
     def record_checkpoint(
         self, block_id: str, attempt: int, /, *, watermark: int, checkpoint: str
     ) -> None:
-        """Name a restart point, whose files were sent."""
-        told = protocol.Checkpoint(watermark=watermark, checkpoint=checkpoint)
-        self._connection.tell(self._claim.block, "checkpoint", told)
+        """Name a restart point, whose files were sent, and tell how far the block is."""
+        told = protocol.Checkpoint(
+            watermark=watermark, checkpoint=checkpoint, progress=self._progress
+        )
+        self._answered("checkpoint", told)
 
     def note_activity(self, block_id: str, attempt: int, activity: str, /) -> None:
         """Tell what takes long."""
@@ -117,6 +125,14 @@ class JoinedAttempt:
             block_id, attempt, outcome, error, **reached, steps=steps, repeatable=True
         )
 
-    def _answered(self, content: bytes) -> Verdict:
+    def _answered(
+        self, what: str, document: protocol.Document | None, *, within: float | None = None
+    ) -> Verdict:
+        """Tell something from whatever thread, and note the answer for the one that computes."""
+        try:
+            content = self._connection.tell(self._claim.block, what, document, within=within)
+        except (Fenced, Refused) as end:
+            self._end = end
+            raise
         self._verdict = protocol.Answered.model_validate_json(content).verdict
         return self._verdict

@@ -10,6 +10,9 @@ from jointplay.storage.settings import Settings
 
 LONGEST_WAIT: Final = 20.0
 """Seconds after which a service says that there is no block."""
+_RARER: Final = 2.0
+"""Workers that joined make restart points, each of which is several requests, so much more rarely
+than a service's own."""
 _Word = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9._+-]+$")]
 _Count = Annotated[int, Field(ge=0, le=2**53)]
 _Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
@@ -62,7 +65,8 @@ class Customs(Document):
     @classmethod
     def of(cls, settings: Settings) -> Self:
         """Choose them."""
-        return cls(**{name: getattr(settings, name) for name in cls.model_fields})
+        own = {name: getattr(settings, name) for name in cls.model_fields}
+        return cls(**own | {"progress_period": _RARER * settings.progress_period})
 
 
 class Claimed(Document):
@@ -109,10 +113,11 @@ class Progress(Document):
 
 
 class Checkpoint(Document):
-    """A restart point whose files were sent."""
+    """A restart point whose files were sent, and how far the block is by now."""
 
     watermark: _Count
     checkpoint: Annotated[str, Field(pattern=r"^(block0|\d{5})-a\d{1,9}$")]
+    progress: Progress | None = None
 
 
 class Activity(Document):

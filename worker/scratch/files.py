@@ -4,6 +4,7 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Final, NamedTuple, Protocol, Self
@@ -24,6 +25,8 @@ _RARELY: Final = 50
 """... and at least so many times as long as the last look took: the processor is to compute."""
 _LARGE: Final = 2**20
 """Bytes of rows that are sent at once; of fewer a run may be over before they are needed."""
+_AT_ONCE: Final = 4
+"""Files that are fetched at a time."""
 _Version = tuple[int, int, int]
 """Inode, bytes and time of a file as it was sent."""
 
@@ -81,17 +84,24 @@ class Scratch:
         self._sending = threading.Lock()
 
     def fetch(self, beat: Callable[[], None]) -> None:
-        """Get what the attempt builds on; `beat` is called now and then."""
-        for name, _ in self._elsewhere.needed():
-            sealed = self._files.sealed(name)
-            if sealed is not None and sealed.exists():
-                continue
-            try:
-                self._files.put(name, self._beating(name, beat))
-            except FileNotFoundError:  # replaced by the last one of its block, or removed
-                continue
-            if sealed is None:
-                self._sent[name] = _version(self._folder / name)
+        """Get what the attempt builds on; `beat` is called now and then, by several threads.
+
+        The block that seals a study needs many small files, which come a few at a time.
+        """
+        with ThreadPoolExecutor(_AT_ONCE, "fetching") as pool:
+            for _ in pool.map(lambda file: self._fetch(file[0], beat), self._elsewhere.needed()):
+                pass
+
+    def _fetch(self, name: str, beat: Callable[[], None]) -> None:
+        sealed = self._files.sealed(name)
+        if sealed is not None and sealed.exists():
+            return
+        try:
+            self._files.put(name, self._beating(name, beat))
+        except FileNotFoundError:  # replaced by the last one of its block, or removed
+            return
+        if sealed is None:
+            self._sent[name] = _version(self._folder / name)
 
     def _beating(self, name: str, beat: Callable[[], None]) -> Iterator[bytes]:
         for piece in self._elsewhere.read(name):
