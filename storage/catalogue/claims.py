@@ -11,14 +11,7 @@ from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.holding import job_of
 from jointplay.storage.catalogue.numbers import number_of
-from jointplay.storage.catalogue.records import (
-    FRESH_QUEUE,
-    Block,
-    BlockState,
-    Claim,
-    JobState,
-    Solver,
-)
+from jointplay.storage.catalogue.records import Block, BlockState, Claim, JobState, Solver
 from jointplay.storage.catalogue.rows import record_event
 
 _block, _job, _outbox = tables.block, tables.job, tables.outbox
@@ -33,9 +26,7 @@ _TAKE: Final = (
     )
     .returning(*_block.c)
 )
-_SENT: Final = (
-    delete(_outbox).where(_outbox.c.block == bindparam("of_block")).returning(_outbox.c.queue)
-)
+_SENT: Final = delete(_outbox).where(_outbox.c.block == bindparam("of_block"))
 _BEGIN: Final = insert(tables.attempt).values(
     block=bindparam("of_block"),
     number=bindparam("number_of"),
@@ -114,9 +105,8 @@ def _claim(
     if row is None:
         return None
     held = Block(**row._mapping)
-    queue = unit.execute(_SENT, {"of_block": block_id}).scalar_one_or_none()
-    account = turns.account_of(queue or FRESH_QUEUE)
-    charge = {"of_account": account, "paid": turns.charge(unit, account, job.owner)}
+    unit.execute(_SENT, {"of_block": block_id})
+    charge = {"of_account": turns.ACCOUNT, "paid": turns.charge(unit, job.owner)}
     unit.execute(_BEGIN, {**holder, **moment, **charge, "number_of": held.attempt})
     begins = job.state is JobState.queued
     changes: dict[str, Any] = {

@@ -18,7 +18,7 @@ RETURNS TABLE (held block, of_job job) LANGUAGE plpgsql AS $$
 #variable_conflict use_column
 DECLARE
   last integer;
-  of_queue text;
+  least float8;
   paid float8;
 BEGIN
   SELECT * INTO of_job FROM job
@@ -35,14 +35,14 @@ BEGIN
   IF NOT FOUND THEN
     RETURN;
   END IF;
-  DELETE FROM outbox WHERE block = wanted RETURNING queue INTO of_queue;
-  of_queue := CASE WHEN of_queue = 'interactive' THEN of_queue ELSE 'jobs' END;
-  UPDATE share SET began = next, next = next + cost
-    WHERE queue = of_queue AND owner IN (
-      SELECT owner FROM share WHERE queue = of_queue AND owner = of_job.owner
+  DELETE FROM outbox WHERE block = wanted;
+  least := coalesce((SELECT max(began) FROM share WHERE queue = 'jobs'), 0) - 600;
+  UPDATE share SET began = greatest(next, least), next = greatest(next, least) + cost
+    WHERE queue = 'jobs' AND owner IN (
+      SELECT owner FROM share WHERE queue = 'jobs' AND owner = of_job.owner
       FOR UPDATE SKIP LOCKED) RETURNING cost INTO paid;
   INSERT INTO attempt (block, number, worker, started, account, charged)
-    VALUES (wanted, held.attempt, claimant, moment, of_queue, coalesce(paid, 0));
+    VALUES (wanted, held.attempt, claimant, moment, 'jobs', coalesce(paid, 0));
   SELECT coalesce(max(seq), 0) INTO last FROM event WHERE job = of_job.id;
   IF of_job.state = 'queued' THEN
     last := last + 1;
@@ -69,38 +69,36 @@ SET enable_mergejoin = off SET enable_seqscan = off SET enable_sort = off AS $$
 #variable_conflict use_column
 DECLARE
   of_queue text;
-  account text;
   of_owner text;
   wanted text;
 BEGIN
-  FOREACH of_queue IN ARRAY queues LOOP
-    account := CASE WHEN of_queue = 'interactive' THEN of_queue ELSE 'jobs' END;
-    FOR of_owner IN
-      WITH RECURSIVE waiting(owner) AS (
-        SELECT min(owner) FROM outbox WHERE queue = of_queue
-        UNION ALL
-        SELECT (SELECT min(outbox.owner) FROM outbox
-          WHERE queue = of_queue AND outbox.owner > waiting.owner)
-        FROM waiting WHERE waiting.owner IS NOT NULL)
-      SELECT waiting.owner FROM waiting
-        LEFT JOIN share ON share.queue = account AND share.owner = waiting.owner
-        WHERE waiting.owner IS NOT NULL AND NOT waiting.owner = ANY(busy)
-        ORDER BY coalesce(share.next, 0), waiting.owner
+  FOR of_queue, of_owner IN
+    WITH RECURSIVE waiting(queue, owner) AS (
+      SELECT asked.queue, (SELECT min(outbox.owner) FROM outbox WHERE outbox.queue = asked.queue)
+      FROM unnest(queues) AS asked(queue)
+      UNION ALL
+      SELECT waiting.queue, (SELECT min(outbox.owner) FROM outbox
+        WHERE outbox.queue = waiting.queue AND outbox.owner > waiting.owner)
+      FROM waiting WHERE waiting.owner IS NOT NULL)
+    SELECT waiting.queue, waiting.owner FROM waiting
+      LEFT JOIN share ON share.queue = 'jobs' AND share.owner = waiting.owner
+      WHERE waiting.owner IS NOT NULL AND NOT waiting.owner = ANY(busy)
+      ORDER BY waiting.queue <> 'recovered', coalesce(share.next, 0)
+        + CASE waiting.queue WHEN 'interactive' THEN 0 ELSE 60 END, waiting.owner
+  LOOP
+    FOR wanted IN
+      SELECT outbox.block FROM outbox
+        JOIN block ON block.id = outbox.block JOIN job ON job.id = block.job
+        WHERE queue = of_queue AND outbox.owner = of_owner AND (due <= moment OR tries > 0)
+          AND solver_version = by_version AND (processor IS NULL OR processor = by_processor)
+        ORDER BY outbox.block LIMIT 100
     LOOP
-      FOR wanted IN
-        SELECT outbox.block FROM outbox
-          JOIN block ON block.id = outbox.block JOIN job ON job.id = block.job
-          WHERE queue = of_queue AND outbox.owner = of_owner AND (due <= moment OR tries > 0)
-            AND solver_version = by_version AND (processor IS NULL OR processor = by_processor)
-          ORDER BY outbox.block LIMIT 100
-      LOOP
-        CONTINUE WHEN NOT pg_try_advisory_xact_lock(hashtextextended(wanted, 0));
-        RETURN QUERY
-          SELECT * FROM claim_block(wanted, claimant, moment, lease, by_version, by_processor);
-        IF FOUND THEN
-          RETURN;
-        END IF;
-      END LOOP;
+      CONTINUE WHEN NOT pg_try_advisory_xact_lock(hashtextextended(wanted, 0));
+      RETURN QUERY
+        SELECT * FROM claim_block(wanted, claimant, moment, lease, by_version, by_processor);
+      IF FOUND THEN
+        RETURN;
+      END IF;
     END LOOP;
   END LOOP;
 END $$

@@ -44,8 +44,8 @@ RECOVERED_QUEUE = "recovered"
 INTERACTIVE_QUEUE = "interactive"
 FRESH_QUEUE = "jobs"
 QUEUES = (RECOVERED_QUEUE, INTERACTIVE_QUEUE, FRESH_QUEUE)
-"""In the order in which workers look at them: what a worker had begun comes first, then jobs of one
-block that came alone, for which somebody may be waiting, then studies and batches."""
+"""In the order in which one owner's blocks are claimed: what a worker had begun, jobs of one block
+that came alone, then studies and batches; see `turns` for blocks of several owners."""
 
 
 class BlockState(StrEnum):

@@ -81,12 +81,11 @@ def _asked_by(unit: Unit, solver: Solver) -> dict[str, Any]:
 def waiting_for(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
     """Return the queued block whose turn it is of a solver's, if there is one, of idle owners."""
     own = _asked_by(unit, solver)
-    for queue in QUEUES:
-        for owner in turns.in_turn(unit, queue):
-            asked = {**own, "of_queue": queue, "of_owner": owner}
-            found = None if owner in busy else unit.execute(_NEXT, asked).scalar_one_or_none()
-            if found is not None:
-                return (found,)
+    for queue, owner in turns.in_turn(unit):
+        asked = {**own, "of_queue": queue, "of_owner": owner}
+        found = None if owner in busy else unit.execute(_NEXT, asked).scalar_one_or_none()
+        if found is not None:
+            return (found,)
     return ()
 
 

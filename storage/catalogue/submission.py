@@ -225,7 +225,7 @@ def insert_jobs(unit: Unit, jobs: Sequence[tuple[Row, NewJob]]) -> None:
         for block in queued
     ]
     fresh = {"created": now, "due": now, "tries": 0}
-    turns.arrive(unit, places)
+    turns.arrive(unit, [owner for _, owner in places])
     wake_ups = [
         {"block": block["id"], "queue": queue, "owner": owner, **fresh}
         for block, (queue, owner) in zip(queued, places, strict=True)

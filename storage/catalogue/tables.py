@@ -191,7 +191,7 @@ outbox = Table(
     Index("ix_outbox_queue_owner", "queue", "owner", "block", "due"),
 )
 
-# What each owner has been charged in a queue, s; see `storage.catalogue.turns`.
+# What each owner has been charged, s; see `storage.catalogue.turns`.
 share = Table(
     "share",
     metadata,

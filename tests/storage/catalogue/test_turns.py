@@ -1,4 +1,4 @@
-"""Owners whose work waits in one queue are served alike, however much each has submitted."""
+"""Owners whose work waits are served alike, however much each has submitted, and in which way."""
 
 from collections.abc import Callable
 from contextlib import closing
@@ -13,6 +13,7 @@ from stepped_clock import Clock
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState, Claim, NewJob, Solver
+from jointplay.storage.catalogue.turns import HEAD_START, MOST_BEHIND
 
 SOLVER = Solver("1", "skylake")
 RUN = NewJob("simulate", {}, "d" * 64, "1")
@@ -72,6 +73,57 @@ def test_jobs_of_one_owner_and_of_nobody_come_as_they_were_submitted(catalogue: 
         jobs = submit(catalogue, owner, 5)
         claims = [claim(catalogue) for _ in jobs]
         assert [one and one.job.id for one in claims] == jobs
+
+
+def served(catalogue: Catalogue, clock: Clock, seconds: float) -> str:
+    """Compute the block whose turn it is for so long, and return its owner."""
+    held = claim(catalogue)
+    assert held is not None
+    clock.now += seconds
+    catalogue.finish(held.block.id, 1, BlockState.done)
+    catalogue.settle()
+    return held.job.owner
+
+
+def test_jobs_that_come_alone_are_first_as_long_as_their_owner_is_little_ahead(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    batch(catalogue, "bob", 50)
+    owners = []
+    for _ in range(100):  # there is always one of ada's
+        submit(catalogue, "ada")
+        owners.append(served(catalogue, clock, 5.0))
+    lead, most = 0.0, 0.0
+    for owner in owners:
+        lead += 5.0 if owner == "ada" else -5.0
+        most = max(most, lead)
+    assert owners[:10] == ["ada"] * 10
+    assert most <= HEAD_START + 2 * 5.0  # a block that runs, and what it was thought to cost
+    assert owners[20:].count("bob") == 40
+
+
+def test_one_owners_jobs_that_come_alone_are_before_his_studies(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    batch(catalogue, "ada", 5)
+    for _ in range(20):
+        (alone,) = submit(catalogue, "ada")
+        held = claim(catalogue)
+        assert held is not None
+        assert held.job.id == alone
+        clock.now += 10.0
+        catalogue.finish(held.block.id, 1, BlockState.done)
+        catalogue.settle()
+
+
+def test_what_no_worker_may_take_saves_up_little(catalogue: Catalogue, clock: Clock) -> None:
+    catalogue.submit_batch([replace(RUN, owner="ada", solver_version="other")], owner="ada")
+    batch(catalogue, "bob", 200)
+    for _ in range(50):
+        assert served(catalogue, clock, 60.0) == "bob"
+    batch(catalogue, "ada", 200)
+    owners = [served(catalogue, clock, 60.0) for _ in range(40)]
+    assert owners.count("ada") <= 1 + MOST_BEHIND / 60.0 + 40 / 2
 
 
 @st.composite
