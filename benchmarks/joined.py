@@ -1,11 +1,12 @@
 """The diagram of `sweep` by two workers over HTTPS alone, beside two workers of the service itself.
 
-    python -m benchmarks joined [--values 80]
+    python -m benchmarks joined [--values 80] [--turns 15]
 
 Two services on this machine take turns, so that what else the machine does slows both alike: one
-with two workers, one without and two that joined with an address. Kernels are warm. The last line
-is the median over the turns of local time by joined time; processor time is that of all processes
-of a service and its workers, which a machine with other things to do does not stretch.
+with two workers, one without and two that joined with an address; each is the first in every second
+turn. Kernels are warm. The last lines are medians and quartiles over the turns of local time by
+joined time; processor time is that of all processes of both services and their workers, which a
+machine with other things to do does not stretch.
 """
 
 import argparse
@@ -52,7 +53,9 @@ def main() -> None:
     """Print the times of every turn, and the ratio."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks joined")
     parser.add_argument("--values", type=int, default=VALUES, help="clearances of the diagram")
-    values = parser.parse_args().values
+    parser.add_argument("--turns", type=int, default=TURNS, help="of each service, 2 or more")
+    asked = parser.parse_args()
+    values = asked.values
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         local = stack.enter_context(running_service(folder / "local", WORKERS))
@@ -63,15 +66,18 @@ def main() -> None:
         for client in clients:
             seconds_of(client, values)  # loads kernels
         turns = []
-        for _ in range(TURNS):
-            turns.append([seconds_of(client, values) for client in clients])
+        for turn in range(asked.turns):
+            first = turn % 2
+            took = {which: seconds_of(clients[which], values) for which in (first, 1 - first)}
+            turns.append((took[0], took[1]))
             (one, its), (other, others) = turns[-1]
             line = f"local {one:.2f} s ({its:.2f} s of processor)"
             print(f"{line}, joined {other:.2f} s ({others:.2f} s of processor)", flush=True)
     print(f"load of the machine {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     for number, what in enumerate(("time", "processor time")):
-        ratio = statistics.median(one[number] / other[number] for one, other in turns)
-        print(f"ratio of {what} {ratio:.3f}")
+        ratios = [one[number] / other[number] for one, other in turns]
+        low, middle, high = statistics.quantiles(ratios, method="inclusive")
+        print(f"ratio of {what} {middle:.3f}, quartiles {low:.3f} and {high:.3f}")
 
 
 if __name__ == "__main__":

@@ -22,7 +22,8 @@ RUNNING: Final = "running"
 OF_A_JOB: Final = 3
 """Slashes at least in the key of what a running job needs, such as running/XX/ID/a1/documents."""
 
-Minutes = Annotated[float, Field(gt=0, le=600)]
+LONGEST_PERIOD: Final = 600.0  # s
+Minutes = Annotated[float, Field(gt=0, le=LONGEST_PERIOD)]
 Hour = Annotated[float, Field(gt=0, le=3600)]
 Centuries = Annotated[float, Field(gt=0, le=1e10)]
 

@@ -6,7 +6,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.records import BlockState, Claim, JobState, Solver, Verdict
-from jointplay.storage.settings import Settings
+from jointplay.storage.settings import LONGEST_PERIOD, Settings
 
 LONGEST_WAIT: Final = 20.0
 """Seconds after which a service says that there is no block."""
@@ -66,7 +66,8 @@ class Customs(Document):
     def of(cls, settings: Settings) -> Self:
         """Choose them."""
         own = {name: getattr(settings, name) for name in cls.model_fields}
-        return cls(**own | {"progress_period": _RARER * settings.progress_period})
+        rarely = min(_RARER * settings.progress_period, LONGEST_PERIOD)
+        return cls(**own | {"progress_period": rarely})
 
 
 class Claimed(Document):
