@@ -14,7 +14,6 @@ from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.bell import BellDependency
 from jointplay.service.workers.words import own_name, said
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Solver
 from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Customs
 
 router = APIRouter(prefix="/v1/worker", include_in_schema=False)
@@ -37,7 +36,7 @@ async def claim_block(
     """
     _require_same_program(asked.program)
     worker = own_name(caller, asked.worker)
-    await run_in_threadpool(_begin, catalogue, worker, asked.solver)
+    await run_in_threadpool(_begin, catalogue, worker, asked)
     deadline = time.monotonic() + asked.wait
     pause = _FIRST_PAUSE
     while not await request.is_disconnected():
@@ -58,9 +57,11 @@ async def claim_block(
     return Response(status_code=204)
 
 
-def _begin(catalogue: Catalogue, worker: str, solver: Solver) -> None:
+def _begin(catalogue: Catalogue, worker: str, asked: ClaimRequest) -> None:
     """Note that the worker is there, and take back what it was given without hearing of it."""
-    catalogue.note_worker(worker, solver)
+    catalogue.note_worker(worker, asked.solver)
+    if asked.spent:
+        catalogue.note_spent(worker, asked.spent)
     for block in catalogue.held_by(worker):
         catalogue.release(block.id, block.attempt)
 

@@ -7,6 +7,8 @@ OUTCOMES: Final = ("done", "failed", "cancelled", "released", "put-off", "lost")
 PUBLISHED: Final = "published"
 PUBLISHING: Final = "seconds of publishing"
 COMPILING: Final = "seconds of compiling"
+OF_WORKERS: Final = (PUBLISHED, PUBLISHING, COMPILING)
+"""Counters that workers tell themselves."""
 
 
 def of_outcome(outcome: str) -> str:

@@ -17,6 +17,7 @@ from jointplay.service.app import create_app
 from jointplay.solver.kinds import admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.counters import PUBLISHED, PUBLISHING
 from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker.holding import Refused
@@ -80,6 +81,21 @@ def test_a_key_revoked_in_mid_block_ends_the_worker_with_a_sentence(
                 working.result()
         assert [one.outcome for one in books.attempts(block)] == [None]
     assert [line.message for line in caplog.records if line.levelname == "ERROR"] == []
+
+
+def test_what_a_worker_spent_is_counted_when_it_asks_again(tmp_path: Path) -> None:
+    with served(tmp_path) as (url, books):
+        job = admit(SWING)
+        books.submit(NewJob("simulate", job.job, job.digest, SOLVER_VERSION))
+        with closing(Connection(url, None)) as connection:
+            assert work(connection, threading.Event(), 0.5) == 1
+        totals = books.census().totals
+        assert totals[PUBLISHED] == 1
+        assert totals[PUBLISHING] > 0.0
+        odd = {"program": "0", "worker": "w", "version": "1", "processor": "p", "wait": 0.0}
+        said = httpx.post(f"{url}/v1/worker/claims", json=odd | {"spent": {"other": 1.0}})
+        assert said.status_code == 422
+        assert books.census().totals == totals
 
 
 def test_processes_end_with_the_one_that_began_them(tmp_path: Path) -> None:

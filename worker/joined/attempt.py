@@ -9,6 +9,7 @@ from jointplay.worker.holding import Refused
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.scratch.files import Scratch
+from jointplay.worker.spent import publishing
 
 _PART_OF_LEASE: Final = 0.25
 """Part of the lease in which a block must be held longer: behind one address may be several APIs of
@@ -95,7 +96,8 @@ class JoinedAttempt:
         repeatable: bool = False,
     ) -> JobState:
         """Send sealed results, then end the block."""
-        self._scratch.send_sealed()
+        with publishing(jobs=0.0):  # whose packing was counted
+            self._scratch.send_sealed()
         told = protocol.Finish(
             outcome=outcome,
             error=error,

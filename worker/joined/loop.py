@@ -22,6 +22,7 @@ from jointplay.worker.passing import waits_for
 from jointplay.worker.presence import own_name
 from jointplay.worker.scratch.attempt import SentAttempt
 from jointplay.worker.scratch.files import Scratch
+from jointplay.worker.spent import Telling
 
 _WAIT: Final = 5.0  # s, for a block, until it is looked whether to go on
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.5, _WAIT
@@ -46,12 +47,15 @@ def work(connection: Connection, draining: threading.Event, idle: float | None) 
         wait=_WAIT if idle is None else min(_WAIT, idle),
     )
     bucket = BucketOfService(connection)
+    telling = Telling()
     last = time.monotonic()
     pause = _FIRST_PAUSE
     blocks = 0
     while not draining.is_set() and (idle is None or time.monotonic() - last <= idle):
         try:
-            claimed = connection.claim(request)
+            spent = telling.untold()
+            claimed = connection.claim(request.model_copy(update={"spent": spent}))
+            telling.told(spent)
             if claimed is not None:
                 _compute(connection, bucket, claimed, draining)
                 blocks += 1

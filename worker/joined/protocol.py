@@ -5,6 +5,7 @@ from typing import Annotated, Final, Self
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from jointplay.records.job import JobError
+from jointplay.storage.catalogue.counters import OF_WORKERS
 from jointplay.storage.catalogue.records import BlockState, Claim, JobState, Solver, Verdict
 from jointplay.storage.settings import LONGEST_PERIOD, Settings
 
@@ -23,6 +24,12 @@ def _an_end(state: BlockState) -> BlockState:
     if state not in (BlockState.done, BlockState.failed, BlockState.cancelled):
         raise ValueError("a block ends as done, failed or cancelled")
     return state
+
+
+def _of_a_worker(spent: dict[str, float]) -> dict[str, float]:
+    if not spent.keys() <= {*OF_WORKERS}:
+        raise ValueError(f"a worker counts {', '.join(OF_WORKERS)}")
+    return spent
 
 
 def _of_text(error: JobError) -> JobError:
@@ -45,6 +52,8 @@ class ClaimRequest(Document):
     version: _Word
     processor: _Word
     wait: Annotated[float, Field(ge=0.0, le=LONGEST_WAIT)] = LONGEST_WAIT
+    spent: Annotated[dict[str, _Time], AfterValidator(_of_a_worker)] = {}
+    """Seconds, and results, since it asked last; by the names of `storage.catalogue.counters`."""
 
     @property
     def solver(self) -> Solver:
