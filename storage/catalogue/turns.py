@@ -26,10 +26,11 @@ from jointplay.storage.catalogue.records import (
 )
 
 HEAD_START: Final = 60.0
-"""Seconds of workers that jobs which came alone may be ahead of studies and batches of others."""
+"""Seconds of workers that jobs which came alone may be ahead of studies and batches of others;
+`functions` has them, too."""
 MOST_BEHIND: Final = 600.0
 """Seconds that an owner may be behind: while what he has waiting fits no worker's solver he saves
-up no more than that."""
+up no more than that; `functions` has them, too."""
 ACCOUNT: Final = FRESH_QUEUE
 """Name under which shares are kept, of all queues together."""
 _share = tables.share

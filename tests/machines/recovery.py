@@ -51,7 +51,7 @@ def started(cluster: Cluster, machine: Machine, since: float) -> "Future[float |
             while time.monotonic() - since < PATIENCE:
                 if there():
                     return time.monotonic() - since
-                time.sleep(_LOOK)
+                time.sleep(_LOOK)  # nothing tells when all processes are there
             return None
         finally:
             catalogue.close()

@@ -7,11 +7,21 @@ from pathlib import Path
 
 import pytest
 from fastapi import FastAPI
+from sqlalchemy import update
 
 from jointplay.service.app import create_app
+from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
-from jointplay.storage.catalogue.records import Block, BlockState, Claim, Job, NewJob, Verdict
+from jointplay.storage.catalogue.records import (
+    Block,
+    BlockState,
+    Claim,
+    Job,
+    NewJob,
+    Solver,
+    Verdict,
+)
 from jointplay.storage.settings import Settings
 from jointplay.worker.holding import Refused
 from jointplay.worker.joined.attempt import JoinedAttempt
@@ -96,9 +106,14 @@ def test_progress_goes_with_the_next_word_and_who_computes_hears_the_answer(
         attempt.record_checkpoint(block.id, 1, watermark=3, checkpoint="block0-a1")
         assert reached() == (0.5, 7, "block0-a1")
         attempt.record_progress(block.id, 1, 60.0, **told | {"fraction": 0.75})
+        assert catalogue.workers() == {}
+        catalogue.note_worker("lab:1", Solver("1", "p"))
+        with catalogue.connections.writing() as database:
+            database.execute(update(tables.worker).values(seen=0.0))
         catalogue.request_cancel(job)
         attempt.heartbeat(block.id, 1, 60.0)
         assert reached() == (0.75, 7, "block0-a1")
+        assert [*catalogue.workers()] == ["lab:1"]  # heard of, however long its block takes
         assert attempt.record_progress(block.id, 1, 60.0, **told) is Verdict.cancel
         catalogue.release(block.id, 1)
         for ask in (attempt.heartbeat, attempt.record_progress):

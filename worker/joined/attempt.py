@@ -28,6 +28,7 @@ class JoinedAttempt:
         self._claim = claim
         self._scratch = scratch
         self._progress: protocol.Progress | None = None
+        """Reached, and not told yet."""
         self._verdict = Verdict.go_on
         self._end: Fenced | Refused | None = None
 
@@ -42,9 +43,12 @@ class JoinedAttempt:
         return self._verdict
 
     def heartbeat(self, block_id: str, attempt: int, lease: float, /) -> Verdict:
-        """Hold the block for the service's own lease, and tell how far it is."""
-        what = "heartbeat" if self._progress is None else "progress"
-        return self._answered(what, self._progress, within=_PART_OF_LEASE * lease)
+        """Hold the block for the service's own lease, and tell how far it is if no one has."""
+        within, progress = _PART_OF_LEASE * lease, self._progress
+        if progress is not None:
+            self._answered("progress", progress, within=within)
+            self._note_told(progress)
+        return self._answered("heartbeat", None, within=within)
 
     def record_progress(
         self,
@@ -65,10 +69,10 @@ class JoinedAttempt:
         self, block_id: str, attempt: int, /, *, watermark: int, checkpoint: str
     ) -> None:
         """Name a restart point, whose files were sent, and tell how far the block is."""
-        told = protocol.Checkpoint(
-            watermark=watermark, checkpoint=checkpoint, progress=self._progress
-        )
+        progress = self._progress
+        told = protocol.Checkpoint(watermark=watermark, checkpoint=checkpoint, progress=progress)
         self._answered("checkpoint", told)
+        self._note_told(progress)
 
     def note_activity(self, block_id: str, attempt: int, activity: str, /) -> None:
         """Tell what takes long."""
@@ -126,6 +130,10 @@ class JoinedAttempt:
         return self.finish(
             block_id, attempt, outcome, error, **reached, steps=steps, repeatable=True
         )
+
+    def _note_told(self, progress: protocol.Progress | None) -> None:
+        if self._progress is progress:  # else the block has come further meanwhile
+            self._progress = None
 
     def _answered(
         self, what: str, document: protocol.Document | None, *, within: float | None = None
