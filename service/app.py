@@ -36,6 +36,7 @@ from jointplay.service.access.signed import SignedLinks
 from jointplay.service.batches.admission import BatchDocument
 from jointplay.service.checking import Checker
 from jointplay.service.compression import Compression
+from jointplay.service.jobs.queueing import Queueing
 from jointplay.service.jobs.submission import FIELDS
 from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.metrics import registry_of
@@ -121,9 +122,10 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.registry = registry_of(catalogue)
         app.state.watcher = Watcher(catalogue)
         app.state.in_flight = {}
-        app.state.bell = Bell()
+        app.state.bell = bell = Bell()
         app.state.prober = prober = Prober()
         app.state.checker = checker = Checker(settings, catalogue)
+        app.state.queueing = Queueing(settings, catalogue, checker, bell)
         app.state.windows = windows = WindowProcess()
         app.state.looker = looker = SceneLooker()
         try:

@@ -16,7 +16,8 @@ from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import Job
 from jointplay.storage.settings import Settings
 
-# dependencies that wait for nothing are coroutines: others cost a change of thread each
+# dependencies that wait for nothing are coroutines: others cost a change of thread each; one that
+# is asked for most takes the request and looks at the application, as each further one takes time
 
 
 def of_the_application(name: str) -> Any:
@@ -68,10 +69,3 @@ def _job_of_the_path(
 
 
 JobOfThePath = Annotated[Job, Depends(_job_of_the_path)]
-
-
-async def require_room(settings: SettingsDependency) -> None:
-    """Refuse new work when the disk is nearly full, so that running jobs can end."""
-    if settings.room() <= settings.reserve:
-        detail = "The disk of the service is full but for a reserve; nothing was recorded."
-        raise RequestRefused(kinds.DISK_FULL, detail, headers={"Retry-After": "30"})

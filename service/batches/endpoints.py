@@ -8,24 +8,15 @@ from pydantic import BaseModel, Field
 
 from jointplay.records.job import is_job_id
 from jointplay.service.access import CallerDependency
-from jointplay.service.access.quotas import quota_of
-from jointplay.service.batches.admission import QueueBatch
 from jointplay.service.body import BatchBody
-from jointplay.service.dependencies import (
-    NO_PARAMETERS,
-    CatalogueDependency,
-    CheckerDependency,
-    SettingsDependency,
-    require_room,
-)
-from jointplay.service.idempotency import RepeatableRequest, SentKey
+from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency
+from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.listing import PageQuery
+from jointplay.service.jobs.queueing import QueueingDependency
 from jointplay.service.jobs.schemas import JobPage, Moment
 from jointplay.service.problems import RequestRefused, clipped, header, kinds, problems
-from jointplay.service.workers.bell import BellDependency
 from jointplay.storage.catalogue.errors import BatchNotFound
 from jointplay.storage.catalogue.records import Batch, JobState
-from jointplay.worker.wake_up import wake_relay
 
 router = APIRouter(prefix="/v1/batches", tags=["batches"])
 
@@ -93,17 +84,14 @@ BatchOfThePath = Annotated[Batch, Depends(_batch_of_the_path)]
 @router.post(
     "",
     status_code=202,
-    dependencies=[Depends(require_room)],
     openapi_extra={"requestBody": REQUEST_BODY},
     responses=MADE | problems(*kinds.OF_SUBMISSIONS),
 )
 def submit_batch(
+    queueing: QueueingDependency,
     body: BatchBody,
-    checker: CheckerDependency,
-    settings: SettingsDependency,
     repeatable: RepeatableRequest,
     caller: CallerDependency,
-    bell: BellDependency,
     response: Response,
 ) -> AcceptedBatch:
     """Queue up to 10 000 jobs, or none.
@@ -111,12 +99,7 @@ def submit_batch(
     All are checked first; if any cannot be run, nothing is queued and `errors` points at each
     wrong field by the index of its job, such as `/jobs/17/duration`.
     """
-    with repeatable.in_flight():
-        key = repeatable.sent_key or SentKey.made_here(caller.owner)
-        what = QueueBatch(key, caller.owner, quota_of(caller, settings))
-        submitted = checker.check(what, body)
-    wake_relay(settings.redis_url)
-    bell.ring(len(submitted.jobs))
+    submitted = queueing.submit_batch(body, repeatable, caller)
     accepted = AcceptedBatch.of(submitted.batch, job_ids=submitted.jobs)
     response.headers["Location"] = accepted.links["self"]
     return accepted

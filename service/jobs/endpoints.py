@@ -1,33 +1,20 @@
 """``/v1/jobs``: submit, list, look at, cancel and delete jobs."""
 
-from dataclasses import replace
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query, Response
+from fastapi import APIRouter, Query, Response
 from fastapi.concurrency import run_in_threadpool
 
-from jointplay.service.access import Caller, CallerDependency
-from jointplay.service.access.quotas import quota_of
+from jointplay.service.access import CallerDependency
 from jointplay.service.body import JobBody
-from jointplay.service.checking import Checker, CheckJob
-from jointplay.service.dependencies import (
-    CatalogueDependency,
-    CheckerDependency,
-    JobOfThePath,
-    SettingsDependency,
-    require_room,
-)
-from jointplay.service.idempotency import Repeatable, RepeatableRequest
+from jointplay.service.dependencies import CatalogueDependency, JobOfThePath
+from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.listing import JobQuery
+from jointplay.service.jobs.queueing import QueueingDependency
 from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
 from jointplay.service.jobs.submission import REQUEST_BODY
 from jointplay.service.jobs.waiting import PatienceDependency, WaitQuery
 from jointplay.service.problems import header, kinds, problems
-from jointplay.service.workers.bell import Bell, BellDependency
-from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Submitted
-from jointplay.storage.settings import Settings
-from jointplay.worker.wake_up import wake_relay
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
 _LOCATION = {"headers": {"Location": header("Path of the job.")}}
@@ -44,19 +31,15 @@ MADE_OR_FOUND: dict[int | str, dict[str, Any]] = {
 @router.post(
     "",
     status_code=202,
-    dependencies=[Depends(require_room)],
     openapi_extra={"requestBody": REQUEST_BODY},
     responses=MADE_OR_FOUND | problems(*kinds.OF_SUBMISSIONS),
 )
 async def submit_job(
+    queueing: QueueingDependency,
     body: JobBody,
-    checker: CheckerDependency,
-    catalogue: CatalogueDependency,
-    settings: SettingsDependency,
     repeatable: RepeatableRequest,
     patience: PatienceDependency,
     caller: CallerDependency,
-    bell: BellDependency,
     response: Response,
 ) -> SubmittedJob:
     """Queue a job, or find the one that computes the same.
@@ -66,34 +49,12 @@ async def submit_job(
     equals one that is queued, running or succeeded is not computed again: that one is the answer,
     with 200 and `cached`, unless the document says `"cache": false`.
     """
-    submitted = await run_in_threadpool(
-        _submit, catalogue, checker, settings, repeatable, body, caller, bell
-    )
+    submitted = await run_in_threadpool(queueing.submit, body, repeatable, caller)
     job = await patience.finished(submitted.job)
     if submitted.cached or job.state.terminal:
         response.status_code = 200
     response.headers["Location"] = address(job.id)
     return SubmittedJob.of(job, cached=submitted.cached)
-
-
-def _submit(
-    catalogue: Catalogue,
-    checker: Checker,
-    settings: Settings,
-    repeatable: Repeatable,
-    body: bytes,
-    caller: Caller,
-    bell: Bell,
-) -> Submitted:
-    with repeatable.in_flight():
-        found = checker.check(CheckJob(repeatable.sent_key), body)
-        own = replace(found.job, owner=caller.owner)
-        quota = quota_of(caller, settings)
-        submitted = catalogue.submit(own, found.key, reuse=found.reuse, quota=quota)
-    if submitted.created:
-        wake_relay(settings.redis_url)
-        bell.ring(len(own.blocks))
-    return submitted
 
 
 @router.get("", responses=problems(kinds.INVALID_REQUEST))

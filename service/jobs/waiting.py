@@ -11,11 +11,11 @@ from collections.abc import AsyncIterator, Iterator
 from contextlib import contextmanager
 from typing import Annotated
 
-from fastapi import Depends, Header, Response
+from fastapi import Depends, Header, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel, ConfigDict
 
-from jointplay.service.dependencies import CatalogueDependency, of_the_application
+from jointplay.service.dependencies import of_the_application
 from jointplay.service.fields import in_unit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
@@ -162,8 +162,7 @@ WatcherDependency = Annotated[Watcher, of_the_application("watcher")]
 
 
 async def _patience(
-    watcher: WatcherDependency,
-    catalogue: CatalogueDependency,
+    request: Request,
     response: Response,
     prefer: Annotated[
         str | None,
@@ -173,7 +172,8 @@ async def _patience(
         ),
     ] = None,
 ) -> Patience:
-    return Patience(watcher, catalogue, response, prefer)
+    application = request.app.state
+    return Patience(application.watcher, application.catalogue, response, prefer)
 
 
 PatienceDependency = Annotated[Patience, Depends(_patience)]

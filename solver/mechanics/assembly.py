@@ -19,6 +19,7 @@ from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.joints import Fixed, Prismatic, Revolute
+from jointplay.solver.scene.latest import once_per_scene
 from jointplay.solver.scene.pairs import has_play, pairs_of
 from jointplay.solver.scene.references import ends
 
@@ -69,6 +70,7 @@ class Assembly:
         return self.constraints - self.rank
 
 
+@once_per_scene
 def shortest_link(scene: Scene) -> float:
     """Return the shortest distance between two joints on one body, m; the scene's length scale.
 
@@ -142,6 +144,7 @@ def first_angles(scene: Scene) -> dict[str, float]:
 _found: dict[str, Assembly] = {}
 
 
+@once_per_scene
 def assemble(scene: Scene) -> Assembly:
     """Close the ideal mechanism by Newton's iteration; start values steer and fill freedom.
 

@@ -11,6 +11,7 @@ from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.scene.clocks import timed, turns
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
+from jointplay.solver.scene.latest import once_per_scene
 
 LARGEST_RATIO = 1000
 """Speeds whose ratio needs larger whole numbers than this count as incommensurate."""
@@ -38,6 +39,7 @@ def common_period(scene: Scene) -> Period:
     return own
 
 
+@once_per_scene
 def drivers_period(scene: Scene) -> Period:
     """Return the least time after which every driven angle is back; signs do not matter."""
     speeds: list[float] = []

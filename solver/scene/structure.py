@@ -5,6 +5,7 @@ from functools import wraps
 from typing import TypeVar
 
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.latest import once_per_scene
 from jointplay.solver.scene.pairs import has_play
 from jointplay.solver.scene.references import ends, inner_states
 
@@ -33,6 +34,7 @@ def per_structure(function: Callable[[Scene], Found]) -> Callable[[Scene], Found
     return remembered
 
 
+@once_per_scene
 def _structure(scene: Scene) -> Hashable:
     """Return what scenes of one structure have in common, to look things up by."""
     return (
