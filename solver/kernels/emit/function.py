@@ -8,12 +8,14 @@ import numpy as np
 from numba import float64, int64, types
 
 from jointplay.solver.kernels.emit.functions import WORK
-from jointplay.solver.kernels.emit.machine_code import address_of_symbol
+from jointplay.solver.kernels.emit.machine_code import address_of_number, address_of_symbol
 
 ARRAY, INDEX = "ptr", "i64"
 """LLVM's types of arguments."""
 OF_ARRAYS = ".of_arrays"
 """Ends the name of the function that takes arrays instead of addresses of numbers."""
+CALLS = ".calls"
+"""Ends the name of the number of its calls."""
 VALUES = {
     "void": (types.void, None),
     "double": (float64, ctypes.c_double),
@@ -47,6 +49,11 @@ class Function:
     def address(self) -> int:
         """Address that loops call."""
         return address_of_symbol(f"{self._symbol}{OF_ARRAYS}")
+
+    @property
+    def calls(self) -> int:
+        """How often loops of this process called it: work is counted, for times depend on cores."""
+        return ctypes.c_int64.from_address(address_of_number(f"{self._symbol}{CALLS}")).value
 
     @cached_property
     def _entry(self) -> Any:

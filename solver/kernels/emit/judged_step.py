@@ -134,8 +134,9 @@ class JudgedStep:
     def _swinging(self) -> tuple[Expression, Expression]:
         """Return SWINGING where a step that swings inside is to be looked at, and by how much.
 
-        In tolerances of the speed, of the acceleration that swings most. Methods that are watched
-        closely need no flag for it.
+        In tolerances of the speed, of the acceleration that swings most. Only who seeks extremes
+        says when to look again, so only lanes that do are flagged; methods that are watched closely
+        need no flag for it.
         """
         most: Expression = self.recorder.constant(0.0)
         if self.tableau.watched_closely:
@@ -147,9 +148,8 @@ class JudgedStep:
             most = maximum(most, swing)
         late = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
         due = maximum(late, v("tried") - GROWN * v(before("tried")))
-        flag: Expression = select_positive(
-            minimum(most, due), self.recorder.constant(SWINGING), 0.0
-        )
+        wanted = minimum(v("seeks_extremes"), minimum(most, due))
+        flag: Expression = select_positive(wanted, self.recorder.constant(SWINGING), 0.0)
         return flag, most
 
     def _away(self) -> Expression:

@@ -54,6 +54,14 @@ def address_of_symbol(name: str) -> int:
     return address
 
 
+def address_of_number(name: str) -> int:
+    """Return the address of a number that loaded code keeps."""
+    address = int(_engine().get_global_value_address(name))
+    if address == 0:
+        raise LookupError(f"no code is loaded that keeps '{name}'")
+    return address
+
+
 def _beside(source: Path) -> Path:
     """Return the file of a source's code for this processor and this compiler."""
     about = (*target_processor(), llvmlite.__version__, binding.llvm_version_info)

@@ -1,7 +1,7 @@
 """Functions of tapes: all of a generated module are compiled in one piece, and call one another.
 
 Each can be called in two ways: with addresses of numbers, as they do among themselves and as Python
-does, and with arrays, as the loops do, which Numba compiles.
+does, and with arrays, as the loops do, which Numba compiles. Calls of loops are counted.
 """
 
 import hashlib
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from numba.core.datamodel.registry import default_manager
 
-from jointplay.solver.kernels.emit.function import ARRAY, OF_ARRAYS, Function
+from jointplay.solver.kernels.emit.function import ARRAY, CALLS, OF_ARRAYS, Function
 from jointplay.solver.kernels.emit.functions import WORK
 from jointplay.solver.kernels.emit.lane_arithmetic import DECLARED
 from jointplay.solver.kernels.emit.machine_code import load_code
@@ -41,9 +41,11 @@ class _Source:
         return "double" if "\nreturn " in self.tape else "void"
 
     def text(self, symbol: Callable[[str], str]) -> str:
-        """Return both functions in LLVM's language."""
+        """Return both functions in LLVM's language, and how often loops called the second."""
         arguments, name = ARGUMENTS[self.over], symbol(self.name)
+        calls = symbol(self.name + CALLS)
         lines = [
+            f"{calls} = global i64 0",
             # within another function its numbers would be joined with others to other bits
             f"define {self.value} {name}({_listed(arguments, ARRAY)}) noinline nounwind {{",
             "entry:",
@@ -51,6 +53,9 @@ class _Source:
             "}",
             f"define {self.value} {symbol(self.name + OF_ARRAYS)}("
             f"{_listed(arguments, ARRAY_IN_LOOPS)}) nounwind {{",
+            f"%before = load i64, ptr {calls}",
+            "%now = add i64 %before, 1",
+            f"store i64 %now, ptr {calls}",
         ]
         for argument, kind in arguments.items():
             if kind == ARRAY:

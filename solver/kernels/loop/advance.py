@@ -146,7 +146,7 @@ def advance(
     buffers
         Rows that are handed out.
     watch
-        Whether the extremes of channels are sought; sections at crossings need it, too.
+        Whether the extremes of channels are sought.
 
     Returns
     -------
@@ -175,7 +175,7 @@ def advance(
                     full |= attend(
                         flag, lane, run, at, work, spare, rows, call.states_within, call.gaps_within
                     )
-        if watch:
+        if watch or crossing:
             call.observe(work)
         if crossing:
             for lane in range(LANES):
@@ -196,13 +196,14 @@ def advance(
                 call.channels_within,
                 call.gaps_within,
             )
-        if watch:
+        if watch or crossing:  # a scan also keeps the values from which channels go on
             candidates = call.scan(work) if quiet else call.scan_some(work)
-            for lane in range(LANES if candidates > 0 else 0):
+            for lane in range(LANES if watch and candidates > 0 else 0):
                 if candidates >> lane & 1 and work[at.accept, lane] > 0.0:
                     refine_peaks(
                         lane, runs[lane], at, work, spare, marked, table, call.channels_around
                     )
+        if watch:
             call.remember(work)
         full |= keep_step(runs[KEEPING], at, work, steps)
         if tangents and (quiet or any_accepted(at, work)):

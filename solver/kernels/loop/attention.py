@@ -41,6 +41,7 @@ def attend(
     gaps_within: LaneFunction,
 ) -> bool:
     """Look after one lane between its attempt and its commit; whether a buffer is full."""
+    run.attended += 1
     opening = 1.0
     if flag & RELEASE:
         opening = note_openings(lane, at, work, spare, gaps_within)

@@ -27,7 +27,6 @@ from jointplay.solver.kernels.loop.runs import (
     SAMPLES,
     SECTIONS,
     Buffers,
-    SectionKind,
     Status,
 )
 from jointplay.solver.scene.document import Scene
@@ -205,12 +204,12 @@ class Bundle:
         tangents = self.tangents
         addresses = self.kernel.addresses if tangents is None else tangents.addresses
         places = self.kernel.places if tangents is None else tangents.places
-        crossing = np.any(self.runs["section_kind"] == SectionKind.CROSSING)
         for name in ("filled", "impacts", "growths", "kept"):
             self.runs[name] = 0
         goal = self.attempts + budget
         for group in self.groups:
             if group.runs_on:
+                group.work[self.kernel.layout["seeks_extremes"]] = float(self.watch)
                 group.attempts += advance(
                     addresses,
                     places,
@@ -218,7 +217,7 @@ class Bundle:
                     self.spare,
                     group.runs,
                     group.buffers,
-                    int(self.watch or crossing),
+                    int(self.watch),
                     goal - group.attempts,
                 )
         return int(np.count_nonzero(self.runs["status"] == Status.RUNNING))

@@ -63,6 +63,8 @@ class Run:
     """Growths of the tangent in the buffer."""
     rejections: int
     onsets: int
+    attended: int
+    """Attempts after which the lane was looked after by itself; few in steady motion."""
     rough: int
     """Steps that were found to be rough inside; see `solver.kernels.loop.roughness`."""
     rough_until: int

@@ -1,0 +1,98 @@
+"""What the loop does beside attempting steps is bounded, in numbers of calls: a loss is noticed.
+
+A run that seeks nothing looks after single lanes only where contacts begin or end, samples or
+sections are due, or a step is rejected. Bounds are a quarter above what was counted, and 0.01.
+"""
+
+import pytest
+
+from jointplay.solver.kernels.lanes import LANES
+from tests.solver.kernels.counted_work import CASES, WAYS, count
+
+QUIET = 0.02
+"""Share of attempts that a bare run in steady contact may be looked after: a period ends once in
+ten thousand attempts, the pace is checked as rarely."""
+
+ATTENDED = {
+    "press, steady": {"bare": 0.0001, "extremes": 0.0366},  # a lane swings in one step of thirty
+    "press, in flight": {"bare": 0.1834, "extremes": 0.2169},  # onsets, rejections
+    "slider-crank, impacting": {"bare": 0.0966, "extremes": 0.1235},
+    "driven pendulum": {"bare": 0.01, "extremes": 0.01},  # the end of a period
+    "journal, bouncing": {"bare": 0.2121, "extremes": 0.2476},
+}
+"""Share of the lanes' attempts after which a lane was looked after; tangents and crossings change
+nothing of it."""
+
+CALLS = {
+    "press, steady": {
+        "extremes": {
+            "scan_some": 0.264,
+            "gaps_within": 0.004,
+            "channels_within": 0.316,
+            "channels_around": 0.004,
+        },
+        "crossings": {"scan_some": 0.009, "channels_within": 0.01},
+    },
+    "press, in flight": {
+        "bare": {"gaps_within": 1.172, "weigh": 0.136},
+        "extremes": {
+            "gaps_within": 1.607,
+            "scan_some": 0.698,
+            "channels_within": 0.518,
+            "channels_around": 4.78,
+        },
+        "crossings": {"scan_some": 0.646, "channels_within": 0.24},
+    },
+    "slider-crank, impacting": {
+        "bare": {"gaps_within": 0.293, "weigh": 0.066},
+        "extremes": {"scan_some": 0.656, "channels_within": 0.244, "channels_around": 0.672},
+        "crossings": {"scan_some": 0.628, "channels_within": 0.291},
+    },
+    "driven pendulum": {
+        "extremes": {"scan_some": 0.01, "channels_within": 0.032, "channels_around": 0.132},
+        "crossings": {"scan_some": 0.55, "channels_within": 1.372},
+    },
+    "journal, bouncing": {
+        "bare": {"gaps_within": 0.578, "weigh": 0.116},
+        "extremes": {
+            "gaps_within": 0.694,
+            "scan_some": 0.884,
+            "channels_within": 0.38,
+            "channels_around": 2.258,
+        },
+        "crossings": {"scan_some": 0.954, "channels_within": 1.876},
+    },
+}
+"""Calls while each of eight lanes makes an attempt: of a bare run, and what a way has beside or
+more of. Functions that are not named are not called, but for those of every attempt."""
+EVERY = {
+    "bare": ("attempt", "take"),
+    "extremes": ("attempt", "take", "observe", "remember", "scan"),
+    "tangents": ("attempt", "take", "tangent_step"),
+    "crossings": ("attempt", "take", "observe", "scan"),
+}
+"""Functions that are called at most once an attempt of a group of lanes."""
+
+
+def bound(counted: float) -> float:
+    return 1.25 * counted + 0.01
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("case", CASES)
+def test_work_beside_the_attempts_is_bounded(case: str, way: str) -> None:
+    work = count(CASES[case], way)
+    assert work.attended <= bound(ATTENDED[case].get(way, ATTENDED[case]["bare"]))
+    if case == "press, steady" and way != "extremes":
+        assert work.attended <= QUIET
+    assert work.accepted >= 0.65 * work.attempts  # most of what is attempted is taken
+    bare = CALLS[case].get("bare", {})
+    groups = 8 / LANES
+    once = dict.fromkeys(EVERY[way], groups)
+    expected = {name: bound(calls) for name, calls in (bare | CALLS[case].get(way, {})).items()}
+    expected["scan_some"] = groups * expected.get(
+        "scan_some", 0.0
+    )  # one lane sends its group there
+    expected |= {"tangent_gaps": bound(bare.get("weigh", 0.0))} if way == "tangents" else {}
+    for function, calls in work.calls.items():
+        assert calls <= (expected | once).get(function, 0.0) + 1e-12, function
