@@ -237,6 +237,7 @@ def layout_of(admission: Admission) -> ResultLayout:
             "solver_version": SOLVER_VERSION,
             "period": admission.period,
             "section_note": admission.section_note,
+            "notes": list(admission.notes),
             **({"exact": "motion"} if needs_no_steps(admission) else {"methods": methods()}),
         },
         steps=step_columns(admission),

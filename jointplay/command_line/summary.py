@@ -49,6 +49,8 @@ def result_lines(
     job: "Job", found: dict[str, Any], channels: Container[str] | None = None
 ) -> Iterator[str]:
     """Yield results of a job, of a simulation those of some channels, by default of all."""
+    for note in (found["statistics"] or {}).get("notes", ()):
+        yield from textwrap.wrap(note, 100, initial_indent="note      ")
     if (rows := found["peaks"]) is not None:
         if job.job.get("settle"):
             yield f"peaks from t = {job.job['settle']:g} s on"

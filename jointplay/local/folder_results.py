@@ -108,7 +108,8 @@ class FolderResults:
     def statistics(self) -> dict[str, Any]:
         """Return what the run cost, and its energy ledger."""
         run = self._run("statistics")
-        return {"complete": run.complete, **run.attributes.get("summary", {})}
+        notes = run.attributes.get("notes", [])
+        return {"complete": run.complete, "notes": notes, **run.attributes.get("summary", {})}
 
     def certificate(self) -> dict[str, Any]:
         """Return how far the run can be believed."""

@@ -124,9 +124,10 @@ def show_peaks(exact: ExactRunOfThePath, window: Annotated[Window, Query()]) -> 
 
 @router.get("/statistics", dependencies=[NO_PARAMETERS])
 def show_statistics(run: RunOfThePath) -> schemas.Statistics:
-    """Return the steps that the run took, and its energy ledger with the residual."""
+    """Return the steps that the run took, its energy ledger with the residual, and notes."""
     summary = run.attributes.get("summary") or {}
-    return schemas.Statistics(complete=run.complete, **summary)
+    notes = run.attributes.get("notes", [])
+    return schemas.Statistics(complete=run.complete, notes=notes, **summary)
 
 
 @router.get("/certificate", response_model=Certificate)

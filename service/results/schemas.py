@@ -182,6 +182,9 @@ class Statistics(Partial):
     energy: EnergyLedger | None = Field(
         default=None, description="Null for a run without freedom: nothing is integrated there."
     )
+    notes: list[str] = Field(
+        default=[], description="What the scene gives and the run does not keep, with both values."
+    )
 
 
 class FigureLink(BaseModel):

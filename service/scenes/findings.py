@@ -1,5 +1,6 @@
 """Findings of a check of a scene: whether it can be put together and move."""
 
+import math
 from typing import Any
 
 from jointplay.figures.scene_facts import clearances
@@ -7,10 +8,41 @@ from jointplay.solver.kinds.assembled import AssembledScene
 from jointplay.solver.mechanics.branches import Branches, branches
 from jointplay.solver.scene.document import Scene
 
+ALIKE = 1e-6
+"""Sine of half the difference of two angles, and share of the largest distance from the origin of
+that of two places, up to which they are one."""
+
+PLACED = ("angles", "points")
+"""Fields of a start that tell an assembly."""
+
 
 def branches_of(scene: AssembledScene) -> Branches:
     """Return the ways to put the scene together; seconds for a large one."""
     return branches(Scene.model_validate(scene.document))
+
+
+def start_of(document: dict[str, Any], found: Branches, k: int) -> dict[str, Any]:
+    """Return the `start` with which one of the assemblies is taken, to nine digits.
+
+    It has the angles of all bodies, and a point of each that only slides to another place.
+    """
+    angles, (first, places) = found.angles[k], (found.places[0], found.places[k])
+    largest = max((math.hypot(*at) for at in [*first.values(), *places.values()]), default=0.0)
+    points = {}
+    for body, (x, y) in places.items():
+        turned = abs(math.sin(0.5 * (angles[body] - found.angles[0][body]))) > ALIKE
+        own = document["bodies"][body]["points"]
+        if not turned and own and math.dist((x, y), first[body]) > ALIKE * largest:
+            name, (u, v) = next(iter(own.items()))
+            c, s = math.cos(angles[body]), math.sin(angles[body])
+            points[f"{body}.{name}"] = [_rounded(x + c * u - s * v), _rounded(y + s * u + c * v)]
+    start = {name: given for name, given in document["start"].items() if name not in PLACED}
+    start = {"angles": {body: _rounded(angle) for body, angle in angles.items()}} | start
+    return {name: given for name, given in (start | {"points": points}).items() if given}
+
+
+def _rounded(value: float) -> float:
+    return float(f"{round(value, 12):z.9g}")
 
 
 def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
@@ -25,9 +57,15 @@ def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
         "redundant": assembly.redundant_with_play,
         "ideal_redundant": assembly.redundant,
         "residual": assembly.residual,
+        "pose": {body: list(pose) for body, pose in scene.pose().items()},
+        "given": [
+            {"pointer": t.pointer, "unit": t.unit, "given": t.given, "taken": t.taken, "off": t.off}
+            for t in assembly.given
+        ],
         "assemblies": found.angles,
         "places": found.places,
         "held": found.held,
+        "starts": [start_of(scene.document, found, k) for k in range(len(found.angles))],
         "period": None if admission is None else admission.period,
         "channels": None if admission is None else len(admission.channels),
         "problems": scene.problems,

@@ -28,6 +28,18 @@ _DRAWN: dict[int | str, dict[str, Any]] = {
 _REFUSALS = problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST, kinds.UNAVAILABLE)
 
 
+class GivenStart(BaseModel):
+    """What becomes of one thing that a scene gives of its start."""
+
+    pointer: str = Field(description="Where the scene has it.")
+    unit: str
+    given: list[float]
+    taken: list[float] = Field(description="What the start has, in the same unit.")
+    off: float = Field(
+        description="Distance between both, m or m/s; of angles that of the body's farthest point."
+    )
+
+
 class SceneFindings(BaseModel):
     """Findings of a check; with `problems` the scene cannot be run, and they say why."""
 
@@ -39,11 +51,18 @@ class SceneFindings(BaseModel):
     redundant: int = Field(description="Constraints that others imply.")
     ideal_redundant: int = Field(description="The same without any clearance.")
     residual: float = Field(description="What loops miss by as they are put together, m or rad.")
+    pose: dict[str, tuple[float, float, float]] = Field(
+        description="Centre of mass, m, and angle, rad, of each body at t = 0."
+    )
+    given: list[GivenStart] = Field(description="All that `start` gives, and what is taken.")
     assemblies: list[dict[str, float]] = Field(
         description="Angles of all bodies, rad, in each way to put them together; the first is run."
     )
     places: list[dict[str, tuple[float, float]]] = Field(
         description="Centres of mass of all bodies, m, in each of them."
+    )
+    starts: list[dict[str, Any]] = Field(
+        description="A `start` with which each of them is taken, to be pasted into the scene."
     )
     held: list[str] = Field(description="Coordinates that were held, as it moves freely.")
     period: float | None = in_unit("s", "Period of the drivers; null if there is none.")

@@ -18,8 +18,8 @@ from jointplay.solver.mechanics.assembly import (
     poses_nearby,
     shortest_link,
 )
-from jointplay.solver.mechanics.branches import MOST_BODIES, Branches, branches
 from jointplay.solver.mechanics.misfit import fighting_drivers, opening
+from jointplay.solver.mechanics.start.closings import MOST_BODIES
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.channels import channels, recording
@@ -222,14 +222,10 @@ def _open(scene: Scene) -> list[Problem]:
             )
             for name in scene.start.joints
         ]
-    found = branches(scene)
-    if found.angles:
-        sentence = f"The mechanism does not close from its start angles; {_closing(found)}."
-    else:
-        sentence = (
-            f"The mechanism does not close: {_left_open(scene)}. Check lengths and driver"
-            " positions, or give start angles nearer to the assembly you mean."
-        )
+    sentence = (
+        f"The mechanism does not close: {_left_open(scene)}. Check lengths and driver positions,"
+        " or give start angles nearer to the assembly you mean."
+    )
     return [Problem("/scene/start/angles", sentence)]
 
 
@@ -240,14 +236,6 @@ def _left_open(scene: Scene) -> str:
     return (
         f"{wide.size:.3g} {wide.unit} remain open at joint '{wide.joint}', where the others are"
         " closed"
-    )
-
-
-def _closing(found: Branches) -> str:
-    one = ", ".join(f"{body} {angle:.4g}" for body, angle in next(iter(found.angles), {}).items())
-    return (
-        f"{len(found.angles)} assemblies are found from {found.tried} others, one at {one} rad."
-        " Give those, or angles near another"
     )
 
 

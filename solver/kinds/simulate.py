@@ -13,7 +13,7 @@ from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.mechanism import check, resolve, written
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.kinds.section import CrankSection
-from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.scene.channels import channels, select
@@ -144,6 +144,7 @@ def _admission(
         sections=sections,
         period=period.seconds,
         section_note=period.note,
+        notes=tuple(misfit.sentence for misfit in assemble(scene).misfits),
         joints=tuple(contact_pairs(scene)),
         stored_bytes=int(limits.BYTES_PER_VALUE * (len(channels) + 1) * (samples + sections)),
     )

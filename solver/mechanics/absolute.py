@@ -125,9 +125,11 @@ class AbsoluteMechanism:
             (_, here), (_, there) = ends(joint)
             first, second = self.marker(here, q, v), self.marker(there, q, v)
             start = self.scene.start.guides.get(name, CENTRED)
-            aside = RESTING._replace(value=start.offset)
+            aside = RESTING._replace(value=start.offset, slope=start.rate or 0.0)
             if isinstance(joint, Prismatic):
-                angle = joint.angle + start.tilt if start.tilt else joint.angle
+                angle = RESTING._replace(value=joint.angle, slope=start.tilt_rate or 0.0)
+                if start.tilt:
+                    angle = angle._replace(value=joint.angle + start.tilt)
                 rows += guided_rows(
                     name, first, second, self.axis(joint, first), angle, aside, motion
                 )
@@ -138,8 +140,8 @@ class AbsoluteMechanism:
                 continue
             if isinstance(joint, CamJoint):
                 found = lift(joint, self.ends((here, there), q, v))
-                if start.offset:
-                    found = found._replace(value=found.value - start.offset)
+                if start.offset or start.rate:
+                    found = found.less(start.offset, start.rate or 0.0)
                 rows.append(lifted_row(name, first, second, found))
                 continue
             rows += self._coincidence(name, first, second)

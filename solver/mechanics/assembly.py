@@ -1,30 +1,37 @@
 """Assembly: the pose and velocity at the start, degrees of freedom, redundant constraints."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
-from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
 
-from jointplay.records.arrays import Flags, Floats
+from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, rank
-from jointplay.solver.mechanics.drawing import drawn_angles, drawn_places
-from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.start.closings import alike, closings
+from jointplay.solver.mechanics.start.drawing import drawn_places
+from jointplay.solver.mechanics.start.given import Taken, distance, taken
+from jointplay.solver.mechanics.start.guess import first_angles, first_clocks, first_pose
+from jointplay.solver.mechanics.start.pose import (
+    CLOSED,
+    FAR,
+    Places,
+    hold,
+    nearest,
+    opened,
+    within_play,
+)
+from jointplay.solver.mechanics.start.rates import start_rates
 from jointplay.solver.mechanics.view import view
-from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Fixed, Prismatic, Revolute
 from jointplay.solver.scene.latest import once_per_scene
 from jointplay.solver.scene.pairs import has_play, pairs_of
 from jointplay.solver.scene.references import ends
 
-ASSEMBLED = 1e-11
-"""Largest residual, in lengths of the shortest link, of an assembled mechanism."""
+ASSEMBLED = CLOSED
 NEARBY, NEARBY_SEED, ASIDE = 3, 7, 0.05
 """Poses beside the start: how many, how they are drawn, and how far off, in rad and links."""
 GEOMETRY: Final[Any] = {
@@ -35,7 +42,8 @@ GEOMETRY: Final[Any] = {
     "drivers": True,
     "start": True,
 }
-NOWHERE: Mapping[str, Floats] = MappingProxyType({})
+TOLD = 1e-6
+"""Share of the shortest link, or of 1 m, up to which a difference is not told, m or m/s."""
 MOST_KEPT = 512
 """Assemblies that are kept; studies of one geometry need one."""
 
@@ -49,7 +57,7 @@ class Assembly:
     velocity: Floats
     """(3 bodies,) their rates."""
     residual: float
-    """Largest constraint residual, m or rad."""
+    """Largest constraint residual, m or rad, of joints that are not let go."""
     constraints: int
     """Number of constraint rows, journals held."""
     rank: int
@@ -63,6 +71,16 @@ class Assembly:
     rate: float
     """Largest rate at which constraints are violated then, m/s or rad/s; above zero if drivers
     fight."""
+    given: tuple[Taken, ...]
+    """What becomes of all that the scene gives of the start."""
+
+    told: float
+    """Smallest difference from what is given that is told, m or m/s."""
+
+    @property
+    def misfits(self) -> list[Taken]:
+        """Return what is given and not kept."""
+        return [one for one in self.given if one.off > self.told]
 
     @property
     def redundant(self) -> int:
@@ -109,44 +127,23 @@ def directionless(scene: Scene, pose: Floats) -> list[str]:
     ]
 
 
-def first_clocks(scene: Scene) -> dict[str, float]:
-    """Return each clock at t = 0."""
-    return {name: clock.start for name, clock in clocks(scene).items()}
+@dataclass(frozen=True)
+class _Found:
+    """What one geometry comes to, whatever its clearances are."""
+
+    places: Places
+    closed: Assembly
+    """With joints with play closed."""
+    opened: Assembly | None
+    """With joints with play as far open as what is given needs, where it needs that."""
 
 
-def first_angles(scene: Scene) -> dict[str, float]:
-    """Return angles, rad, from which the assembly starts: as given, drawn, driven, or carried."""
-    angles = {"ground": 0.0}
-    chosen = drawn_angles(scene) | scene.start.angles
-    for branch in spanning_tree(scene).branches:
-        joint = scene.joints.get(branch.joint)
-        offset = 0.0
-        if isinstance(joint, Prismatic | Fixed):
-            offset = joint.angle
-        elif branch.driver is not None:
-            driver = scene.drivers[branch.driver]
-            offset = driver.at(driver.clock_start).value
-        carried = angles[branch.parent] + (offset if branch.outward else -offset)
-        given = chosen.get(branch.body)
-        if branch.turned_by is not None:
-            turning = scene.drivers[branch.turned_by]
-            angles[branch.body] = turning.at(turning.clock_start).value
-            continue
-        prescribed = branch.driver is not None and isinstance(joint, Revolute)
-        if prescribed or given is None:
-            held = prescribed or isinstance(joint, Prismatic | Fixed)
-            angles[branch.body] = carried if held else 0.0
-        else:
-            angles[branch.body] = given
-    return angles
-
-
-_found: dict[str, Assembly] = {}
+_found: dict[str, _Found] = {}
 
 
 @once_per_scene
 def assemble(scene: Scene) -> Assembly:
-    """Close the ideal mechanism by Newton's iteration; start values steer and fill freedom.
+    """Put the ideal mechanism together, nearest to what is given: see `start.pose`, `start.rates`.
 
     Never raises for a mechanism that cannot close: the residual tells. Scenes of one geometry, as
     the points of most studies, share what was found for the first.
@@ -156,7 +153,10 @@ def assemble(scene: Scene) -> Assembly:
         while len(_found) >= MOST_KEPT:
             _found.pop(next(iter(_found)), None)
         _found[geometry] = _assembled(scene)
-    return _found[geometry]
+    found = _found[geometry]
+    if found.opened is not None and within_play(found.places, scene, found.opened.pose):
+        return found.opened
+    return found.closed
 
 
 def _geometry(scene: Scene) -> str:
@@ -166,61 +166,60 @@ def _geometry(scene: Scene) -> str:
     return f"{found} {play} {shortest_link(scene)!r}"
 
 
-def _assembled(scene: Scene) -> Assembly:
-    ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
-    length = shortest_link(scene)
-    driven = first_clocks(scene)
-    count = 3 * len(ideal.bodies)
-    scale = np.tile([length, length, 1.0], len(ideal.bodies))
-    still = np.zeros(count)
-
+def _assembled(scene: Scene) -> _Found:
+    places = Places.of(scene, shortest_link(scene))
     angles = first_angles(scene)
-    pose = first_pose(ideal, angles, driven, drawn_places(scene, angles))
-    close(ideal, pose, driven, scale)
-    residual, jacobian = arrays(ideal.rows(pose, still, driven), count)
+    guess = first_pose(places.closed, angles, places.driven, drawn_places(scene, angles))
+    pose = guess.copy()
+    close(places.closed, pose, places.driven, places.scale)
+    if places.keeps(places.given, pose):
+        return _Found(places, _assembly(places, places.closed, pose), None)
+    found = opened(places, guess)
+    return _Found(
+        places,
+        _assembly(places, places.closed, _nearer(places, pose)),
+        None if found is None else _assembly(places, places.loose, found),
+    )
 
-    loose = AbsoluteMechanism(scene, view(scene), close_play=False)
-    velocity = _start_velocity(ideal, pose, scale)
-    loose_rows = loose.rows(pose, velocity, driven)
+
+def _nearer(places: Places, pose: Floats) -> Floats:
+    """Return the closed pose that is to be taken where the one first found does not keep all."""
+    still, poses = np.zeros_like(pose), [pose] if places.is_closed(places.closed, pose) else []
+    if not poses or distance(places.given, pose, still) > FAR * places.length:
+        poses += list(closings(places))
+    if not poses:
+        return pose
+    found = nearest(places, poses)
+    _, jacobian = places.constraints(places.closed, found)
+    if rank(jacobian * places.scale) < len(pose):
+        return hold(places, found)
+    return pose if alike(pose, found, places.scale) else found
+
+
+def _assembly(places: Places, held: AbsoluteMechanism, pose: Floats) -> Assembly:
+    """Return what a pose comes to, in which the joints of a mechanism are held."""
+    count, still = len(pose), np.zeros_like(pose)
+    residual = places.constraints(held, pose).value
+    constraints, jacobian = places.constraints(places.closed, pose)
+    velocity, rates = start_rates(places, pose)
+    loose = AbsoluteMechanism(places.scene, places.closed.numbers, close_play=False)
+    loose_rows = loose.rows(pose, velocity, places.driven)
     _, open_jacobian = arrays(loose_rows, count)
-    found, loose_rank = rank(jacobian * scale), rank(open_jacobian * scale)
+    found, loose_rank = rank(jacobian * places.scale), rank(open_jacobian * places.scale)
     pose.flags.writeable = velocity.flags.writeable = False
     return Assembly(
         pose=pose,
         velocity=velocity,
         residual=float(np.abs(residual).max(initial=0.0)),
-        constraints=len(residual),
+        constraints=len(constraints),
         rank=found,
         freedom=count - found,
         freedom_with_play=count - loose_rank,
         redundant_with_play=len(open_jacobian) - loose_rank,
         rate=max((abs(float(row.rate)) for row in loose_rows), default=0.0),
+        given=(*taken(places.given, pose, still), *taken(rates, pose, velocity)),
+        told=TOLD * min(1.0, places.length),
     )
-
-
-def first_pose(
-    ideal: AbsoluteMechanism,
-    angles: Mapping[str, float],
-    driven: dict[str, float],
-    places: Mapping[str, Floats] = NOWHERE,
-) -> Floats:
-    """Return a pose with these angles, rad by body, in which joints are as near as they come.
-
-    places : centres of mass, (2,) m by body, of those that keep theirs.
-    """
-    count = 3 * len(ideal.bodies)
-    pose = np.zeros(count)
-    positions = np.arange(count) % 3 != 2
-    for i, body in enumerate(ideal.bodies):
-        pose[3 * i + 2] = angles[body]
-        if body in places:
-            pose[3 * i : 3 * i + 2] = places[body]
-            positions[3 * i : 3 * i + 2] = False
-    residual, jacobian = arrays(ideal.rows(pose, np.zeros(count), driven), count)
-    if len(residual) and positions.any():  # revolute joints are linear in x and y
-        step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
-        pose[positions] += step
-    return pose
 
 
 def poses_nearby(scene: Scene) -> Iterator[tuple[Floats, float, int]]:
@@ -244,51 +243,3 @@ def poses_nearby(scene: Scene) -> Iterator[tuple[Floats, float, int]]:
         residual, jacobian = arrays(ideal.rows(pose, still, driven), len(pose))
         if np.abs((pose - start) / scale).max() > 0.1 * ASIDE:
             yield pose, float(np.abs(residual).max()) / length, rank(jacobian * scale)
-
-
-def _start_velocity(ideal: AbsoluteMechanism, pose: Floats, scale: Floats) -> Floats:
-    """Velocities of the ideal mechanism; those given, where play lets a body be thrown."""
-    scene, driven = ideal.scene, first_clocks(ideal.scene)
-    velocity = np.zeros(len(pose))
-    for i, body in enumerate(ideal.bodies):
-        velocity[3 * i : 3 * i + 2] = scene.start.velocities.get(body, (0.0, 0.0))
-        velocity[3 * i + 2] = scene.start.angular_velocities.get(body, 0.0)
-    everything = np.full(len(pose), True)
-    for columns in (np.arange(len(pose)) % 3 != 2, everything, everything):
-        # given angular velocities first carry the centres of mass along; the last pass removes
-        # the rounding of the one before
-        _admissible(ideal, pose, velocity, driven, scale, columns)
-    if not scene.start.velocities:
-        return velocity
-    loosely = [joint for joint in scene.joints.values() if has_play(joint)]
-    guided = {
-        end.split(".")[0] for joint in loosely if joint.type in HOLDING for _, end in ends(joint)
-    }
-    for body, given in scene.start.velocities.items():
-        i = 3 * ideal.bodies.index(body)
-        velocity[i : i + 2] = given
-        if body in guided:
-            velocity[i + 2] = scene.start.angular_velocities.get(body, velocity[i + 2])
-    thrown = [name for name, start in scene.start.joints.items() if start.rate is not None]
-    loose = AbsoluteMechanism(scene, ideal.numbers, close_play=False, held=thrown)
-    for _ in range(2):
-        _admissible(loose, pose, velocity, driven, scale, everything)
-    return velocity
-
-
-def _admissible(
-    mechanism: AbsoluteMechanism,
-    pose: Floats,
-    velocity: Floats,
-    driven: dict[str, float],
-    scale: Floats,
-    columns: Flags,
-) -> None:
-    """Change some of the velocities, as little as possible, so that the constraints hold."""
-    rows = mechanism.rows(pose, velocity, driven)
-    if rows:
-        _, jacobian = arrays(rows, len(pose))
-        rates = np.array([row.rate for row in rows], np.float64)
-        scaled = (jacobian * scale)[:, columns]
-        step, *_ = np.linalg.lstsq(scaled, -rates, rcond=RANK_TOLERANCE)
-        velocity[columns] += scale[columns] * step

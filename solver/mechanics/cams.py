@@ -45,6 +45,10 @@ class Lift(NamedTuple):
     profile: Derivatives
     """The profile and its derivatives at this angle, m."""
 
+    def less(self, distance: float, rate: float) -> "Lift":
+        """Return the distance from where a follower is a distance (m) away, and its rate (m/s)."""
+        return self._replace(value=self.value - distance, rate=self.rate - rate)
+
 
 def lift(joint: CamJoint, between: Ends) -> Lift:
     """Return the distance of a follower; `between` : its point against the cam's."""

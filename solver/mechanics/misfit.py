@@ -6,15 +6,10 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.assembly import (
-    assemble,
-    first_angles,
-    first_clocks,
-    first_pose,
-    shortest_link,
-)
+from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.closing import arrays, rank
-from jointplay.solver.mechanics.drawing import drawn_places
+from jointplay.solver.mechanics.start.drawing import drawn_places
+from jointplay.solver.mechanics.start.guess import first_angles, first_clocks, first_pose
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene

@@ -63,13 +63,13 @@ def guided_rows(
     first: Marker,
     second: Marker,
     axis: Pair,
-    angle: Scalar,
+    angle: Derivatives,
     aside: Derivatives,
     motion: Derivatives | None,
 ) -> list[Row]:
     """Return the rows of a slider: it stays beside the axis, at its angle, and moves as driven."""
     rows = [projection_row(name, "normal", left(axis), aside, first, second)]
-    rows.append(angle_row(name, first, second, RESTING._replace(value=angle)))
+    rows.append(angle_row(name, first, second, angle))
     if motion is not None:
         rows.append(projection_row(name, "along", axis, motion, first, second))
     return rows

@@ -32,6 +32,8 @@ class Admission:
     """Least common period of the drivers, s."""
     section_note: str
     """Why there is no section, else empty."""
+    notes: tuple[str, ...]
+    """Sentences on what the scene gives and the run does not keep."""
     joints: tuple[str, ...]
     """Contact pairs, in the order of the impacts' joint index."""
     stored_bytes: int

@@ -60,22 +60,25 @@ class GuideStart(Strict):
     """A start of a slider, a pin or a follower off the middle of its play.
 
     `offset` is how far its point is to the left of the axis, or of a follower away from its
-    profile; `tilt` the angle of a slider's body less that of the centred one.
+    profile; `tilt` the angle of a slider's body less that of the centred one; `rate` and
+    `tilt_rate` are how fast these grow. Without a rate it moves as the velocities of the bodies
+    say, else not.
     """
 
     offset: Length = 0.0
     tilt: Angle = 0.0
+    rate: Velocity | None = None
+    tilt_rate: AngularVelocity | None = None
 
 
 class Start(Strict):
-    """The beginning of Newton's iteration on the geometry, and what the constraints leave free.
+    """The pose and the velocities at t = 0, as far as they are given.
 
     Journals start concentric unless `joints` says where; sliders, pins in slots and followers in
-    the middle of their play unless `guides` does; positions and velocities are those of the
-    mechanism that holds them there, but for a body whose velocity is given: its journal may move in
-    its bearing from the start, and its slider move and turn in its guide. Angles choose between the
-    assemblies that a mechanism allows, and so do places of points of bodies, in the world, as read
-    from a drawing: two points of a body give its angle, too.
+    the middle of their play unless `guides` does. Angles, places of points of bodies in the world,
+    and velocities hold if the joints allow it, within their play; what is not given is fitted. What
+    cannot hold all together holds in its order as far as it can, the rest comes as near as it gets,
+    in the nearest of the assemblies.
     """
 
     angles: Annotated[dict[Name, Angle], Field(max_length=96)] = {}

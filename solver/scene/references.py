@@ -150,8 +150,11 @@ def _guided(scene: Scene, place: str, name: str, start: GuideStart) -> Iterator[
             place,
             f"Joint '{name}' has no clearance, so its parts have one place; leave it out.",
         )
-    elif start.tilt != 0.0 and not isinstance(joint, Prismatic):
-        yield Problem(f"{place}/tilt", f"What joint '{name}' guides may turn; leave the tilt out.")
+    elif not isinstance(joint, Prismatic):
+        for field in ("tilt", "tilt_rate"):
+            if getattr(start, field):
+                sentence = f"What joint '{name}' guides may turn; leave the {field} out."
+                yield Problem(f"{place}/{field}", sentence)
 
 
 def _parameters(scene: Scene) -> Iterator[Problem]:

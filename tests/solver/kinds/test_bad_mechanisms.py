@@ -102,11 +102,6 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
         "/start/angles",
         ["0.3 m remain open at joint 'B'", "Check lengths"],
     ),
-    "a loop that does not close from its start": (
-        {"/start/angles": {"coupler": 3.0, "rocker": 1.7}},
-        "/start/angles",
-        ["2 assemblies are found from 24 others", "coupler 0.6877, rocker 1.499 rad", "Give those"],
-    ),
     "a law's parameter out of its range": (
         {"/joints/B/clearance": PLAY | {"contact": PLAY["contact"] | {"restitution": 1.5}}},
         "/joints/B/clearance/contact/restitution",

@@ -1,0 +1,78 @@
+"""The first guess of a pose: from which Newton's iteration closes the mechanism."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.closing import arrays
+from jointplay.solver.mechanics.start.drawing import drawn_angles
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.scene.clocks import clocks
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Fixed, Prismatic, Revolute
+
+NOWHERE: Mapping[str, Floats] = MappingProxyType({})
+
+
+def first_clocks(scene: Scene) -> dict[str, float]:
+    """Return each clock at t = 0."""
+    return {name: clock.start for name, clock in clocks(scene).items()}
+
+
+def first_angles(scene: Scene, chosen: Mapping[str, float] | None = None) -> dict[str, float]:
+    """Return angles, rad, from which the assembly starts: driven or carried, else as chosen.
+
+    chosen : by body; None: as the scene gives and draws them.
+    """
+    angles = {"ground": 0.0}
+    if chosen is None:
+        chosen = drawn_angles(scene) | scene.start.angles
+    for branch in spanning_tree(scene).branches:
+        joint = scene.joints.get(branch.joint)
+        offset = 0.0
+        if isinstance(joint, Prismatic | Fixed):
+            offset = joint.angle
+        elif branch.driver is not None:
+            driver = scene.drivers[branch.driver]
+            offset = driver.at(driver.clock_start).value
+        carried = angles[branch.parent] + (offset if branch.outward else -offset)
+        given = chosen.get(branch.body)
+        if branch.turned_by is not None:
+            turning = scene.drivers[branch.turned_by]
+            angles[branch.body] = turning.at(turning.clock_start).value
+            continue
+        prescribed = branch.driver is not None and isinstance(joint, Revolute)
+        if prescribed or given is None:
+            held = prescribed or isinstance(joint, Prismatic | Fixed)
+            angles[branch.body] = carried if held else 0.0
+        else:
+            angles[branch.body] = given
+    return angles
+
+
+def first_pose(
+    ideal: AbsoluteMechanism,
+    angles: Mapping[str, float],
+    driven: dict[str, float],
+    places: Mapping[str, Floats] = NOWHERE,
+) -> Floats:
+    """Return a pose with these angles, rad by body, in which joints are as near as they come.
+
+    places : centres of mass, (2,) m by body, of those that keep theirs.
+    """
+    count = 3 * len(ideal.bodies)
+    pose = np.zeros(count)
+    positions = np.arange(count) % 3 != 2
+    for i, body in enumerate(ideal.bodies):
+        pose[3 * i + 2] = angles[body]
+        if body in places:
+            pose[3 * i : 3 * i + 2] = places[body]
+            positions[3 * i : 3 * i + 2] = False
+    residual, jacobian = arrays(ideal.rows(pose, np.zeros(count), driven), count)
+    if len(residual) and positions.any():  # revolute joints are linear in x and y
+        step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
+        pose[positions] += step
+    return pose

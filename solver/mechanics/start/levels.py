@@ -1,0 +1,75 @@
+"""Equations in the order of their rights: each level gets what those above leave free.
+
+A linear level is solved by least squares within what all levels above it leave (Siciliano and
+Slotine 1991); of what is left in the end, nothing moves. Poses go by Newton's iteration on such
+steps.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.mechanics.closing import LARGEST_TURN, RANK_TOLERANCE, ROUNDING
+from jointplay.solver.mechanics.start.given import Rows
+
+MOST_ITERATIONS = 60
+LESS = 0.1
+"""Weight of a level against the one before, where steps are judged."""
+HALVINGS = 8
+"""Times that a step is halved at most, until it brings what is given nearer."""
+
+
+def step_of(levels: Sequence[Rows], scale: Floats) -> Floats:
+    """Return the smallest change, (3 bodies,), that does for each level what it can.
+
+    scale : (3 bodies,) what changes are measured in, m and rad.
+    """
+    step, free = np.zeros(len(scale)), np.eye(len(scale))
+    for value, jacobian in levels:
+        if not len(value) or not free.shape[1]:
+            continue
+        scaled = jacobian * scale
+        least = RANK_TOLERANCE * float(np.linalg.norm(scaled, axis=1).max())
+        left, sizes, right = np.linalg.svd(scaled @ free)
+        count = int((sizes > least).sum())
+        wanted = left[:, :count].T @ -(value + scaled @ step)
+        step = step + free @ (right[:count].T @ (wanted / sizes[:count]))
+        free = free @ right[count:].T
+    return np.asarray(scale * step)
+
+
+def approach(
+    pose: Floats,
+    levels: Callable[[Floats], list[Rows]],
+    scale: Floats,
+    judged: int,
+    iterations: int = MOST_ITERATIONS,
+) -> Floats:
+    """Return the pose to which Newton's iteration on the levels leads from a closed one.
+
+    judged : how many of the first levels a step must not take farther from what they want, each
+    counted `LESS` than the one before; else it is halved, and the iteration ends where that does
+    not help.
+    """
+    angles = np.arange(len(pose)) % 3 == 2
+    found = levels(pose)
+    for _ in range(iterations):
+        step = step_of(found, scale)
+        step *= min(1.0, LARGEST_TURN / max(float(np.abs(step[angles]).max()), 1e-300))
+        before = _size(found[:judged])
+        for _ in range(HALVINGS):
+            found = levels(pose + step)
+            if _size(found[:judged]) <= before:
+                break
+            step *= 0.5
+        else:
+            break
+        pose = pose + step
+        if float(np.abs(step / scale).max()) < max(1e-15, ROUNDING * len(pose)):
+            break
+    return pose
+
+
+def _size(levels: list[Rows]) -> float:
+    return sum(LESS**k * float(np.linalg.norm(rows.value)) for k, rows in enumerate(levels))

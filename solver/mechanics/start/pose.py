@@ -1,0 +1,219 @@
+"""The pose at the start: given angles and points hold where the joints allow it.
+
+Joints with play start closed, or as `start.joints` and `start.guides` say, unless what is given
+needs their play and is within it. What cannot hold all together holds in the scene's order as far
+as it can, angles first; the rest comes as near as it gets. Of several assemblies that is the
+nearest one, by `given.distance`; of equally near ones that in which bodies of which nothing is
+given are nearest to angle zero, and slides to the middle.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.closing import arrays
+from jointplay.solver.mechanics.rows import Row
+from jointplay.solver.mechanics.start.given import Given, Rows, distance, given_places
+from jointplay.solver.mechanics.start.levels import approach
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.clocks import clocks
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Prismatic
+from jointplay.solver.scene.pairs import has_play
+
+CLOSED = 1e-11
+"""Largest residual, in lengths of the shortest link, of an assembled mechanism."""
+KEPT = 1e-10
+"""The same of what holds of what is given."""
+FAR = 1e-3
+"""From which on other assemblies are sought: drawings give three digits."""
+ALIKE = 1e-6
+"""Relative difference of distances up to which two assemblies are equally near."""
+
+
+@dataclass(frozen=True)
+class Places:
+    """What is asked of a pose: constraints, and what is given."""
+
+    scene: Scene
+    closed: AbsoluteMechanism
+    """All play closed."""
+    loose: AbsoluteMechanism
+    """Play let go, but where the scene says how a joint starts."""
+    given: list[Given]
+    driven: dict[str, float]
+    """Each clock at t = 0."""
+    length: float
+    """Shortest link, m."""
+    scale: Floats
+    """(3 bodies,) that length, and a radian."""
+
+    @classmethod
+    def of(cls, scene: Scene, length: float) -> "Places":
+        """Return what a scene asks; length : of the shortest link, m."""
+        numbers = view(scene)
+        told = [*scene.start.joints, *scene.start.guides]
+        closed = AbsoluteMechanism(scene, numbers, close_play=True)
+        return cls(
+            scene,
+            closed,
+            AbsoluteMechanism(scene, numbers, close_play=False, held=told),
+            given_places(closed, length),
+            {name: clock.start for name, clock in clocks(scene).items()},
+            length,
+            np.tile([length, length, 1.0], len(closed.bodies)),
+        )
+
+    def constraints(self, mechanism: AbsoluteMechanism, pose: Floats) -> Rows:
+        """Return the rows of a mechanism's joints and drivers."""
+        return Rows(*arrays(mechanism.rows(pose, np.zeros_like(pose), self.driven), len(pose)))
+
+    def slack(self, pose: Floats) -> list[Row]:
+        """Return the rows of joints with play of which the scene does not say how they start."""
+        rows = self.closed.rows(pose, np.zeros_like(pose), self.driven)
+        let_go = set(self.scene.joints).difference(self.loose.joints)
+        return [row for row in rows if row.joint in let_go]
+
+    def wanted(self, given: Iterable[Given], pose: Floats) -> Rows:
+        """Return the rows of what is given, together."""
+        still = np.zeros_like(pose)
+        found = [one.rows(pose, still) for one in given]
+        if not found:
+            return Rows(np.zeros(0), np.zeros((0, len(pose))))
+        return Rows(
+            np.concatenate([rows.value for rows in found]),
+            np.concatenate([rows.jacobian for rows in found]),
+        )
+
+    def is_closed(self, mechanism: AbsoluteMechanism, pose: Floats) -> bool:
+        """Whether the constraints of a mechanism hold."""
+        value = self.constraints(mechanism, pose).value
+        return bool(np.abs(value).max(initial=0.0) <= CLOSED * self.length)
+
+    def keeps(self, given: Iterable[Given], pose: Floats) -> bool:
+        """Whether a pose keeps what is given."""
+        return bool(np.abs(self.wanted(given, pose).value).max(initial=0.0) <= KEPT * self.length)
+
+
+def nearest(places: Places, poses: Iterable[Floats]) -> Floats:
+    """Return the closed pose nearest to what is given, of those near each of some closed ones."""
+    still = np.zeros(len(places.scale))
+    near = [_nearest_here(places, pose) for pose in poses]
+    far = [distance(places.given, pose, still) for pose in near]
+    least = min(far) * (1.0 + ALIKE) + KEPT * places.length
+    alike = [pose for pose, apart in zip(near, far, strict=True) if apart <= least]
+    return min(alike, key=lambda pose: _from_zero(places, pose))
+
+
+def hold(places: Places, pose: Floats) -> Floats:
+    """Return a closed pose near another that keeps what it can of what is given, in its order."""
+    kept: list[Given] = []
+    for one in places.given:
+        found = _with(places, places.closed, pose, [*kept, one])
+        if found is not None:
+            pose = found
+            kept.append(one)
+    return pose
+
+
+def opened(places: Places, guess: Floats) -> Floats | None:
+    """Return the pose that keeps all that is given with joints with play let go, if there is one.
+
+    They are as close as they come then with bodies of which nothing is given at the angles of the
+    guess; whether that is within their play is not asked.
+    """
+    named = _named(places.scene)
+    free = [3 * i + 2 for i, body in enumerate(places.closed.bodies) if body not in named]
+    turning = places.length * np.eye(len(guess))[free]
+
+    def levels(pose: Floats) -> list[Rows]:
+        return [
+            places.constraints(places.loose, pose),
+            places.wanted(places.given, pose),
+            Rows(turning @ (pose - guess), turning),
+            Rows(*arrays(places.slack(pose), len(pose))),
+        ]
+
+    found = approach(guess, levels, places.scale, 4)
+    if places.is_closed(places.loose, found) and places.keeps(places.given, found):
+        return found
+    return None
+
+
+def within_play(places: Places, scene: Scene, pose: Floats) -> bool:
+    """Whether the joints with play that are let go are within it, of a scene with this geometry."""
+    found: dict[str, dict[str, float]] = {}
+    for row in places.slack(pose):
+        found.setdefault(row.joint, {})[row.part] = float(row.value)
+    return all(_is_within(scene, name, parts, places.length) for name, parts in found.items())
+
+
+def _is_within(scene: Scene, name: str, parts: dict[str, float], length: float) -> bool:
+    joint = scene.joints[name]
+    if not has_play(joint):
+        return True
+    rounding = KEPT * length
+    clearance = joint.clearance
+    if joint.type == "revolute":
+        return math.hypot(parts["x"], parts["y"]) <= clearance.radial_clearance + rounding
+    if joint.type in ("flat-follower", "roller-follower"):
+        return parts["normal"] >= -clearance.lash - rounding  # away from the cam there is room
+    aside = abs(parts["normal"])
+    if isinstance(joint, Prismatic):
+        aside += 0.5 * clearance.length * abs(math.sin(parts["angle"]))
+    return bool(aside <= clearance.wall_clearance + rounding)
+
+
+def _nearest_here(places: Places, pose: Floats) -> Floats:
+    def levels(pose: Floats) -> list[Rows]:
+        return [
+            places.constraints(places.closed, pose),
+            places.wanted(places.given, pose),
+        ]
+
+    found = approach(pose, levels, places.scale, 2)
+    return found if places.is_closed(places.closed, found) else pose
+
+
+def _with(
+    places: Places, mechanism: AbsoluteMechanism, pose: Floats, kept: Sequence[Given]
+) -> Floats | None:
+    """Return a pose that keeps some of what is given, and comes near the rest; None: it cannot."""
+    rest = [one for one in places.given if one not in kept]
+
+    def levels(pose: Floats) -> list[Rows]:
+        hard, soft = places.constraints(mechanism, pose), places.wanted(kept, pose)
+        first = Rows(
+            np.concatenate([hard.value, soft.value]), np.concatenate([hard.jacobian, soft.jacobian])
+        )
+        return [first, places.wanted(rest, pose)]
+
+    found = approach(pose, levels, places.scale, 1)
+    if places.is_closed(mechanism, found) and places.keeps(kept, found):
+        return found
+    return None
+
+
+def _named(scene: Scene) -> set[str]:
+    """Return the bodies of which an angle or a point is given."""
+    return {*scene.start.angles, *(name.split(".")[0] for name in scene.start.points)}
+
+
+def _from_zero(places: Places, pose: Floats) -> float:
+    """Return how far bodies of which nothing is given are from zero, rad and shortest links."""
+    named = _named(places.scene)
+    turned = [
+        math.remainder(float(pose[3 * i + 2]), 2.0 * math.pi)
+        for i, body in enumerate(places.closed.bodies)
+        if body not in named
+    ]
+    still = np.zeros_like(pose)
+    for joint in places.closed.numbers.joints.values():
+        if isinstance(joint, Prismatic):
+            between = places.closed.ends((joint.guide, joint.slider), pose, still)
+            turned.append(math.hypot(*between.gap) / places.length)
+    return math.hypot(*turned)

@@ -1,0 +1,91 @@
+"""The velocities at the start: given rates hold where the joints allow it, the rest is fitted.
+
+In this order: ideal joints, drivers and the rates of `start.joints` and `start.guides`; angular
+velocities and velocities as given, those that do not hold all together in the scene's order; joints
+with play, whose parts move with one another unless a body of theirs is thrown, by a velocity of its
+centre, or a follower is away from its cam; bodies of which nothing is given do not turn; at last
+centres rest.
+"""
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.mechanics.closing import arrays
+from jointplay.solver.mechanics.rows import Row
+from jointplay.solver.mechanics.start.given import Given, Rows, given_rates
+from jointplay.solver.mechanics.start.levels import step_of
+from jointplay.solver.mechanics.start.pose import KEPT, Places
+from jointplay.solver.scene.cams import CamJoint
+from jointplay.solver.scene.references import ends
+
+HOLDS = 1e-10
+"""Share of the largest given rate, or of 1 m/s, by which one that holds may be off."""
+
+
+def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
+    """Return the rates of a pose, (3 bodies,), and what is given of them."""
+    given = given_rates(places.closed, places.length)
+    still = np.zeros_like(pose)
+    rows = places.closed.rows(pose, still, places.driven)
+    hard = [row for row in rows if _is_hard(places, row)]
+    soft = [row for row in rows if not _is_hard(places, row) and _moves_along(places, row)]
+    held = _rates(hard, pose)
+    wanted = {one.pointer: one.rows(pose, still) for one in given}
+    size = max([1.0, *(float(np.abs(rows.value).max()) for rows in wanted.values())])
+    rest: list[Rows] = []
+    for one in given:
+        more = _joined([held, wanted[one.pointer]], pose)
+        velocity = step_of([more], places.scale)
+        if np.abs(more.value + more.jacobian @ velocity).max() <= HOLDS * size:
+            held = more
+        else:
+            rest.append(wanted[one.pointer])
+    levels = [held, _joined(rest, pose), _rates(soft, pose), _still(places, pose)]
+    velocity = step_of(levels, places.scale)
+    # once more, from there: what is left is the rounding of the first
+    again = [Rows(r.value + r.jacobian @ velocity, r.jacobian) for r in levels]
+    return velocity + step_of(again, places.scale), given
+
+
+def _rates(rows: list[Row], pose: Floats) -> Rows:
+    """Return the rates at which rows are violated at rest, and how they change."""
+    _, jacobian = arrays(rows, len(pose))
+    return Rows(np.array([row.rate for row in rows], np.float64), jacobian)
+
+
+def _is_hard(places: Places, row: Row) -> bool:
+    """Whether a row is of an ideal joint or a driver, or its rate is given."""
+    start = places.scene.start
+    if row.joint in start.joints:
+        return start.joints[row.joint].rate is not None
+    if row.joint in start.guides:
+        guided = start.guides[row.joint]
+        return (guided.tilt_rate if row.part == "angle" else guided.rate) is not None
+    return row.joint in places.loose.joints or row.joint not in places.scene.joints
+
+
+def _moves_along(places: Places, row: Row) -> bool:
+    """Whether the parts of a joint with play move with one another, if nothing else is said."""
+    thrown = places.scene.start.velocities
+    joint = places.scene.joints[row.joint]
+    if any(reference.split(".")[0] in thrown for _, reference in ends(joint)):
+        return False
+    # a follower that is given a place away from its cam is not carried along
+    return not isinstance(joint, CamJoint) or bool(abs(row.value) <= KEPT * places.length)
+
+
+def _still(places: Places, pose: Floats) -> Rows:
+    """Return the rows that keep bodies of which nothing is given from turning."""
+    start = places.scene.start
+    named = {*start.angular_velocities, *start.velocities}
+    columns = [3 * i + 2 for i, body in enumerate(places.closed.bodies) if body not in named]
+    return Rows(np.zeros(len(columns)), places.length * np.eye(len(pose))[columns])
+
+
+def _joined(parts: list[Rows], pose: Floats) -> Rows:
+    if not parts:
+        return Rows(np.zeros(0), np.zeros((0, len(pose))))
+    return Rows(
+        np.concatenate([rows.value for rows in parts]),
+        np.concatenate([rows.jacobian for rows in parts]),
+    )

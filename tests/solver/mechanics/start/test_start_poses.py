@@ -1,0 +1,137 @@
+"""What a scene gives of its pose holds if the joints allow it; else the nearest pose is taken."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from jointplay.solver.mechanics.branches import branches
+from jointplay.solver.scene.document import Scene
+from tests.solver.mechanics.start.mechanisms import (
+    ball,
+    cradle,
+    lever,
+    put_together,
+    slider_crank,
+    toggle,
+)
+
+
+def test_the_assembly_nearest_to_a_drawn_point_is_taken() -> None:
+    # the knee is drawn within 9 mm of one assembly, 31 cm from another; the ram is not drawn, and
+    # its two places are told apart by its guide, whose middle is nearer to the lower one
+    found, pose, _ = put_together(toggle({"rod.K": [-0.06, 0.21]}))
+    angle = pose["rod"][2]
+    knee = pose["rod"][:2] + 0.15 * np.array([math.cos(angle), math.sin(angle)])
+    assert math.dist(knee, (-0.06, 0.21)) < 0.01
+    assert pose["ram"][1] < 0.0
+    (one,) = found.misfits
+    assert one.pointer == "/start/points/rod.K"
+    assert one.off == pytest.approx(math.dist(one.given, one.taken))
+
+
+@pytest.mark.parametrize("k", range(4))
+def test_every_assembly_is_taken_that_its_angles_and_points_are_given_of(k: int) -> None:
+    scene = Scene.model_validate(toggle({"rod.K": [-0.06, 0.21]}))
+    ways = branches(scene)
+    document = scene.model_dump(mode="json")
+    place = [round(ways.places[k]["ram"][axis], 3) for axis in (0, 1)]
+    angles = {body: round(angle, 2) for body, angle in ways.angles[k].items() if body != "crank"}
+    document["start"] = {"angles": angles, "points": {"ram.S": [place[0], place[1] + 0.05]}}
+    _, pose, _ = put_together(document)
+    for body, (x, y) in ways.places[k].items():
+        np.testing.assert_allclose(pose[body][:2], (x, y), rtol=0, atol=1e-9)
+
+
+def test_one_point_of_each_body_is_enough() -> None:
+    found, pose, _ = put_together(
+        slider_crank({"points": {"slider.c": [0.4, 0], "crank.b": [0.2, -0.4583]}})
+    )
+    assert pose["slider"][0] == pytest.approx(0.4, abs=1e-12)  # held: the other fits to 4 digits
+    assert pose["crank"][2] == pytest.approx(-math.acos(0.4), abs=1e-12)
+    assert [one.pointer for one in found.misfits] == ["/start/points/crank.b"]
+
+
+def test_a_point_alone_moves_the_bodies_of_which_nothing_is_given() -> None:
+    found, pose, _ = put_together(slider_crank({"points": {"slider.c": [0.4, 0]}}))
+    assert pose["slider"][0] == pytest.approx(0.4, abs=1e-12)
+    assert not found.misfits
+
+
+def test_a_given_angle_holds_and_the_rest_is_fitted() -> None:
+    found, pose, _ = put_together(slider_crank({"angles": {"crank": 0.3, "rod": -1.0}}))
+    assert pose["crank"][2] == pytest.approx(0.3, abs=1e-12)
+    assert pose["rod"][2] == pytest.approx(-0.3, abs=1e-12)
+    (one,) = found.misfits
+    assert (one.pointer, one.given, one.off) == (
+        "/start/angles/rod",
+        (-1.0,),
+        pytest.approx(0.25 * 0.7),
+    )
+
+
+def test_a_ball_that_is_drawn_above_a_floor_starts_there() -> None:
+    assert put_together(ball({"points": {"ball.c": [2, 10]}}))[1]["ball"][1] == 10.0
+    assert put_together(ball({}))[1]["ball"][1] == pytest.approx(0.101)
+    found, pose, _ = put_together(
+        ball({"points": {"ball.c": [0, 10]}, "guides": {"floor": {"offset": 3}}})
+    )
+    assert pose["ball"][1] == pytest.approx(3.101)  # where a joint starts comes first
+    assert [one.pointer for one in found.misfits] == ["/start/points/ball.c"]
+
+
+@pytest.mark.parametrize("others", [{}, {"b1": 0.0, "b2": 0.0}])
+def test_the_first_ball_of_a_cradle_is_lifted_alone(others: dict[str, float]) -> None:
+    _, pose, _ = put_together(cradle({"angles": {"b0": -0.2, **others}}))
+    assert [pose[f"b{i}"][2] for i in range(3)] == pytest.approx([-0.2, 0.0, 0.0], abs=1e-12)
+
+
+@pytest.mark.parametrize("stop", ["slot", "pin"])
+def test_a_given_angle_within_the_play_of_a_stop_holds(stop: str) -> None:
+    _, pose, _ = put_together(lever(stop, {"angles": {"lever": 0.15}}))
+    assert pose["lever"][2] == pytest.approx(0.15, abs=1e-12)
+
+
+@pytest.mark.parametrize("stop", ["slot", "pin"])
+def test_a_given_angle_beyond_the_play_of_a_stop_does_not(stop: str) -> None:
+    found, pose, _ = put_together(lever(stop, {"angles": {"lever": 0.3}}))
+    assert pose["lever"][2] == pytest.approx(0.0, abs=1e-9)
+    (one,) = found.misfits
+    assert (one.given, one.taken) == ((0.3,), (pytest.approx(0.0, abs=1e-9),))
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.floats(0.2, 0.4), st.floats(0.55, 0.9), st.floats(-3.0, 3.0), st.sampled_from([-1.0, 1.0])
+)
+def test_a_roughly_drawn_knee_chooses_its_side(
+    crank: float, rod: float, angle: float, side: float
+) -> None:
+    """A knee of two bars between the ground and a point that is given: circles meet in two places.
+
+    Both are as far apart as twice the knee's height; a drawing is rough by less than a third of it.
+    """
+    reach = crank + rod
+    x = 0.8 * reach
+    along = (crank**2 - rod**2 + x**2) / (2.0 * x)
+    height = math.sqrt(crank**2 - along**2)
+    rough = [along, side * height * 0.7]
+    document = slider_crank(
+        {"points": {"slider.c": [x, 0], "crank.b": rough}, "angles": {"rod": angle}},
+        0.5 * crank,
+        0.5 * rod,
+    )
+    del document["start"]["angles"]
+    document["drivers"] = {"hold": {"joint": "guide", "position": x, "speed": 0.0}}
+    found, pose, _ = put_together(document)
+    knee = 2.0 * pose["crank"][:2]
+    assert found.residual < 1e-11
+    np.testing.assert_allclose(knee, [along, side * height], rtol=0, atol=1e-9)
+
+
+def test_whole_turns_of_a_given_angle_are_kept() -> None:
+    document = lever("slot", {"angles": {"lever": 7.0}})
+    del document["joints"]["stop"]
+    assert put_together(document)[1]["lever"][2] == 7.0

@@ -1,0 +1,107 @@
+"""What a scene gives of its velocities holds if the joints allow it; the rest is fitted."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.solver.completed_runs import run
+from tests.solver.mechanics.start.mechanisms import (
+    STOPS,
+    ball,
+    cradle,
+    lever,
+    put_together,
+    slider_crank,
+    toggle,
+)
+from tests.solver.readable_mechanics import preset
+
+
+@pytest.mark.parametrize("rate", [0.0, 1.0, -0.9954092474376708])
+def test_the_driven_pendulum_starts_at_the_rate_of_its_parameter(rate: float) -> None:
+    scene = preset("driven-pendulum", speed=4.0, angular_velocity=rate)
+    found, _, velocity = put_together(scene.model_dump(mode="json"))
+    assert velocity["rod"][2] == pytest.approx(rate, abs=1e-13)
+    assert not found.misfits
+    parameters = {"speed": 4.0, "angular_velocity": rate}
+    done = run("driven-pendulum", 0.01, parameters=parameters)
+    assert done["rod.omega"][0] == pytest.approx(rate, abs=1e-13)
+
+
+def test_the_rate_of_one_body_of_a_loop_moves_the_others() -> None:
+    start = {"angles": {"crank": 0, "rod": 0}, "points": {"rod.b": [1.1, 0]}}
+    start |= {"angular_velocities": {"crank": -2.5}}
+    _, _, velocity = put_together(slider_crank(start, 0.15, 0.4))
+    assert velocity["crank"][2] == pytest.approx(-2.5, abs=1e-13)
+    assert velocity["rod"][2] == pytest.approx(2.5 * 0.3 / 0.8, abs=1e-13)
+
+
+@pytest.mark.parametrize("stop", STOPS)
+@pytest.mark.parametrize("thrown", [{}, {"velocities": {"lever": [0, -1.5]}}])
+def test_a_given_rate_holds_beside_play(stop: str, thrown: dict[str, object]) -> None:
+    found, _, velocity = put_together(lever(stop, {"angular_velocities": {"lever": -3.0}} | thrown))
+    np.testing.assert_allclose(velocity["lever"], [0.0, -1.5, -3.0], rtol=0, atol=1e-13)
+    assert not found.misfits
+
+
+def test_a_lever_strikes_its_stop_when_and_as_fast_as_it_must() -> None:
+    done = run(lever("slot", {"angular_velocities": {"lever": -3.0}}), 0.1, tolerance=1e-9)
+    first = done.contacts("stop.wall_2")[0]
+    turned = math.asin(0.2)
+    assert first["onset"] == pytest.approx(turned / 3.0, rel=1e-9)
+    assert first["approach_rate"] == pytest.approx(3.0 * math.cos(turned), rel=1e-8)
+
+
+def test_rates_that_contradict_one_another_are_held_in_their_order_and_told() -> None:
+    start = {"angles": {"crank": 0.5}, "angular_velocities": {"crank": 2.0, "rod": 5.0}}
+    found, _, velocity = put_together(slider_crank(start))
+    assert velocity["crank"][2] == pytest.approx(2.0, abs=1e-13)
+    assert velocity["rod"][2] == pytest.approx(-2.0, abs=1e-12)
+    (one,) = found.misfits
+    assert (one.pointer, one.given) == ("/start/angular_velocities/rod", (5.0,))
+    assert one.sentence == "The start has -2 rad/s for 5 at /start/angular_velocities/rod."
+
+
+def test_a_rate_that_a_driver_prescribes_otherwise_is_told() -> None:
+    document = toggle({"rod.K": [-0.0518, 0.2068]})
+    document["start"]["angular_velocities"] = {"crank": 0.0}
+    found, _, velocity = put_together(document)
+    assert velocity["crank"][2] == pytest.approx(12.566, abs=1e-13)
+    assert "/start/angular_velocities/crank" in [one.pointer for one in found.misfits]
+
+
+def test_parts_of_a_joint_with_play_move_with_one_another() -> None:
+    document = slider_crank({"angles": {"crank": 0.5}, "angular_velocities": {"crank": 2.0}})
+    play = STOPS["pin"]["clearance"] | {"radial_clearance": 1e-4, "bearing_radius": 0.01}
+    document["joints"]["A"] |= {"clearance": play}
+    _, _, velocity = put_together(document)
+    assert velocity["crank"][2] == pytest.approx(2.0, abs=1e-13)
+    assert velocity["rod"][2] == pytest.approx(-2.0, abs=1e-11)
+
+
+def test_a_body_that_is_thrown_carries_nothing_along() -> None:
+    angles = {"b0": -0.2, "b1": 0.0, "b2": 0.0}
+    document = cradle({"angles": angles, "angular_velocities": {"b0": 1.0}})
+    _, _, velocity = put_together(document)
+    assert [velocity[f"b{i}"][2] for i in range(3)] == pytest.approx([1.0, 0.0, 0.0], abs=1e-13)
+
+
+def test_guides_and_followers_have_rates_as_journals_have() -> None:
+    _, _, velocity = put_together(ball({"guides": {"floor": {"offset": 3, "rate": -1}}}))
+    assert velocity["ball"][1] == pytest.approx(-1.0, abs=1e-13)
+    _, _, velocity = put_together(lever("slot", {"guides": {"stop": {"rate": 0.3}}}))
+    assert velocity["lever"][2] == pytest.approx(0.3, abs=1e-13)
+    guide = {"type": "prismatic", "guide": "ground.O", "slider": "block.c", "axis": [1, 0]}
+    play = {"wall_clearance": 1e-3, "length": 0.1, "height": 0.05}
+    contact = {"law": "stiffness-and-dissipation", "stiffness": {"law": "power", "stiffness": 1e7}}
+    contact |= {"dissipation": {"law": "exact", "restitution": 0.5}}
+    document = {
+        "name": "block",
+        "ground": {"points": {"O": [0, 0]}},
+        "bodies": {"block": {"mass": 1.0, "inertia": 0.1, "points": {"c": [0, 0]}}},
+        "joints": {"guide": guide | {"clearance": play | {"contact": contact}}},
+        "start": {"guides": {"guide": {"rate": 0.2, "tilt_rate": -0.5}}},
+    }
+    _, _, velocity = put_together(document)
+    np.testing.assert_allclose(velocity["block"], [0.0, 0.2, -0.5], rtol=0, atol=1e-13)
