@@ -11,6 +11,11 @@ RANK_TOLERANCE = 1e-9
 MOST_ITERATIONS = 200
 ROUNDING = 1e-16
 """Steps, for each coordinate, below which Newton's iteration only repeats its rounding."""
+DAMPING = 1e-9
+"""Share of the sum of squares of all constraints' slopes, added so that none need be independent
+(Levenberg 1944)."""
+NEAR = 1e-4
+"""Step, in rad and links, from which on `close` needs few more."""
 LARGEST_TURN = 0.5
 """Largest turn of a body in one iteration, rad."""
 
@@ -41,6 +46,39 @@ def close(
         turn = float(np.abs(step[angles]).max())
         pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
         if float(np.abs(step).max()) < max(1e-15, ROUNDING * count):
+            break
+
+
+def close_many(
+    mechanism: AbsoluteMechanism,
+    poses: Floats,
+    driven: dict[str, float],
+    scale: Floats,
+    held: Flags,
+    iterations: int,
+) -> None:
+    """Move many poses, (poses, 3 bodies), towards where the constraints hold, all at once.
+
+    Where they get near, `close` does the rest; `held` coordinates, (3 bodies,), keep their values.
+    """
+    count, angles = poses.shape[1], np.arange(poses.shape[1]) % 3 == 2
+    freed = np.where(held, 0.0, scale)
+    for _ in range(iterations):
+        rows = mechanism.rows(poses.T, np.zeros_like(poses.T), driven)
+        residual = np.stack([np.broadcast_to(row.value, len(poses)) for row in rows], axis=1)
+        jacobian = np.zeros((len(poses), len(rows), count))
+        for i, row in enumerate(rows):
+            for k, entry in row.jacobian.items():
+                jacobian[:, i, k] = entry
+        jacobian *= freed
+        square = jacobian @ jacobian.swapaxes(1, 2)
+        square += (DAMPING * np.trace(square, axis1=1, axis2=2))[:, None, None] * np.eye(len(rows))
+        wanted = np.linalg.solve(square, -residual[..., None])
+        step = (jacobian.swapaxes(1, 2) @ wanted)[..., 0]
+        turn = np.abs(step[:, angles]).max(axis=1)
+        step *= np.minimum(1.0, LARGEST_TURN / np.maximum(turn, 1e-300))[:, None]
+        poses += freed * step
+        if np.abs(step).max() < NEAR:
             break
 
 

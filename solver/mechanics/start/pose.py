@@ -18,7 +18,7 @@ from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.start.given import Given, Rows, distance, given_places
-from jointplay.solver.mechanics.start.levels import approach
+from jointplay.solver.mechanics.start.levels import MOST_ITERATIONS, approach
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
@@ -33,6 +33,9 @@ FAR = 1e-3
 """From which on other assemblies are sought: drawings give three digits."""
 ALIKE = 1e-6
 """Relative difference of distances up to which two assemblies are equally near."""
+
+ROUGHLY, FEW = 6, 8
+"""Steps towards what is given after which poses are sorted, and how many go on then."""
 
 
 @dataclass(frozen=True)
@@ -101,11 +104,15 @@ class Places:
 
 def nearest(places: Places, poses: Iterable[Floats]) -> Floats:
     """Return the closed pose nearest to what is given, of those near each of some closed ones."""
-    still = np.zeros(len(places.scale))
-    near = [_nearest_here(places, pose) for pose in poses]
-    far = [distance(places.given, pose, still) for pose in near]
-    least = min(far) * (1.0 + ALIKE) + KEPT * places.length
-    alike = [pose for pose, apart in zip(near, far, strict=True) if apart <= least]
+
+    def apart(pose: Floats) -> float:
+        return distance(places.given, pose, np.zeros_like(pose))
+
+    found = [_nearest_here(places, pose, ROUGHLY) for pose in poses]
+    found = sorted(found, key=apart)[:FEW]
+    near = [_nearest_here(places, pose, MOST_ITERATIONS) for pose in found]
+    least = min(map(apart, near)) * (1.0 + ALIKE) + KEPT * places.length
+    alike = [pose for pose in near if apart(pose) <= least]
     return min(alike, key=lambda pose: _from_zero(places, pose))
 
 
@@ -168,14 +175,14 @@ def _is_within(scene: Scene, name: str, parts: dict[str, float], length: float) 
     return bool(aside <= clearance.wall_clearance + rounding)
 
 
-def _nearest_here(places: Places, pose: Floats) -> Floats:
+def _nearest_here(places: Places, pose: Floats, iterations: int) -> Floats:
     def levels(pose: Floats) -> list[Rows]:
         return [
             places.constraints(places.closed, pose),
             places.wanted(places.given, pose),
         ]
 
-    found = approach(pose, levels, places.scale, 2)
+    found = approach(pose, levels, places.scale, 2, iterations)
     return found if places.is_closed(places.closed, found) else pose
 
 
