@@ -39,6 +39,8 @@ class Given:
     measure: Callable[[Floats, Floats], tuple[Floats, Floats]]
     """Values (n,), in `unit`, at a pose and its rates, and their Jacobian (n, 3 bodies): by the
     pose, or of a rate by the rates."""
+    coordinates: tuple[int, ...] = ()
+    """Places of a rate's values among all rates."""
 
     def rows(self, pose: Floats, velocity: Floats) -> Rows:
         """Return what it is off by, m or m/s."""
@@ -78,7 +80,13 @@ def given_places(mechanism: AbsoluteMechanism, length: float) -> list[Given]:
     """
     scene, lever = mechanism.scene, levers(mechanism.scene, length)
     angles = [
-        Given(f"/start/angles/{body}", "rad", (angle,), lever[body], _angle(mechanism, body, 0))
+        Given(
+            f"/start/angles/{body}",
+            "rad",
+            (angle,),
+            lever[body],
+            _angle(mechanism, body, 0),
+        )
         for body, angle in scene.start.angles.items()
     ]
     points = [
@@ -98,14 +106,33 @@ def given_rates(mechanism: AbsoluteMechanism, length: float) -> list[Given]:
             (rate,),
             lever[body],
             _angle(mechanism, body, 1),
+            (3 * mechanism.bodies.index(body) + 2,),
         )
         for body, rate in scene.start.angular_velocities.items()
     ]
     moving = [
-        Given(f"/start/velocities/{body}", "m/s", tuple(rate), 1.0, _centre(mechanism, body))
+        Given(
+            f"/start/velocities/{body}",
+            "m/s",
+            tuple(rate),
+            1.0,
+            _centre(mechanism, body),
+            (3 * mechanism.bodies.index(body), 3 * mechanism.bodies.index(body) + 1),
+        )
         for body, rate in scene.start.velocities.items()
     ]
     return [*turning, *moving]
+
+
+def without_rounding(given: list[Given], velocity: Floats, least: float) -> None:
+    """Have rates, (3 bodies,), as given to the last bit where they differ by at most `least`, m/s.
+
+    A run may depend on the last bit of how it is thrown.
+    """
+    for one in given:
+        places = list(one.coordinates)
+        if np.abs(one.lever * (velocity[places] - one.wanted)).max() <= least:
+            velocity[places] = one.wanted
 
 
 def taken(given: list[Given], pose: Floats, velocity: Floats) -> Iterator[Taken]:

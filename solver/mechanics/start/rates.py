@@ -12,14 +12,14 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.rows import Row
-from jointplay.solver.mechanics.start.given import Given, Rows, given_rates
+from jointplay.solver.mechanics.start.given import Given, Rows, given_rates, without_rounding
 from jointplay.solver.mechanics.start.levels import step_of
 from jointplay.solver.mechanics.start.pose import KEPT, Places
 from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.references import ends
 
-HOLDS = 1e-10
-"""Share of the largest given rate, or of 1 m/s, by which one that holds may be off."""
+HOLDS = 1e-12
+"""Share of the largest rate that is given or driven by which one that holds may be off."""
 
 
 def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
@@ -31,7 +31,7 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     soft = [row for row in rows if not _is_hard(places, row) and _moves_along(places, row)]
     held = _rates(hard, pose)
     wanted = {one.pointer: one.rows(pose, still) for one in given}
-    size = max([1.0, *(float(np.abs(rows.value).max()) for rows in wanted.values())])
+    size = max(float(np.abs(rows.value).max(initial=0.0)) for rows in [held, *wanted.values()])
     rest: list[Rows] = []
     for one in given:
         more = _joined([held, wanted[one.pointer]], pose)
@@ -44,7 +44,9 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     velocity = step_of(levels, places.scale)
     # once more, from there: what is left is the rounding of the first
     again = [Rows(r.value + r.jacobian @ velocity, r.jacobian) for r in levels]
-    return velocity + step_of(again, places.scale), given
+    velocity = velocity + step_of(again, places.scale)
+    without_rounding(given, velocity, HOLDS * size)
+    return velocity, given
 
 
 def _rates(rows: list[Row], pose: Floats) -> Rows:
