@@ -6,6 +6,8 @@ from typing import Any
 from jointplay.figures.scene_facts import clearances
 from jointplay.solver.kinds.assembled import AssembledScene
 from jointplay.solver.mechanics.branches import Branches, branches
+from jointplay.solver.runs.ideal.dead_point import positions
+from jointplay.solver.runs.ideal.turn import in_words, turn
 from jointplay.solver.scene.document import Scene
 
 ALIKE = 1e-6
@@ -68,5 +70,24 @@ def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
         "starts": [start_of(scene.document, found, k) for k in range(len(found.angles))],
         "period": None if admission is None else admission.period,
         "channels": None if admission is None else len(admission.channels),
+        "turn": turn_of(Scene.model_validate(scene.document)),
         "problems": scene.problems,
+    }
+
+
+def turn_of(scene: Scene) -> dict[str, Any] | None:
+    """Return whether the ideal mechanism turns through; None if nothing turns it."""
+    found = turn(scene)
+    if found is None:
+        return None
+    margin = None
+    if found.margin is not None:
+        margin = found.margin._asdict() | {"drivers": positions(scene, found.margin.time)}
+    return {
+        "span": found.span,
+        "reached": found.reached,
+        "jams": found.lost is not None,
+        "drivers": positions(scene, found.reached),
+        "margin": margin,
+        "detail": in_words(scene, found),
     }

@@ -40,6 +40,28 @@ class GivenStart(BaseModel):
     )
 
 
+class DeadPointMargin(BaseModel):
+    """Gap at one joint that would make a dead point, or that remains where none is passed."""
+
+    time: float = in_unit("s", "When the gap is extreme.")
+    size: float = in_unit("m", "The gap.")
+    joint: str
+    drivers: dict[str, float] = Field(description="Positions of the drivers then, rad or m.")
+
+
+class DriversTurn(BaseModel):
+    """The mechanism, its clearances closed, while its drivers come round once."""
+
+    span: float = in_unit("s", "How long they take.")
+    reached: float = in_unit("s", "How far it was followed: to the end, unless it jams.")
+    jams: bool = Field(description="Whether it comes to a dead point before.")
+    drivers: dict[str, float] = Field(description="Positions of the drivers there, rad or m.")
+    margin: DeadPointMargin | None = Field(
+        description="How near it comes to a dead point; by how much it fails to pass one."
+    )
+    detail: str = Field(description="All of this in words.")
+
+
 class SceneFindings(BaseModel):
     """Findings of a check; with `problems` the scene cannot be run, and they say why."""
 
@@ -67,6 +89,7 @@ class SceneFindings(BaseModel):
     held: list[str] = Field(description="Coordinates that were held, as it moves freely.")
     period: float | None = in_unit("s", "Period of the drivers; null if there is none.")
     channels: int | None = Field(description="Number of channels; null if it cannot be run.")
+    turn: DriversTurn | None = Field(description="Whether it turns through; null: not driven.")
     problems: list[ErrorDetail]
 
 

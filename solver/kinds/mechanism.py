@@ -4,21 +4,19 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
-import numpy as np
 from pydantic import ValidationError
 
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kernels.record.length import check_length
 from jointplay.solver.kinds.job import MechanismJob, PresetScene
-from jointplay.solver.mechanics.assembly import (
-    ASSEMBLED,
-    Assembly,
-    assemble,
-    directionless,
-    poses_nearby,
-    shortest_link,
+from jointplay.solver.kinds.redundant import (
+    check_drivers,
+    check_redundant,
+    closes,
+    redundant_while_held,
 )
-from jointplay.solver.mechanics.misfit import fighting_drivers, opening
+from jointplay.solver.mechanics.assembly import Assembly, assemble, directionless
+from jointplay.solver.mechanics.misfit import opening
 from jointplay.solver.mechanics.start.closings import MOST_BODIES
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
@@ -28,8 +26,6 @@ from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import ends, part_problems, reference_problems
 from jointplay.solver.scene.sentences import schema_problems
 
-CONSISTENT = 1e-9
-"""Share of the largest speed, or of 1 m/s, up to which rates of constraints are rounding."""
 Echo = dict[str, float | str | None]
 """The value of every declared parameter; none where the document's own values stand."""
 
@@ -117,15 +113,16 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
         check_length(scene, tree, formulation)  # first: the assembly of many bodies takes longer
     assembly = assemble(scene)
     coordinates = 3 * len(scene.bodies)
-    only_held = _redundant_while_held(scene, assembly)
-    if assembly.constraints > coordinates and not assembly.freedom and not only_held:
-        _check_drivers(scene)
+    only_held = redundant_while_held(scene, assembly)
+    is_closed = closes(scene)
+    if assembly.constraints > coordinates and not assembly.freedom and not is_closed:
+        check_drivers(scene)
         raise InvalidInput.at(
             "/scene/joints",
             f"The mechanism is over-constrained: {assembly.constraints} constraint"
             f" equations hold {coordinates} coordinates; remove a joint or a driver.",
         )
-    if not _closes(scene):
+    if not is_closed:
         raise InvalidInput(_open(scene))
     for name in directionless(scene, assembly.pose):
         sentence = (
@@ -149,71 +146,16 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
             ]
         )
     if (assembly.redundant_with_play or assembly.redundant) and not only_held:
-        _check_redundant(scene, assembly)
+        check_redundant(scene, assembly)
     if formulation is not None and tree.closing and assembly.freedom_with_play:
         check_length(scene, tree, formulation)
     return tree, assembly
 
 
-def _redundant_while_held(scene: Scene, assembly: Assembly) -> bool:
-    """Whether constraints are redundant at the start alone, where journals are held: as of a stop.
-
-    A mechanism is put together with its journals held, and then let go: what they repeat of
-    other joints does no harm if it agrees with them.
-    """
-    return bool(
-        assembly.redundant
-        and not assembly.freedom
-        and not assembly.redundant_with_play
-        and _closes(scene)
-        and assembly.rate <= CONSISTENT * max(1.0, float(np.abs(assembly.velocity).max()))
-    )
-
-
-def _check_redundant(scene: Scene, assembly: Assembly) -> None:
-    """Refuse redundant constraints, unless the ideal mechanism moves and they stay redundant."""
-    ranks = (
-        [rank for _, residual, rank in poses_nearby(scene) if residual <= ASSEMBLED]
-        if assembly.freedom
-        else []
-    )
-    if any(rank > assembly.rank for rank in ranks):
-        raise InvalidInput.at(
-            "/scene/start/angles",
-            "The mechanism starts where it can go on in more than one assembly, so that its motion"
-            " is not determined; give start angles of another pose.",
-        )
-    if not ranks:
-        _check_drivers(scene)
-        count = max(assembly.redundant, assembly.redundant_with_play)
-        raise InvalidInput.at(
-            "/scene/joints",
-            f"The mechanism is over-constrained: {count} of {assembly.constraints}"
-            " constraint equations are redundant; remove a joint or driver, or give one"
-            " joint clearance.",
-        )
-
-
-def _check_drivers(scene: Scene) -> None:
-    fighting = fighting_drivers(scene)
-    if fighting:
-        names = " and ".join(f"'{name}'" for name in fighting)
-        raise InvalidInput.at(
-            "/scene/drivers",
-            f"The motion of {names} is prescribed twice: by its driver, and by the joints and the"
-            f" other drivers. Drop one of the {len(scene.drivers)} drivers, or give a joint"
-            " clearance.",
-        )
-
-
-def _closes(scene: Scene) -> bool:
-    return assemble(scene).residual / shortest_link(scene) <= ASSEMBLED
-
-
 def _open(scene: Scene) -> list[Problem]:
     """Return why a mechanism does not close: because of where its journals start, or anyway."""
     centred = scene.start.model_copy(update={"joints": {}})
-    if scene.start.joints and _closes(scene.model_copy(update={"start": centred})):
+    if scene.start.joints and closes(scene.model_copy(update={"start": centred})):
         return [
             Problem(
                 f"/scene/start/joints/{name}/eccentricity",

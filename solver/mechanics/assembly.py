@@ -222,14 +222,14 @@ def _assembly(places: Places, held: AbsoluteMechanism, pose: Floats) -> Assembly
     )
 
 
-def poses_nearby(scene: Scene) -> Iterator[tuple[Floats, float, int]]:
-    """Yield poses of the ideal mechanism beside its start, where it can move there.
+def poses_nearby(scene: Scene, *, close_play: bool = True) -> Iterator[tuple[Floats, float, int]]:
+    """Yield poses of the mechanism, ideal or with play, beside its start, where it can move there.
 
     Each with its residual, in lengths of the shortest link, and the rank of the constraints; no
     pose where the mechanism came back to its start. Directions are drawn, the same each time.
     """
     start, length = assemble(scene).pose, shortest_link(scene)
-    ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
+    ideal = AbsoluteMechanism(scene, view(scene), close_play=close_play)
     driven, still = first_clocks(scene), np.zeros_like(start)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
     _, jacobian = arrays(ideal.rows(start, still, driven), len(start))

@@ -1,6 +1,7 @@
 """Scenes checked and drawn over HTTP before they are run, and the heads and lists beside."""
 
 import json
+import math
 
 import pytest
 
@@ -94,3 +95,29 @@ def test_batches_are_listed_page_by_page(http):
     following = http.get(f"/v1/batches?page_size=1&page_token={first['next_page_token']}").json()
     assert following["batches"][0]["id"] == made[0]
     assert http.get("/v1/batches?page_token=nonsense").status_code == 422
+
+
+def test_a_mechanism_that_jams_is_told_where_and_by_how_much(http, jointplay_check, tmp_path):
+    scene = four_bar()
+    scene["bodies"]["coupler"]["points"] = {"a": [-0.075, 0.0], "b": [0.075, 0.0]}
+    found = check(http, scene).json()
+    assert found["problems"] == []  # a shorter run is sound
+    turn = found["turn"]
+    # the crank's pin is as far from P as coupler and rocker reach
+    angle = math.acos((0.1**2 + 0.4**2 - 0.45**2) / (2.0 * 0.1 * 0.4))
+    assert turn["jams"]
+    assert turn["reached"] == pytest.approx(angle / 10.0, abs=1e-10)
+    assert turn["drivers"]["motor"] == pytest.approx(angle, abs=1e-9)
+    assert f"{math.degrees(angle):.6g} deg" in turn["detail"]
+    # farthest at half a turn
+    assert turn["margin"]["size"] == pytest.approx(0.05, abs=1e-9)
+    assert turn["margin"]["drivers"]["motor"] == pytest.approx(math.pi, abs=1e-6)
+    path = tmp_path / "jams.json"
+    path.write_text(json.dumps(scene))
+    assert jointplay_check(str(path)) == found
+
+
+def test_a_mechanism_with_play_is_told_to_turn_through(http):
+    turn = check(http, {"preset": "slider-crank"}).json()["turn"]
+    assert (turn["jams"], turn["reached"]) == (False, turn["span"])
+    assert check(http, {"preset": "pendulum"}).json()["turn"] is None

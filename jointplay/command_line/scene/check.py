@@ -26,7 +26,10 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
     scene = assemble_scene(source, settings or ())
     found = branches_of(scene)
     document = findings_of(scene, found)
-    tell(document, _lines(scene, document, found), as_json=as_json)
+    lines = _lines(scene, document, found)
+    turn = document["turn"]
+    told = [*lines, f"{'turn':22} {turn['detail']}"] if turn else lines
+    tell(document, told, as_json=as_json)
     if scene.refusal is not None:
         raise scene.refusal
 

@@ -1,7 +1,7 @@
 """Motion of an ideal mechanism: kinematics and inverse dynamics at many instants at once.
 
-The same constraint rows as everywhere, on arrays of instants. Newton's iteration starts from a
-neighbouring instant; the mechanism repeats after a period, if it has one.
+The same constraint rows as everywhere, on arrays of instants. Poses are found from those of the
+path beside them; the mechanism repeats after a period, if it has one.
 """
 
 import math
@@ -12,21 +12,16 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.compensated import product_difference
-from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
+from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.motion import Motion, body_motions, forces_between
-from jointplay.solver.mechanics.rows import Row
-from jointplay.solver.mechanics.view import view
-from jointplay.solver.scene.clocks import clocks
+from jointplay.solver.runs.ideal.constraints import Constraints, solve, solve_transposed
+from jointplay.solver.runs.ideal.dead_point import elsewhere, lost_at
+from jointplay.solver.runs.ideal.path import Lost, Path
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import characteristic_time
 
-INSTANTS_A_PERIOD = 96
-"""Poses solved one after the other; all others start from the nearest of them."""
-MOST_ITERATIONS = 25
-SINGULAR = -20.7
-"""Logarithm of the share of its determinant at the start that a constraint Jacobian keeps at a
-dead point, or less: 1e-9."""
+COMES_BACK = 1e-6
+"""Distance of poses a period apart, in rad and lengths of the shortest link, that is rounding."""
 
 
 class IdealMotion:
@@ -39,14 +34,17 @@ class IdealMotion:
     def __init__(self, scene: Scene, period: float | None, duration: float) -> None:
         self.scene = scene
         self.period = None if scene.gears else period
-        self.numbers = view(scene)
-        self.mechanism = AbsoluteMechanism(scene, self.numbers, close_play=True)
-        self.length = shortest_link(scene)
-        self.unit = period or characteristic_time(scene, self.length)
+        self.constraints = Constraints(scene)
+        self.numbers, self.mechanism = self.constraints.numbers, self.constraints.mechanism
+        scale = characteristic_time(scene, self.constraints.length)
+        self.unit = period or scale
         self.lost: SimulationFailed | None = None
-        self.start = assemble(scene).pose
-        self.orientation = self._determinant(self.start[None, :])
-        self.table = self._follow(min(duration, self.unit) if self.period else duration)
+        self.path = Path(self.constraints, assemble(scene).pose, min(self.unit, scale))
+        span = min(duration, self.unit) if self.period else duration
+        if not self.path.follow(span):
+            self.lost = lost_at(self.path, scene)
+        elif span < duration and not self._comes_back():
+            self.lost = elsewhere(span)
 
     def at(self, times: Floats, local: Floats) -> Motion:
         """Return the motion and all forces at times in s, `local` within the period.
@@ -56,18 +54,13 @@ class IdealMotion:
         SimulationFailed
             At a dead point.
         """
-        driven = self._driven(local)
-        q, turned = self._poses(times, local, driven)
-        n = q.shape[1]
-        still = np.zeros_like(q)
-        rows = self.mechanism.rows(_columns(q), _columns(still), driven)
-        jacobian = _jacobian(rows, len(times), n)
-        self._check(q, times)
-        rates = np.stack([np.broadcast_to(row.rate, times.shape) for row in rows], axis=1)
-        v = _solve(jacobian, -rates)
-        rows = self.mechanism.rows(_columns(q), _columns(v), driven)
-        gamma = np.stack([np.broadcast_to(row.gamma, times.shape) for row in rows], axis=1)
-        a = _solve(jacobian, gamma)
+        driven = self.constraints.driven(local)
+        q, turned = self._poses(times, local)
+        system = self.constraints.system(q, np.zeros_like(q), driven)
+        scale, jacobian = self.constraints.scale, system.jacobian
+        v = -solve(jacobian, system.rate) * scale
+        system = self.constraints.system(q, v, driven)
+        a = solve(jacobian, system.gamma) * scale
         at = _columns(q), _columns(v)
         wound = _columns(turned)
         acting = forces_between(
@@ -75,12 +68,12 @@ class IdealMotion:
         )
         applied = _columns(self._inertia_and_gravity(a))
         self.mechanism.apply(acting, applied, *at)
-        force = np.stack(applied, axis=1)
-        multipliers = _solve(jacobian.transpose(0, 2, 1), force)
+        force = np.stack(applied, axis=1) * scale
+        multipliers = solve_transposed(jacobian, force) / self.constraints.units(system.rows)
         shown = q.copy()
         shown[:, 2::3] += turned[:, 2::3]
         bodies = body_motions(self.mechanism.bodies, *map(_columns, (shown, v, a)))
-        forces, held, efforts = self.mechanism.reactions(rows, _columns(multipliers))
+        forces, held, efforts = self.mechanism.reactions(system.rows, _columns(multipliers))
         drivers = self.numbers.drivers.items()
         speeds = {name: driver.at(driven[name]).slope for name, driver in drivers}
         return Motion(list(_columns(a)), bodies, acting, forces, held, efforts, speeds)
@@ -96,21 +89,23 @@ class IdealMotion:
             force[:, 3 * i + 2] = -body.inertia * accelerations[:, 3 * i + 2]
         return force
 
-    def displacements(self, play: Mapping[str, Mapping[str, float]]) -> Floats:
-        """Return (poses of `table`, 3 bodies) m, rad: how far play lets bodies leave their poses.
+    def displacements(self, play: Mapping[str, Mapping[str, float]], times: Floats) -> Floats:
+        """Return (times, 3 bodies) m, rad: how far play lets bodies leave their poses.
 
         To first order, with every constraint that play loosens as far off as it lets it, in the
         worst direction; `play` : m or rad by joint and by part of its constraint.
         """
-        count, n = self.table.shape
-        still = np.zeros_like(self.table)
-        driven = self._driven(np.zeros(count))  # Jacobians do not depend on it
-        rows = self.mechanism.rows(_columns(self.table), _columns(still), driven)
-        gaps = np.zeros((count, len(rows), len(rows)))
-        for i, row in enumerate(rows):
-            gaps[:, i, i] = play.get(row.joint, {}).get(row.part, 0.0)
-        displaced = np.linalg.solve(_jacobian(rows, count, n), gaps)
-        return np.asarray(np.abs(displaced).sum(axis=2), np.float64)
+        poses = self.path.poses(times)
+        driven = self.constraints.driven(times)
+        system = self.constraints.system(poses, np.zeros_like(poses), driven)
+        found = np.zeros_like(poses)
+        for i, row in enumerate(system.rows):
+            gap = play.get(row.joint, {}).get(row.part, 0.0)
+            if gap:
+                unit = np.zeros(system.value.shape)
+                unit[:, i] = gap / self.constraints.units([row])[0]
+                found += np.abs(solve(system.jacobian, unit)) * self.constraints.scale
+        return found
 
     def local(self, count: Floats, step: float | Floats) -> Floats:
         """Return count * step less whole periods, with the rounding of both products undone."""
@@ -121,98 +116,27 @@ class IdealMotion:
         local = product_difference(count, step, whole, self.period)
         return np.asarray(local, np.float64)
 
-    def _driven(self, local: Floats) -> dict[str, Floats]:
-        return {
-            name: clock.start + clock.rate * local for name, clock in clocks(self.scene).items()
-        }
-
-    def _poses(
-        self, times: Floats, local: Floats, driven: dict[str, Floats]
-    ) -> tuple[Floats, Floats]:
+    def _poses(self, times: Floats, local: Floats) -> tuple[Floats, Floats]:
         """Return poses within a period, and the whole turns that angles have made before."""
-        spacing = self.unit / INSTANTS_A_PERIOD
-        nearest = np.clip(np.rint(local / spacing).astype(int), 0, len(self.table) - 1)
-        poses = self._newton(self.table[nearest], driven, times)
+        if self.lost is not None and (times > self.lost.time).any():
+            raise self.lost
+        try:
+            poses = self.path.poses(local)
+        except Lost as lost:
+            raise lost_at(self.path, self.scene, lost.time) from None
         turned = np.zeros_like(poses)
         if self.period is not None:  # angles go on turning; trigonometry does not need to know
-            turns = np.rint((self.table[-1] - self.table[0]) / (2.0 * math.pi))
+            first, last = self.path.points[0], self.path.end
+            turns = np.rint((last.pose - first.pose) / (2.0 * math.pi))
             turned = 2.0 * math.pi * np.rint((times - local) / self.period)[:, None] * turns
         return poses, turned
 
-    def _follow(self, span: float) -> Floats:
-        """Solve poses along the motion, each from the one before, up to where it is lost."""
-        count = math.ceil(span / self.unit * INSTANTS_A_PERIOD) + 1
-        poses = [self.start, self.start]
-        for k in range(count):
-            moment = np.array([k * self.unit / INSTANTS_A_PERIOD])
-            guess = 2.0 * poses[-1] - poses[-2] if k > 1 else poses[-1]
-            try:
-                pose = self._newton(guess[None, :], self._driven(moment), moment)
-                self._check(pose, moment)
-            except SimulationFailed as lost:
-                self.lost = lost
-                break
-            poses.append(pose[0])
-        return np.array(poses[2:] or poses[:1])
-
-    def _determinant(self, poses: Floats) -> tuple[Floats, Floats]:
-        """Return sign and logarithm of the constraint Jacobian's determinant, rows of length 1."""
-        still, driven = np.zeros_like(poses), self._driven(np.zeros(len(poses)))
-        rows = self.mechanism.rows(_columns(poses), _columns(still), driven)
-        jacobian = _jacobian(rows, *poses.shape)
-        scaled = jacobian * np.tile([self.length, self.length, 1.0], poses.shape[1] // 3)
-        sign, logarithm = np.linalg.slogdet(scaled)
-        return np.asarray(sign), np.asarray(logarithm)
-
-    def _check(self, poses: Floats, times: Floats) -> None:
-        """Refuse poses at or beyond a dead point: there the determinant passes zero."""
-        sign, logarithm = self._determinant(poses)
-        beyond = (sign != self.orientation[0]) | (logarithm < self.orientation[1] + SINGULAR)
-        if beyond.any():
-            raise _lost(float(times[int(beyond.argmax())]))
-
-    def _newton(self, guess: Floats, driven: dict[str, Floats], times: Floats) -> Floats:
-        q = guess.copy()
-        n = q.shape[1]
-        still = np.zeros_like(q)
-        scale = np.tile([self.length, self.length, 1.0], n // 3)
-        for _ in range(MOST_ITERATIONS):
-            rows = self.mechanism.rows(_columns(q), _columns(still), driven)
-            values = np.stack([np.broadcast_to(row.value, times.shape) for row in rows], axis=1)
-            try:
-                step = _solve(_jacobian(rows, len(times), n), -values)
-            except np.linalg.LinAlgError:
-                raise _lost(float(times[0])) from None
-            q += step
-            largest = float(np.abs(step / scale).max())
-            if not np.isfinite(largest) or largest < 1e-13:
-                break
-        if not largest < ASSEMBLED:
-            raise _lost(float(times[int(np.abs(step / scale).max(axis=1).argmax())]))
-        return q
+    def _comes_back(self) -> bool:
+        """Return whether the mechanism ends a period as it began: it may change its assembly."""
+        apart = (self.path.end.pose - self.path.points[0].pose) / self.constraints.scale
+        apart[2::3] = np.remainder(apart[2::3] + math.pi, 2.0 * math.pi) - math.pi
+        return float(np.abs(apart).max()) <= COMES_BACK
 
 
 def _columns(array: Floats) -> list[Floats]:
     return [array[:, i] for i in range(array.shape[1])]
-
-
-def _jacobian(rows: list[Row], count: int, n: int) -> Floats:
-    jacobian = np.zeros((count, len(rows), n))
-    for i, row in enumerate(rows):
-        for k, entry in row.jacobian.items():
-            jacobian[:, i, k] = entry
-    return jacobian
-
-
-def _solve(matrix: Floats, right: Floats) -> Floats:
-    solution = np.linalg.solve(matrix, right[..., None])[..., 0]
-    return np.asarray(solution, np.float64)
-
-
-def _lost(time: float) -> SimulationFailed:
-    return SimulationFailed(
-        "assembly-lost",
-        f"The ideal mechanism cannot be followed past t = {time:.6g} s: it comes to a dead point,"
-        " or its links do not reach. Change lengths, driver positions or speeds.",
-        time,
-    )

@@ -14,10 +14,14 @@ from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.periods import drivers_period
 
 QUANTITIES = tuple(quantity for quantity, _, _ in BODY)
+INSTANTS_A_PERIOD = 96
 SLACK = 0.01
 """Share of a range that is granted beyond it: extremes lie between the instants looked at."""
 SECOND_ORDER = 2.0
 """Times the first-order displacement by play: what it leaves out, and the penetration."""
+
+NOTHING = 1e-12
+"""Share of the largest displacement by play that is the rounding of none."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +41,12 @@ class MotionReach:
         self.motion = IdealMotion(scene, period, period)
         self.bodies = list(scene.bodies)
         play = {pair.joint: pair.loosened for pair in contact_pairs(scene).values()}
-        self.strayed = SECOND_ORDER * self.motion.displacements(play)
+        scales = math.ceil(self.motion.unit / self.motion.path.scale)
+        self.instants = np.linspace(0.0, period, INSTANTS_A_PERIOD * scales + 1)
+        self.poses, self.strayed = np.empty(0), np.empty(0)
+        if self.motion.lost is None:
+            self.poses = self.motion.path.poses(self.instants)
+            self.strayed = SECOND_ORDER * self.motion.displacements(play, self.instants)
 
     def of(self, body: str, quantity: str) -> Reach | None:
         """Return the reach of a body's channel; None where play leaves it open.
@@ -48,15 +57,14 @@ class MotionReach:
         order, axis = divmod(QUANTITIES.index(quantity), 3)
         column = 3 * self.bodies.index(body) + axis
         if order == 0:
-            path, strayed = self.motion.table[:, column], self.strayed[:, column]
+            path, strayed = self.poses[:, column], self.strayed[:, column]
             turns = 0
             if quantity == "theta":
                 turns = round((path[-1] - path[0]) / (2.0 * math.pi))
             return _widened(path - strayed, path + strayed, turns)
-        if self.strayed[:, column].any():
+        if self.strayed[:, column].max() > NOTHING * self.strayed.max():
             return None
-        instants = np.linspace(0.0, self.motion.unit, len(self.motion.table))
-        values = body_values(self.motion.at(instants, instants).bodies[body])
+        values = body_values(self.motion.at(self.instants, self.instants).bodies[body])
         moved = values[QUANTITIES.index(quantity)]
         return _widened(moved, moved, 0)
 

@@ -1,0 +1,78 @@
+"""Whether a driven mechanism turns through: where it jams in a turn of its drivers, or nearly."""
+
+from typing import NamedTuple
+
+from jointplay.records.failure import SimulationFailed
+from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.runs.ideal.constraints import Constraints
+from jointplay.solver.runs.ideal.dead_point import driven_to, locks, lost_at
+from jointplay.solver.runs.ideal.margin import Margin, lacking, nearest
+from jointplay.solver.runs.ideal.path import Path
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.latest import once_per_scene
+from jointplay.solver.scene.periods import characteristic_time, drivers_turn
+
+MOST_WORK = 40_000
+"""Coordinates of all poses after which a check leaves off: seconds."""
+
+
+class Turn(NamedTuple):
+    """A driven mechanism, its play closed, over a turn of its drivers."""
+
+    span: float
+    """How long the turn takes, s."""
+    reached: float
+    """How far it was followed, s: less where it jams, or where that takes too many poses."""
+    lost: SimulationFailed | None
+    """How it jams, if it does."""
+    margin: Margin | None
+    """How near it comes to a dead point; where it jams, by how much it fails to go on."""
+    agrees: bool
+    """Whether its redundant constraints, if any, agree all the way."""
+
+
+@once_per_scene
+def turn(scene: Scene) -> Turn | None:
+    """Return how far a mechanism turns; None where it moves freely, or nothing turns it."""
+    found, span = assemble(scene), drivers_turn(scene)
+    if found.freedom or found.residual > ASSEMBLED * shortest_link(scene):
+        return None
+    if span is None:
+        return None
+    constraints = Constraints(scene)
+    scale = min(characteristic_time(scene, constraints.length), span)
+    path = Path(constraints, found.pose, scale)
+    most = MOST_WORK // max(len(found.pose), 20)
+    whole = path.follow(span, most)
+    if not path.end.consistent:
+        return Turn(span, path.end.time, lost_at(path, scene), None, agrees=False)
+    closing = spanning_tree(scene).closing
+    if whole:
+        return Turn(span, path.end.time, None, nearest(path, closing), agrees=True)
+    if len(path.points) >= most:
+        return Turn(span, path.end.time, None, None, agrees=True)
+    lack = lacking(path, span, closing) if locks(path.end) else None
+    return Turn(span, path.end.time, lost_at(path, scene), lack, agrees=True)
+
+
+def in_words(scene: Scene, found: Turn) -> str:
+    """Return what a turn came to, in a sentence or two."""
+    near = found.margin
+    there = driven_to(scene, near.time) if near else ""
+    if found.lost is not None:
+        short = (
+            f" Joint '{near.joint}' is up to {near.size:.3g} m short, where {there}."
+            if near
+            else ""
+        )
+        return found.lost.detail + short
+    if found.reached < found.span:
+        return f"It is followed up to t = {found.reached:.6g} s, and goes through so far."
+    told = f"It goes through the {found.span:.6g} s in which its drivers come round."
+    if near is None:
+        return told
+    return (
+        f"{told} It is nearest to a dead point where {there}: {near.size:.3g} m at joint"
+        f" '{near.joint}' would make it one."
+    )
