@@ -26,6 +26,7 @@ from jointplay.solver.scene.periods import (
     characteristic_time,
     common_period,
     drivers_period,
+    drivers_time,
     section_offset,
 )
 
@@ -120,6 +121,8 @@ class Simulate(Kind[SimulateJob]):
         admission = _admission(job, filled, scene, selected)
         repeats = drivers_period(scene).seconds is not None and not scene.gears
         _check_limits(admission, job.duration, endless=moves or repeats)
+        if repeats and not moves:
+            _check_followed(scene, job.duration)
         return admission
 
     def plan(self, job: SimulateJob, filled: dict[str, Any]) -> Admission:
@@ -176,6 +179,19 @@ def section_count(scene: Scene, period: Period, job: SimulateJob) -> int:
     if first > job.duration:
         return 0
     return math.floor((job.duration - first) / period.seconds * (1.0 + 1e-12)) + 1
+
+
+def _check_followed(scene: Scene, duration: float) -> None:
+    """Refuse an ideal mechanism whose drivers take too many turns until they come round."""
+    turn = drivers_time(scene, shortest_link(scene))
+    followed = min(duration, drivers_period(scene).seconds or duration)
+    if followed > limits.MOST_TURNS_FOLLOWED * turn:
+        sentence = (
+            f"The fastest driver turns {followed / turn:.6g} times until all come round, and each"
+            f" pose follows from the one before; the limit is {limits.MOST_TURNS_FOLLOWED:g} times"
+            f" ({limits.MOST_TURNS_FOLLOWED * turn:.3g} s)."
+        )
+        raise LimitExceeded.at("/duration", sentence)
 
 
 def _check_limits(admission: Admission, duration: float, *, endless: bool) -> None:

@@ -46,7 +46,8 @@ def self_stresses(scene: Scene) -> list[SelfStress]:
     _, jacobian = arrays(rows, len(pose))
     jacobian = jacobian * scale
     jacobian /= np.maximum(np.linalg.norm(jacobian, axis=1, keepdims=True), 1e-300)
-    found, independent = [], []
+    found: list[SelfStress] = []
+    independent: list[int] = []
     for i in range(len(rows)):
         if rank(jacobian[[*independent, i]]) > len(independent):
             independent.append(i)

@@ -136,6 +136,20 @@ def characteristic_time(scene: Scene, length: float) -> float:
     return 2.0 * math.pi * math.sqrt(length / gravity) if gravity > 0.0 else 1.0
 
 
+def drivers_time(scene: Scene, length: float) -> float:
+    """Return the time in which the fastest driver turns, bends, or moves by 2 pi lengths, s.
+
+    Infinite where all drivers stand.
+    """
+    paces = []
+    for driver in scene.drivers.values():
+        lever = 1.0 if turns(scene, driver) else length
+        straight = not isinstance(driver, MovingDriver)
+        paces += [speed / (lever if straight else 1.0) for speed in _speeds(scene, driver)]
+    fastest = max(paces, default=0.0)
+    return 2.0 * math.pi / fastest if fastest else math.inf
+
+
 def drivers_turn(scene: Scene) -> float | None:
     """Return how long the drivers take to come round together, else the slowest alone, s.
 

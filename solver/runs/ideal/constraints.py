@@ -51,9 +51,10 @@ class Constraints:
 
     def system(self, q: Floats, v: Floats, driven: dict[str, float | Floats]) -> System:
         """Return the rows at poses (..., 3 bodies) in m and rad, with their rates."""
-        one = q.ndim == 1
-        at = (q.tolist(), v.tolist()) if one else (list(q.T), list(v.T))
-        rows = self.mechanism.rows(*at, driven)
+        one = q.ndim == 1  # then floats, which take a third of the time
+        rows = self.mechanism.rows(
+            q.tolist() if one else list(q.T), v.tolist() if one else list(v.T), driven
+        )
         lead = q.shape[:-1]
         jacobian = np.zeros((*lead, len(rows), len(self.scale)))
         value, rate, gamma = (np.empty((*lead, len(rows))) for _ in range(3))

@@ -58,9 +58,7 @@ def nearest(path: Path, closing: tuple[str, ...]) -> Margin | None:
     constraints = path.constraints
     if len(path.end.pose) > 3 * MOST_BODIES:
         return None
-    times = np.union1d(
-        np.linspace(0.0, path.end.time, LOOKS + 1), [point.time for point in path.points]
-    )
+    times = np.union1d(np.linspace(0.0, path.end.time, LOOKS + 1), path.times)
     poses, driven = path.poses(times), constraints.driven(times)
     system = constraints.system(poses, np.zeros_like(poses), driven)
     if system.jacobian.shape[1] != system.jacobian.shape[2]:

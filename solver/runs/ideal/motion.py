@@ -18,7 +18,7 @@ from jointplay.solver.runs.ideal.constraints import Constraints, solve, solve_tr
 from jointplay.solver.runs.ideal.dead_point import elsewhere, lost_at
 from jointplay.solver.runs.ideal.path import Lost, Path
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import characteristic_time
+from jointplay.solver.scene.periods import characteristic_time, drivers_time
 
 COMES_BACK = 1e-6
 """Distance of poses a period apart, in rad and lengths of the shortest link, that is rounding."""
@@ -36,11 +36,11 @@ class IdealMotion:
         self.period = None if scene.gears else period
         self.constraints = Constraints(scene)
         self.numbers, self.mechanism = self.constraints.numbers, self.constraints.mechanism
-        scale = characteristic_time(scene, self.constraints.length)
-        self.unit = period or scale
+        self.unit = period or characteristic_time(scene, self.constraints.length)
         self.lost: SimulationFailed | None = None
-        self.path = Path(self.constraints, assemble(scene).pose, min(self.unit, scale))
         span = min(duration, self.unit) if self.period else duration
+        scale = min(drivers_time(scene, self.constraints.length), span)
+        self.path = Path(self.constraints, assemble(scene).pose, scale)
         if not self.path.follow(span):
             self.lost = lost_at(self.path, scene)
         elif span < duration and not self._comes_back():
@@ -126,14 +126,13 @@ class IdealMotion:
             raise lost_at(self.path, self.scene, lost.time) from None
         turned = np.zeros_like(poses)
         if self.period is not None:  # angles go on turning; trigonometry does not need to know
-            first, last = self.path.points[0], self.path.end
-            turns = np.rint((last.pose - first.pose) / (2.0 * math.pi))
+            turns = np.rint(self.path.turned / (2.0 * math.pi))
             turned = 2.0 * math.pi * np.rint((times - local) / self.period)[:, None] * turns
         return poses, turned
 
     def _comes_back(self) -> bool:
         """Return whether the mechanism ends a period as it began: it may change its assembly."""
-        apart = (self.path.end.pose - self.path.points[0].pose) / self.constraints.scale
+        apart = self.path.turned / self.constraints.scale
         apart[2::3] = np.remainder(apart[2::3] + math.pi, 2.0 * math.pi) - math.pi
         return float(np.abs(apart).max()) <= COMES_BACK
 

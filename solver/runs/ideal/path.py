@@ -1,10 +1,10 @@
 """The path of a driven mechanism: poses along time, each followed from the one before.
 
 A step is taken only if Newton's iteration starts near the pose and converges at once, and if the
-constraints' Jacobian changes little: J_0⁺ J_1 - I is below 1/2 in norm. Where any loop's own
-transmission changes its sign, that matrix has an eigenvalue below -1, whatever the others do; so
-no loop flips, and steps shrink towards a dead point, which they approach but do not pass
-(Allgower and Georg 1990, ch. 6; Deuflhard 2011, sec. 5.1, for the test of the start).
+constraints' Jacobian changes little: no eigenvalue of J_0⁺ J_1 - I is above 1/2. Where any loop's
+own transmission changes its sign, it has one below -1, whatever the others do; so no loop flips,
+and steps shrink towards a dead point, which they approach but do not pass (Allgower and Georg 1990,
+ch. 6; Deuflhard 2011, sec. 5.1, for the test of the start).
 """
 
 from dataclasses import dataclass
@@ -18,6 +18,8 @@ FEWEST_A_SCALE = 24
 """Least number of steps in the mechanism's time scale; straight motion needs no more."""
 NEAR = 0.1
 """Largest first correction of Newton's iteration, in rad and lengths of the shortest link."""
+BETWEEN = 1e-3
+"""Largest distance of a pose from the cubic between two points of the path, in the same."""
 CONTRACTION = 0.25
 """Largest share of a correction that the next one may have."""
 MOST_CHANGE = 0.5
@@ -63,19 +65,21 @@ class Path:
     def __init__(self, constraints: Constraints, start: Floats, scale: float) -> None:
         self.constraints = constraints
         self.scale = scale
-        driven = constraints.driven(0.0)
-        system = constraints.system(start, np.zeros_like(start), driven)
-        self.end = self._point(start, 0.0, system)
-        self.points = [self.end]
-        self.attempts = 0
+        self.end = self._point(start, 0.0)
+        self.times, self._poses, self._rates = [0.0], [start], [self.end.velocity]
         self._step = scale / FEWEST_A_SCALE
         self._tables: tuple[Floats, Floats, Floats] | None = None
+
+    @property
+    def turned(self) -> Floats:
+        """Return how far each coordinate has come from its start, (3 bodies,) m, rad."""
+        return np.asarray(self.end.pose - self._poses[0], np.float64)
 
     def follow(self, until: float, most: float = np.inf) -> bool:
         """Go on to a time in s, over at most so many poses; return whether it came there."""
         self._tables = None
         largest = self.scale / FEWEST_A_SCALE
-        while self.end.time < until and self.end.consistent and len(self.points) < most:
+        while self.end.time < until and self.end.consistent and len(self.times) < most:
             left = until - self.end.time
             step = min(self._step, largest, left)
             if step < left < 2.0 * step:
@@ -84,7 +88,9 @@ class Path:
             found, change = self._reached(self.end, time)
             if found is not None:
                 self.end = found
-                self.points.append(found)
+                self.times.append(found.time)
+                self._poses.append(found.pose)
+                self._rates.append(found.velocity)
                 self._step = step * min(max(AIM / max(change, 1e-3), 0.5), 2.0)
                 continue
             self._step = step * min(max(AIM / change, 0.1), 0.5)
@@ -103,9 +109,7 @@ class Path:
             At a time that the path does not reach.
         """
         if self._tables is None:
-            parts = [(p.time, p.pose, p.velocity) for p in self.points]
-            at, poses, rates = (np.array(column) for column in zip(*parts, strict=True))
-            self._tables = at, poses, rates
+            self._tables = np.array(self.times), np.array(self._poses), np.array(self._rates)
         at, poses, rates = self._tables
         before = np.clip(np.searchsorted(at, times, side="right") - 1, 0, max(len(at) - 2, 0))
         after = np.minimum(before + 1, len(at) - 1)
@@ -119,14 +123,17 @@ class Path:
         )
         try:
             found, sound, _ = self.closed(guess, times)
+            off = np.abs((found - guess) / self.constraints.scale).max(axis=1)
+            sound &= off <= BETWEEN
         except np.linalg.LinAlgError:
             found, sound = guess, np.full(len(times), False)
         for k in np.flatnonzero(~sound):
-            found[k] = self._aside(self.points[before[k]], float(times[k]))
+            found[k] = self._aside(int(before[k]), float(times[k]))
         return found
 
-    def _aside(self, here: Point, time: float) -> Floats:
-        """Return the pose at a time by steps of its own from a point before it."""
+    def _aside(self, before: int, time: float) -> Floats:
+        """Return the pose at a time by steps of its own from the pose before it."""
+        here = self._point(self._poses[before], self.times[before])
         step, least = time - here.time, LEAST_STEP * self.scale
         while time - here.time > least:
             step = min(step, time - here.time)
@@ -141,7 +148,6 @@ class Path:
 
     def _reached(self, here: Point, time: float) -> tuple[Point | None, float]:
         """Return the point at a time, if a step leads there, and the change of the Jacobian."""
-        self.attempts += 1
         h = time - here.time
         guess = here.pose + h * (here.velocity + 0.5 * h * here.acceleration)
         try:
@@ -179,11 +185,16 @@ class Path:
         left = np.abs(found.value).max(axis=-1, initial=0.0)
         return q, sound & ~going & (left <= CONSISTENT), found
 
-    def _point(self, pose: Floats, time: float, system: System) -> Point:
+    def _point(self, pose: Floats, time: float, system: System | None = None) -> Point:
+        """Return a pose with what the next step needs; `system` if its rows are known."""
         constraints = self.constraints
         driven = constraints.driven(time)
+        if system is None:
+            system = constraints.system(pose, np.zeros_like(pose), driven)
         square = system.jacobian.shape[0] == system.jacobian.shape[1]
-        inverse = (np.linalg.inv if square else np.linalg.pinv)(system.jacobian)
+        inverse = np.asarray(
+            (np.linalg.inv if square else np.linalg.pinv)(system.jacobian), np.float64
+        )
         velocity = -inverse @ system.rate
         left = np.abs(system.rate + system.jacobian @ velocity).max(initial=0.0)
         consistent = bool(left <= CONSISTENT * np.abs(system.rate).max(initial=0.0))
@@ -194,9 +205,8 @@ class Path:
 
 
 def _change(here: Point, there: Point) -> float:
-    """Return the norm of J_0⁺ J_1 - I over the coordinates on which J depends."""
+    """Return the largest eigenvalue of J_0⁺ J_1 - I; those of columns of J that stay are 0."""
     moved = there.system.jacobian - here.system.jacobian
     columns = np.flatnonzero(np.abs(moved).max(axis=0, initial=0.0))
-    if not len(columns):
-        return 0.0
-    return float(np.linalg.norm(here.inverse[columns] @ moved[:, columns], 2))
+    relative = here.inverse[columns] @ moved[:, columns]
+    return float(np.abs(np.linalg.eigvals(relative)).max(initial=0.0))

@@ -6,15 +6,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.mechanics.observe import body_values
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.scene.channels import BODY
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.periods import drivers_period
+from jointplay.solver.scene.periods import drivers_period, drivers_time
 
 QUANTITIES = tuple(quantity for quantity, _, _ in BODY)
 INSTANTS_A_PERIOD = 96
+MOST_SCALES = 100.0
+"""Turns of the fastest driver in a period, above which it is not followed."""
 SLACK = 0.01
 """Share of a range that is granted beyond it: extremes lie between the instants looked at."""
 SECOND_ORDER = 2.0
@@ -41,7 +44,7 @@ class MotionReach:
         self.motion = IdealMotion(scene, period, period)
         self.bodies = list(scene.bodies)
         play = {pair.joint: pair.loosened for pair in contact_pairs(scene).values()}
-        scales = math.ceil(self.motion.unit / self.motion.path.scale)
+        scales = math.ceil(period / self.motion.path.scale)
         self.instants = np.linspace(0.0, period, INSTANTS_A_PERIOD * scales + 1)
         self.poses, self.strayed = np.empty(0), np.empty(0)
         if self.motion.lost is None:
@@ -72,10 +75,12 @@ class MotionReach:
 def motion_reach(scene: Scene) -> MotionReach | None:
     """Return the reach of a scene's bodies; None where the ideal mechanism cannot be followed.
 
-    So it is with a mechanism that moves freely, has no period or gears, or comes to a dead point.
+    So it is with a mechanism that moves freely, has gears, a long period or none, or a dead point.
     """
     period = drivers_period(scene).seconds
     if period is None or scene.gears:
+        return None
+    if period > MOST_SCALES * drivers_time(scene, shortest_link(scene)):
         return None
     try:
         found = MotionReach(scene, period)

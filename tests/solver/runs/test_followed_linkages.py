@@ -159,18 +159,17 @@ def test_a_turn_that_goes_through_tells_how_near_a_dead_point_is(spare: float) -
 def test_poses_are_few_where_nothing_is_near() -> None:
     press = Scene.model_validate(presets.document("seven-bar-press"))
     for scene, most, span in (
-        (press, 40, 2.0),
-        (Scene.model_validate(changing(1).document()), 1500, 2.8),
+        (press, 30, 2.0),
+        (Scene.model_validate(changing(1).document()), 60, 2.8),
     ):
         path = Path(Constraints(scene), assemble(scene).pose, span)
         assert path.follow(span)
-        assert len(path.points) <= most
+        assert len(path.times) <= most
 
 
 def test_a_fast_driver_is_not_skipped_by_a_slow_one() -> None:
     # two cranks of one period, one of which turns forty times in it
     slow, fast = Linkage(0.1, 0.0, 1.0), Linkage(0.1, 0.0, 40.0)
-    slow.dyads.append(Dyad("a", "B", 0.3 + 0.1j, 0.25, 0.2, 1.0))
     fast.dyads.append(Dyad("q", "B", 0.3 - 0.2j, 0.35, 0.3, 1.0))
     document = _joined(slow.document(), fast.document())
     times, rows, failure = ran(document, TURN, "qq1.pin.x", "qq1.pin.y")
