@@ -24,8 +24,8 @@ CONTRACTION = 0.25
 """Largest share of a correction that the next one may have."""
 MOST_CHANGE = 0.5
 """Largest relative change of the Jacobian in a step."""
-AIM = 0.3
-"""Change that the next step is chosen for."""
+AIM, AIM_OFF = 0.3, 0.01
+"""Change, and first correction, that the next step is chosen for."""
 LEAST_STEP = 1e-12
 """Step, in time scales, at which a path is at its end."""
 MOST_CORRECTIONS = 12
@@ -85,15 +85,15 @@ class Path:
             if step < left < 2.0 * step:
                 step = 0.5 * left
             time = until if step == left else self.end.time + step
-            found, change = self._reached(self.end, time)
+            found, growth = self._reached(self.end, time)
             if found is not None:
                 self.end = found
                 self.times.append(found.time)
                 self._poses.append(found.pose)
                 self._rates.append(found.velocity)
-                self._step = step * min(max(AIM / max(change, 1e-3), 0.5), 2.0)
+                self._step = step * min(max(growth, 0.5), 2.0)
                 continue
-            self._step = step * min(max(AIM / change, 0.1), 0.5)
+            self._step = step * min(max(growth, 0.25), 0.5)
             if self._step < LEAST_STEP * self.scale:
                 return False
         return self.end.time >= until
@@ -147,18 +147,20 @@ class Path:
         return here.pose
 
     def _reached(self, here: Point, time: float) -> tuple[Point | None, float]:
-        """Return the point at a time, if a step leads there, and the change of the Jacobian."""
+        """Return the point at a time, if a step leads there, and how much longer one may be."""
         h = time - here.time
         guess = here.pose + h * (here.velocity + 0.5 * h * here.acceleration)
         try:
             pose, is_sound, system = self.closed(guess, time)
             if not is_sound:
-                return None, 1.0
+                return None, 0.0
             there = self._point(pose, time, system)
         except np.linalg.LinAlgError:
-            return None, 1.0
+            return None, 0.0
         change = _change(here, there)
-        return (there if change <= MOST_CHANGE else None), change
+        off = np.abs((pose - guess) / self.constraints.scale).max()
+        growth = min(AIM / max(change, 1e-3), (AIM_OFF / max(off, 1e-9)) ** (1.0 / 3.0))
+        return (there if change <= MOST_CHANGE else None), float(growth)
 
     def closed(self, guess: Floats, time: float | Floats) -> tuple[Floats, Flags, System]:
         """Return the poses (..., 3 bodies) beside guesses, and to which Newton went at once.
