@@ -115,6 +115,49 @@ def test_loops_that_come_near_their_change_point_together_do_not_flip(
             assert complex(*there[:2]) + A == pytest.approx(place, abs=1e-6)
 
 
+@pytest.mark.parametrize("ratio", [1.02, 1.0005, 1.0 + 1e-7])
+def test_opposed_sliders_of_rods_hardly_longer_than_the_crank_do_not_flip(ratio: float) -> None:
+    rod = {"mass": 0.3, "inertia": 1e-3}
+    rod["points"] = {"pin": [-0.05 * ratio, 0.0], "slider": [0.05 * ratio, 0.0]}
+    bodies: dict[str, Any] = {
+        "crank": {"mass": 1.0, "inertia": 1e-2, "points": {"O": [0.0, 0.0], "pin": [0.1, 0.0]}}
+    }
+    joints = {"O": {"type": "revolute", "bearing": "ground.O", "journal": "crank.O"}}
+    for side in ("left", "right"):
+        bodies[f"{side}_rod"] = rod
+        bodies[side] = {"mass": 0.2, "inertia": 1e-4, "points": {"pin": [0.0, 0.0]}}
+        joints |= {
+            f"{side}_A": {"type": "revolute", "bearing": "crank.pin", "journal": f"{side}_rod.pin"},
+            f"{side}_B": {
+                "type": "revolute",
+                "bearing": f"{side}.pin",
+                "journal": f"{side}_rod.slider",
+            },
+            f"{side}_guide": {
+                "type": "prismatic",
+                "guide": "ground.O",
+                "slider": f"{side}.pin",
+                "axis": [1.0, 0.0],
+            },
+        }
+    document = {
+        "name": "opposed",
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": bodies,
+        "joints": joints,
+        "drivers": {"motor": {"joint": "O", "position": 0.3, "speed": 1.0}},
+        "start": {"angles": {"left_rod": math.pi}},
+    }
+    times, rows, failure = ran(document, TURN, "left.x", "right.x")
+    assert failure is None
+    angle = 0.3 + times
+    # l² - r² sin² = (l - r)(l + r) + r² cos², without cancellation
+    reach = np.sqrt(0.01 * (ratio - 1.0) * (ratio + 1.0) + (0.1 * np.cos(angle)) ** 2)
+    for column, sense in ((0, -1.0), (1, 1.0)):
+        wanted = 0.1 * np.cos(angle) + sense * reach
+        np.testing.assert_allclose(rows[:, column], wanted, rtol=0, atol=1e-10)
+
+
 @pytest.mark.parametrize(("sense", "dead"), [(-1.0, 2.8543806), (1.0, 2.1724)])
 def test_a_dead_point_is_located_and_named_with_its_angle(sense: float, dead: float) -> None:
     linkage = changing(1, sense)
