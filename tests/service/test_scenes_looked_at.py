@@ -34,7 +34,8 @@ def test_a_scene_is_checked(http, jointplay_check):
 
 def test_a_document_that_cannot_be_run_is_told_why(http):
     scene = four_bar()
-    scene["bodies"]["coupler"]["points"] = {"a": [-0.001, 0.0], "b": [0.001, 0.0]}  # too short
+    scene["bodies"]["coupler"]["points"] = {"a": [-0.001, 0.0], "b": [0.001, 0.0]}
+    scene["bodies"]["rocker"]["points"] = {"a": [-0.1, 0.0], "b": [0.1, 0.0]}  # both too short
     answer = check(http, scene)
     assert answer.status_code == 200
     assert answer.json()["problems"]
