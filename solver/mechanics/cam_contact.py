@@ -1,8 +1,9 @@
 """A follower that touches its cam: depth, slip, and the forces between them.
 
 The depth is what the profile lacks of the distance, less the lash; a roller's is measured along
-the cam's normal, and so exact to first order in it. Both bodies are pushed at one point, and along
-the gradient of the depth, so that the work of the forces is that of depth and slip.
+the cam's normal, and so exact to first order in it. Both bodies are pushed at one point, where the
+cam's surface is, a lash inside of the profile, or the roller's; and along the gradient of the
+depth, so that the work of the forces is that of depth and slip.
 """
 
 from collections.abc import Sequence
@@ -34,7 +35,7 @@ def cam_contact(
     assert clearance is not None  # noqa: S101  (narrows the type)
     found, gap, spins = lift(joint, between), between.gap, between.spins
     if isinstance(joint, FlatFollower):
-        centred, push, n, r = _face(joint, between, found)
+        centred, push, n, r = _face(joint, between, found, clearance.lash)
     elif isinstance(joint, RollerFollower):
         centred, push, n, r = _rim(joint, between, found)
     d = plus(gap, r)
@@ -74,10 +75,16 @@ def cam_contact(
     )
 
 
-def _face(joint: FlatFollower, between: Ends, found: Lift) -> tuple[Scalar, Pair, Pair, Pair]:
-    """Return depth without lash, its falling direction, the normal into the cam, and the arm."""
+def _face(
+    joint: FlatFollower, between: Ends, found: Lift, lash: Scalar
+) -> tuple[Scalar, Pair, Pair, Pair]:
+    """Return depth without lash, its falling direction, the normal into the cam, and the arm.
+
+    The arm ends where the surface touches the face: its support function is the profile's less
+    the lash, with the same slope.
+    """
     u = face(joint, between)
-    touching = plus(scaled(u, found.profile.value), scaled(left(u), found.profile.slope))
+    touching = plus(scaled(u, found.profile.value - lash), scaled(left(u), found.profile.slope))
     return -found.value, u, scaled(u, -1.0), plus(touching, scaled(between.gap, -1.0))
 
 

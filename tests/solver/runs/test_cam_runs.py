@@ -99,3 +99,21 @@ def test_both_formulations_follow_a_cam_alike(shape: str, lash: float) -> None:
         # steps pass over the knots of a table, where the path's third derivative jumps
         share = 1e-8 if shape == "flat" else 3e-7
         assert abs(ledger["residual"]) <= share * ledger["gross_work"]
+
+
+def test_a_round_cam_with_much_lash_rubs_at_its_surface() -> None:
+    surface, lash, speed, weight, coefficient = 0.01, 0.01, 10.0, 10.0, 0.2
+    profile = {"type": "constant", "value": surface + lash}
+    law = {"law": "stiffness-and-dissipation", "stiffness": {"law": "power", "stiffness": 1e9}}
+    law["dissipation"] = {"law": "hunt-crossley-unlatched", "loss": 1e3}
+    friction = {"coefficient": coefficient, "static_velocity": 0.0}
+    scene = valve(follower("flat", profile, lash=lash, contact=law, friction=friction))
+    scene["drivers"]["motor"]["speed"] = speed
+    scene |= {"gravity": [0.0, -weight], "forces": {}, "start": {"guides": {"cam": {}}}}
+    scene["bodies"]["tappet"]["mass"] = 1.0
+    scene["start"]["guides"]["cam"]["offset"] = -lash - 1e-6
+    found = run(scene, 0.05, output_step=0.05)
+    assert found["cam.slip_velocity"][-1] == pytest.approx(surface * speed, rel=1e-3)
+    assert found["cam.normal_force"][-1] == pytest.approx(weight, rel=1e-6)
+    torque = coefficient * weight * surface
+    assert found["motor.torque"][-1] == pytest.approx(torque, rel=1e-3)
