@@ -1,4 +1,4 @@
-"""``/v1/laws``: the laws of contact, friction and force that a scene can name."""
+"""``/v1/laws``: the laws of contact, friction and force, and the functions, of scenes."""
 
 from fastapi import APIRouter
 from pydantic import BaseModel
@@ -16,5 +16,5 @@ class LawList(BaseModel):
 
 @router.get("")
 def list_laws() -> LawList:
-    """List the laws: formula, parameters with unit, range and default, source, where it fails."""
+    """List laws and functions: formula, parameters with unit, range and default, source, limits."""
     return LawList(laws=laws())

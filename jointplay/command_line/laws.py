@@ -1,4 +1,4 @@
-"""``jointplay laws``: the laws of contact, friction and force that a scene can name."""
+"""``jointplay laws``: the laws of contact, friction and force, and the functions, of scenes."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated
@@ -19,9 +19,9 @@ def laws(
     ] = None,
     as_json: AS_JSON = False,
 ) -> None:
-    """List the laws of contact, friction and force, or show one: parameters, source, limits.
+    """List the laws of contact, friction and force, and the functions; or show one of them.
 
-    Example: `jointplay laws johnson`
+    Examples: `jointplay laws johnson`, `jointplay laws function`
     """
     from jointplay.solver.laws import catalogue
 

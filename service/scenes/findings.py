@@ -9,6 +9,7 @@ from jointplay.solver.mechanics.branches import Branches, branches
 from jointplay.solver.runs.ideal.dead_point import positions
 from jointplay.solver.runs.ideal.turn import in_words, turn
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.overshoots import Overshoot, overshoots
 
 ALIKE = 1e-6
 """Sine of half the difference of two angles, and share of the largest distance from the origin of
@@ -47,6 +48,11 @@ def _rounded(value: float) -> float:
     return float(f"{round(value, 12):z.9g}")
 
 
+def overshoots_of(scene: AssembledScene) -> list[Overshoot]:
+    """Return the smooth tables that leave the values they are given."""
+    return overshoots(Scene.model_validate(scene.document))
+
+
 def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
     """Return what a check tells, as JSON has it; `problems` say why it cannot be run."""
     assembly, admission = scene.assembly, scene.admission
@@ -71,6 +77,7 @@ def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
         "period": None if admission is None else admission.period,
         "channels": None if admission is None else len(admission.channels),
         "turn": turn_of(Scene.model_validate(scene.document)),
+        "overshoots": [one._asdict() for one in overshoots_of(scene)],
         "problems": scene.problems,
     }
 

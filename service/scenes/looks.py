@@ -62,6 +62,15 @@ class DriversTurn(BaseModel):
     detail: str = Field(description="All of this in words.")
 
 
+class Overshoot(BaseModel):
+    """A smooth table that passes the two values beside, most at an argument."""
+
+    pointer: str = Field(description="Where it is in the scene.")
+    percent: float = Field(description="How far, in hundredths of the range of its values.")
+    argument: float = Field(description="Where, in the unit of its knots.")
+    detail: str
+
+
 class SceneFindings(BaseModel):
     """Findings of a check; with `problems` the scene cannot be run, and they say why."""
 
@@ -90,6 +99,9 @@ class SceneFindings(BaseModel):
     period: float | None = in_unit("s", "Period of the drivers; null if there is none.")
     channels: int | None = Field(description="Number of channels; null if it cannot be run.")
     turn: DriversTurn | None = Field(description="Whether it turns through; null: not driven.")
+    overshoots: list[Overshoot] = Field(
+        description="Smooth tables that pass the values they are given."
+    )
     problems: list[ErrorDetail]
 
 

@@ -15,6 +15,7 @@ from jointplay.solver.laws.delivered import ASKED, DELIVERED
 from jointplay.solver.laws.dissipation import LAWS as DISSIPATION
 from jointplay.solver.laws.force import ELEMENTS as FORCE
 from jointplay.solver.laws.friction import LAWS as FRICTION
+from jointplay.solver.laws.function import FUNCTIONS as FUNCTION
 from jointplay.solver.laws.stiffness import LAWS as STIFFNESS
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.quantities.units import Strict
@@ -25,6 +26,7 @@ FAMILIES: dict[str, Mapping[str, type[Strict]]] = {
     "dissipation": DISSIPATION,
     "friction": FRICTION,
     "force": FORCE,
+    "function": FUNCTION,
 }
 TAGS = ("law", "type")
 
@@ -55,7 +57,7 @@ class DeliveredRestitution(BaseModel):
 class Law(BaseModel):
     """A member of a roster."""
 
-    family: Literal["contact", "stiffness", "dissipation", "friction", "force"]
+    family: Literal["contact", "stiffness", "dissipation", "friction", "force", "function"]
     name: str
     formula: str
     text: str = Field(description="The symbols, in SI units.")
@@ -118,9 +120,9 @@ def _parameters(model: type[Strict]) -> Iterator[LawParameter]:
         extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
         bounds = {key: _bound(field, key) for key in ("ge", "gt", "le", "lt")}
         rosters = [item for item in field.metadata if isinstance(item, MemberOf)]
-        choices = (
-            list(get_args(field.annotation)) if get_origin(field.annotation) is Literal else None
-        )
+        literals = (field.annotation, *get_args(field.annotation))
+        words = (get_args(one) for one in literals if get_origin(one) is Literal)
+        choices = [str(word) for word in next(words, ())] or None
         help_of_roster = f"a law of the family '{name}'" if rosters else ""
         yield LawParameter(
             name=name,

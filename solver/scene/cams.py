@@ -1,12 +1,16 @@
 """Cams of a scene: joints in which a profile moves a follower, with play or without."""
 
+import math
 from typing import Annotated, Literal
+
+from pydantic import AfterValidator
 
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
-from jointplay.solver.laws.function import FUNCTIONS, Function
+from jointplay.solver.laws.function import Function
+from jointplay.solver.laws.function.uses import Prescribed
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.quantities.units import (
     Direction,
@@ -15,6 +19,25 @@ from jointplay.solver.quantities.units import (
     Radius,
     Strict,
 )
+
+TURN = 2.0 * math.pi
+NEARLY = 1e-6
+"""Mismatch within which knots that repeat are meant to do so after a turn: 2 pi to seven digits."""
+
+
+def whole_turn(profile: Function) -> Function:
+    """Return a profile whose last knot ends a turn, or an equal share of it, to rounding.
+
+    One whose knots do so within `NEARLY` has the last one moved there.
+    """
+    knots = getattr(profile, "knots", None)
+    if not knots or getattr(profile, "outside", "") != "periodic" or not knots[-1] > knots[0]:
+        return profile
+    share = TURN / max(round(TURN / (knots[-1] - knots[0])), 1)
+    if abs(knots[-1] - knots[0] - share) > NEARLY * share:
+        return profile
+    moved = profile.model_copy(update={"knots": [*knots[:-1], knots[0] + share]})
+    return profile if any(rule.broken(moved) for rule in profile.rules) else moved
 
 
 class CamClearance(Strict):
@@ -33,13 +56,13 @@ class CamJoint(Strict):
     """A cam and its follower: two points, and how far they are apart where both touch.
 
     `profile` is a function of an angle in the cam's axes, rad, that repeats after a turn: base
-    radius and lift, m.
+    radius and lift, m. A last knot within a millionth of a turn is taken to end it.
     """
 
     type: str
     cam: PointReference
     follower: PointReference
-    profile: Annotated[Function, MemberOf(FUNCTIONS, "type", required=True)]
+    profile: Annotated[Prescribed, AfterValidator(whole_turn)]
     clearance: CamClearance | None = None
 
 

@@ -3,8 +3,8 @@
 from abc import abstractmethod
 from typing import Annotated, Any
 
-from jointplay.solver.laws.function import FUNCTIONS, Derivatives, Function
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.laws.function import Derivatives
+from jointplay.solver.laws.function.uses import Prescribed
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import (
     Name,
@@ -67,7 +67,7 @@ class SteadyDriver(Driver):
 class MovingDriver(Driver):
     """Prescribed motion that is a function of time: position + motion(t); its clock shows t."""
 
-    motion: Annotated[Function, MemberOf(FUNCTIONS, "type", required=True)]
+    motion: Prescribed
 
     def at(self, clock: Scalar) -> Derivatives:
         """See `Driver.at`."""

@@ -42,6 +42,22 @@ def test_assemblies_are_told_apart_by_where_bodies_are(jointplay, tmp_path):
     ]
 
 
+def test_a_smooth_table_that_passes_its_values_is_told_with_how_far_and_where(jointplay, tmp_path):
+    scene = valve(follower("flat", {"type": "constant", "value": 0.03}))
+    knots = [-0.098, -0.096, -0.092, -0.09]
+    table = {"type": "table", "knots": knots, "values": [0.0, 1.0, 1.0, 0.0], "outside": "held"}
+    ends = {"first": "ground.S", "second": "tappet.F", "magnitude": 2e4, "direction": [0.0, 1.0]}
+    scene["forces"]["punch"] = {"type": "force", "course": table, "over": {"quantity": "y"}} | ends
+    file = tmp_path / "valve.json"
+    file.write_text(json.dumps(scene))
+    assert "overshoot" not in jointplay("scene", "check", file).out
+    table["between"] = "smooth"
+    file.write_text(json.dumps(scene))
+    told = jointplay("scene", "check", file).out.splitlines()[-1]
+    assert told.startswith("overshoot              /forces/punch/course: ")
+    assert "60 % of their range, most at -0.094; 'monotone' stays within them" in told
+
+
 @pytest.mark.parametrize("form", ["png", "svg"])
 def test_a_mechanism_is_drawn(jointplay, tmp_path, form):
     file = tmp_path / f"press.{form}"

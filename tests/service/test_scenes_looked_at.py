@@ -32,6 +32,16 @@ def test_a_scene_is_checked(http, jointplay_check):
     assert found == jointplay_check("slider-crank", "--set", "clearance=1e-4")
 
 
+def test_a_smooth_table_that_passes_its_values_is_told(http):
+    scene = presets.document("seven-bar-press-punching")
+    assert check(http, scene).json()["overshoots"] == []
+    scene["forces"]["punch"]["course"]["between"] = "smooth"
+    (told,) = check(http, scene).json()["overshoots"]
+    assert told["pointer"] == "/forces/punch/course"
+    assert told["percent"] == pytest.approx(8.08, abs=0.01)
+    assert 1.9417 < told["argument"] < 1.9457
+
+
 def test_a_document_that_cannot_be_run_is_told_why(http):
     scene = four_bar()
     scene["bodies"]["coupler"]["points"] = {"a": [-0.001, 0.0], "b": [0.001, 0.0]}

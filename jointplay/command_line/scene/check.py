@@ -26,7 +26,7 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
     scene = assemble_scene(source, settings or ())
     found = branches_of(scene)
     document = findings_of(scene, found)
-    lines = _lines(scene, document, found)
+    lines = [*_lines(scene, document, found), *_overshoots(document)]
     turn = document["turn"]
     told = [*lines, f"{'turn':22} {turn['detail']}"] if turn else lines
     tell(document, told, as_json=as_json)
@@ -58,6 +58,11 @@ def _lines(scene: "AssembledScene", document: dict[str, Any], found: "Branches")
     yield f"{'assemblies':22} {len(found.angles)} found from {found.tried + 1} starts{held}"
     for start in document["starts"][1:]:
         yield f'{"another":22} "start": {json.dumps(start)}'
+
+
+def _overshoots(document: dict[str, Any]) -> Iterator[str]:
+    for one in document["overshoots"]:
+        yield f"{'overshoot':22} {one['pointer']}: {one['detail']}"
 
 
 def _kept(one: dict[str, Any], told: float) -> str:

@@ -3,8 +3,7 @@
 from typing import Annotated, Literal
 
 from jointplay.solver.laws.force.law import Ends, ForceElement, Over
-from jointplay.solver.laws.function import FUNCTIONS, Function
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.laws.function.uses import Course
 from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, knotted
 from jointplay.solver.quantities.units import quantity
 
@@ -19,7 +18,7 @@ class Varying(ForceElement):
     rate `full_rate` on, by a smooth step between rest and that.
     """
 
-    course: Annotated[Function, MemberOf(FUNCTIONS, "type", required=True)] | None = None
+    course: Course | None = None
     over: Over | None = None
     only: Literal["rising", "falling"] | None = None
     full_rate: Annotated[float, quantity("unit of `over` per s", gt=0.0, le=1e6)] = 1e-3

@@ -8,7 +8,12 @@ from jointplay.solver.quantities.units import quantity
 
 
 class Constant(Function):
-    """f(x) = value."""
+    """f(x) = value.
+
+    Assumes nothing. Fails nowhere.
+
+    Source: the definition of a constant.
+    """
 
     type: Literal["constant"]
     value: Annotated[float, quantity("unit of the value", ge=-1e12, le=1e12)]

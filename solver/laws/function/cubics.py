@@ -4,6 +4,7 @@ On abstract scalars: where knots and values are numbers of a scene, all coeffici
 once a run.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -56,6 +57,29 @@ class Cubics:
                 curvature = max(curvature, abs(2.0 * c + 6.0 * d * t))
             third = max(third, abs(6.0 * d))
         return [slope, curvature, third]
+
+    def beyond(self) -> tuple[float, float]:
+        """Return how far f passes both values of a piece, at most, and where; of floats alone."""
+        found = (0.0, float(self.knots[0]))
+        widths, _ = _secants(self.knots, self.values)
+        for width, (knot, a, b, c, d), end in zip(
+            widths, self.pieces(), self.values[1:], strict=True
+        ):
+            for t in _turns(b, 2.0 * c, 3.0 * d):
+                if 0.0 < t < width:
+                    value = a + t * (b + t * (c + t * d))
+                    passed = max(value - max(a, end), min(a, end) - value)
+                    found = max(found, (passed, knot + t))
+        return found
+
+
+def _turns(a: float, b: float, c: float) -> list[float]:
+    """Return where a + b t + c t² is zero, by the form that cancels nothing."""
+    root = b * b - 4.0 * a * c
+    if root < 0.0:
+        return []
+    half = -0.5 * (b + math.copysign(math.sqrt(root), b))
+    return [top / bottom for top, bottom in ((half, c), (a, half)) if bottom != 0.0]
 
 
 def _secants(

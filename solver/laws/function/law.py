@@ -2,13 +2,17 @@
 
 import math
 from abc import abstractmethod
-from typing import ClassVar, NamedTuple
+from typing import ClassVar, Literal, NamedTuple, Self
 
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import Rule, Strict
 
 SMOOTH = 6
 """Derivatives that bounds on a path within a step look at; see `kernels.emit.enclosure`."""
+
+
+Between = Literal["smooth", "monotone"]
+"""Course between knots: with a continuous second derivative, or between neighbouring values."""
 
 
 class Derivatives(NamedTuple):
@@ -59,6 +63,17 @@ class Function(Strict):
 
         At most `SMOOTH` of them, in order; those left out are zero.
         """
+
+    def overshoot(self) -> tuple[float, float]:
+        """Return how far f passes given values between two of them, and the argument there.
+
+        As a share of the range of all of them; 0 where none are given, or none is passed.
+        """
+        return 0.0, math.nan
+
+    def used(self, between: Between) -> Self:
+        """Return the function with what its use makes of it where it is not said."""
+        return self
 
     def quickness(self, until: float, unit: float) -> float:
         """Return the least r with |f^(k)| <= unit r^k for each of these derivatives, k from 1."""

@@ -63,6 +63,11 @@ class PiecewisePolynomial(Function):
 
     Pieces must meet. Outside of the knots ``held`` keeps the end values, ``periodic`` repeats, and
     ``refused`` ends the run there.
+
+    Assumes coefficients to all digits: a jump at a knot of more than 1e-9 is refused. Fails to
+    move a joint where slopes jump at a knot.
+
+    Source: the definition of a polynomial.
     """
 
     type: Literal["piecewise-polynomial"]

@@ -14,7 +14,15 @@ Coefficient = Annotated[float, quantity("unit of the value per unit^k of x", ge=
 
 
 class Polynomial(Function):
-    """f(x) = c_0 + c_1 x + c_2 x² + ..., at most of degree 9."""
+    """f(x) = c_0 + c_1 x + c_2 x² + ..., at most of degree 9.
+
+    The coefficients are in rising order.
+
+    Assumes that arguments stay where it was fitted. Fails far from there, where the highest power
+    grows without end.
+
+    Source: the definition of a polynomial.
+    """
 
     type: Literal["polynomial"]
     coefficients: Annotated[list[Coefficient], Field(min_length=1, max_length=10)]

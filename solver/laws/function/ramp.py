@@ -17,6 +17,12 @@ class Ramp(Function):
     """f(x) = start + (end - start) (10 u³ - 15 u⁴ + 6 u⁵), u = x / length held within 0 and 1.
 
     Slope and curvature are continuous, and vanish outside.
+
+    Assumes a step from rest to rest, at x = 0. Fails nowhere; its third derivative jumps at both
+    ends.
+
+    Source: the polynomial of degree 5 whose first two derivatives vanish at both ends (3-4-5 of
+    cams); Norton 2009, Cam Design and Manufacturing Handbook.
     """
 
     type: Literal["ramp"]

@@ -11,11 +11,27 @@ Value = Annotated[float, quantity("unit of the value", ge=-1e12, le=1e12)]
 
 
 class Sinusoidal(Function):
-    """f(x) = offset + amplitude sin(frequency x + phase)."""
+    """f(x) = offset + amplitude sin(frequency x + phase).
+
+    The frequency is an angular one: 2 pi over the period, rad per unit of x, so over time in rad/s,
+    and over an angle the number of waves in a turn.
+
+    Assumes one harmonic. Fails nowhere.
+
+    Source: the definition of a harmonic.
+    """
 
     type: Literal["sinusoidal"]
     amplitude: Value
-    frequency: Annotated[float, quantity("rad per unit of x", ge=1e-9, le=1e9)]
+    frequency: Annotated[
+        float,
+        quantity(
+            "rad per unit of x",
+            ge=1e-9,
+            le=1e9,
+            description="angular frequency, 2 pi over the period: not cycles",
+        ),
+    ]
     phase: Annotated[float, quantity("rad", ge=-1e4, le=1e4)] = 0.0
     offset: Value = 0.0
 

@@ -16,6 +16,11 @@ class StartUp(Function):
 
     f(0) = 0. Behind the ramp f goes on at constant speed; its first three derivatives are
     continuous.
+
+    Assumes a drive that reaches its speed whatever it carries. Fails before x = 0, where it goes
+    on at its first speed.
+
+    Source: the integral of `ramp`.
     """
 
     type: Literal["start-up"]

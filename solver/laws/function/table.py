@@ -1,7 +1,7 @@
 """A table of values, with a cubic between any two of them."""
 
 import math
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field
 
@@ -16,7 +16,7 @@ from jointplay.solver.laws.function.knots import (
     least_gap,
     noted,
 )
-from jointplay.solver.laws.function.law import Derivatives, Function
+from jointplay.solver.laws.function.law import Between, Derivatives, Function
 from jointplay.solver.quantities.scalars import Scalar, maximum, select_positive
 from jointplay.solver.quantities.units import Rule, quantity
 
@@ -29,11 +29,16 @@ Values = Annotated[
 class Table(Function):
     """f through given values at given knots, a cubic between two of them (Hermite's form).
 
-    ``smooth``: the slopes make the second derivative continuous (cubic spline). ``monotone``: the
-    slopes are weighted harmonic means of those on either side, zero where they differ in sign,
-    so that f rises and falls only where the values do, and the second derivative jumps at knots.
+    ``monotone``: the slopes are weighted harmonic means of those on either side, zero where they
+    differ in sign, so that f stays between neighbouring values, and the second derivative jumps at
+    knots. ``smooth``: the slopes make the second derivative continuous (cubic spline). The course
+    of a force is monotone if nothing is said, a motion and the profile of a cam are smooth.
     Outside of the knots ``held`` keeps the end values; ``periodic`` repeats the table, whose last
     value must be its first; ``refused`` ends the run there. Ends have no slope, unless it repeats.
+
+    Assumes knots closer than the values bend. Fails to stay within its values where it is smooth
+    and they have corners: it overshoots them, and a dwell bulges, by as much as `jointplay scene
+    check` tells. Where it is monotone it moves no joint, for accelerations would jump.
 
     Source: de Boor 1978, A Practical Guide to Splines, chapter IV; Fritsch and Butland 1984, SIAM
     Journal on Scientific and Statistical Computing 5:300, with Brodlie's weights, those of SLATEC's
@@ -43,7 +48,13 @@ class Table(Function):
     type: Literal["table"]
     knots: Knots
     values: Values
-    between: Literal["smooth", "monotone"] = "smooth"
+    between: Annotated[
+        Between | None,
+        Field(
+            description="none: 'monotone' in the course of a force, 'smooth' in a motion and in the"
+            " profile of a cam"
+        ),
+    ] = None
     outside: Outside
     rules: ClassVar[tuple[Rule, ...]] = (
         *GROWING,
@@ -73,7 +84,7 @@ class Table(Function):
         """Return value and derivatives; which cubic is in force is chosen by comparison."""
         first, last = self.knots[0], self.knots[-1]
         found = self._cubics.at(brought_inside(x, first, last, self.outside))
-        bent = self.between == "monotone" or self.outside == "held"
+        bent = self.between != "smooth" or self.outside == "held"
         if self.outside != "held":
             return noted(found, x, self, bent=bent)
         # the slope is zero at the ends, the curvature of a cubic need not be
@@ -112,3 +123,15 @@ class Table(Function):
     def largest(self, until: float) -> list[float]:
         """Return the largest magnitudes of slope, second and third derivative anywhere."""
         return self._cubics.largest()
+
+    def overshoot(self) -> tuple[float, float]:
+        """See `Function.overshoot`."""
+        if self.between != "smooth":
+            return 0.0, math.nan
+        beyond, at = self._cubics.beyond()
+        span = max(self.values) - min(self.values)
+        return (beyond / span if span > 0.0 else 0.0), at
+
+    def used(self, between: Between) -> Self:
+        """See `Function.used`."""
+        return self if self.between else self.model_copy(update={"between": between})

@@ -8,6 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import admit
 from jointplay.solver.mechanics.frames import cross
 from tests.solver.cams import CIRCLE, ECCENTRICITY, RADIUS, follower, pitch_table, rocker, valve
 from tests.solver.mechanics.test_mechanics import assert_formulations_agree
@@ -119,3 +121,18 @@ def test_a_face_is_as_far_from_an_eccentric_circle_as_the_drawing_says(
     # the circle's centre is e below the shaft's at angle 0
     top = RADIUS - ECCENTRICITY * np.cos(angle)
     assert found.penetration == pytest.approx(top - height - 1e-4, abs=1e-15)
+
+
+def test_knots_that_end_a_turn_to_seven_digits_end_it_and_no_others_do() -> None:
+    profile = pitch_table(24)
+    profile["knots"][-1] = 6.2831853
+    joint = follower("roller", profile)
+    admitted = admit({"kind": "simulate", "scene": valve(joint), "duration": 0.1})
+    assert admitted.scene.joints["cam"].profile.period == 2.0 * np.pi
+    assert admitted.job["scene"]["joints"]["cam"]["profile"]["knots"][-1] == 2.0 * np.pi
+    lobes = profile | {"knots": [0.0, 1.0, 2.0, 3.1415927], "values": [0.04, 0.042, 0.041, 0.04]}
+    half = scene_of(valve(follower("roller", lobes))).joints["cam"].profile
+    assert half.period == np.pi
+    profile["knots"][-1] = 6.28320
+    with pytest.raises(InvalidInput, match="this one repeats after"):
+        admit({"kind": "simulate", "scene": valve(joint), "duration": 0.1})

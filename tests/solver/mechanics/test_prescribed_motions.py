@@ -23,6 +23,7 @@ HELD = {
     "type": "table",
     "knots": [0.0, 0.3, 0.7, 1.0, 1.6],
     "values": [0.0, 1.0, 0.2, -1.0, 0.5],
+    "between": "smooth",
     "outside": "held",
 }
 
