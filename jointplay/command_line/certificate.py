@@ -72,6 +72,8 @@ def headlines(job: "Job") -> Iterator[str]:
         yield f"advice    {advice}"
     if document["note"] and document.get("lanes"):
         yield f"note      {document['note']}"
+    elif not document.get("lanes"):
+        yield from (f"note      {one['detail']}" for one in document.get("pulling", ()))
     if (found := document.get("exponent")) is not None:
         error = math.inf if found["error"] is None else found["error"]
         spread = f"{found['lowest']:.2g} to {found['highest']:.2g} over {found['windows']} windows"

@@ -41,6 +41,16 @@ class Lane(BaseModel):
     energy_residual: float | None = in_unit("J", "What its energy ledger lacks.")
 
 
+class PullingFollower(BaseModel):
+    """An ideal follower that is pulled."""
+
+    joint: str
+    first: float = in_unit("s", "When it is pulled first, to a sample.")
+    largest: float = in_unit("N", "Largest pull.")
+    time: float = in_unit("s", "When that is.")
+    detail: str
+
+
 class ChannelExtremes(BaseModel):
     """Extremes over several lanes, in the channel's unit."""
 
@@ -88,6 +98,12 @@ class Certificate(Partial):
     exponent: Exponent | None = None
     exponent_note: str = Field(
         default="", description="Why there is no exponent, or what its error counts."
+    )
+    slow_impacts: int = Field(
+        default=0, description="Impacts slower than the floor that their law divides by."
+    )
+    pulling: list[PullingFollower] = Field(
+        default=[], description="Ideal followers that their cams pull: with play they lift off."
     )
     energy_residual: float | None = in_unit("J", "What the energy ledger lacks.", default=None)
     gross_work: float | None = in_unit("J", "All works without their signs.", default=None)

@@ -171,6 +171,10 @@ class Statistics(Partial):
     steps: int | None = Field(default=None, description="Accepted steps of the integrator.")
     rejections: int | None = Field(default=None, description="Steps that were tried again.")
     onsets: int | None = Field(default=None, description="Contacts that began.")
+    slow_impacts: int | None = Field(
+        default=None,
+        description="Those slower than the floor that their law divides by.",
+    )
     rough_steps: int | None = Field(
         default=None,
         description="Steps in which a channel left its values at both ends by more than 0.003 of"

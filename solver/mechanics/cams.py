@@ -57,6 +57,12 @@ def lift(joint: CamJoint, between: Ends) -> Lift:
     return _roller(joint, between)
 
 
+def pressed(joint: CamJoint, between: Ends, force: Pair) -> Scalar:
+    """Return the force on an ideal follower, N, along its normal out of the cam; < 0: it pulls."""
+    along = lift(joint, between).along
+    return dot(force, along) / sqrt(dot(along, along))
+
+
 def face(joint: FlatFollower, between: Ends) -> Pair:
     """Return the normal of a flat face in the world's axes, from the cam outwards."""
     return turned(unit(joint.normal), between.turned[1])

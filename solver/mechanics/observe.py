@@ -2,10 +2,14 @@
 
 from collections.abc import Sequence
 
+from jointplay.solver.laws.force import Ends
+from jointplay.solver.mechanics.cams import pressed
+from jointplay.solver.mechanics.frames import WORLD, minus
 from jointplay.solver.mechanics.motion import BodyMotion, Motion
 from jointplay.solver.mechanics.play import Contact
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
-from jointplay.solver.scene.channels import BODY, HELD, JOINT, PLAY, POINT, WALL
+from jointplay.solver.scene.cams import CamJoint
+from jointplay.solver.scene.channels import BODY, FOLLOWER, HELD, JOINT, PLAY, POINT, WALL
 from jointplay.solver.scene.document import Scene
 
 
@@ -18,6 +22,7 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
         values |= _named(name, JOINT, force)
     for name, moment in motion.held_moment.items():
         values |= _named(name, HELD, (moment,))
+    values |= _follower_values(numbers, motion)
     for name, found in motion.contacts.items():
         values |= _contact_values(name, found)
     for name, effort in motion.driver_effort.items():
@@ -31,6 +36,16 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     values["energy.kinetic"], values["energy.potential"] = energies(numbers, motion)
     for output in numbers.outputs:
         values[output.name] = output.factor * values[output.channel] + output.offset
+    return values
+
+
+def _follower_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
+    """Return the values of the channels of followers without play."""
+    values: dict[str, Scalar] = {}
+    for name, joint in numbers.joints.items():
+        if isinstance(joint, CamJoint) and name not in motion.contacts:
+            force = pressed(joint, _ends(numbers, motion, joint), motion.joint_force[name])
+            values |= _named(name, FOLLOWER, (force,))
     return values
 
 
@@ -53,6 +68,24 @@ def body_values(body: BodyMotion) -> tuple[Scalar, ...]:
         *(*body.velocity, body.spin),
         *(*body.acceleration, body.angular_acceleration),
     )
+
+
+def _ends(numbers: Scene, motion: Motion, joint: CamJoint) -> Ends:
+    """Return how a follower's point lies against the cam's, without rates."""
+    places, angles = [], []
+    for reference in (joint.cam, joint.follower):
+        body, point = reference.split(".")
+        if body == WORLD:
+            x, y = numbers.ground.points[point]
+            angles.append(0.0)
+        else:
+            x, y, _, _ = point_values(numbers, motion, reference)
+            angles.append(motion.bodies[body].angle)
+        places.append((x, y))
+    (sine, cosine), (other_sine, other_cosine) = map(sine_cosine, angles)
+    turned = ((cosine, sine), (other_cosine, other_sine))
+    gap, still = minus(places[1], places[0]), (0.0, 0.0)
+    return Ends(gap, still, still, turned, (angles[0], angles[1]))
 
 
 def point_values(numbers: Scene, motion: Motion, point: str) -> tuple[Scalar, ...]:

@@ -60,12 +60,13 @@ def prescribed_peaks(
 
 
 def statistics_of(bundle: Bundle, lane: int) -> dict[str, Any]:
-    """Return steps, rejections, onsets, rough steps, the smallest step (s) and the ledger (J)."""
+    """Return steps, rejections, onsets, slow ones, rough steps, smallest step (s), ledger (J)."""
     at = bundle.lane(lane)
     return {
         "steps": at.steps,
         "rejections": int(at.run["rejections"]),
         "onsets": int(at.run["onsets"]),
+        "slow_impacts": int(at.run["slow"]),
         "rough_steps": int(at.run["rough"]),
         "smallest_step": at.number("smallest_step") if at.steps else None,
         "energy": ledger_of(bundle, lane),

@@ -20,6 +20,7 @@ from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.certificate.survey import Survey
 from jointplay.solver.runs.dense_output.columns import most_steps, number_of
 from jointplay.solver.runs.dense_output.intervals import IntervalExtremes
+from jointplay.solver.runs.followers import Followers, with_pulls
 from jointplay.solver.runs.ideal.run import IdealRun
 from jointplay.solver.runs.lane_results import failure_of, out_of_time, peaks_of, statistics_of
 from jointplay.solver.runs.results import Slice, Summary
@@ -118,6 +119,7 @@ class DynamicRun:
         self.reason, self.kernel, self.bundle, self.survey = reason, kernel, bundle, survey
         rows, channels = self.kernel.rows, self.admission.channels
         self.columns = np.array([rows.index(c.name) for c in channels], dtype=np.int64)
+        self.followers = Followers(self.admission.scene, rows)
         self.samples_done = 0
         self.sections_done = 0
         self.steps_kept = 0
@@ -168,6 +170,7 @@ class DynamicRun:
             "samples": self.samples_done,
             "sections": self.sections_done,
             "steps": self.steps_kept,
+            "pulls": self.followers.first,
         }
         arrays = self.survey.checkpoint() if self.survey and not self.open else {}
         if self.intervals is not None:
@@ -197,6 +200,7 @@ class DynamicRun:
             self.survey.restore(saved)
         self.samples_done, self.sections_done = facts["samples"], facts["sections"]
         self.steps_kept = facts["steps"]
+        self.followers.first = facts["pulls"]
 
     def summary(self) -> Summary:
         """See `Simulation.summary`."""
@@ -214,7 +218,8 @@ class DynamicRun:
         """See `Simulation.certificate`."""
         if self.survey is None:
             return None
-        return self.survey.certificate(self.admission.channels)
+        found = self.survey.certificate(self.admission.channels)
+        return with_pulls(found, self.followers.pulled(self.bundle, LANE))
 
     def _runs(self) -> bool:
         if self.survey is not None:
@@ -223,6 +228,7 @@ class DynamicRun:
 
     def _slice(self) -> Slice:
         samples, sample_time = self._observe(SAMPLES)
+        self.followers.look(self.bundle, LANE, sample_time)
         sections, section_time = self._observe(SECTIONS)
         first_sample, first_section = self.samples_done, self.sections_done
         self.samples_done += len(samples)

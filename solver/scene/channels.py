@@ -1,13 +1,15 @@
 """Channels: the named signals that a scene offers, with their units."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from fnmatch import fnmatchcase
 
 from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
+from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Output, Scene
+from jointplay.solver.scene.joints import Joint
 from jointplay.solver.scene.pairs import has_play, pairs_of
 from jointplay.solver.scene.references import inner_states
 from jointplay.solver.scene.structure import per_structure
@@ -57,7 +59,12 @@ WALL = (
     ("friction_force", "N", "friction force on the slider along the tangent"),
     ("slip_velocity", "m/s", "slip velocity of the slider against the wall"),
 )
+FOLLOWER = (("normal_force", "N", "force of the cam on its follower along the normal; < 0: pulls"),)
+"""Channel of a follower without play, which is held both ways."""
 ENERGY = (("kinetic", "J", "kinetic energy"), ("potential", "J", "potential energy of gravity"))
+
+Table = tuple[tuple[str, str, str], ...]
+"""Quantity, unit and meaning of channels."""
 
 MOST_GLOBS, MOST_UNKNOWN = 256, 32
 """Patterns that are matched, and wrong ones that are named: each is compared with all channels."""
@@ -75,7 +82,7 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
     """
     rows: list[Channel] = []
 
-    def add(owner: str, kind: str, table: tuple[tuple[str, str, str], ...]) -> None:
+    def add(owner: str, kind: str, table: Table) -> None:
         for quantity, unit, text in table:
             rows.append(Channel(f"{owner}.{quantity}", unit, f"{text} ({kind} {owner})"))
 
@@ -83,9 +90,8 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
     for body in scene.bodies:
         add(body, "body", BODY)
     for name, joint in scene.joints.items():
-        add(name, "joint", JOINT)
-        if joint.type in HOLDING:
-            add(name, "joint", HELD)
+        for table in _tables(joint):
+            add(name, "joint", table)
         for pair in pairs_of(name, joint) if has_play(joint) else ():
             states = inner.get(pair.name, ())
             add(pair.name, "joint", PLAY if pair.is_journal else WALL)
@@ -102,6 +108,15 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
     rows += _recorded(scene)
     rows += [Channel(f"energy.{quantity}", unit, text) for quantity, unit, text in ENERGY]
     return (*rows, *_outputs(scene, {row.name: row.unit for row in rows}))
+
+
+def _tables(joint: Joint) -> Iterator[Table]:
+    """Yield the tables of a joint's own channels."""
+    yield JOINT
+    if joint.type in HOLDING:
+        yield HELD
+    if isinstance(joint, CamJoint) and not has_play(joint):
+        yield FOLLOWER
 
 
 def _recorded(scene: Scene) -> list[Channel]:

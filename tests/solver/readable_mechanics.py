@@ -6,7 +6,8 @@ from typing import Any
 
 from jointplay.solver.kernels.loop.start import start_state
 from jointplay.solver.kinds import admit
-from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.mechanics.assembly import assemble, shortest_link
+from jointplay.solver.mechanics.impact_floors import resting_rate
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.mechanics.reduced import ReducedMechanism
@@ -82,7 +83,7 @@ def at_start(scene: Scene) -> Instant:
         {name: clock.start for name, clock in clocks(scene).items()},
         dict.fromkeys(tree.pairs, 0.0),
         {
-            name: pair.clearance.contact.least_impact_rate
+            name: resting_rate(scene, pair, shortest_link(scene))
             for name, pair in contact_pairs(scene).items()
         },
     )

@@ -96,6 +96,7 @@ def settle(
                 tangent_gaps(work)
                 latch_tangent(j, lane, at, work)
             run.onsets += 1
+            run.slow += int(work[at.approach + j, lane] < work[at.impact_floor + j, lane])
             if run.section_kind == SectionKind.ONSET and run.section_place == j:
                 full |= record_event(lane, lane, run, at, work, work, buffers.rows)
         run.landing = NO_PAIR

@@ -10,7 +10,10 @@ from jointplay.solver.kernels.emit.stepping import ENDS
 from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.tangent import start_tangent
+from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.mechanics.impact_floors import resting_rate
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.references import tangent_obstacle
 
 Floats = NDArray[np.float64]
@@ -29,7 +32,7 @@ def begin(lane: Lane, problem: LaneProblem) -> None:
     lane["mode"], lane["impact_rate"] = 0.0, floor
     module.right_hand_side(lane.work)
     rate, closed = lane["gap_rate"], lane["gap"] > 0.0
-    latched: Floats = rate
+    latched: Floats = np.maximum(rate, _resting_rates(problem.scene))
     if start is not None and start.contact is not None and start.impact_rate is not None:
         latched = np.where(start.contact, start.impact_rate, rate)
     lane["mode"], lane["impact_rate"] = 1.0 * closed, np.maximum(latched, floor)
@@ -51,6 +54,13 @@ def begin(lane: Lane, problem: LaneProblem) -> None:
     lane["lowest"][rows - len(floor) :] = -math.inf
     if lane.tangents is not None:
         _start_tangent(lane, problem.scene)
+
+
+def _resting_rates(scene: Scene) -> Floats:
+    """Return the least impact rate of each pair that touches from the start on, (pairs,) m/s."""
+    length = shortest_link(scene)
+    pairs = contact_pairs(scene).values()
+    return np.array([resting_rate(scene, pair, length) for pair in pairs], np.float64)
 
 
 def _close_loops(lane: Lane) -> None:

@@ -14,6 +14,7 @@ from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SectionKind
 from jointplay.solver.kernels.loop.start import mechanism_size, start_state
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
+from jointplay.solver.mechanics.impact_floors import impact_floor
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
@@ -104,7 +105,7 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     for i, state in enumerate(inner, start=2 * count):
         lane["weight"][i] = 1.0 / (problem.tolerance * state.scale)
     for j, pair in enumerate(pairs):
-        lane["impact_floor"][j] = pair.clearance.contact.least_impact_rate
+        lane["impact_floor"][j] = impact_floor(scene, pair, length)
         restart = RESTART * pair.play if problem.step is None else math.inf
         lane["restart"][j] = restart
 

@@ -65,6 +65,8 @@ class Run:
     onsets: int
     attended: int
     """Attempts after which the lane was looked after by itself; few in steady motion."""
+    slow: int
+    """Onsets slower than the floor of their impact rate."""
     rough: int
     """Steps that were found to be rough inside; see `solver.kernels.loop.roughness`."""
     rough_until: int

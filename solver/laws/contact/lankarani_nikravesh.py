@@ -40,7 +40,7 @@ class LankaraniNikravesh(ContactLaw):
     poisson_ratio: PoissonRatio = 0.29
     exponent: Annotated[float, quantity("1", ge=1.0, le=3.0, structural=[1.5])] = 1.5
     restitution: Restitution = 0.9
-    impact_rate_floor: ImpactRateFloor = 1e-3
+    impact_rate_floor: ImpactRateFloor = None
 
     rules: ClassVar[tuple[Rule, ...]] = (
         Rule(
@@ -82,6 +82,6 @@ class LankaraniNikravesh(ContactLaw):
         return self.stiffness is None
 
     @property
-    def least_impact_rate(self) -> float:
-        """The floor, m/s."""
+    def least_impact_rate(self) -> float | None:
+        """The floor, m/s, if it is given."""
         return self.impact_rate_floor

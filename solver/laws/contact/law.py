@@ -55,8 +55,11 @@ class ContactLaw(Strict):
         return self.law
 
     @property
-    def least_impact_rate(self) -> float:
-        """Floor under the impact rate that an onset latches, m/s; 0 for laws without memory."""
+    def least_impact_rate(self) -> float | None:
+        """Floor under the impact rate that an onset latches, m/s.
+
+        0 for laws without memory; none: a share of the scene's speed.
+        """
         return 0.0
 
     @property

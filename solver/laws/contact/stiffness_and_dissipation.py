@@ -52,8 +52,8 @@ class StiffnessAndDissipation(ContactLaw):
         return self.stiffness.needs_radii
 
     @property
-    def least_impact_rate(self) -> float:
-        """The floor of the dissipation, m/s."""
+    def least_impact_rate(self) -> float | None:
+        """The floor of the dissipation, m/s, if it is given."""
         return self.dissipation.least_impact_rate
 
     @property

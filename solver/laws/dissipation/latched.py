@@ -8,8 +8,14 @@ from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import quantity
 
 ImpactRateFloor = Annotated[
-    float,
-    quantity("m/s", gt=0.0, le=1e3, description="smallest impact rate that the damping divides by"),
+    float | None,
+    quantity(
+        "m/s",
+        gt=0.0,
+        le=1e3,
+        description="smallest impact rate that the damping divides by; none: a hundred thousandth"
+        " of the scene's speed, at most 1e-3 m/s",
+    ),
 ]
 
 
@@ -21,7 +27,7 @@ class Latched(Dissipation):
     χ (1 + e) = ln((1 + χ) / (1 - χ e)) from the integral of energy, e is what it delivers.
     """
 
-    impact_rate_floor: ImpactRateFloor = 1e-3
+    impact_rate_floor: ImpactRateFloor = None
 
     @abstractmethod
     def hysteresis(self) -> Scalar:
@@ -32,6 +38,6 @@ class Latched(Dissipation):
         return elastic.force * (1.0 + self.hysteresis() * rate / impact_rate)
 
     @property
-    def least_impact_rate(self) -> float:
-        """The floor, m/s."""
+    def least_impact_rate(self) -> float | None:
+        """The floor, m/s, if it is given."""
         return self.impact_rate_floor

@@ -66,8 +66,11 @@ class Dissipation(Strict):
         """
 
     @property
-    def least_impact_rate(self) -> float:
-        """Floor under the impact rate that an onset latches, m/s; 0 for laws without memory."""
+    def least_impact_rate(self) -> float | None:
+        """Floor under the impact rate that an onset latches, m/s.
+
+        0 for laws without memory; none: a share of the scene's speed.
+        """
         return 0.0
 
     def jumps_at_onset(self, stiffness: Stiffness) -> bool:

@@ -46,3 +46,7 @@ class Force(Varying):
         couple = gy * fx - gx * fy
         power = fx * vx + fy * vy + couple * ends.spins[0]
         return Effect((fx, fy), {"force": force}, loss=-power, couple=couple)
+
+    def strength(self, length: float) -> float:
+        """Return its magnitude, N."""
+        return abs(self.magnitude)

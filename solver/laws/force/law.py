@@ -83,6 +83,10 @@ class ForceElement(Strict):
         """Largest angular velocity that it drives to by itself, rad/s; 0 if it has none."""
         return 0.0
 
+    def strength(self, length: float) -> float:
+        """Return a scale of its force, N; a moment acts at a `length`, m; 0: none is known."""
+        return 0.0
+
     @property
     def needs_direction(self) -> bool:
         """True if the points must not start in one place, for the force has no direction there."""

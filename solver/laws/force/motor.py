@@ -45,6 +45,10 @@ class Motor(ForceElement):
         channels = {"moment": moment, "speed": speed}
         return Effect((0.0, 0.0), channels, loss=-(moment * speed), moment=moment)
 
+    def strength(self, length: float) -> float:
+        """Return its torque at rest as a force at a length, N."""
+        return abs(self.stall_torque) / length
+
     @property
     def fastest(self) -> float:
         """The speed without load."""

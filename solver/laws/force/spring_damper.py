@@ -48,6 +48,10 @@ class SpringDamper(ForceElement):
             loss=self.damping * (rate * rate),
         )
 
+    def strength(self, length: float) -> float:
+        """Return its force where it is stretched by a length, N."""
+        return self.stiffness * length
+
     @property
     def needs_direction(self) -> bool:
         """True with a free length."""

@@ -28,3 +28,7 @@ class Torque(Varying):
         moment = self.varied(self.moment, ends)
         power = moment * (ends.spins[1] - ends.spins[0])
         return Effect((0.0, 0.0), {"moment": moment}, loss=-power, moment=moment)
+
+    def strength(self, length: float) -> float:
+        """Return its moment as a force at a length, N."""
+        return abs(self.moment) / length

@@ -47,3 +47,7 @@ class TorsionSpring(ForceElement):
             loss=self.damping * (rate * rate),
             moment=moment,
         )
+
+    def strength(self, length: float) -> float:
+        """Return its moment at a radian, as a force at a length, N."""
+        return self.stiffness / length

@@ -24,6 +24,7 @@ from jointplay.solver.runs.certificate.companions import (
 )
 from jointplay.solver.runs.certificate.growth import Exponent
 from jointplay.solver.runs.certificate.kinds import FORCE, MEANINGS, PRESCRIBED, kinds_of
+from jointplay.solver.runs.certificate.slow_impacts import slow_impacts
 from jointplay.solver.runs.certificate.steepness import steepness
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.runs.lasting_contacts import lasting_contacts
@@ -133,6 +134,7 @@ def certify(
         _different_contacts(companions),
         _latched(companions, scene, 0.5 * float(time[-1])),
         _beyond_law(companions, scene),
+        slow_impacts(bundle, RUN),
     )
     facts = {
         "note": " ".join(filter(None, remarks)),
@@ -149,6 +151,7 @@ def certify(
         "exponent_note": OF_WINDOWS
         if exponent is not None
         else tangent_obstacle(scene) or "No window of the run was long enough.",
+        "slow_impacts": int(bundle.lane(RUN).run["slow"]),
         "energy_residual": energy["residual"],
         "gross_work": gross,
         "energy_error": abs(energy["residual"]) / gross if gross > 0.0 else None,

@@ -16,7 +16,9 @@ from jointplay.solver.mechanics.observe import channel_values
 from jointplay.solver.quantities.extremes import refined_peaks, sampled_peak
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
+from jointplay.solver.runs.followers import Pulled, with_pulls
 from jointplay.solver.runs.ideal.motion import IdealMotion
+from jointplay.solver.runs.ideal.pulls import pulls_of_motion
 from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.scene.periods import drivers_period
 from jointplay.solver.version import SOLVER_VERSION
@@ -43,6 +45,7 @@ class IdealRun:
         self.sections_done = 0
         self.seconds = 0.0
         self.peaks: dict[str, Peak] = {}
+        self.pulled: list[Pulled] = []
         self.offset = admission.offset
 
     def slices(self) -> Iterator[Slice]:
@@ -71,6 +74,7 @@ class IdealRun:
             self.seconds += time.perf_counter() - begun
             yield found
         self.peaks = self._extremes()
+        self.pulled = pulls_of_motion(self.motion, self.duration)
 
     def checkpoint(self) -> bytes:
         """See `Simulation.checkpoint`."""
@@ -98,6 +102,7 @@ class IdealRun:
             "steps": 0,
             "rejections": 0,
             "onsets": 0,
+            "slow_impacts": 0,
             "rough_steps": 0,
             "smallest_step": None,
             "solver_seconds": self.seconds,
@@ -109,7 +114,7 @@ class IdealRun:
         """See `Simulation.certificate`."""
         if not self.admission.job["certificate"]:
             return None
-        return Certificate.of_exact(len(self.names), self.duration)
+        return with_pulls(Certificate.of_exact(len(self.names), self.duration), self.pulled)
 
     def channels(self, times: Floats, local: Floats | None = None) -> Floats:
         """Return (instants, channels) at times in s; `local` is the time within the period."""

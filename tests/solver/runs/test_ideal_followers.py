@@ -1,0 +1,73 @@
+"""Followers without play that their cams pull: told with when, how hard, and the remedy."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from jointplay.solver.kinds import admit
+from jointplay.solver.runs.simulate import Simulation
+from tests.solver.cams import CIRCLE, ECCENTRICITY, SPEED, follower, pitch_table, valve
+
+TURN = 2.0 * np.pi / SPEED
+MASS, GRAVITY = 0.2, 9.81
+
+
+def completed(scene: dict[str, Any], duration: float = TURN, **job: Any) -> Simulation:
+    simulation = Simulation(admit({"kind": "simulate", "scene": scene, "duration": duration} | job))
+    for _ in simulation.slices():
+        pass
+    return simulation
+
+
+def facts(simulation: Simulation) -> dict[str, Any]:
+    certificate = simulation.certificate()
+    assert certificate is not None
+    return certificate.facts
+
+
+def unsprung(shape: str, profile: dict[str, Any], speed: float, **how: Any) -> dict[str, Any]:
+    """Return a tappet that its weight alone presses on its cam."""
+    scene = valve(follower(shape, profile), **how) | {"forces": {}}
+    if how.get("driven", True):
+        scene["drivers"]["motor"]["speed"] = speed
+    else:
+        scene["start"]["angular_velocities"] = {"shaft": speed}
+    return scene
+
+
+def test_a_face_is_pulled_where_its_cam_falls_faster_than_it() -> None:
+    speed = 40.0
+    found = facts(completed(unsprung("flat", CIRCLE, speed), 2.0 * np.pi / speed))
+    # its acceleration is e ω² cos ωt: pulled where that is below -g, most at half a turn
+    first = np.arccos(-GRAVITY / (ECCENTRICITY * speed**2)) / speed
+    (pull,) = found["pulling"]
+    assert pull["joint"] == "cam"
+    assert pull["first"] == pytest.approx(first, abs=2.0 * np.pi / speed / 2000)
+    assert pull["largest"] == pytest.approx(MASS * (ECCENTRICITY * speed**2 - GRAVITY), rel=1e-9)
+    assert pull["time"] == pytest.approx(np.pi / speed, abs=1e-6)
+    assert "give it a lash" in pull["detail"]
+    assert pull["detail"] in found["note"]
+
+
+@pytest.mark.parametrize("shape", ["flat", "roller"])
+def test_a_follower_that_is_pressed_on_is_not_pulled(shape: str) -> None:
+    profile = CIRCLE if shape == "flat" else pitch_table()
+    scene = valve(follower(shape, profile))
+    simulation = completed(scene, channels=["cam.normal_force", "cam.force_x", "cam.force_y"])
+    assert "pulling" not in facts(simulation)
+    *components, force = simulation.summary().peaks.values()
+    assert force.minimum > 0.0
+    along = max(abs(peak.maximum) for peak in components)
+    assert along <= force.maximum <= np.hypot(*(peak.maximum for peak in components))
+
+
+def test_a_cam_that_nothing_drives_tells_it_too() -> None:
+    scene = unsprung("flat", CIRCLE, 60.0, driven=False)
+    scene["bodies"]["shaft"]["inertia"] = 5e3  # so that it hardly slows down
+    found = facts(completed(scene, 0.1, output_step=1e-4))
+    (pull,) = found["pulling"]
+    first = np.arccos(-GRAVITY / (ECCENTRICITY * 60.0**2)) / 60.0
+    assert pull["first"] == pytest.approx(first, abs=1.1e-4)
+    assert pull["largest"] == pytest.approx(MASS * (ECCENTRICITY * 60.0**2 - GRAVITY), rel=1e-5)
+    assert pull["detail"] in found["note"]
