@@ -32,8 +32,9 @@ class Exact(Latched):
     integral of energy, χ (1 + e) = ln((1 + χ) / (1 - χ e)), with A = 1 + χ, B = 1 - χ e and
     2 x = ln(A / B): A - B = 2 x makes A = x (coth x + 1) and B = x (coth x - 1).
 
-    Assumes a free impact, whose restitution it delivers at any speed, mass and stiffness. Fails in
-    lasting contact, where the rate latched at the last onset scales the damping.
+    Assumes a free impact, whose restitution it delivers at any speed above its floor, mass and
+    stiffness. Fails in lasting contact, where the rate latched at the last onset scales the
+    damping.
 
     Source: the integral of energy above; Zhang and Sharf 2009, J. Appl. Mech. 76, solve the same
     equation.

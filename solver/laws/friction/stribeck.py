@@ -14,8 +14,9 @@ class Stribeck(Breakaway):
     velocity, v_r the velocity that smooths the jump at rest (m/s), better far below v_s.
 
     Assumes sliding contact, with a force that falls with speed: it may excite stick-slip. Fails to
-    hold a static load: a loaded joint at rest creeps. Viscous friction, which does not end with the
-    normal force, is left out.
+    reach the static force: with c_k two thirds of c_s, 0.968 of it where v_r is a tenth of v_s, and
+    0.999 where it is a hundredth. It holds no static load, a loaded joint at rest creeps. Viscous
+    friction, which does not end with the normal force, is left out.
 
     Source: Andersson, Soederberg and Bjoerklund 2007, Tribol. Int. 40:580, with the exponent 2.
     """

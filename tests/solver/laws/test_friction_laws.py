@@ -95,3 +95,15 @@ def test_a_kinetic_coefficient_above_the_static_one_is_refused() -> None:
     (found,) = refused.value.problems
     assert found.pointer == "/scene/joints/bearing0/clearance/friction/kinetic_coefficient"
     assert "(0.2) is above the static one (0.1)" in found.detail
+
+
+@pytest.mark.parametrize(("smoothing", "reached"), [(0.1, 0.968), (0.01, 0.999)])
+def test_a_smoothed_stribeck_curve_stays_below_the_static_force_as_it_says(
+    smoothing: float, reached: float
+) -> None:
+    numbers = NUMBERS["stribeck"] | {"smoothing_velocity": smoothing}
+    slips = np.linspace(0.0, 2.0, 2001)[1:]
+    law = LAWS["stribeck"].model_validate({"law": "stribeck"} | numbers)
+    largest = max(-float(law.friction_force(1.0, slip)) for slip in slips)
+    assert largest / 0.3 == pytest.approx(reached, abs=5e-4)
+    assert f"{reached}" in (LAWS["stribeck"].__doc__ or "")
