@@ -19,7 +19,7 @@ class Overshoot(NamedTuple):
 
     pointer: str
     percent: float
-    """How far, in hundredths of the range of all values."""
+    """Distance, in hundredths of the range of all values."""
     argument: float
     detail: str
 

@@ -22,4 +22,4 @@ Course = Annotated[
     MemberOf(FUNCTIONS, "type", required=True),
     AfterValidator(lambda function: function.used("monotone")),
 ]
-"""What a force is multiplied by."""
+"""A factor of a force that varies."""
