@@ -44,6 +44,8 @@ GEOMETRY: Final[Any] = {
 }
 TOLD = 1e-6
 """Share of the shortest link, or of 1 m, up to which a difference is not told, m or m/s."""
+POINTED = 10.0
+"""A cam whose profile is no larger than that many lashes is a point."""
 MOST_KEPT = 512
 """Assemblies that are kept; studies of one geometry need one."""
 
@@ -92,13 +94,15 @@ class Assembly:
 def shortest_link(scene: Scene) -> float:
     """Return the shortest distance between two joints on one body, m; the scene's length scale.
 
-    Without any: the largest bearing radius or slider, else 1 m.
+    Without any: the largest bearing radius, cam or slider, else 1 m. A cam that is hardly larger
+    than its lash is a point, which has no size.
     """
     distances = link_lengths(scene)
     if distances:
         return min(distances)
     pairs = [pair for name, joint in scene.joints.items() for pair in pairs_of(name, joint)]
-    return max((pair.size for pair in pairs), default=1.0)
+    sizes = [pair.size for pair in pairs if pair.cam is None or pair.size > POINTED * pair.play]
+    return max(sizes, default=1.0)
 
 
 def link_lengths(scene: Scene) -> list[float]:

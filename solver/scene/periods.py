@@ -95,6 +95,21 @@ def driven_speed(scene: Scene, lever: float, until: float) -> float:
     return total
 
 
+def driven_travel(scene: Scene, unit: float, until: float) -> float:
+    """Return how far functions move driven sliders over 0..`until` s, m, as seen in `unit`, s.
+
+    The least length L with |x^(k)| <= L (2 pi / unit)^k for each derivative of each of their
+    motions; of a sinusoidal motion with that period its amplitude. 0: there is none.
+    """
+    ways = [
+        bound * (unit / (2.0 * math.pi)) ** order
+        for driver in scene.drivers.values()
+        if isinstance(driver, MovingDriver) and not turns(scene, driver)
+        for order, bound in enumerate(driver.motion.largest(until), start=1)
+    ]
+    return max(ways, default=0.0)
+
+
 def period_of(speeds: Sequence[float]) -> Period:
     """Return the least common period of turning drivers, whose speeds (rad/s) are positive."""
     if not speeds:

@@ -18,7 +18,12 @@ from jointplay.solver.mechanics.impact_floors import impact_floor
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.periods import characteristic_time, common_period, driven_speed
+from jointplay.solver.scene.periods import (
+    characteristic_time,
+    common_period,
+    driven_speed,
+    driven_travel,
+)
 from jointplay.solver.scene.references import inner_states
 
 STEPS_IN_A_PERIOD = 100
@@ -120,7 +125,8 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     lane["step"] = problem.step or FIRST_STEP * unit
     lane["largest_step"] = problem.step or unit / STEPS_IN_A_PERIOD
     sliders = [pair.size for pair in contact_pairs(scene).values() if not pair.is_journal]
-    lane["lever"] = max([mechanism_size(scene, length), *sliders])
+    travel = driven_travel(scene, unit, problem.duration)  # farther, maybe, than bodies are long
+    lane["lever"] = max([mechanism_size(scene, length), travel, *sliders])
     lane["bend"] = math.inf
     lane["driven_speed"] = driven_speed(scene, lane.number("lever"), problem.duration)
     for j, (name, pair) in enumerate(contact_pairs(scene).items()):
