@@ -37,6 +37,10 @@ class SettledPeaks:
         self._book = self._replay.book(self._wanted, np.zeros(len(self._wanted)))
         self._record = np.full((1, len(self._wanted), 4), np.nan)
 
+    def go_on_with(self, admission: Admission, method: str) -> None:
+        """Take steps of another method from here on."""
+        self._replay = Replay(admission, method)
+
     def add(self, steps: Floats) -> None:
         """Look at further steps (n, width)."""
         if not len(steps):

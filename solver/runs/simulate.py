@@ -10,6 +10,7 @@ from jointplay.records.arrays import Floats
 from jointplay.records.checkpoint import decode, encode
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.hand_over import handed_over
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
 from jointplay.solver.mechanics.assembly import assemble
@@ -32,6 +33,7 @@ _KIND = "simulation"
 _INTERVALS = "intervals"
 _SETTLED = "settled"
 _SAMPLED = "sampled"
+_CHOICE = "choice"
 LANE = 0
 """The lane of the trajectory; its bits do not depend on what the seven others do."""
 
@@ -102,15 +104,12 @@ class DynamicRun:
         )
         self.seconds = 0.0
         self.most_steps = most_steps(admission)
-        self.open = stiff_method.is_open(admission)
-        """Whether the method is still to be chosen."""
         self._start(admission.method, stiff_method.reason_for(admission))
 
     def _start(self, method: str, reason: str) -> None:
         """Begin with a method."""
-        formulation, problem = self.admission.job["formulation"], self.problem
-        if method != self.admission.method:
-            problem = stiff_method.tightened(problem)
+        formulation = self.admission.job["formulation"]
+        problem = stiff_method.problem_for(self.problem, method, self.admission)
         kernel = ready_kernel(problem.scene, formulation, method)
         bundle = Bundle(kernel, [problem], keep_steps=True)
         certified = self.admission.job["certificate"]
@@ -126,53 +125,64 @@ class DynamicRun:
         self.intervals: IntervalExtremes | None = None
         self.settled = SettledPeaks(self.admission, method) if self.admission.settle else None
         self.sampled = SampledExtremes(len(channels), self.admission.settle or 0.0)
+        is_open = stiff_method.is_open(self.admission)
+        self.choice = stiff_method.MethodChoice(bundle) if is_open else None
+        """What changes the method as the run goes on; none: it keeps its own."""
 
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
         budget = SliceBudget()
-        held: list[Slice] = []
         while self._runs():
-            begun, before = time.perf_counter(), self.bundle.attempts
-            allowed = budget.attempts
-            if self.open:
-                allowed = min(allowed, stiff_method.attempts_left(self.bundle))
+            begun = time.perf_counter()
+            if self.choice is not None and self.choice.is_due(self.bundle):
+                self._reconsider(self.choice)
+            before, allowed = self.bundle.attempts, budget.attempts
+            advancing = time.perf_counter()
+            if self.choice is not None:
+                allowed = self.choice.allowance(self.bundle, allowed)
             (self.survey or self.bundle).advance(allowed)
             found = self._slice()
-            spent = time.perf_counter() - begun
-            self.seconds += spent
-            budget.adapt(self.bundle.attempts - before, spent)
-            if self.open:
-                held.append(found)
-                still_open = stiff_method.attempts_left(self.bundle) != 0
-                told = not still_open and self._goes_on()
-                found = stiff_method.joined(held) if told else stiff_method.withheld(found)
+            now = time.perf_counter()
+            self.seconds += now - begun
+            budget.adapt(self.bundle.attempts - before, now - advancing)
             yield found
         if self.bundle.lane(LANE).status != Status.DONE:
             raise failure_of(self.bundle, LANE, self.admission.tolerance, self.problem.scene)
 
-    def _goes_on(self) -> bool:
-        """Choose the method: whether the run goes on, or begins again with the implicit one."""
-        begun = time.perf_counter()
-        self.open = False
-        reason = stiff_method.stiff(self.bundle, self.problem, self.admission.job["formulation"])
-        if reason:
-            self._start(stiff_method.IMPLICIT, reason)
-        self.seconds += time.perf_counter() - begun
-        return not reason
+    def _reconsider(self, choice: stiff_method.MethodChoice) -> None:
+        """Go on with the other method from here, if it is better."""
+        method, change = choice.look(self.bundle, self.problem, self.admission)
+        if not method:
+            return
+        before = stiff_method.problem_for(self.problem, self.kernel.tableau.name, self.admission)
+        problem = stiff_method.problem_for(self.problem, method, self.admission)
+        kernel = ready_kernel(problem.scene, self.admission.job["formulation"], method)
+        sharper = before.tolerance / problem.tolerance
+        bundle = handed_over(self.bundle, kernel, problem, sharper)
+        for part in (self.intervals, self.settled):
+            if part is not None:
+                part.go_on_with(self.admission, method)
+        if self.survey is not None:
+            self.survey.go_on_with(bundle, problem)
+        self.kernel, self.bundle = kernel, bundle
+        self.reason = stiff_method.with_reason(self.reason, change)
+        choice.changed(bundle)
 
     def checkpoint(self) -> bytes:
         """See `Simulation.checkpoint`."""
         facts = {
             "method": self.kernel.tableau.name,
             "reason": self.reason,
-            "open": self.open,
+            "attempts": self.bundle.attempts,
             "solver_seconds": self.seconds,
             "samples": self.samples_done,
             "sections": self.sections_done,
             "steps": self.steps_kept,
             "pulls": self.followers.first,
         }
-        arrays = self.survey.checkpoint() if self.survey and not self.open else {}
+        arrays = self.survey.checkpoint() if self.survey else {}
+        if self.choice is not None:
+            arrays |= self.choice.state(_CHOICE)
         if self.intervals is not None:
             arrays |= self.intervals.state(_INTERVALS)
         if self.settled is not None:
@@ -184,12 +194,14 @@ class DynamicRun:
     def restore(self, checkpoint: bytes) -> None:
         """Continue from a checkpoint."""
         facts, saved = decode(checkpoint, _KIND, SOLVER_VERSION)
-        self.seconds, self.open = facts["solver_seconds"], facts["open"]
-        if self.open:  # nothing was handed out: from the start
-            return
+        self.seconds = facts["solver_seconds"]
         if facts["method"] != self.kernel.tableau.name:
             self._start(facts["method"], facts["reason"])
+        self.reason = facts["reason"]
         self.bundle.restore(saved, "lanes")
+        self.bundle.attempts = facts["attempts"]
+        if self.choice is not None:
+            self.choice.restore(saved, _CHOICE)
         if any(name.startswith(f"{_INTERVALS}/") for name in saved):
             self.intervals = IntervalExtremes(self.admission, facts["method"])
             self.intervals.restore(saved, _INTERVALS)

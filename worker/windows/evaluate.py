@@ -11,6 +11,7 @@ from jointplay.solver.kernels.watched import CompilationEnded
 from jointplay.solver.kinds import Admission, parse
 from jointplay.solver.runs.dense_output.exact_motion import ExactMotion
 from jointplay.solver.runs.dense_output.replay import Replay
+from jointplay.solver.runs.dense_output.stretches import spread, stretches, widest
 from jointplay.worker.windows.question import Answer, Question
 
 _MOST_KEPT = 8
@@ -24,31 +25,44 @@ def answer(question: Question) -> Answer:
     try:
         if question.steps is None:
             return Answer(_of_motion(_motion(_Document(question.job)), question))
-        (number,) = np.unique(question.steps[:, -1])
-        method = dict(enumerate(question.methods)).get(int(number))
-        if method is None or method not in METHODS:
-            return Answer(None, refused=f"This version of the solver has no method {method!r}.")
-        replay = _replay(_Document(question.job), method)
-        steps = np.ascontiguousarray(question.steps[:, :-1])
-        if steps.shape[1] != replay.width:
-            return Answer(None, refused="This version of the solver makes other steps.")
-        off = replay.mismatch(steps)
-        if not off <= SAME:
-            return Answer(None, refused="This version of the solver makes other steps.")
-        return Answer(_of_steps(replay, steps, question), rounded=off > 0.0)
+        return _of_stretches(question, question.steps)
     except (InvalidInput, SimulationFailed, CompilationEnded) as error:
         return Answer(None, refused=str(error))
 
 
-def _of_steps(replay: Replay, steps: Floats, question: Question) -> Floats:
+def _of_stretches(question: Question, steps: Floats) -> Answer:
+    """Make each stretch of steps again with its method; their answers are one."""
+    pieces = []
+    for part in stretches(steps[:, -1]):
+        method = dict(enumerate(question.methods)).get(int(steps[part.start, -1]))
+        if method is None or method not in METHODS:
+            return Answer(None, refused=f"This version of the solver has no method {method!r}.")
+        rows = np.ascontiguousarray(steps[part, :-1])
+        pieces.append((_replay(_Document(question.job), method), rows))
+    if any(rows.shape[1] != replay.width for replay, rows in pieces):
+        return Answer(None, refused="This version of the solver makes other steps.")
+    off = max(replay.mismatch(rows) for replay, rows in pieces)
+    if not off <= SAME:
+        return Answer(None, refused="This version of the solver makes other steps.")
+    return Answer(_of_steps(pieces, question), rounded=off > 0.0)
+
+
+def _of_steps(pieces: list[tuple[Replay, Floats]], question: Question) -> Floats:
     if question.times is not None:
-        moments = np.column_stack([question.times, np.ones(len(question.times))])
-        return replay.channels(question.names, steps, moments)
+        begins = [float(replay.begins(rows[:1])[0]) for replay, rows in pieces]
+        asked = spread(question.times, begins)
+        found = [
+            replay.channels(question.names, rows, np.column_stack([times, np.ones(len(times))]))
+            for (replay, rows), times in zip(pieces, asked, strict=True)
+        ]
+        return np.concatenate(found)
     if question.edges is None:
-        return np.column_stack([replay.ends(steps), replay.works(steps)])
+        works = [np.column_stack([each.ends(rows), each.works(rows)]) for each, rows in pieces]
+        return np.concatenate(works)
     ranges = np.zeros(len(question.names)) if question.ranges is None else question.ranges
-    return replay.extremes(
-        question.names, steps, question.edges, ranges, evaluated=question.evaluated
+    names, edges, evaluated = question.names, question.edges, question.evaluated
+    return widest(
+        [each.extremes(names, rows, edges, ranges, evaluated=evaluated) for each, rows in pieces]
     )
 
 

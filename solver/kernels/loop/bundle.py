@@ -132,7 +132,7 @@ class Bundle:
         lane.work[:, fresh] = lane.work[:, [lane.index]]
         lane.work[self.kernel.layout["active"], fresh] = 0.0
         begin(lane, problem)
-        self._set_going(lane)
+        self.set_going(i)
         self.first_energy[:, i] = self.energy(i)
 
     def number_like(self, other: Bundle, i: int, scene: Scene) -> None:
@@ -168,9 +168,11 @@ class Bundle:
             lane["change"] = math.nan
             # no change is known before the next step: a long one could hide an extreme
             lane["step"] = FIRST_STEP * lane.run["unit"]
-        self._set_going(lane)
+        self.set_going(i)
 
-    def _set_going(self, lane: Lane) -> None:
+    def set_going(self, i: int) -> None:
+        """Let a lane run from where it is to the end that its run has."""
+        lane = self.lane(i)
         lane.run["status"] = Status.RUNNING
         lane["active"] = 1.0
         arguments = (lane.index, lane.run, lane.places[0], lane.work)

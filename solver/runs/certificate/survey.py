@@ -108,6 +108,12 @@ class Survey:
             self.violation.look(self.bundle.rows(SAMPLES, RUN))
         return self.bundle.attempts - before
 
+    def go_on_with(self, bundle: Bundle, problem: LaneProblem) -> None:
+        """Go on with the lanes of another method, to which all were handed over."""
+        self.tangents = compile_tangents(bundle.kernel)
+        self.bundle = self.companions.bundle = bundle
+        self.problem = problem
+
     def checkpoint(self) -> dict[str, NDArray[Any]]:
         """Return arrays that `restore` takes."""
         saved = self.companions.checkpoint() | {"goes_on": np.array(self.goes_on)}

@@ -41,6 +41,10 @@ class IntervalExtremes:
         """Sample at the end of the interval that is not complete yet."""
         self._book = self._replay.book(self._wanted, np.zeros(len(self._wanted)))
 
+    def go_on_with(self, admission: Admission, method: str) -> None:
+        """Take steps of another method from here on."""
+        self._replay = Replay(admission, method)
+
     def add(self, steps: Floats) -> Floats:
         """Return the intervals (k, 1 + 2 channels) that further steps (n, width) complete.
 

@@ -1,0 +1,34 @@
+"""How fast the fastest part of a lane's motion dies or swings: what limits an explicit step."""
+
+import numpy as np
+
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
+
+
+def fastest_rate(bundle: Bundle, i: int) -> float:
+    """Return the largest magnitude of an eigenvalue of the Jacobian at a lane's state, 1/s.
+
+    The slopes are differentiated by steps of the error that a state may have. 0: not known.
+    """
+    lane, kernel = bundle.lane(i), bundle.kernel
+    size = kernel.layout.size
+    work = aligned_zeros(size, LANES)
+    work[:] = lane.work[:size, lane.index, None]
+    stage, slope = kernel.layout.block("stage"), kernel.layout.block("slope")
+    y, moves = lane["y"].copy(), 1.0 / lane["weight"]
+    states = len(y)
+    work[kernel.layout["stage_time"]] = lane.number("time")
+    jacobian = np.empty((states, states))
+    for first in range(0, states, LANES - 1):
+        chosen = np.arange(first, min(first + LANES - 1, states))
+        columns = np.arange(1, len(chosen) + 1)
+        work[stage] = y[:, None]
+        work[stage.start + chosen, columns] += moves[chosen]
+        moved = work[stage.start + chosen, columns] - y[chosen]
+        kernel.module.right_hand_side(work)
+        slopes = work[slope]
+        jacobian[:, chosen] = (slopes[:, columns] - slopes[:, :1]) / moved
+    if not np.isfinite(jacobian).all():
+        return 0.0
+    return float(np.abs(np.linalg.eigvals(jacobian)).max())
