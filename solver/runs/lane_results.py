@@ -100,12 +100,30 @@ def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
     }
 
 
-def out_of_time(seconds: float, at: float) -> SimulationFailed:
-    """Return what ends a run that computes too long, at the time that it has reached, s."""
+def whereabouts(bundle: Bundle, lane: int) -> str:
+    """Say how a lane came to where it is, and what is in contact there."""
+    at = bundle.lane(lane)
+    touching = [name for name, mode in zip(bundle.kernel.pairs, at["mode"], strict=True) if mode]
+    contact = f"in contact: {', '.join(touching)}" if touching else "nothing in contact"
+    return (
+        f" after {at.steps} steps of '{bundle.kernel.tableau.name}', the last"
+        f" {at.number('tried'):.2g} s long, with {contact}"
+    )
+
+
+def out_of_time(seconds: float, at: float, where: str = "") -> SimulationFailed:
+    """Return what ends a run that computes too long, at the time that it has reached, s.
+
+    where : words from `whereabouts`.
+    """
+    friction = (
+        ", or, where friction holds joints, a wider gap between static_velocity and"
+        " dynamic_velocity"
+    )
     return SimulationFailed(
         "time-limit",
-        f"t = {at:.9g} s was reached in {seconds:g} s of computing, the limit of a run. Ask for a"
-        " shorter duration or a larger tolerance.",
+        f"t = {at:.9g} s was reached in {seconds:g} s of computing, the limit of a run{where}. Ask"
+        f" for a shorter duration or a larger tolerance{friction if where else ''}.",
         at,
     )
 

@@ -23,7 +23,13 @@ from jointplay.solver.runs.dense_output.columns import most_steps, number_of
 from jointplay.solver.runs.dense_output.intervals import IntervalExtremes
 from jointplay.solver.runs.followers import Followers, with_pulls
 from jointplay.solver.runs.ideal.run import IdealRun
-from jointplay.solver.runs.lane_results import failure_of, out_of_time, peaks_of, statistics_of
+from jointplay.solver.runs.lane_results import (
+    failure_of,
+    out_of_time,
+    peaks_of,
+    statistics_of,
+    whereabouts,
+)
 from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.runs.sampled_extremes import SampledExtremes
 from jointplay.solver.runs.settled_peaks import SettledPeaks
@@ -68,10 +74,12 @@ class Simulation:
         SimulationFailed
             After everything that was computed has been yielded.
         """
-        for piece in self._run.slices():
+        run = self._run
+        for piece in run.slices():
             yield piece
-            if self._run.seconds > most_seconds and piece.fraction < 1.0:
-                raise out_of_time(most_seconds, piece.time)
+            if run.seconds > most_seconds and piece.fraction < 1.0:
+                where = whereabouts(run.bundle, LANE) if isinstance(run, DynamicRun) else ""
+                raise out_of_time(most_seconds, piece.time, where)
 
     def checkpoint(self) -> bytes:
         """Return a restart point; valid between slices."""

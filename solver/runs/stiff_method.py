@@ -53,6 +53,7 @@ LEAST = 1e-13
 """Smallest tolerance of a job."""
 MOST_REASONS = 4
 """Changes of the method that are told one by one."""
+EARLIER = "changed before"
 
 
 def is_open(admission: Admission) -> bool:
@@ -79,9 +80,8 @@ def problem_for(problem: LaneProblem, method: str, admission: Admission) -> Lane
 
 def with_reason(reason: str, change: str) -> str:
     """Return the reason for the methods of a run whose method has just changed."""
-    changes = [each for each in reason.split("; ") if each not in ("not stiff", "earlier changes")]
-    told = [*changes, change]
-    return "; ".join(told if len(told) <= MOST_REASONS else ["earlier changes", *told[-3:]])
+    told = [*(each for each in reason.split("; ") if each != "not stiff"), change]
+    return "; ".join(told if len(told) <= MOST_REASONS else [EARLIER, *told[-MOST_REASONS + 1 :]])
 
 
 @dataclass

@@ -1,4 +1,4 @@
-"""A part of 45 g that 12 N press against a wall: friction holds it up, and no driver gives a period.
+"""A part of 45 g that 12 N press against a wall: friction holds it up, and nothing is driven.
 
 It creeps by W v / (mu N), v the slip at which modified Coulomb friction is full: 52.55 um/s.
 """

@@ -1,11 +1,13 @@
 """The method that `"auto"` takes: explicit, but implicit while the run is stiff."""
 
+import re
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kinds import admit
 from jointplay.solver.kinds.simulate import Admission
 from jointplay.solver.runs.results import Summary
@@ -114,6 +116,28 @@ def test_a_run_that_changes_its_method_has_the_same_bits_in_pieces_and_certified
     certificate = certified.certificate()
     assert certificate is not None
     assert certificate.facts["lanes"][7]["steps"] == summary.statistics["steps"]  # the twin
+
+
+def test_a_run_out_of_time_says_when_and_where_it_was() -> None:
+    with pytest.raises(SimulationFailed) as failed:
+        for _ in held(2.0).slices(most_seconds=0.0):
+            pass
+    assert failed.value.time > 0.0
+    sentence = failed.value.detail
+    assert re.match(r"t = 0\.0\d+ s was reached", sentence)
+    assert "steps of 'tsitouras', the last " in sentence
+    assert "with in contact: pad.corner_1, pad.corner_2. Ask for" in sentence
+    assert "static_velocity" in sentence
+
+
+@pytest.mark.long
+def test_a_press_that_strong_friction_stops_comes_to_its_end() -> None:
+    values = {"speed": 300.0, "speed_crank4": 0.3, "friction": 10.0}
+    admission = job("seven-bar-press", 2e-3, values)
+    statistics = history(Simulation(admission))[1].statistics
+    assert statistics["steps"] < 20_000  # the explicit method has made 540 616 at a quarter of it
+    energy = statistics["energy"]
+    assert abs(energy["residual"]) <= 10.0 * admission.tolerance * energy["gross_work"]
 
 
 @pytest.mark.long
