@@ -86,7 +86,12 @@ class Job(MechanismJob):
     ] = None
     accuracy: Annotated[
         Accuracy | None,
-        Field(description="or a named method and tolerance; default: standard, 1e-6"),
+        Field(
+            description=(
+                "or a named method and tolerance; default: standard, 1e-6, with indicators that"
+                " compare sections 1e-9"
+            )
+        ),
     ] = None
     method: Annotated[
         Method,
@@ -102,3 +107,8 @@ class Job(MechanismJob):
         float | None,
         quantity("s", ge=1e-12, le=1e3, description="of the method rk4, its fixed step"),
     ] = None
+
+    @property
+    def usual_tolerance(self) -> float:
+        """Tolerance where neither one nor a named accuracy is given."""
+        return ACCURACIES["standard"][1]

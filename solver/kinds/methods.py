@@ -24,7 +24,8 @@ def chosen(job: Job) -> tuple[str, float | None]:
         raise InvalidInput.at("/step", sentence)
     method, tolerance = ACCURACIES[job.accuracy or "standard"]
     method = method if job.accuracy else job.method
-    tolerance = job.tolerance if job.tolerance is not None else tolerance
+    if not job.accuracy:
+        tolerance = job.tolerance if job.tolerance is not None else job.usual_tolerance
     limit = METHODS[method_for(method, tolerance)].largest_tolerance
     if tolerance > limit:
         raise InvalidInput.at("/tolerance", _too_large(method, tolerance, limit))

@@ -4,7 +4,8 @@ import math
 from dataclasses import dataclass
 
 from jointplay.solver.nonlinear.estimate import Estimate
-from jointplay.solver.nonlinear.lyapunov import contradicts
+from jointplay.solver.nonlinear.lyapunov import confirmed, contradicts
+from jointplay.solver.nonlinear.zero_one import FEWEST_TELLING
 
 UNDECIDED, PERIODIC, QUASI_PERIODIC, CHAOTIC = range(4)
 VERDICTS = {
@@ -21,6 +22,9 @@ VAGUE = 0.5
 """Error of K from which on it has none."""
 LOOSE = 0.01
 """Error of a rotation number, in turns, from which on the curve is not traversed steadily."""
+SMALLER, MORE = "choose a smaller tolerance", "record more sections"
+TEST = f"record {FEWEST_TELLING} sections with the indicator 'zero_one'"
+"""What to try where nothing is decided."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,10 @@ def decide(
     quasi-periodic : exponent within three errors of zero, K < 0.1, a closed curve with a rotation
         number, and no recurrence.
     undecided : the exponent is another in smaller steps, or anything else; the reason says what is
-        missing or what contradicts what.
+        missing or what contradicts what, and what to try.
+
+    The reason gives an exponent with the error of its record, by which it is judged, and where its
+    steps are worse than that, "in all" with the error that `confirmed` gives it.
     """
     if lyapunov is not None and not math.isfinite(lyapunov.value + lyapunov.error):
         lyapunov = None
@@ -71,11 +78,12 @@ def decide(
         zero_one = None
     if lyapunov is not None and finer is not None and contradicts(finer, lyapunov):
         return _undecided(
-            f"the exponent is {lyapunov}, but {finer} in far smaller steps: contact is too hard"
-            " and rare for a tangent at this tolerance; choose a smaller one"
+            f"the exponent is {lyapunov}, but {finer} in far smaller steps: the steps of this"
+            " tolerance are too long for it; choose a smaller tolerance"
         )
+    exponent = "" if lyapunov is None else f"the exponent is {_told(lyapunov, finer)}"
     if period:
-        return _recurrent(lyapunov, zero_one, period)
+        return _recurrent(lyapunov, zero_one, period, exponent)
     if lyapunov is None:
         seen = "" if zero_one is None else f" (K is {zero_one})"
         recurs = "" if period is None else "nothing recurs, and "
@@ -84,57 +92,81 @@ def decide(
         return _diverging(lyapunov, zero_one, finer)
     if lyapunov.falls_below(0.0):
         return _undecided(
-            f"neighbours converge, the exponent is {lyapunov}, but no short period is seen:"
-            " the motion may not have settled, or have a longer period"
+            f"neighbours converge, {exponent}, but no short period is seen: the motion may not have"
+            f" settled, or have a longer period; settle for longer, {SMALLER} or {MORE}"
         )
-    return _neutral(lyapunov, zero_one, rotation)
+    return _neutral(exponent, zero_one, rotation)
 
 
-def _recurrent(lyapunov: Estimate | None, zero_one: Estimate | None, period: int) -> Verdict:
+def _told(lyapunov: Estimate, finer: Estimate | None) -> str:
+    """Return an exponent in words; see `decide`."""
+    whole = lyapunov if finer is None else confirmed(lyapunov, finer)
+    if not lyapunov.error < whole.error < math.inf:
+        return str(lyapunov)
+    return f"{lyapunov}, in all {whole}"
+
+
+def _recurrent(
+    lyapunov: Estimate | None, zero_one: Estimate | None, period: int, exponent: str
+) -> Verdict:
     recurs = f"every section recurs after {period}"
     if lyapunov is not None and lyapunov.exceeds(0.0):
         return _undecided(
-            f"{recurs}, yet neighbours part, the exponent is {lyapunov}:"
-            " chaos in bands narrower than the tolerance, or an unstable orbit not yet left"
+            f"{recurs}, yet neighbours part, {exponent}: chaos in bands narrower than what counts"
+            f" as the same, or an unstable orbit not yet left; settle for longer, or {SMALLER}"
         )
     if lyapunov is not None and lyapunov.falls_below(0.0):
-        return Verdict(PERIODIC, period, f"{recurs} and the exponent is {lyapunov}")
+        return Verdict(PERIODIC, period, f"{recurs} and {exponent}")
     if zero_one is not None and zero_one.value > IRREGULAR:
-        return _undecided(f"{recurs}, yet the 0-1 test sees chaos, K is {zero_one}")
+        return _undecided(
+            f"{recurs}, yet the 0-1 test sees chaos, K is {zero_one}: {SMALLER} or {MORE}"
+        )
     if lyapunov is None:
         return Verdict(PERIODIC, period, f"{recurs}; the exponent is not known")
     near = "close to a bifurcation, or known too poorly to tell it from zero"
-    return Verdict(PERIODIC, period, f"{recurs}; the exponent is {lyapunov}, {near}")
+    return Verdict(PERIODIC, period, f"{recurs}; {exponent}, {near}")
 
 
 def _diverging(lyapunov: Estimate, zero_one: Estimate | None, finer: Estimate | None) -> Verdict:
     parts = f"neighbours part, the exponent is {lyapunov}"
     if finer is not None and not finer.exceeds(0.0):
         return _undecided(
-            f"{parts}, but {finer} in far smaller steps, not different from zero: record more"
-            " sections, or choose a smaller tolerance"
+            f"{parts}, but {finer} in far smaller steps, not different from zero: {MORE}, or"
+            f" {SMALLER}"
         )
     if finer is not None:
-        parts += f", {finer} in far smaller steps"
+        parts = f"neighbours part, the exponent is {_told(lyapunov, finer)}, {finer} in far"
+        parts += " smaller steps"
     if zero_one is None and lyapunov.drifting:
-        return _undecided(f"{parts}, but it still drifts, and there is no 0-1 test to confirm it")
+        return _undecided(
+            f"{parts}, but it still drifts, and there is no 0-1 test to confirm it: settle for"
+            f" longer, or {TEST}"
+        )
     if zero_one is None:
         return Verdict(CHAOTIC, 0, f"{parts}; there is no 0-1 test to confirm it")
     if zero_one.value > IRREGULAR:
         return Verdict(CHAOTIC, 0, f"{parts}, and the 0-1 test agrees, K is {zero_one}")
-    return _undecided(f"{parts}, but the 0-1 test does not agree, K is {zero_one}")
+    return _undecided(f"{parts}, but the 0-1 test does not agree, K is {zero_one}: {MORE}")
 
 
-def _neutral(lyapunov: Estimate, zero_one: Estimate | None, rotation: Estimate | None) -> Verdict:
-    neutral = f"the exponent is {lyapunov}, not different from zero"
+def _neutral(exponent: str, zero_one: Estimate | None, rotation: Estimate | None) -> Verdict:
+    neutral = f"{exponent}, not different from zero"
     if zero_one is None:
-        return _undecided(f"{neutral}, and there is no telling 0-1 test")
+        return _undecided(f"{neutral}, and there is no telling 0-1 test: {SMALLER}, or {TEST}")
     if zero_one.value >= REGULAR:
-        return _undecided(f"{neutral}, but the 0-1 test sees no regular motion, K is {zero_one}")
+        return _undecided(
+            f"{neutral}, but the 0-1 test sees no regular motion, K is {zero_one}: {SMALLER} or"
+            f" {MORE}"
+        )
     if rotation is None:
-        return _undecided(f"{neutral}, K is {zero_one}, but the section is no closed curve")
+        return _undecided(
+            f"{neutral}, K is {zero_one}, but the section is no closed curve: {SMALLER}, or add"
+            " the indicators 'rotation' and 'recurrence'"
+        )
     if not rotation.error < LOOSE:
-        return _undecided(f"{neutral}, K is {zero_one}, but the rotation number is {rotation}")
+        return _undecided(
+            f"{neutral}, K is {zero_one}, but the rotation number is {rotation}: {MORE}"
+        )
     return Verdict(
         QUASI_PERIODIC,
         0,

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from jointplay.solver.nonlinear.recurrence import LONGEST
+from jointplay.solver.nonlinear.verdict import UNDECIDED
 from jointplay.solver.nonlinear.zero_one import FEWEST_TELLING
 from jointplay.solver.runs.study.indicators import (
     FEWEST_FOR_RECURRENCE,
@@ -27,7 +28,8 @@ def limits(scene: Scene, found: Mapping[str, float], sections: int, periods: int
     """
     exponent, error = (found.get(name, math.nan) for name in ("lyapunov", "lyapunov_error"))
     if "lyapunov" not in found:
-        pass
+        if found.get("verdict") == UNDECIDED:
+            yield "add the indicator 'lyapunov'"
     elif math.isnan(exponent):
         obstacle = tangent_obstacle(scene) or (
             "The tangent grew beyond all bounds."

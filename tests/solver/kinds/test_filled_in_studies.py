@@ -50,6 +50,16 @@ def test_indicators_are_listed_once_and_in_order() -> None:
     assert study(POINCARE, indicators=["all"]).indicators == everything
 
 
+def test_indicators_that_compare_sections_take_a_smaller_tolerance_unless_one_is_given() -> None:
+    for name in ("lyapunov", "zero_one", "recurrence", "rotation"):
+        assert study(POINCARE, indicators=[name]).job["tolerance"] == 1e-9
+    assert study(BIFURCATION, indicators="all").job["tolerance"] == 1e-9
+    assert study(POINCARE, indicators=["spectrum"]).job["tolerance"] == 1e-6
+    assert study(POINCARE, indicators="all", tolerance=1e-7).job["tolerance"] == 1e-7
+    assert study(POINCARE, indicators="all", accuracy="standard").job["tolerance"] == 1e-6
+    assert study(POINCARE, indicators="all", accuracy="fine").job["tolerance"] == 1e-8
+
+
 def test_times_of_a_study_follow_its_periods_and_section() -> None:
     found = study(POINCARE, settle=10, record=5, section={"crank_angle": math.pi / 2})
     assert found.period.tolist() == pytest.approx([2.0])

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
+from jointplay.solver.nonlinear.lyapunov import confirmed
 from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
 from jointplay.solver.nonlinear.verdict import (
@@ -115,6 +116,28 @@ def test_no_verdict_goes_beyond_its_evidence(
         assert zero_one.value < 0.1
         assert rotation is not None
         assert not period
+
+
+@given(estimates, estimates, st.none() | st.integers(0, 32), estimates, estimates)
+def test_who_decides_nothing_says_what_to_try(
+    lyapunov: Estimate | None,
+    zero_one: Estimate | None,
+    period: int | None,
+    rotation: Estimate | None,
+    finer: Estimate | None,
+) -> None:
+    verdict = decide(lyapunov, zero_one, period, rotation, finer)
+    assert "contact" not in verdict.reason  # what moves may have none
+    if verdict.code == UNDECIDED and lyapunov is not None:
+        assert any(word in verdict.reason for word in ("smaller tolerance", "record", "settle for"))
+
+
+def test_a_reason_names_the_error_of_the_record_and_the_error_in_all() -> None:
+    exponent, finer = Estimate(-0.5, 0.01), Estimate(-0.53, 0.02)
+    reason = decide(exponent, None, 1, None, finer).reason
+    assert f"the exponent is {exponent}, in all {confirmed(exponent, finer)}" in reason
+    assert "-0.500 ± 0.010, in all -0.500 ± 0.030" in reason
+    assert "in all" not in decide(exponent, None, 1).reason
 
 
 @pytest.mark.parametrize("period", [0, 1])
