@@ -41,7 +41,7 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
     names = study_facts.known(selection.channels, source.observables)
     if names:
         return at_most(_MOST_PANELS, names)
-    positions = [position for position, _ in study_facts.observed_pairs(source)]
+    positions = [position for position, _ in study_facts.moving_pairs(source)]
     return tuple(positions or [one.name for one in source.observables])[:_FIRST_PANELS]
 
 

@@ -5,6 +5,7 @@ import numpy as np
 from jointplay.figures import marks, page, study_facts
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.quantity import scale
+from jointplay.records.arrays import Floats
 from jointplay.records.channel import by_name
 from jointplay.records.study import StudySource
 
@@ -32,10 +33,13 @@ def _pairs(source: StudySource, selection: Selection) -> list[tuple[str, str]]:
         if len(names) != 2:
             raise NotDrawable("A section is drawn of two channels, across and up.", "channels")
         return [(names[0], names[1])]
-    pairs = study_facts.observed_pairs(source)
+    pairs = study_facts.moving_pairs(source)
     for joint in selection.joints:
         if not any(position.startswith(f"{joint}.eccentricity_") for position, _ in pairs):
-            raise NotDrawable(f"No eccentricity of a joint {joint!r} was observed.", "joints")
+            held = study_facts.fixed(source)
+            why = f" The section holds {held}." if held.startswith(f"{joint}.") else ""
+            sentence = f"No eccentricity of a joint {joint!r} was observed.{why}"
+            raise NotDrawable(sentence, "joints")
     if selection.joints:
         pairs = [pair for pair in pairs if pair[0].rpartition(".")[0] in selection.joints]
     of_joints = [pair for pair in pairs if ".eccentricity_" in pair[0]]
@@ -74,7 +78,7 @@ def _scatter(
     points: slice,
     groups: list[study_facts.Group],
 ) -> None:
-    values = [marks.sections(source, name, points) for name in pair]
+    values = [_sections(source, name, points) for name in pair]
     units = [by_name(source.observables)[name].unit for name in pair]
     across, up = (scale(unit, one) for unit, one in zip(units, values, strict=True))
     size = marks.size(values[0].size)
@@ -82,11 +86,28 @@ def _scatter(
         x, y = (one[group.members[points]].ravel() for one in values)
         marks.draw_cloud(axes, x / across.factor, y / up.factor, group.colour, size)
     axes.margins(_MARGIN)
-    axes.set_xlabel(across.label(_short(pair[0])))
-    axes.set_ylabel(up.label(_short(pair[1])))
+    for axis, unit, name in ((axes.xaxis, across, pair[0]), (axes.yaxis, up, pair[1])):
+        axis.set_label_text(_with_offset(axis, unit.label(_short(name))))
     owners = {name.rpartition(".")[0] for name in pair}
     if len(owners) == 1:
         page.corner_text(axes, owners.pop())
+
+
+def _sections(source: StudySource, name: str, points: slice) -> Floats:
+    """Return a channel at sections; one that the section holds without its rounding."""
+    values = marks.sections(source, name, points)
+    if name != study_facts.fixed(source):
+        return values
+    return np.where(np.isnan(values), values, np.nanmean(values))
+
+
+def _with_offset(axis: page.Axis, label: str) -> str:
+    """Return a label with what an axis leaves out of its numbers, in place of a text across it."""
+    numbers = axis.get_major_formatter()
+    numbers.set_locs(axis.get_majorticklocs())
+    offset = numbers.get_offset()
+    axis.get_offset_text().set_visible(False)
+    return f"{label}  {offset}" if offset else label
 
 
 def _of_point(source: StudySource, point: int) -> str:

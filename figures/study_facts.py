@@ -53,6 +53,18 @@ def observed_pairs(source: StudySource) -> list[tuple[str, str]]:
     return sorted(found, key=lambda pair: ".eccentricity_" not in pair[0])
 
 
+def fixed(source: StudySource) -> str:
+    """Return the channel that the study's section holds at a value; empty: none."""
+    section = source.attributes["job"].get("section") or {}
+    return str(section.get("channel", ""))
+
+
+def moving_pairs(source: StudySource) -> list[tuple[str, str]]:
+    """Give `observed_pairs` without those that the section holds, unless nothing else is left."""
+    pairs, held = observed_pairs(source), fixed(source)
+    return [pair for pair in pairs if held not in pair] or pairs
+
+
 def statistics(source: StudySource) -> tuple[Channel, ...]:
     """Give the statistics of channels and joints whose meaning the study gives."""
     meanings = source.attributes.get("meanings", {})

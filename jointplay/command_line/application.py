@@ -1,4 +1,4 @@
-"""The command's parts put together, and its failures turned into one line and an exit code."""
+"""The command's parts put together, and its failures turned into a line each and an exit code."""
 
 import errno
 import gc
@@ -114,7 +114,7 @@ COMMANDS_FOR: Final = {
 
 
 def run(arguments: list[str] | None = None) -> int:
-    """Run one command and return its exit code; what users cause ends in one line on stderr."""
+    """Run one command and return its exit code; what users cause ends in a line each on stderr."""
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
     try:
         code = application(arguments, prog_name="jointplay", standalone_mode=False)
@@ -125,11 +125,11 @@ def run(arguments: list[str] | None = None) -> int:
     except Stopped as error:
         return _reported(error.code, str(error))
     except Exception as error:
-        line = _line_of(error)
+        lines = _lines_of(error)
         code = _exit_of(error)
-        if line is None or code is None:
+        if not lines or code is None:
             raise  # a fault of ours: the traceback is what helps
-        return _reported(code, line)
+        return _reported(code, *lines)
     if code == Exit.INTERRUPTED:  # typer's own way to say Ctrl-C
         return _reported(Exit.INTERRUPTED, "interrupted")
     return int(code or Exit.OK)
@@ -141,8 +141,9 @@ def _misused(why: str) -> int:
     return _reported(Exit.BAD_INPUT, f"{why} (see: jointplay --help)") if why else Exit.OK
 
 
-def _reported(code: Exit, line: str) -> int:
-    sys.stderr.write(f"jointplay: {' '.join(line.split())}\n")
+def _reported(code: Exit, *lines: str) -> int:
+    for line in lines:
+        sys.stderr.write(f"jointplay: {' '.join(line.split())}\n")
     return code
 
 
@@ -154,15 +155,20 @@ def _exit_of(error: Exception) -> Exit | None:
     return None
 
 
-def _line_of(error: Exception) -> str | None:
+def _lines_of(error: Exception) -> list[str]:
     """Return what is said of a failure; nothing where the system failed without naming a file."""
     if isinstance(error, OSError) and error.errno is not None:
         if error.errno in (errno.ENOSPC, errno.EDQUOT):
-            return f"{error.filename or 'a disk'} is full; make room and try again."
-        return None if error.filename is None else f"{error.filename}: {error.strerror}."
-    problems = getattr(error, "problems", ()) or getattr(error, "flaws", ())
+            return [f"{error.filename or 'a disk'} is full; make room and try again."]
+        return [] if error.filename is None else [f"{error.filename}: {error.strerror}."]
+    kinds = ("problems", "flaws", "fields")
+    problems = next((found for kind in kinds if (found := getattr(error, kind, ()))), ())
     listed = [f"{place}: {detail}" if place else detail for place, detail in problems]
-    line = "; ".join(listed) or str(error)
+    return [_as_typed(line) for line in listed or [str(error)]]
+
+
+def _as_typed(line: str) -> str:
+    """Return a sentence with commands in place of requests."""
     for request, command in COMMANDS_FOR.items():
         line = line.replace(request, command)
     return line

@@ -14,7 +14,7 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 _SHORT: Final[dict[str, tuple[Any, str | None, str]]] = {
     "bifurcation": (
-        str,
+        list[str],  # to refuse it twice
         "NAME=FROM:TO:COUNT",
         "A bifurcation diagram over a parameter; append `:log` for equal ratios.",
     ),
@@ -110,7 +110,7 @@ def fields_of(options: Mapping[str, Any]) -> dict[str, Any]:
         raise Stopped(f"--{kinds[0]} and --{kinds[1]} are two jobs; give one.")
     found: dict[str, Any] = {"kind": kinds[0]} if kinds else {}
     if "bifurcation" in given:
-        found["parameter"], found["values"] = _values("--bifurcation", given["bifurcation"])
+        found["parameter"], found["values"] = _diagram(given["bifurcation"])
     if "sweep" in given:
         found["grid"] = once("--sweep", (_values("--sweep", text) for text in given["sweep"]))
     if "ensemble" in given:
@@ -142,6 +142,17 @@ def _value(name: str, given: Any) -> Any:
     if form == "numbers":
         return [_number(option, part) for part in parts]
     return parts if form == "names" else given
+
+
+def _diagram(texts: list[str]) -> tuple[str, object]:
+    """Return the one parameter that a bifurcation diagram is over, and its values."""
+    if len(texts) > 1:
+        sweep = " ".join(f"--sweep {text}" for text in texts)
+        raise Stopped(
+            "--bifurcation is given twice: a diagram is over one parameter. Keep one, or ask for"
+            f" extremes over all of them: {sweep}"
+        )
+    return _values("--bifurcation", texts[0])
 
 
 def _values(option: str, text: str) -> tuple[str, object]:

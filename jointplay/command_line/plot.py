@@ -1,11 +1,11 @@
 """``jointplay plot``: figures of a local run or of a service's job."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, cast
 
 import typer
 
-from jointplay.command_line.exits import Stopped
+from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.figure_options import page_of, refused_as_typed, with_figure_options
 from jointplay.command_line.film import draw_film, is_film
 from jointplay.command_line.options import (
@@ -91,37 +91,48 @@ def plot(
         if is_film(names, form, pace):
             if channels is not None:
                 raise Stopped("--channels: a film shows none; leave them out.")
+            refused: list[str] = []
             written = draw_film(job, folder, form or "gif", **shown, **pace)
         else:
             shown["channel"] = listed(channels) or ()
-            written = draw_all(job, folder, names, cast("Form", form or "png"), **shown)
-    tell({"figures": written}, [one["path"] for one in written], as_json=as_json)
+            drawn = draw_all(job, folder, names, cast("Form", form or "png"), **shown)
+            written, refused = drawn.written, drawn.refused
+    found = {"figures": written} | ({"refused": refused} if refused else {})
+    for line in refused:
+        typer.echo(f"jointplay: {line}", err=True)
+    tell(found, [one["path"] for one in written], as_json=as_json)
+    if refused:
+        raise typer.Exit(Exit.BAD_INPUT)
+
+
+class Drawn(NamedTuple):
+    """Figures that were drawn, by name and path, and sentences on those that could not be."""
+
+    written: list[dict[str, str]]
+    refused: list[str]
 
 
 def draw_all(
     job: "Job", folder: Path, names: list[str] | None = None, form: Form = "png", **shown: Any
-) -> list[dict[str, str]]:
-    """Draw figures of a job, by default all, into a folder; return their names and paths."""
+) -> Drawn:
+    """Draw figures of a job, by default all, into a folder; one that is refused spares the rest."""
+    from jointplay.client import Refused
+
     wanted = names or job.figures
     folder.mkdir(parents=True, exist_ok=True)
-    written = []
+    drawn = Drawn([], [])
     with progress("figures") as report:
         for done, name in enumerate(wanted):
             report(done / len(wanted), name)
             path = folder / f"{name}.{form}"
-            path.write_bytes(_content(job, name, form, shown))
-            written.append({"name": name, "path": str(path)})
+            try:
+                content = job.figure(name, form=form, **shown).content
+            except Refused as error:
+                if error.problem != "not-drawable" or error.fields[0].place != "name":
+                    raise
+                drawn.refused.append(f"{name}: {error.fields[0].detail}")
+                continue
+            path.write_bytes(content)
+            drawn.written.append({"name": name, "path": str(path)})
         report(1.0, "")
-    return written
-
-
-def _content(job: "Job", name: str, form: Form, shown: dict[str, Any]) -> bytes:
-    """Return a figure; the refusal of one that cannot be drawn names it, as there may be many."""
-    from jointplay.client import Refused
-
-    try:
-        return job.figure(name, form=form, **shown).content
-    except Refused as error:
-        if error.problem != "not-drawable" or error.fields[0].place != "name":
-            raise
-        raise Stopped(f"{name}: {error.fields[0].detail}") from None
+    return drawn

@@ -35,8 +35,14 @@ class Ended(NamedTuple):
     def line(self) -> str:
         """The one line on stderr."""
         assert self.err.count("\n") == 1, self.err
-        assert self.err.startswith("jointplay: ")
-        return self.err.strip()
+        return self.lines()[0]
+
+    def lines(self) -> list[str]:
+        """The lines on stderr: one for each thing that is wrong."""
+        lines = self.err.splitlines()
+        assert lines
+        assert all(line.startswith("jointplay: ") for line in lines), self.err
+        return lines
 
 
 Jointplay = Callable[..., Ended]

@@ -42,6 +42,10 @@ WRONG = {
         [*TIMED, "--sweep", "clearance=1e-4,2e-4", "--sweep", "clearance=3e-4"],
         "--sweep clearance is given twice",
     ),
+    "two diagrams": (
+        [*PRESS, "--bifurcation", "speed=3:9:4", "--bifurcation", "friction=0.1,0.2"],
+        "extremes over all of them: --sweep speed=3:9:4 --sweep friction=0.1,0.2",
+    ),
     "a value that the diagram varies": (
         [*PRESS, "--set", "speed=3", "--bifurcation", "speed=3:9:4"],
         "--set speed: the study varies speed",
@@ -113,12 +117,23 @@ FILES = {
 
 
 @pytest.mark.parametrize(("content", "says"), FILES.values(), ids=FILES)
-def test_a_wrong_file_ends_with_two_and_one_line(jointplay, tmp_path, content, says):
+def test_a_wrong_file_ends_with_two_and_a_line_for_each_fault(jointplay, tmp_path, content, says):
     (tmp_path / "job.json").write_bytes(content)
     ended = jointplay("run", tmp_path / "job.json", "-o", tmp_path / "OUT")
     assert ended.code == 2
-    assert says in ended.line()
+    assert [says in line for line in ended.lines()].count(True) == 1
     assert not (tmp_path / "OUT").exists()
+
+
+def test_several_faults_are_a_line_each(jointplay, tmp_path):
+    (tmp_path / "job.json").write_text('{"kind": "simulate", "durations": 1}')
+    lines = jointplay("run", tmp_path / "job.json", "-o", tmp_path / "OUT").lines()
+    places = ["/scene", "/duration", "/durations"]
+    assert [line.split(":")[1].strip() for line in lines] == places
+    refused = client.Refused(
+        "Two.", fields=[client.FieldProblem("/a", "One."), client.FieldProblem("", "Other.")]
+    )
+    assert application._lines_of(refused) == ["/a: One.", "Other."]
 
 
 SHAPELESS = {
@@ -136,7 +151,7 @@ def test_a_parameter_set_in_a_wrong_file_says_what_is_wrong_with_the_file(
     (tmp_path / "job.json").write_text(json.dumps(job))
     ended = jointplay("run", tmp_path / "job.json", "--set", "a=1", "-o", tmp_path / "OUT")
     assert ended.code == 2
-    assert "/scene/parameters" in ended.line()
+    assert "/scene/parameters" in ended.err
 
 
 SERVING = {
@@ -225,7 +240,7 @@ def test_a_folder_of_a_run_is_told_from_its_job(jointplay, tmp_path):
 
 def test_sentences_of_a_service_name_commands():
     error = client.NotFound("There is no job 'x'; GET /v1/jobs lists the jobs.")
-    assert application._line_of(error) == "There is no job 'x'; `jointplay ls` lists the jobs."
+    assert application._lines_of(error) == ["There is no job 'x'; `jointplay ls` lists the jobs."]
 
 
 @pytest.mark.parametrize(("typed", "read"), [(".3", 0.3), ("5.", 5.0), ("-.1e-3", -1e-4)])

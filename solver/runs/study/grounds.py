@@ -26,6 +26,24 @@ def limits(scene: Scene, found: Mapping[str, float], sections: int, periods: int
     sections : number of sections that they were found from. periods : whole periods among them,
     which those at onsets need not have.
     """
+    yield from _limits_of_exponent(scene, found, periods)
+    if "zero_one" in found and sections < FEWEST_TELLING:
+        yield f"the 0-1 test needs {FEWEST_TELLING} sections to tell, there are {sections}"
+    if "period" in found and sections < FEWEST_FOR_RECURRENCE:
+        yield f"recurrence needs {FEWEST_FOR_RECURRENCE} sections, there are {sections}"
+    elif "period" in found:
+        scale = "finest clearance" if contact_pairs(scene) else "shortest link"
+        yield (
+            f"periods up to {min(LONGEST, sections // 2)} are looked for, and what differs by less"
+            f" than {RECURS:g} of the {scale} counts as the same"
+        )
+    if math.isnan(found.get("rotation", 0.0)):
+        yield "there is no rotation number: the sections lie on no closed curve"
+    if "flatness" in found and sections < FEWEST_FOR_SPECTRUM:
+        yield f"a spectrum needs {FEWEST_FOR_SPECTRUM} sections, there are {sections}"
+
+
+def _limits_of_exponent(scene: Scene, found: Mapping[str, float], periods: int) -> Iterator[str]:
     exponent, error = (found.get(name, math.nan) for name in ("lyapunov", "lyapunov_error"))
     if "lyapunov" not in found:
         if found.get("verdict") == UNDECIDED:
@@ -41,17 +59,3 @@ def limits(scene: Scene, found: Mapping[str, float], sections: int, periods: int
         yield "the exponent is not known: the tangent vanished within a period"
     elif math.isinf(error):
         yield "the error of the exponent is not known: it needs three recorded periods"
-    if "zero_one" in found and sections < FEWEST_TELLING:
-        yield f"the 0-1 test needs {FEWEST_TELLING} sections to tell, there are {sections}"
-    if "period" in found and sections < FEWEST_FOR_RECURRENCE:
-        yield f"recurrence needs {FEWEST_FOR_RECURRENCE} sections, there are {sections}"
-    elif "period" in found:
-        scale = "finest clearance" if contact_pairs(scene) else "shortest link"
-        yield (
-            f"periods up to {min(LONGEST, sections // 2)} are looked for, and what differs by less"
-            f" than {RECURS:g} of the {scale} counts as the same"
-        )
-    if math.isnan(found.get("rotation", 0.0)):
-        yield "there is no rotation number: the sections lie on no closed curve"
-    if "flatness" in found and sections < FEWEST_FOR_SPECTRUM:
-        yield f"a spectrum needs {FEWEST_FOR_SPECTRUM} sections, there are {sections}"
