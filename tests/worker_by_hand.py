@@ -46,6 +46,7 @@ BIFURCATION: dict[str, Any] = {
     "values": {"from": 1e-4, "to": 1e-3, "count": 20},
     "record": 6,
     "indicators": ["lyapunov"],
+    "tolerance": 1e-6,
 }
 """Three blocks: points 0 to 7, 8 to 15, 16 to 19."""
 SWEEP: dict[str, Any] = {

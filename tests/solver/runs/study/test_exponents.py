@@ -22,6 +22,7 @@ DIAGRAM: dict[str, Any] = {
     "values": [1e-3, 1e-2],
     "settle": 1,
     "record": 8,
+    "tolerance": 1e-6,
 }
 
 
@@ -45,7 +46,7 @@ def test_a_fast_press_is_chaotic_by_its_exponent() -> None:
         "preset": "seven-bar-press",
         "parameters": CASE_3 | {"speed": 7.854, "speed_crank4": -7.854},
     }
-    job = {"kind": "poincare", "scene": scene, "settle": 20, "record": 100}
+    job = {"kind": "poincare", "scene": scene, "settle": 20, "record": 100, "tolerance": 1e-6}
     end = Computed({**job, "indicators": ["lyapunov"]}).ends[0]
     # 6.9 +- 0.1 over longer runs at tolerances down to 1e-11; over these hundred periods 5.9 to
     # 7.1 with errors of 0.45 to 0.75, at tolerances from 1e-6 to 1e-9
@@ -56,7 +57,7 @@ def test_a_fast_press_is_chaotic_by_its_exponent() -> None:
 
 
 def test_an_exponent_that_its_steps_made_gives_no_verdict() -> None:
-    found = Computed(job(bouncing_ball(), 200, 100)).ends[0].indicators
+    found = Computed(job(bouncing_ball(), 200, 100, tolerance=1e-6)).ends[0].indicators
     # hit once a turn, the same way each time: what grows by 15 a second does so in the tangent's
     # steps through an impact alone, a few for a five-hundredth of the flight
     assert found["period"] == 1.0

@@ -13,7 +13,8 @@ from tests.solver.runs.study.test_run import Computed
 def judged(parameters: dict[str, float], record: int, **more: Any) -> tuple[dict[str, float], str]:
     """Return indicators of a press and the grounds of its verdict."""
     scene = {"preset": "seven-bar-press", "parameters": CASE_3 | parameters}
-    job = {"kind": "poincare", "scene": scene, "settle": 1, "record": record} | more
+    asked = {"settle": 1, "record": record, "tolerance": 1e-6}
+    job = {"kind": "poincare", "scene": scene} | asked | more
     end = Computed({"indicators": "all", **job}).ends[0]
     return dict(end.indicators), end.reason
 
