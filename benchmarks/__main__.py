@@ -8,6 +8,7 @@ ALL = (
     "digests",
     "press",
     "loop_share",
+    "limit",
     "certificate",
     "peers",
     "accuracy",
