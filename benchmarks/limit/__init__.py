@@ -1,4 +1,4 @@
-"""How far kernels are from what the machine could do: the press written in C++, beside them."""
+"""Kernels beside what the machine could do: the press, written in C++."""
 
 from benchmarks.limit.command import main
 

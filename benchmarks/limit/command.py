@@ -1,4 +1,4 @@
-"""How far kernels are from what the machine could do.
+"""Kernels beside what the machine could do.
 
     python -m benchmarks limit [--lanes 4,8] [--turns 15] [--beside WHEEL]
 

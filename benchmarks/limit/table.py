@@ -75,7 +75,7 @@ def table(samples: Samples) -> Iterator[str]:
         took = 1e3 * float(np.median([_each(one, "periods") for one in measured]))
         beside, bare = limit.get(row.way), ours.get(row.without)
         cells = (
-            f"{took:.3g}",
+            f"{took:#.3g}",
             ratio(measured, beside),
             ratio(measured, beside, by="steps"),
             ratio(measured, bare),
