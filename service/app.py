@@ -21,6 +21,7 @@ import jointplay.service.results.figures
 import jointplay.service.results.spectra
 import jointplay.service.scenes.endpoints
 import jointplay.service.scenes.looks
+import jointplay.service.scenes.poses
 import jointplay.service.studies.endpoints
 import jointplay.service.workers.attempts
 import jointplay.service.workers.claims
@@ -47,7 +48,8 @@ from jointplay.service.problems.kinds import INVALID_REQUEST, OF_THE_DOOR
 from jointplay.service.readiness import Readiness
 from jointplay.service.request_log import RequestLog
 from jointplay.service.results.damage import answer_damage
-from jointplay.service.scenes.looks import SceneLooker
+from jointplay.service.scenes.looks import scene_looker
+from jointplay.service.scenes.poses import scene_poser
 from jointplay.service.windows import WindowProcess
 from jointplay.service.workers.bell import Bell
 from jointplay.solver.kinds import KINDS, any_job
@@ -73,6 +75,7 @@ _BEHIND_THE_DOOR = (
     (estimates, needs("jobs:write")),
     (jointplay.service.batches.endpoints, _JOBS),
     (jointplay.service.scenes.looks, needs("jobs:write")),
+    (jointplay.service.scenes.poses, needs("jobs:write")),
     (jointplay.service.studies.endpoints, _RESULTS),
     (jointplay.service.results.endpoints, _RESULTS),
     (jointplay.service.results.figures, _RESULTS),
@@ -127,7 +130,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.checker = checker = Checker(settings, catalogue)
         app.state.queueing = Queueing(settings, catalogue, checker, bell)
         app.state.windows = windows = WindowProcess()
-        app.state.looker = looker = SceneLooker()
+        app.state.looker = looker = scene_looker()
+        app.state.poser = poser = scene_poser()
         try:
             yield
         finally:
@@ -135,6 +139,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             checker.close()
             windows.close()
             looker.close()
+            poser.close()
             catalogue.close()
 
     app = FastAPI(

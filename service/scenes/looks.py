@@ -7,13 +7,12 @@ from pydantic import BaseModel, Field, create_model
 
 from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES
 from jointplay.records.page_option import OPTIONS
-from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
 from jointplay.service.body import JobBody
 from jointplay.service.dependencies import NO_PARAMETERS, of_the_application
 from jointplay.service.fields import BINARY, in_unit
 from jointplay.service.problems import ErrorDetail, RequestRefused, clipped, kinds, problems
-from jointplay.service.problems import unavailable as put_off
 from jointplay.service.results.figure_query import PAGE_FIELDS
+from jointplay.service.scenes.process import SceneProcess
 
 router = APIRouter(prefix="/v1/scenes", tags=["scenes"])
 _PATIENCE = 60.0  # s; a chain of 30 bodies takes 10 of them
@@ -105,33 +104,12 @@ class SceneFindings(BaseModel):
     problems: list[ErrorDetail]
 
 
-class SceneLooker:
-    """Asks the process that looks at scenes, which is kept while somebody asks."""
-
-    def __init__(self) -> None:
-        self._process = AnsweringProcess("jointplay.service.scenes", _PATIENCE)
-
-    def look(self, body: bytes, form: str | None, page: dict[str, Any]) -> Any:
-        """Return findings, or bytes of a drawing in a form; RequestRefused if there are none."""
-        try:
-            answer = self._process.answer((body, form, page))
-        except Busy:
-            raise put_off("Many scenes are being looked at; ask again in a moment.", 2) from None
-        except TooSlow:
-            sentence = f"Looking at this scene takes more than {_PATIENCE:g} s; use fewer bodies."
-            raise RequestRefused(kinds.LIMIT_EXCEEDED, sentence) from None
-        except NoAnswer:
-            raise put_off("The scene could not be looked at.", 5) from None
-        if isinstance(answer, RequestRefused):
-            raise answer
-        return answer
-
-    def close(self) -> None:
-        """End the process."""
-        self._process.close()
+def scene_looker() -> SceneProcess:
+    """Return the process that checks and draws scenes."""
+    return SceneProcess("jointplay.service.scenes", _PATIENCE)
 
 
-Looker = Annotated[SceneLooker, of_the_application("looker")]
+Looker = Annotated[SceneProcess, of_the_application("looker")]
 DrawingQuery = create_model("DrawingQuery", __config__={"extra": "forbid"}, **PAGE_FIELDS)
 
 
@@ -146,7 +124,7 @@ def check_scene(body: JobBody, looker: Looker) -> SceneFindings:
 
     A scene that cannot be read is refused; one that cannot be run is answered with `problems`.
     """
-    found = looker.look(body, None, {})
+    found = looker.ask(body, None, {})
     shown = [{"pointer": clipped(place), "detail": text} for place, text in found["problems"]]
     return SceneFindings.model_validate(found | {"problems": shown})
 
@@ -168,4 +146,4 @@ def draw_scene(
         sentence = f"Scenes are drawn as {IN_WORDS}, not as {clipped(form)!r}."
         raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
     page = {name: getattr(query, name) for name in OPTIONS}
-    return Response(looker.look(body, form, page), media_type=MEDIA_TYPES[form])
+    return Response(looker.ask(body, form, page), media_type=MEDIA_TYPES[form])

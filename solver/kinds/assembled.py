@@ -13,6 +13,8 @@ from jointplay.solver.kinds.mechanism import resolve
 from jointplay.solver.kinds.simulate import SimulateJob
 from jointplay.solver.mechanics.assembly import Assembly, assemble
 from jointplay.solver.runs.admission import Admission
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.domains import domain_problems
 
 
 @dataclass(frozen=True)
@@ -56,8 +58,7 @@ def assembled_scene(scene: Mapping[str, Any] | None, *, is_whole: bool) -> Assem
     InvalidInput
         With everything that keeps the scene from being read.
     """
-    job = {"kind": "simulate", "duration": 1e-3}  # whatever the job is, its scene is looked at
-    job |= {} if scene is None else {"scene": without_remarks(scene)}
+    job = _job(scene)
     try:
         found = cast("Admission", admit(job))
     except InvalidInput as error:
@@ -69,7 +70,39 @@ def assembled_scene(scene: Mapping[str, Any] | None, *, is_whole: bool) -> Assem
             Problem(pointer.removeprefix("/scene"), detail) for pointer, detail in refusal.problems
         )
     try:
-        resolved, document, _ = resolve(SimulateJob.model_validate(job))
+        resolved, document = _resolved(job)
     except (ValidationError, InvalidInput):
         raise refusal from None
     return AssembledScene(document, assemble(resolved), None, refusal)
+
+
+def resolved_scene(scene: Mapping[str, Any]) -> Scene:
+    """Return a scene with its parameters set that has a pose at t = 0.
+
+    Raises
+    ------
+    InvalidInput
+        With everything that keeps it from that; pointers lead into a document whose field `scene`
+        it is.
+    """
+    job = _job(scene)
+    try:
+        return _resolved(job)[0]
+    except (ValidationError, InvalidInput):
+        admit(job)  # says all that is wrong
+        raise
+
+
+def _resolved(job: dict[str, Any]) -> tuple[Scene, dict[str, Any]]:
+    """Return a job's scene, whose drivers say where they begin, and its document."""
+    scene, document, _ = resolve(SimulateJob.model_validate(job))
+    problems = list(domain_problems(scene, 0.0))
+    if problems:
+        raise InvalidInput(problems)
+    return scene, document
+
+
+def _job(scene: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Return a job with a scene: whatever the job is, its scene is looked at."""
+    job: dict[str, Any] = {"kind": "simulate", "duration": 1e-3}
+    return job if scene is None else job | {"scene": without_remarks(scene)}

@@ -22,6 +22,7 @@ from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.channels import channels, recording
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.domains import domain_problems
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import ends, part_problems, reference_problems
 from jointplay.solver.scene.sentences import schema_problems
@@ -105,9 +106,13 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
     LimitExceeded
         Its equations in this formulation, if one is given, are too long to compile.
     InvalidInput
-        Redundant constraints, an assembly that cannot close, a start where assemblies meet.
+        Functions that refuse t = 0, redundant constraints, an assembly that cannot close, a start
+        where assemblies meet.
     """
     channels(scene)  # outputs of channels that there are not, before equations compute them
+    nowhere = list(domain_problems(scene, 0.0))
+    if nowhere:  # drivers that do not say where they begin
+        raise InvalidInput(nowhere)
     tree = spanning_tree(scene)
     if formulation is not None and tree.coordinates and not tree.closing:
         check_length(scene, tree, formulation)  # first: the assembly of many bodies takes longer

@@ -43,16 +43,19 @@ class AbsoluteMechanism:
         *,
         close_play: bool,
         held: Collection[str] = (),
+        driven: bool = True,
     ) -> None:
         """`close_play` holds every journal where it starts (start and ideal mechanism).
 
-        Otherwise only those `held` are, by the name of their joint.
+        Otherwise only those `held` are, by the name of their joint. Unless it is `driven`, drivers
+        let go.
         """
         self.scene = scene
         self.numbers = numbers
         self.bodies = tuple(scene.bodies)
-        self.drivers = {d.joint: name for name, d in scene.drivers.items() if d.joint}
-        self.turned = {d.body: name for name, d in scene.drivers.items() if d.body}
+        drivers = scene.drivers if driven else {}
+        self.drivers = {d.joint: name for name, d in drivers.items() if d.joint}
+        self.turned = {d.body: name for name, d in drivers.items() if d.body}
         for body in list(self.turned):
             pin = _pin_on_ground(scene, body)
             if pin is not None:

@@ -27,11 +27,13 @@ def close(
     scale: Floats,
     held: Flags | None = None,
     iterations: int = MOST_ITERATIONS,
+    converged: float = 1e-15,
 ) -> None:
     """Move a pose to where the constraints hold, by Newton's iteration, if it gets there.
 
     pose : (3 bodies,) x, y (m), theta (rad). scale : (3 bodies,) what steps are measured in, m and
-    rad. held : (3 bodies,) coordinates that keep their values.
+    rad. held : (3 bodies,) coordinates that keep their values. converged : largest step, so measured,
+    after which it ends.
     """
     count, still = len(pose), np.zeros_like(pose)
     angles = np.arange(count) % 3 == 2
@@ -45,7 +47,7 @@ def close(
         # a turn of more than half a radian would lead to another assembly; positions follow
         turn = float(np.abs(step[angles]).max())
         pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
-        if float(np.abs(step).max()) < max(1e-15, ROUNDING * count):
+        if float(np.abs(step).max()) < max(converged, ROUNDING * count):
             break
 
 

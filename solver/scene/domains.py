@@ -41,8 +41,9 @@ def _over(
     (first, last), (low, high) = function.domain, needed
     slack = SLACK * (last - first)
     if first - low > slack or high - last > slack:
+        way = f"goes from {low:g} to {high:g}" if low < high else f"begins at {low:g}"
         yield Problem(
             place,
-            f"It is given from {first:g} to {last:g}, but {what} goes from {low:g} to {high:g}, and"
+            f"It is given from {first:g} to {last:g}, but {what} {way}, and"
             " others are refused. Give more knots, a shorter duration, or another 'outside'.",
         )

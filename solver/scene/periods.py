@@ -198,6 +198,13 @@ def _turn(scene: Scene, driver: Driver) -> float:
     return next(whole if turns(scene, driver) else iter(()), min(4.0 * bends, last))
 
 
+def quickest_driver(scene: Scene) -> float:
+    """Return the shortest time, s, in which a driver turns once or bends; infinite: none moves."""
+    speeds = [speed for driver in scene.drivers.values() for speed in _speeds(scene, driver)]
+    quickest = max(speeds, default=0.0)
+    return 2.0 * math.pi / quickest if quickest > 0.0 else math.inf
+
+
 def _speeds(scene: Scene, driver: Driver) -> list[float]:
     """Return what gives a driver's motion a scale of time, rad/s."""
     if not isinstance(driver, MovingDriver):

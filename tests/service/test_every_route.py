@@ -40,6 +40,8 @@ SCOPE = {
     "/v1/estimates": "jobs:write",
     "/v1/scenes/check": "jobs:write",
     "/v1/scenes/drawing.{form}": "jobs:write",
+    "/v1/scenes/poses": "jobs:write",
+    "/v1/scenes/drag": "jobs:write",
 }
 OF_JOBS = re.compile(r"/v1/(jobs(/{job_id}(/cancel|/events)?)?|batches.*)")
 
