@@ -1,4 +1,4 @@
-"""`python -m jointplay.service.scenes.posing FD`: poses scenes that it receives, until it is idle."""
+"""`python -m jointplay.service.scenes.posing FD`: poses scenes that it receives, until idle."""
 
 import json
 import logging

@@ -32,7 +32,7 @@ def close(
     """Move a pose to where the constraints hold, by Newton's iteration, if it gets there.
 
     pose : (3 bodies,) x, y (m), theta (rad). scale : (3 bodies,) what steps are measured in, m and
-    rad. held : (3 bodies,) coordinates that keep their values. converged : largest step, so measured,
+    rad. held : (3 bodies,) coordinates that keep their values. converged : largest step, in scales,
     after which it ends.
     """
     count, still = len(pose), np.zeros_like(pose)

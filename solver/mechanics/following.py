@@ -95,7 +95,7 @@ class _Following:
         step = first = min(self.longest, instant - self.time)
         while self.time < instant and self.lost is None:
             step = min(step, instant - self.time)
-            then = instant if self.time + step >= instant else self.time + step
+            then = min(instant, self.time + step)
             found = self._next(then)
             if found is not None:
                 self.pose, self.time = found, then
