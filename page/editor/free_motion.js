@@ -1,52 +1,111 @@
-/** A mechanism before it is simulated: swept by its drivers, or dragged with the pointer. */
+/** A mechanism before it is run: moved by its drivers, or dragged with the pointer. */
 
-import { element } from "../interface/element.js";
-import { assembled, firstPose } from "../mechanism/assembling.js";
+import { element, fill } from "../interface/element.js";
+import { short, typed } from "../interface/numbers.js";
 import { bounds } from "../mechanism/bounds.js";
-import { paint, prepared } from "../mechanism/canvas.js";
-import { frame } from "../mechanism/frame.js";
-import { palette } from "../mechanism/palette.js";
+import { withParameters } from "../mechanism/parameters.js";
 import { placeOf } from "../mechanism/placing.js";
-import { shapes } from "../mechanism/shapes.js";
-import { turn } from "../mechanism/sketch.js";
+import { drawn, instants } from "../mechanism/sketch.js";
+import { Newest } from "../requests/newest.js";
+import { dragged, poses } from "../requests/poses.js";
 
-const STEPS = 240; // of the slider over one turn
+const STEPS = 120; // of the slider
 const NEAR = 30; // px within which a point is taken hold of
+const RATE = 30; // poses a second while a point is dragged
+const MARGIN = 46; // px around the mechanism
 
 export class FreeMotion {
-  constructor() {
+  /** @param shown called with what the service answers of each scene that is shown */
+  constructor(shown, signal) {
+    Object.assign(this, { shown, signal, scene: null });
     this.canvas = element("canvas", { role: "img", "aria-label": "The mechanism as the text describes it" });
     this.slider = element("input", {
-      type: "range", min: 0, max: STEPS, value: 0, id: "sweep",
-      oninput: () => this.sweep(Number(this.slider.value)),
+      type: "range", min: 0, max: STEPS, value: 0, id: "sweep", disabled: true,
+      oninput: () => this.go(),
     });
+    this.now = element("output", { for: "sweep", class: "small" });
+    this.until = element("input", {
+      id: "until", inputmode: "decimal", onchange: () => this.forget(),
+    });
+    this.said = element("p", { class: "quiet small", role: "status" });
     this.element = element("div", { class: "stacked" },
       element("div", { class: "stage" }, this.canvas),
-      element("label", { for: "sweep", class: "small" }, "Drivers, through one turn"),
+      element("div", { class: "buttons small moving" },
+        element("label", { for: "sweep" }, "Drivers at t ="), this.now,
+        element("label", { for: "until" }, "of"), this.until, "s",
+        element("button", { type: "button", onclick: () => this.begin() }, "To the start")),
       this.slider,
-      element("p", { class: "quiet small" }, "Drag a point to move what is free."));
-    this.canvas.addEventListener("pointerdown", (event) => this.take(event));
+      this.said);
+    this.scenes = new Newest((scene) => this.take(scene));
+    this.pulls = new Newest((pull) => this.pull(pull), RATE);
+    this.canvas.addEventListener("pointerdown", (event) => this.grasp(event));
   }
 
-  /** Shows a scene; throws where it cannot be put together at all. Returns its misfit in m. */
-  show(scene) {
-    const { pose, misfit } = assembled(scene, firstPose(scene));
-    Object.assign(this, { scene, pose, step: 0 });
-    this.slider.value = "0";
-    this.slider.disabled = turn(scene) === null;
-    this.box = bounds(scene, [pose]);
-    this.draw();
-    return misfit;
-  }
-
-  sweep(step) {
-    if (!this.scene) return;
-    const seconds = turn(this.scene);
-    const sign = Math.sign(step - this.step);
-    while (this.step !== step) {
-      this.step += sign;
-      this.pose = assembled(this.scene, this.pose, (seconds * this.step) / STEPS).pose;
+  /** Shows the scene of a document as soon as the service has put it together. */
+  show(document) {
+    let scene;
+    try {
+      scene = withParameters(document);
+    } catch {
+      return; // it is no scene yet, and its check says why
     }
+    this.scenes.want(scene);
+  }
+
+  async take(scene) {
+    const found = await poses(scene, [0], this.signal);
+    if (!found.poses.length) return;
+    Object.assign(this, { scene, found, box: bounds(scene, found.poses) });
+    const { drivers_time: own } = found;
+    this.slider.disabled = this.until.disabled = own === null;
+    this.until.placeholder = own === null ? "" : String(Number(own.toPrecision(4)));
+    this.forget();
+    this.begin();
+    this.shown(found);
+  }
+
+  /** Goes back to t = 0. */
+  begin() {
+    if (!this.scene) return;
+    this.slider.value = "0";
+    this.put(this.found.poses[0], 0);
+  }
+
+  /** Forgets the drivers' motion: it is asked for again when it is wanted. */
+  forget() {
+    this.swept = null;
+    const hint = "Drag a point to move what is free; the drivers let go meanwhile.";
+    fill(this.said, this.slider.disabled ? `Nothing is driven. ${hint}` : hint);
+  }
+
+  /** Shows the drivers where the slider stands. */
+  async go() {
+    this.swept ??= this.sweep();
+    const { asked, answer } = await this.swept;
+    if (!answer || asked !== this.scene) return;
+    const step = Math.min(Number(this.slider.value), answer.poses.length - 1);
+    this.put(answer.poses[step], answer.times[step]);
+  }
+
+  /** Returns the drivers' motion; it is asked for once. */
+  async sweep() {
+    const asked = this.scene;
+    try {
+      const seconds = this.until.value.trim() ? typed(this.until.value) : this.found.drivers_time;
+      if (!(seconds > 0)) throw new Error("Give a time in s.");
+      const answer = await poses(asked, instants(seconds, STEPS), this.signal);
+      if (answer.stopped) fill(this.said, answer.stopped.detail);
+      return { asked, answer };
+    } catch (error) {
+      if (error.name !== "AbortError") fill(this.said, error.message);
+      return { asked, answer: null };
+    }
+  }
+
+  /** Shows a pose, at a time or, dragged, at none. */
+  put(pose, time) {
+    this.pose = pose;
+    fill(this.now, time === null ? "–" : short(time, 4));
     this.draw();
   }
 
@@ -54,38 +113,40 @@ export class FreeMotion {
     if (!this.scene || !this.canvas.clientWidth) return;
     const now = bounds(this.scene, [this.pose]);
     this.box = [0, 1, 2, 3].map((i) => Math[i < 2 ? "min" : "max"](this.box[i], now[i]));
-    const context = prepared(this.canvas);
-    paint(context, shapes(this.scene, this.pose, { labels: true }), this.view(), palette());
-  }
-
-  view() {
-    return frame(this.box, this.canvas.clientWidth, this.canvas.clientHeight, 46);
+    this.view = drawn(this.canvas, this.scene, this.pose, this.box, { margin: MARGIN, labels: true });
   }
 
   /** Takes hold of the nearest point of a body; drivers let go meanwhile. */
-  take(event) {
+  grasp(event) {
     if (!this.scene) return;
-    const view = this.view();
     const { left, top } = this.canvas.getBoundingClientRect();
     const pointer = (from) => [from.clientX - left, from.clientY - top];
-    const [px, py] = pointer(event);
-    let best = null;
-    for (const [body, { points = {} }] of Object.entries(this.scene.bodies)) {
-      for (const [name, at] of Object.entries(points)) {
-        const [x, y] = view.pixel(placeOf(this.scene, this.pose, `${body}.${name}`));
-        const distance = Math.hypot(x - px, y - py);
-        if (distance < (best?.distance ?? NEAR)) best = { body, at, distance };
-      }
-    }
-    if (!best) return;
+    const point = this.nearest(pointer(event));
+    if (!point) return;
     event.preventDefault();
-    const move = (next) => {
-      const to = view.place(...pointer(next));
-      const pulled = assembled(this.scene, this.pose, null, [{ ...best, to }]).pose;
-      this.pose = assembled(this.scene, pulled, null).pose;
-      this.draw();
+    const { scene, view } = this; // the picture may be scaled anew while the point is dragged
+    const move = (next) => this.pulls.want({ scene, point, place: view.place(...pointer(next)) });
+    const release = () => {
+      removeEventListener("pointermove", move);
+      for (const end of ["pointerup", "pointercancel"]) removeEventListener(end, release);
     };
     addEventListener("pointermove", move);
-    addEventListener("pointerup", () => removeEventListener("pointermove", move), { once: true });
+    for (const end of ["pointerup", "pointercancel"]) addEventListener(end, release);
+  }
+
+  /** Returns the reference of the point that is nearest to a pixel, or undefined if none is near. */
+  nearest([right, down]) {
+    const found = Object.entries(this.scene.bodies).flatMap(([body, { points = {} }]) =>
+      Object.keys(points).map((name) => {
+        const [x, y] = this.view.pixel(placeOf(this.scene, this.pose, `${body}.${name}`));
+        return { point: `${body}.${name}`, distance: Math.hypot(x - right, y - down) };
+      }));
+    return found.filter(({ distance }) => distance < NEAR)
+      .sort((a, b) => a.distance - b.distance)[0]?.point;
+  }
+
+  async pull({ scene, point, place }) {
+    const pose = await dragged(scene, this.pose, point, place, this.signal);
+    if (scene === this.scene) this.put(pose, null);
   }
 }

@@ -5,7 +5,7 @@ import { linesOf } from "./measured_table.js";
 import { ParameterFields } from "./parameter_fields.js";
 import { bounds } from "../mechanism/bounds.js";
 import { withParameters } from "../mechanism/parameters.js";
-import { startingPose, turn } from "../mechanism/sketch.js";
+import { poses } from "../requests/poses.js";
 
 const ACCURACY = {
   title: "Accuracy",
@@ -15,27 +15,38 @@ const ACCURACY = {
   default: "standard",
 };
 const WITHOUT_TURNING = 0.05; // s, of mechanisms that neither turn nor fall
+const TURNS = 4; // of the slowest driver
+const SWINGS = 20; // in times of a fall through the mechanism
 
-/** Returns a duration in s in which something can be seen: two turns, or some swings. */
-export function someDuration(document) {
+/**
+ * Returns a duration in s in which something can be seen: some turns, or some swings.
+ *
+ * @param found what the service answers of the scene's pose
+ */
+export function someDuration(document, { poses: [pose], drivers_time: once, repeats }) {
   if (document.reported?.length) return document.reported[0].duration;
+  if (once !== null) return rounded(repeats ? TURNS * once : once);
   const scene = withParameters(document);
-  const once = turn(scene);
-  if (once !== null) return rounded(4 * once);
   const gravity = Math.hypot(...(scene.gravity ?? [0, 0]));
-  const pose = startingPose(scene);
   if (!gravity || !pose) return WITHOUT_TURNING;
   const [left, low, right, high] = bounds(scene, [pose]);
-  return rounded(20 * Math.sqrt(Math.hypot(right - left, high - low) / gravity));
+  return rounded(SWINGS * Math.sqrt(Math.hypot(right - left, high - low) / gravity));
+}
+
+/** Returns `someDuration` of a scene, for which the service is asked. */
+export async function proposedDuration(document, signal) {
+  if (document.reported?.length) return document.reported[0].duration;
+  return someDuration(document, await poses(withParameters(document), [0], signal));
 }
 
 /** Returns the job that shows a preset with its defaults. */
-export function firstJob(document) {
-  return { kind: "simulate", scene: { preset: document.name }, duration: someDuration(document) };
+export async function firstJob(document) {
+  return { kind: "simulate", scene: { preset: document.name }, duration: await proposedDuration(document) };
 }
 
 /**
- * The kinds by name: what they are, their fields (as declared parameters are described), the parts
+ * The kinds by name: what they are, their fields (as declared parameters are described; the duration
+ * in s is a proposal), the parts
  * of the job's document that are `made` of the values, and the values that are `given` by a job's
  * document.
  */
@@ -43,10 +54,10 @@ export const KINDS = {
   simulate: {
     title: "One run",
     help: "One trajectory from the start, to watch and to measure.",
-    fields: (document) => ({
+    fields: (document, duration) => ({
       duration: {
         title: "Duration", help: "Simulated time.", unit: "s", minimum: 1e-9,
-        default: someDuration(document),
+        default: duration,
       },
       accuracy: ACCURACY,
       output_step: {
@@ -98,7 +109,7 @@ export const KINDS = {
   sweep: {
     title: "Sweep",
     help: "Extremes of forces and motions over one or two parameters.",
-    fields: (document) => ({
+    fields: (document, duration) => ({
       ...varied(document, "first", "First parameter", 5),
       second: {
         ...choice(document, ["–"]), title: "Second parameter", default: "–",
@@ -109,7 +120,7 @@ export const KINDS = {
       second_count: { title: "Second: values", help: "", unit: "1", minimum: 1, default: 5 },
       duration: {
         title: "Duration", help: "Of every run.", unit: "s", minimum: 1e-9,
-        default: someDuration(document),
+        default: duration,
       },
       accuracy: ACCURACY,
     }),
@@ -137,10 +148,10 @@ export const KINDS = {
   "accuracy-study": {
     title: "What accuracy costs",
     help: "Every method and tolerance against a reference.",
-    fields: (document) => ({
+    fields: (document, duration) => ({
       duration: {
         title: "Duration", help: "Of every run.", unit: "s", minimum: 1e-9,
-        default: rounded(someDuration(document) / 10),
+        default: rounded(duration / 10),
       },
     }),
     made: ({ duration }) => ({ duration }),
@@ -159,9 +170,9 @@ export const KINDS = {
 };
 
 /** Returns the fields of a kind; `given` are values by name, as an address keeps them. */
-export function fieldsOf(kind, document, given, onchange) {
+export function fieldsOf(kind, document, duration, given, onchange) {
   if (kind === "calibration") return new CalibrationFields(document, given, onchange);
-  return new ParameterFields(KINDS[kind].fields(document), given, onchange, "");
+  return new ParameterFields(KINDS[kind].fields(document, duration), given, onchange, "");
 }
 
 function varied(document, name, title, count = 48) {

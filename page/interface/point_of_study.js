@@ -1,7 +1,7 @@
 /** One point of a study: the values of its parameters, and the simulation that has them. */
 
 import { element, fill } from "./element.js";
-import { firstJob } from "./kinds_of_job.js";
+import { proposedDuration } from "./kinds_of_job.js";
 import { withUnit } from "./numbers.js";
 import { go } from "./place.js";
 import { sceneOf } from "./scene_of_job.js";
@@ -43,6 +43,6 @@ async function simulation({ scene: given, tolerance, method, duration }, values)
     ? { ...Object.fromEntries(Object.entries(declared).filter(([, value]) => value !== null)), ...values }
     : { ...declared, ...Object.fromEntries(Object.entries(values).map(([name, value]) =>
         [name, { ...declared[name], default: value }])) };
-  const long = typeof duration === "number" ? duration : firstJob(document).duration;
+  const long = typeof duration === "number" ? duration : await proposedDuration(document);
   return { kind: "simulate", scene: { ...given, parameters: set }, duration: long, tolerance, method };
 }

@@ -1,7 +1,7 @@
 /** The motion of a job: poses and contacts at any time, from the history that it has stored. */
 
 import { play } from "./placing.js";
-import { turn } from "./sketch.js";
+import { turn } from "./turn.js";
 import { getArrays } from "../requests/arrays.js";
 
 const CHUNK = [256, 2048]; // samples that are fetched at once, at least and at most

@@ -1,75 +1,84 @@
-/** A mechanism on a canvas before anything is computed; its drivers can be swept. */
+/** A mechanism on a canvas before anything is computed; its drivers can be let go on. */
 
-import { assembled, firstPose } from "./assembling.js";
 import { bounds } from "./bounds.js";
 import { paint, prepared } from "./canvas.js";
 import { frame } from "./frame.js";
 import { palette } from "./palette.js";
 import { shapes } from "./shapes.js";
+import { Newest } from "../requests/newest.js";
+import { poses } from "../requests/poses.js";
 
-const STEPS = 72; // poses of one turn
-const SHOWN = 5000; // ms that one turn takes on the screen
-const OPEN = 1e-3; // of its size by which a mechanism may be open
+const STEPS = 72; // poses of the drivers' motion
+const SHOWN = 5000; // ms that it takes on the screen
 
-/** Returns a pose of a scene, or null where its joints do not close. */
-export function startingPose(scene) {
-  const { pose, misfit } = assembled(scene, firstPose(scene));
-  const [left, low, right, high] = bounds(scene, [pose]);
-  return misfit <= OPEN * Math.hypot(right - left, high - low) ? pose : null;
+/** Returns instants spread over the time that drivers take, the first and the last among them. */
+export function instants(seconds, steps) {
+  return Array.from({ length: steps + 1 }, (_, i) => (seconds * i) / steps);
 }
 
-/** Seconds in which the slowest driver turns once; null where nothing turns. */
-export function turn(scene) {
-  const speeds = Object.values(scene.drivers ?? {}).map(({ speed }) => Math.abs(speed ?? 0));
-  const slowest = Math.min(...speeds.filter((speed) => speed > 0));
-  return Number.isFinite(slowest) ? (2 * Math.PI) / slowest : null;
+/** Draws a scene at a pose in the frame of a box; returns that frame. */
+export function drawn(canvas, scene, pose, box, { margin = 30, ...options } = {}) {
+  const context = prepared(canvas);
+  const view = frame(box, canvas.clientWidth, canvas.clientHeight, margin);
+  paint(context, shapes(scene, pose, options), view, palette());
+  canvas.dataset.pose = JSON.stringify(pose);
+  return view;
 }
 
 export class Sketch {
-  /**
-   * @param canvas where it is drawn
-   * @param scene the scene document, its parameters set
-   */
-  constructor(canvas, scene, options = {}) {
-    Object.assign(this, { canvas, scene, options, playing: false, share: 0 });
-    this.poses = [assembled(scene, firstPose(scene)).pose];
-    this.box = bounds(scene, this.poses);
+  /** @param canvas where scenes are drawn */
+  constructor(canvas, options, signal) {
+    Object.assign(this, { canvas, options, signal, playing: false, share: 0, poses: [] });
+    this.newest = new Newest((scene) => this.take(scene));
   }
 
-  /** Draws it where it stands, or at a share of the turn. */
+  /** Shows a scene, its parameters set, instead of the one before. */
+  show(scene) {
+    this.newest.want(scene);
+  }
+
+  async take(scene) {
+    const found = await poses(scene, [0], this.signal);
+    Object.assign(this, { scene, found, poses: found.poses, box: bounds(scene, found.poses) });
+    this.draw();
+    if (this.playing) await this.sweep();
+  }
+
+  /** Draws it where it stands, or at a share of its motion. */
   draw(share = this.share) {
-    if (!this.canvas.clientWidth) return;
+    if (!this.canvas.clientWidth || !this.poses.length) return;
     this.share = share;
-    const pose = this.poses[Math.floor(share * this.poses.length) % this.poses.length];
-    const context = prepared(this.canvas);
-    const { clientWidth, clientHeight } = this.canvas;
-    const view = frame(this.box, clientWidth, clientHeight, this.options.margin ?? 30);
-    paint(context, shapes(this.scene, pose, this.options), view, palette());
+    const last = this.poses.length - 1;
+    const there = this.returns ? share : 1 - Math.abs(1 - 2 * share); // forth and back
+    drawn(this.canvas, this.scene, this.poses[Math.round(there * last)], this.box, this.options);
   }
 
-  /** Sweeps the drivers through one turn, once, so that it can be played. */
-  sweep() {
-    const seconds = turn(this.scene);
-    if (this.poses.length > 1 || seconds === null) return;
-    for (let step = 1; step < STEPS; step++) {
-      const { pose } = assembled(this.scene, this.poses.at(-1), (seconds * step) / STEPS);
-      this.poses.push(pose);
-    }
-    this.box = bounds(this.scene, this.poses);
+  /** Whether the motion goes on where it began. */
+  get returns() {
+    return this.found.repeats && !this.found.stopped;
   }
 
-  play() {
+  /** Fetches the drivers' motion, once. */
+  async sweep() {
+    const { scene, found } = this;
+    if (this.poses.length > 1 || !found?.drivers_time) return;
+    const swept = await poses(scene, instants(found.drivers_time, STEPS), this.signal);
+    if (scene !== this.scene || !swept.poses.length) return;
+    Object.assign(this, { found: swept, poses: swept.poses, box: bounds(scene, swept.poses) });
+  }
+
+  async play() {
     if (this.playing) return;
-    this.sweep();
-    this.playing = this.poses.length > 1;
+    this.playing = true;
     let last = performance.now();
     const step = (now) => {
       if (!this.playing || !this.canvas.isConnected) return;
-      this.draw((this.share + Math.max(now - last, 0) / SHOWN) % 1);
+      if (this.poses.length > 1) this.draw((this.share + Math.max(now - last, 0) / SHOWN) % 1);
       last = now;
       requestAnimationFrame(step);
     };
-    if (this.playing) requestAnimationFrame(step);
+    requestAnimationFrame(step);
+    await this.sweep().catch(() => {}); // then it stands still
   }
 
   stop() {

@@ -10,8 +10,9 @@ import { Clock } from "../mechanism/clock.js";
 import { Motion } from "../mechanism/motion.js";
 import { onNewColours } from "../mechanism/palette.js";
 import { player, watchable } from "../mechanism/player.js";
-import { calm, turn } from "../mechanism/sketch.js";
+import { calm } from "../mechanism/sketch.js";
 import { Stage } from "../mechanism/stage.js";
+import { turn } from "../mechanism/turn.js";
 import { HistoryPlots } from "../plots/history_plots.js";
 import { get } from "../requests/service.js";
 

@@ -9,10 +9,9 @@ import { TextEditor } from "../editor/text.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { someDuration } from "../interface/kinds_of_job.js";
-import { short, typed } from "../interface/numbers.js";
+import { typed } from "../interface/numbers.js";
 import { go, note } from "../interface/place.js";
 import { onNewColours } from "../mechanism/palette.js";
-import { withParameters } from "../mechanism/parameters.js";
 import { get, pause, post } from "../requests/service.js";
 
 const KEPT = "jointplay-scene"; // in the tab's storage
@@ -47,7 +46,7 @@ function factsOf({ freedom, ideal_freedom: ideal, joints_with_clearance: loose, 
 class Editing {
   constructor(room, schema, scenes, text, signal) {
     Object.assign(this, { signal, document: {}, checking: new AbortController() });
-    this.motion = new FreeMotion();
+    this.motion = new FreeMotion((found) => this.propose(found), signal);
     this.messages = element("ul", { class: "messages", "aria-live": "polite", "aria-label": "What is wrong" });
     this.facts = element("p", { class: "quiet", role: "status" });
     this.duration = element("input", { id: "duration", inputmode: "decimal" });
@@ -96,23 +95,16 @@ class Editing {
       this.tell([{ from: Math.min(at, text.length), to: Math.min(at + 1, text.length), detail: error.message }]);
       return;
     }
-    this.draw();
+    this.tell([]);
+    this.motion.show(this.document);
     this.check();
   }
 
-  /** Draws at once; what the text lacks is said. */
-  draw() {
-    try {
-      const scene = withParameters(this.document);
-      const misfit = this.motion.show(scene);
-      if (!this.duration.value) this.duration.value = String(someDuration(this.document));
-      const size = Math.max(...this.motion.box.map(Math.abs), 1e-9);
-      this.tell(misfit > 1e-3 * size
-        ? [{ pointer: "/start", detail: `Does not close by ${short(misfit)} m: start.angles chooses where to begin.` }]
-        : []);
-    } catch (error) {
-      this.tell([{ pointer: "", detail: error.message }]);
-    }
+  /** Proposes a duration where none is given. */
+  propose(found) {
+    if (this.duration.value) return;
+    this.duration.value = String(someDuration(this.document, found));
+    this.estimate.later();
   }
 
   /** Asks the service whether the scene can be run, and then what a run costs. */

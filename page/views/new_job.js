@@ -3,7 +3,7 @@
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { jobAsText } from "../interface/job_as_text.js";
-import { KINDS, fieldsOf } from "../interface/kinds_of_job.js";
+import { KINDS, fieldsOf, proposedDuration } from "../interface/kinds_of_job.js";
 import { ParameterFields } from "../interface/parameter_fields.js";
 import { go, note } from "../interface/place.js";
 import { fields as wrongFields } from "../interface/trouble.js";
@@ -18,15 +18,11 @@ export async function show(room, { parts, query, signal }) {
   document.title = `${name} · jointplay`;
   const given = numbersOf(query, document_.parameters ?? {});
   const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
-  const form = new JobForm(document_, query.get("kind") ?? "simulate", given, signal);
-  let sketch = null;
+  const duration = await proposedDuration(document_, signal);
+  const form = new JobForm(document_, query.get("kind") ?? "simulate", given, duration, signal);
+  const sketch = new Sketch(canvas, { labels: true }, signal);
   const redraw = () => {
-    const moving = sketch?.playing;
-    sketch?.stop();
-    const values = form.parameters.valid ? form.parameters.values() : {};
-    sketch = new Sketch(canvas, withParameters(document_, values), { labels: true });
-    if (moving || (sketch && !calm())) sketch.play();
-    sketch.draw();
+    if (form.parameters.valid) sketch.show(withParameters(document_, form.parameters.values()));
   };
   form.onchange = () => {
     note(form.address());
@@ -52,6 +48,7 @@ export async function show(room, { parts, query, signal }) {
     ),
   );
   redraw();
+  if (!calm()) sketch.play();
   onNewColours(() => sketch.draw(), signal);
   addEventListener("resize", () => sketch.draw(), { signal });
   signal.addEventListener("abort", () => sketch.stop());
@@ -59,8 +56,8 @@ export async function show(room, { parts, query, signal }) {
 }
 
 class JobForm {
-  constructor(document_, kind, given, signal) {
-    Object.assign(this, { scene: document_, signal, onchange: () => {} });
+  constructor(document_, kind, given, duration, signal) {
+    Object.assign(this, { scene: document_, duration, signal, onchange: () => {} });
     const changed = () => this.changed();
     this.parameters = new ParameterFields(document_.parameters ?? {}, given, changed);
     this.kindRoom = element("div");
@@ -93,7 +90,7 @@ class JobForm {
   choose(kind, given = {}) {
     this.kind.value = kind;
     this.kindHelp.textContent = KINDS[kind].help;
-    this.own = fieldsOf(kind, this.scene, given, () => this.changed());
+    this.own = fieldsOf(kind, this.scene, this.duration, given, () => this.changed());
     fill(this.kindRoom, this.own.element);
     this.changed();
   }

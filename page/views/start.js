@@ -16,7 +16,7 @@ export async function show(room, { signal }) {
   const said = element("div", { role: "status" });
   const canvas = element("canvas", {
     role: "img",
-    "aria-label": `${favourite.name}, swept through one turn of its cranks`,
+    "aria-label": `${favourite.name}, moved by its drivers`,
   });
   fill(
     room,
@@ -46,8 +46,8 @@ export async function show(room, { signal }) {
         + " figure that they printed stands beside what is computed here."),
       element("a", { class: "button", href: "/report" }, "Read the report")),
   );
-  const sketch = new Sketch(canvas, withParameters(favourite), { margin: 36 });
-  sketch.draw();
+  const sketch = new Sketch(canvas, { margin: 36 }, signal);
+  sketch.show(withParameters(favourite));
   onNewColours(() => sketch.draw(), signal);
   addEventListener("resize", () => sketch.draw(), { signal });
   if (!calm()) sketch.play();
@@ -79,8 +79,8 @@ function card(document, signal, said) {
   }
   const seen = new IntersectionObserver(([{ isIntersecting }]) => {
     if (!isIntersecting || sketch) return;
-    sketch = new Sketch(canvas, withParameters(document), { margin: 26 });
-    sketch.draw();
+    sketch = new Sketch(canvas, { margin: 26 }, signal);
+    sketch.show(withParameters(document));
   });
   seen.observe(canvas);
   signal.addEventListener("abort", () => seen.disconnect());
@@ -98,7 +98,7 @@ function runButton(document, said, look = "", text = "Run") {
   const run = async (event) => {
     event.target.disabled = true;
     try {
-      const job = await post("/v1/jobs", firstJob(document));
+      const job = await post("/v1/jobs", await firstJob(document));
       go(["job", job.id]);
     } catch (error) {
       event.target.disabled = false;

@@ -22,7 +22,7 @@ from jointplay.solver.scene.drivers_time import drivers_time
 from jointplay.solver.scene.sentences import schema_problems
 from jointplay.worker.answering import answer_questions
 
-_IDLE = 60.0  # s
+_IDLE = 300.0  # s; it is small, and a page that is open soon asks again
 _KEPT = 16  # scenes; somebody who drags a point asks about one again and again
 _log = logging.getLogger(__name__)
 _GIVEN = Field(description="A preset with parameters, or a scene document, as a job has it.")

@@ -14,11 +14,12 @@ from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 
 MOST_STEPS = 24
-ITERATIONS, CONVERGED = 12, 1e-10
+ITERATIONS, CONVERGED = 12, 1e-7
+"""Of Newton's iteration: its last step leaves an error of the step's square."""
 GENTLE, GENTLEST = 1e-3, 1e9
 """Damping of the first step, and that at which nothing comes nearer; in squared lengths."""
-NEAR = 1e-9
-"""Lengths by which a step must come nearer, or the point is there."""
+NEAR, NEARER = 1e-9, 1e-6
+"""Lengths, and share of a distance below one, by which a step comes nearer, or is the last."""
 
 
 def drag(scene: Scene, pose: Floats, point: str, place: tuple[float, float]) -> Floats:
@@ -42,9 +43,9 @@ class _Dragging:
     def dragged(self, pose: Floats) -> Floats:
         """Return the pose nearest to the place; see `drag`."""
         here = pose.copy()
-        self._close(here)
+        jacobian, _ = self._close(here)
         damping = GENTLE * self.length**2
-        free, slopes = self._free(here)
+        free, slopes = self._free(here, jacobian)
         gap = self._gap(here)
         for _ in range(MOST_STEPS):
             if not len(free) or damping > GENTLEST * self.length**2:
@@ -53,34 +54,35 @@ class _Dragging:
             step = np.linalg.solve(normal, slopes.T @ gap) @ free
             turn = float(np.abs(step[2::3]).max())
             there = here + self.scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
-            closed = self._close(there)
+            jacobian, closed = self._close(there)
             left = self._gap(there)
-            gain = float(np.linalg.norm(gap) - np.linalg.norm(left))
-            if not closed or gain <= 0.0:
+            far, near = float(np.linalg.norm(gap)), float(np.linalg.norm(left))
+            if not closed or near >= far:
                 damping *= 10.0
                 continue
             here, gap, damping = there, left, damping * 0.2
-            if gain < NEAR * self.length:
+            if far - near < NEAR * self.length + NEARER * min(near, self.length):
                 break
-            free, slopes = self._free(here)
+            free, slopes = self._free(here, jacobian)
         return here
 
-    def _close(self, pose: Floats) -> bool:
-        """Move a pose to where the joints close; whether they do."""
+    def _close(self, pose: Floats) -> tuple[Floats, bool]:
+        """Move a pose to where the joints close; return their Jacobian, and whether they do."""
         close(self.mechanism, pose, self.clocks, self.scale, None, ITERATIONS, CONVERGED)
-        residual, _ = arrays(self.mechanism.rows(pose, self.still, self.clocks), len(pose))
-        return bool(np.abs(residual).max(initial=0.0) <= ASSEMBLED * max(1.0, self.length))
+        rows = self.mechanism.rows(pose, self.still, self.clocks)
+        residual, jacobian = arrays(rows, len(pose))
+        off = float(np.abs(residual).max(initial=0.0))
+        return jacobian, off <= ASSEMBLED * max(1.0, self.length)
 
     def _gap(self, pose: Floats) -> Floats:
         x, y = self.mechanism.marker(self.point, pose, self.still).position
         return np.asarray(self.place - (x, y), np.float64)
 
-    def _free(self, pose: Floats) -> tuple[Floats, Floats]:
+    def _free(self, pose: Floats, jacobian: Floats) -> tuple[Floats, Floats]:
         """Return directions that the joints leave, (freedom, 3 bodies), and what they move.
 
         What they move: the point, (2, freedom) m.
         """
-        _, jacobian = arrays(self.mechanism.rows(pose, self.still, self.clocks), len(pose))
         free = np.eye(len(pose))
         if len(jacobian):
             _, values, directions = np.linalg.svd(jacobian * self.scale)

@@ -29,7 +29,8 @@ LARGEST_TURN = 0.3
 """Largest turn of a body in one step, rad."""
 MOST_HALVED = 4096.0
 """Part of the first step below which the mechanism is lost."""
-ITERATIONS, CONVERGED = 25, 1e-10
+ITERATIONS, CONVERGED = 25, 1e-7
+"""Of Newton's iteration: its last step leaves an error of the step's square."""
 SINGULAR = -20.7
 """Logarithm of the share of its determinant at the start that a constraint Jacobian keeps at a
 dead point, or less: 1e-9."""

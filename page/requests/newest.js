@@ -1,0 +1,38 @@
+/** One request after the other: of what is wanted while one is on its way, only the newest is sent. */
+
+import { Problem, Unreachable, pause } from "./service.js";
+
+export class Newest {
+  /**
+   * @param send sends what is wanted, and takes the answer
+   * @param rate requests a second at most
+   */
+  constructor(send, rate = Infinity) {
+    Object.assign(this, { send, least: 1000 / rate, next: null, busy: false });
+  }
+
+  /** Has something sent, now or as soon as what was sent before is answered. */
+  async want(what) {
+    this.next = { what };
+    if (this.busy) return;
+    this.busy = true;
+    try {
+      while (this.next) {
+        const { what: now } = this.next;
+        this.next = null;
+        const begun = performance.now();
+        await this.send(now).catch(pass);
+        const left = this.least - (performance.now() - begun);
+        if (left > 0) await pause(left);
+      }
+    } finally {
+      this.busy = false;
+    }
+  }
+}
+
+/** Passes over what the page tells elsewhere: a scene that is wrong, a service that is away. */
+function pass(error) {
+  const told = error instanceof Problem || error instanceof Unreachable || error.name === "AbortError";
+  if (!told) throw error;
+}

@@ -1,0 +1,43 @@
+/** Poses of a scene before it is run, as the solver puts it together and follows it. */
+
+import { pause, post } from "./service.js";
+
+const BUSY = new Set([429, 503]);
+const TRIES = 5;
+const COME_BACK = 1000; // ms after which a service that was busy is asked again
+
+let turn = Promise.resolve();
+
+/**
+ * Returns what `POST /v1/scenes/poses` answers; requests of a page are sent one after the other.
+ *
+ * @param scene the scene document, its parameters set
+ * @param times instants, s
+ */
+export function poses(scene, times, signal) {
+  const ask = () => patiently(() => post("/v1/scenes/poses", { scene: plain(scene), times }, signal), signal);
+  const answer = turn.then(ask, ask);
+  turn = answer.catch(() => {});
+  return answer;
+}
+
+/** Returns the pose in which a point `body.point` is pulled to a place `[x, y]` from another pose. */
+export async function dragged(scene, pose, point, place, signal) {
+  return (await post("/v1/scenes/drag", { scene: plain(scene), pose, point, place }, signal)).pose;
+}
+
+/** Returns a scene without what was declared for it: its parameters are set. */
+function plain({ parameters, reported, ...scene }) {
+  return scene;
+}
+
+async function patiently(ask, signal) {
+  for (let tries = 1; ; tries++) {
+    try {
+      return await ask();
+    } catch (error) {
+      if (!BUSY.has(error.status) || tries === TRIES) throw error;
+      await pause(COME_BACK, signal);
+    }
+  }
+}

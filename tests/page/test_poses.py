@@ -1,0 +1,196 @@
+"""Mechanisms before they are run: as the solver puts them together, driven, and dragged."""
+
+import json
+import math
+import random
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from jointplay.solver.kinds.assembled import assembled_scene, resolved_scene
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.assembly import first_clocks
+from jointplay.solver.mechanics.closing import arrays
+from jointplay.solver.mechanics.following import follow
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene import presets
+from tests.page.test_own_mechanism import paste
+from tests.two_assemblies import arm, five_bar, link, revolute, toggle
+
+CANVAS = "canvas[data-pose]"
+POSED = [name for name in presets.names() if name != "seven-bar-test-bed"]
+"""Presets that are run without a parameter."""
+DRAWN = "pose => document.querySelector('canvas[data-pose]')?.dataset.pose === JSON.stringify(pose)"
+SWINGING = {"type": "sinusoidal", "amplitude": 0.5, "frequency": 4.0, "phase": math.pi / 2}
+
+
+def posed(answer: Any) -> bool:
+    return answer.url.endswith("/v1/scenes/poses") and answer.status == 200
+
+
+@pytest.fixture(scope="module")
+def page(browsing: Any, service_url: str) -> Iterator[Any]:
+    """The editor."""
+    with browsing.page(f"{service_url}/#/editor") as page:
+        page.locator(CANVAS).wait_for()
+        yield page
+
+
+def shown(page: Any, document: dict[str, Any]) -> dict[str, Any]:
+    """Show a document; return what the service told of its pose, which is drawn then."""
+    with page.expect_response(posed) as answer:
+        paste(page, json.dumps(document, indent=2))
+    found: dict[str, Any] = answer.value.json()
+    page.wait_for_function(DRAWN, arg=found["poses"][0])
+    return found
+
+
+def drawn(page: Any) -> dict[str, list[float]]:
+    found: dict[str, list[float]] = json.loads(page.locator(CANVAS).get_attribute("data-pose"))
+    return found
+
+
+def flat(pose: dict[str, Any]) -> list[float]:
+    return [number for body in pose.values() for number in body]
+
+
+def slide(page: Any, step: int, before: dict[str, Any]) -> dict[str, list[float]]:
+    """Move the drivers' slider; return the pose that is drawn then."""
+    page.locator("#sweep").fill(str(step))
+    page.wait_for_function(f"pose => !({DRAWN})(pose)", arg=before)
+    return drawn(page)
+
+
+def test_the_editor_draws_the_pose_that_is_run(page: Any) -> None:
+    names = random.Random(31).sample(sorted(POSED), 2)
+    own = [toggle(), five_bar(), arm(position=0.2, motion=SWINGING)]
+    for document in [presets.document(name) for name in names] + own:
+        assert_drawn_as_run(page, document)
+    assert drawn(page)["arm"][2] == pytest.approx(0.7)
+
+
+@pytest.mark.long
+def test_the_editor_draws_the_poses_in_which_all_presets_are_run(page) -> None:
+    for name in POSED:
+        assert_drawn_as_run(page, presets.document(name))
+
+
+def assert_drawn_as_run(page: Any, document: dict[str, Any]) -> None:
+    shown(page, document)
+    expected = assembled_scene(document, is_whole=True).pose()
+    assert flat(drawn(page)) == pytest.approx(flat(expected), abs=1e-12), document["name"]
+
+
+def test_drivers_go_on_in_time_whatever_they_follow(page, artifacts) -> None:
+    start = shown(page, five_bar())["poses"][0]
+    assert page.locator("#until").get_attribute("placeholder") == "1.571"
+    expected = follow(resolved_scene(five_bar()), [math.pi / 2 * 40 / 120]).poses[0]
+    moved = slide(page, 40, start)
+    assert flat(moved) == pytest.approx(expected.tolist(), abs=1e-12)
+    page.screenshot(path=artifacts / "five_bar.png")
+    page.get_by_role("button", name="To the start").click()
+    assert drawn(page) == start
+    page.locator("#until").fill("0.3")
+    page.locator("#until").press("Tab")
+    expected = follow(resolved_scene(five_bar()), [0.3]).poses[0]
+    assert flat(slide(page, 120, start)) == pytest.approx(expected.tolist(), abs=1e-12)
+
+
+def test_a_driven_slider_shows_its_stroke_and_where_it_stops(page) -> None:
+    """A slider pushes a crank of 0.1 m by a rod of 0.25 m, both along its axis 0.02 m later."""
+    crank, rod, start = 0.1, 0.25, 0.33
+    document = {
+        "name": "pushed",
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {
+            "crank": link(crank / 2, "O", "A"),
+            "rod": link(rod / 2, "A", "B"),
+            "slider": {"mass": 1.0, "inertia": 1e-3, "points": {"B": [0.0, 0.0]}},
+        },
+        "joints": {
+            "O": revolute("ground.O", "crank.O"),
+            "A": revolute("crank.A", "rod.A"),
+            "B": revolute("slider.B", "rod.B"),
+            "guide": {
+                "type": "prismatic",
+                "guide": "ground.O",
+                "slider": "slider.B",
+                "axis": [1.0, 0.0],
+            },
+        },
+        "drivers": {"push": {"joint": "guide", "position": start, "speed": 0.1}},
+        "start": {"angles": {"crank": 0.7, "rod": -0.3}},
+    }
+    page.locator("#duration").fill("")
+    found = shown(page, document)
+    assert found["drivers_time"] == pytest.approx(crank / 0.1)  # its shortest link, not 62.8 s
+    assert page.locator("#duration").input_value() == "1"
+    last = slide(page, 120, found["poses"][0])["slider"][0]
+    assert start < last < crank + rod + 1e-9
+    page.get_by_text("The drivers cannot go on past t = 0.2 s").wait_for()
+
+
+def test_points_are_dragged_and_joints_stay_closed(page) -> None:
+    start = shown(page, toggle())["poses"][0]
+    asked: list[dict[str, Any]] = []
+    waiting: list[int] = []
+
+    def sent(request: Any) -> None:
+        if request.url.endswith("/v1/scenes/drag"):
+            asked.append(request.post_data_json)
+            waiting.append(len(asked))
+
+    def answered(response: Any) -> None:
+        if response.url.endswith("/v1/scenes/drag"):
+            assert response.status == 200
+            waiting.pop()
+            assert not waiting  # one after the other
+
+    page.on("request", sent)
+    page.on("response", answered)
+    box = page.locator(CANVAS).bounding_box()
+    x, y = pixel_of(page, toggle(), start, "crank", [0.04, 0.0])
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    page.mouse.down()
+    for step in range(1, 41):
+        page.mouse.move(box["x"] + x + 2 * step, box["y"] + y + step)
+    page.wait_for_function(f"pose => !({DRAWN})(pose)", arg=start)
+    page.mouse.up()
+    page.wait_for_timeout(300)
+    assert {one["point"] for one in asked} == {"crank.A"}
+    assert 1 <= len(asked) <= 40
+    pose = drawn(page)
+    assert abs(pose["crank"][2] - start["crank"][2]) > 0.1  # its driver let it go
+    assert misfit(toggle(), pose) < 1e-9
+    page.get_by_role("button", name="To the start").click()
+    assert drawn(page) == start
+
+
+def test_what_nothing_drives_is_dragged_only(page) -> None:
+    shown(page, presets.document("pendulum"))
+    page.get_by_text("Nothing is driven.").wait_for()
+    assert page.locator("#sweep").is_disabled()
+
+
+def pixel_of(page: Any, scene: dict[str, Any], pose: Any, body: str, at: list[float]) -> Any:
+    """Return where the page draws a point of a body, in pixels of its canvas."""
+    return page.evaluate(
+        """async ([scene, pose, body, at, base]) => {
+          const [{ bounds }, { frame }, { world }] = await Promise.all(
+            ["bounds", "frame", "placing"].map((name) => import(`${base}mechanism/${name}.js`)));
+          const { clientWidth, clientHeight } = document.querySelector("canvas[data-pose]");
+          const view = frame(bounds(scene, [pose]), clientWidth, clientHeight, 46);
+          return view.pixel(world(pose, body, at));
+        }""",
+        [scene, pose, body, at, "/page/"],
+    )
+
+
+def misfit(document: dict[str, Any], pose: dict[str, list[float]]) -> float:
+    """Return by how much joints are open, m or rad, whatever drivers prescribe."""
+    scene = resolved_scene(document)
+    mechanism = AbsoluteMechanism(scene, view(scene), close_play=True, driven=False)
+    q = flat({body: pose[body] for body in scene.bodies})
+    residual, _ = arrays(mechanism.rows(q, [0.0] * len(q), first_clocks(scene)), len(q))
+    return float(abs(residual).max())
