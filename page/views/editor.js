@@ -46,7 +46,7 @@ function factsOf({ freedom, ideal_freedom: ideal, joints_with_clearance: loose, 
 class Editing {
   constructor(room, schema, scenes, text, signal) {
     Object.assign(this, { signal, document: {}, checking: new AbortController() });
-    this.motion = new FreeMotion((found) => this.propose(found), signal);
+    this.motion = new FreeMotion((found) => this.posed(found), signal);
     this.messages = element("ul", { class: "messages", "aria-live": "polite", "aria-label": "What is wrong" });
     this.facts = element("p", { class: "quiet", role: "status" });
     this.duration = element("input", { id: "duration", inputmode: "decimal" });
@@ -96,12 +96,14 @@ class Editing {
       return;
     }
     this.tell([]);
+    this.checked = false;
     this.motion.show(this.document);
     this.check();
   }
 
-  /** Proposes a duration where none is given. */
-  propose(found) {
+  /** Says at once if a scene does not close, and proposes a duration where none is given. */
+  posed(found) {
+    if (found.stopped && !this.checked) this.tell([{ pointer: "/start", detail: found.stopped.detail }]);
     if (this.duration.value) return;
     this.duration.value = String(someDuration(this.document, found));
     this.estimate.later();
@@ -115,6 +117,7 @@ class Editing {
     try {
       await pause(QUIET, signal);
       const found = await post("/v1/scenes/check", this.document, signal);
+      this.checked = true;
       fill(this.facts, factsOf(found));
       this.tell(found.problems);
       if (!found.problems.length) this.estimate.refresh();

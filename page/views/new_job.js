@@ -22,7 +22,9 @@ export async function show(room, { parts, query, signal }) {
   const form = new JobForm(document_, query.get("kind") ?? "simulate", given, duration, signal);
   const sketch = new Sketch(canvas, { labels: true }, signal);
   const redraw = () => {
-    if (form.parameters.valid) sketch.show(withParameters(document_, form.parameters.values()));
+    const { valid } = form.parameters;
+    if (!valid && sketch.scene) return; // what was right last stays
+    sketch.show(withParameters(document_, valid ? form.parameters.values() : {}));
   };
   form.onchange = () => {
     note(form.address());

@@ -87,7 +87,8 @@ class _Following:
         self.orientation = self._orientation(self._rows(self.pose, 0.0)[1])
         self.lost: SimulationFailed | None = None
         if assembly.residual > ASSEMBLED * self.length:
-            self.lost = SimulationFailed("assembly-lost", "Its joints do not close.", 0.0)
+            miss = f"The joints do not close at t = 0: {assembly.residual:.3g} (m or rad) remain."
+            self.lost = SimulationFailed("assembly-lost", miss, 0.0)
 
     def reaches(self, instant: float) -> bool:
         """Go on to an instant; whether the mechanism gets there."""

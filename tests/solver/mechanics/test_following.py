@@ -127,6 +127,7 @@ def test_an_open_mechanism_stays_where_it_starts() -> None:
     found = follow(resolved_scene(four_bar(0.1, 0.1, 0.1, 0.9)), [0.0, 1.0])
     assert found.lost is not None
     assert (len(found.poses), found.lost.time) == (1, 0.0)
+    assert "do not close at t = 0" in found.lost.detail
 
 
 @pytest.mark.parametrize(
