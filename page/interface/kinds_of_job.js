@@ -6,6 +6,7 @@ import { ParameterFields } from "./parameter_fields.js";
 import { bounds } from "../mechanism/bounds.js";
 import { withParameters } from "../mechanism/parameters.js";
 import { poses } from "../requests/poses.js";
+import { Problem } from "../requests/service.js";
 
 const ACCURACY = {
   title: "Accuracy",
@@ -36,7 +37,12 @@ export function someDuration(document, { poses: [pose], drivers_time: once, repe
 /** Returns `someDuration` of a scene, for which the service is asked. */
 export async function proposedDuration(document, signal) {
   if (document.reported?.length) return document.reported[0].duration;
-  return someDuration(document, await poses(withParameters(document), [0], signal));
+  try {
+    return someDuration(document, await poses(withParameters(document), [0], signal));
+  } catch (error) {
+    if (!(error instanceof Problem)) throw error;
+    return WITHOUT_TURNING; // what is wrong with the scene is told when it is run
+  }
 }
 
 /** Returns the job that shows a preset with its defaults. */

@@ -15,7 +15,7 @@ from jointplay.solver.scene.document import Scene
 
 MOST_STEPS = 24
 ITERATIONS, CONVERGED = 12, 1e-7
-"""Of Newton's iteration: its last step leaves an error of the step's square."""
+"""Steps of Newton's iteration, and the last one, which leaves an error of its square."""
 GENTLE, GENTLEST = 1e-3, 1e9
 """Damping of the first step, and that at which nothing comes nearer; in squared lengths."""
 NEAR, NEARER = 1e-9, 1e-6

@@ -30,7 +30,7 @@ LARGEST_TURN = 0.3
 MOST_HALVED = 4096.0
 """Part of the first step below which the mechanism is lost."""
 ITERATIONS, CONVERGED = 25, 1e-7
-"""Of Newton's iteration: its last step leaves an error of the step's square."""
+"""Steps of Newton's iteration, and the last one, which leaves an error of its square."""
 SINGULAR = -20.7
 """Logarithm of the share of its determinant at the start that a constraint Jacobian keeps at a
 dead point, or less: 1e-9."""

@@ -1,4 +1,4 @@
-"""How long the drivers of a scene take to show their motion, before anything is computed."""
+"""Time in which the drivers of a scene show their motion, before anything is computed."""
 
 import math
 from typing import NamedTuple

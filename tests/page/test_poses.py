@@ -15,10 +15,12 @@ from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.following import follow
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene import presets
+from tests.page.browsing import expect
 from tests.page.test_own_mechanism import paste
 from tests.two_assemblies import arm, five_bar, link, revolute, toggle
 
 CANVAS = "canvas[data-pose]"
+POSE = "document.querySelector('canvas[data-pose]').dataset.pose"
 POSED = [name for name in presets.names() if name != "seven-bar-test-bed"]
 """Presets that are run without a parameter."""
 DRAWN = "pose => document.querySelector('canvas[data-pose]')?.dataset.pose === JSON.stringify(pose)"
@@ -47,7 +49,7 @@ def shown(page: Any, document: dict[str, Any]) -> dict[str, Any]:
 
 
 def drawn(page: Any) -> dict[str, list[float]]:
-    found: dict[str, list[float]] = json.loads(page.locator(CANVAS).get_attribute("data-pose"))
+    found: dict[str, list[float]] = json.loads(page.evaluate(POSE))
     return found
 
 
@@ -84,7 +86,7 @@ def assert_drawn_as_run(page: Any, document: dict[str, Any]) -> None:
 
 def test_drivers_go_on_in_time_whatever_they_follow(page, artifacts) -> None:
     start = shown(page, five_bar())["poses"][0]
-    assert page.locator("#until").get_attribute("placeholder") == "1.571"
+    expect(page.locator("#until")).to_have_attribute("placeholder", "1.571")
     expected = follow(resolved_scene(five_bar()), [math.pi / 2 * 40 / 120]).poses[0]
     moved = slide(page, 40, start)
     assert flat(moved) == pytest.approx(expected.tolist(), abs=1e-12)
@@ -125,7 +127,7 @@ def test_a_driven_slider_shows_its_stroke_and_where_it_stops(page) -> None:
     page.locator("#duration").fill("")
     found = shown(page, document)
     assert found["drivers_time"] == pytest.approx(crank / 0.1)  # its shortest link, not 62.8 s
-    assert page.locator("#duration").input_value() == "1"
+    expect(page.locator("#duration")).to_have_value("1")
     last = slide(page, 120, found["poses"][0])["slider"][0]
     assert start < last < crank + rod + 1e-9
     page.get_by_text("The drivers cannot go on past t = 0.2 s").wait_for()
@@ -170,7 +172,7 @@ def test_points_are_dragged_and_joints_stay_closed(page) -> None:
 def test_what_nothing_drives_is_dragged_only(page) -> None:
     shown(page, presets.document("pendulum"))
     page.get_by_text("Nothing is driven.").wait_for()
-    assert page.locator("#sweep").is_disabled()
+    expect(page.locator("#sweep")).to_be_disabled()
 
 
 def pixel_of(page: Any, scene: dict[str, Any], pose: Any, body: str, at: list[float]) -> Any:
