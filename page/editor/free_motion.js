@@ -104,6 +104,7 @@ export class FreeMotion {
 
   /** Shows a pose, at a time or, dragged, at none. */
   put(pose, time) {
+    if (time !== null) this.pulls.drop();
     this.pose = pose;
     fill(this.now, time === null ? "–" : short(time, 4));
     this.draw();
@@ -146,7 +147,8 @@ export class FreeMotion {
   }
 
   async pull({ scene, point, place }) {
-    const pose = await dragged(scene, this.pose, point, place, this.signal);
-    if (scene === this.scene) this.put(pose, null);
+    const from = this.pose;
+    const pose = await dragged(scene, from, point, place, this.signal);
+    if (from === this.pose) this.put(pose, null); // unless another was put there meanwhile
   }
 }

@@ -11,6 +11,11 @@ export class Newest {
     Object.assign(this, { send, least: 1000 / rate, next: null, busy: false });
   }
 
+  /** Leaves what waits unsent. */
+  drop() {
+    this.next = null;
+  }
+
   /** Has something sent, now or as soon as what was sent before is answered. */
   async want(what) {
     this.next = { what };
