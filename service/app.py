@@ -75,7 +75,7 @@ _BEHIND_THE_DOOR = (
     (estimates, needs("jobs:write")),
     (jointplay.service.batches.endpoints, _JOBS),
     (jointplay.service.scenes.looks, needs("jobs:write")),
-    (jointplay.service.scenes.poses, needs("jobs:write")),
+    (jointplay.service.scenes.poses, needs("jobs:read")),
     (jointplay.service.studies.endpoints, _RESULTS),
     (jointplay.service.results.endpoints, _RESULTS),
     (jointplay.service.results.figures, _RESULTS),

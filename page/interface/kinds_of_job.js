@@ -40,7 +40,7 @@ export async function proposedDuration(document, signal) {
   try {
     return someDuration(document, await poses(withParameters(document), [0], signal));
   } catch (error) {
-    if (!(error instanceof Problem)) throw error;
+    if (!(error instanceof Problem) || error.status === 401) throw error;
     return WITHOUT_TURNING; // what is wrong with the scene is told when it is run
   }
 }

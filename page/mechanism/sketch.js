@@ -26,7 +26,10 @@ export function drawn(canvas, scene, pose, box, { margin = 30, ...options } = {}
 }
 
 export class Sketch {
-  /** @param canvas where scenes are drawn */
+  /**
+   * @param canvas where scenes are drawn
+   * @param options of the drawing; `onKeyless` is called where the service asks for a key
+   */
   constructor(canvas, options, signal) {
     Object.assign(this, { canvas, options, signal, playing: false, share: 0, poses: [] });
     this.newest = new Newest((scene) => this.take(scene));
@@ -38,7 +41,10 @@ export class Sketch {
   }
 
   async take(scene) {
-    const found = await poses(scene, [0], this.signal);
+    const found = await poses(scene, [0], this.signal).catch((error) => {
+      if (error.status === 401) this.options.onKeyless?.(error);
+      throw error;
+    });
     Object.assign(this, { scene, found, poses: found.poses, box: bounds(scene, found.poses) });
     this.draw();
     if (this.playing) await this.sweep();

@@ -40,8 +40,8 @@ SCOPE = {
     "/v1/estimates": "jobs:write",
     "/v1/scenes/check": "jobs:write",
     "/v1/scenes/drawing.{form}": "jobs:write",
-    "/v1/scenes/poses": "jobs:write",
-    "/v1/scenes/drag": "jobs:write",
+    "/v1/scenes/poses": "jobs:read",
+    "/v1/scenes/drag": "jobs:read",
 }
 OF_JOBS = re.compile(r"/v1/(jobs(/{job_id}(/cancel|/events)?)?|batches.*)")
 
