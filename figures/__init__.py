@@ -8,6 +8,7 @@ package does not load matplotlib; drawing does, without pyplot or a change of th
 >>> figures.render(reader, "orbit", "svg", figures.Selection(joints=("A",)))  # doctest: +SKIP
 """
 
+import logging
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Final, NamedTuple
@@ -100,6 +101,18 @@ STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
     for figure in (BIFURCATION, EXPONENTS, SWEEP, SECTION, WORK_PRECISION, CALIBRATION)
 }
 """Figures of a study."""
+
+
+_FAULTS: Final = (
+    ArithmeticError,
+    AssertionError,
+    AttributeError,
+    LookupError,
+    TypeError,
+    ValueError,
+)
+"""Errors of a program, and not of the results that it reads."""
+_LOG: Final = logging.getLogger(__name__)
 
 
 class Listed(NamedTuple):
@@ -223,8 +236,12 @@ def _offered(kind: FigureKind[Any], source: Source | StudySource) -> bool:
 
 
 def _drawable(kind: FigureKind[Any], source: Source | StudySource) -> bool:
+    """Whether a figure belongs into a list: one with a fault of its own leaves others there."""
     try:
         kind.channels(source, Selection())
     except NotDrawable:
+        return False
+    except _FAULTS:
+        _LOG.exception("The figure %s could not tell whether it can be drawn.", kind.name)
         return False
     return is_study(source) or source.samples > 0

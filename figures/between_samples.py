@@ -19,6 +19,11 @@ def knows(source: Source) -> bool:
     return source.trajectory is not None
 
 
+def covers(source: Source, time: float) -> bool:
+    """Tell, from what is stored alone, whether every instant up to a time [s] can be read."""
+    return source.trajectory is not None and time <= source.trajectory.covered
+
+
 def curve(source: Source, name: str, selection: Selection) -> tuple[Floats, Floats] | None:
     """Give (k,) times [s] and values of a channel, through every extreme at its place."""
     trajectory, (start, stop) = source.trajectory, ends(source, selection)

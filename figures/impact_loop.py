@@ -27,7 +27,7 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
 
 
 def _contacts(source: Source, selection: Selection) -> dict[str, Any]:
-    """Give the strongest contact of each pair that samples resolve.
+    """Give the strongest contact of each pair whose values during it are known.
 
     Raises
     ------
@@ -43,20 +43,22 @@ def _contacts(source: Source, selection: Selection) -> dict[str, Any]:
     if not strongest:
         raise NotDrawable("No contact begins in this window of time; widen it.", "start")
     resolved = {
-        pair: contact
-        for pair, contact in strongest.items()
-        if len(_loop_values(source, pair, contact)[0]) >= _FEWEST_SAMPLES
+        pair: contact for pair, contact in strongest.items() if _is_resolved(source, contact)
     }
     if not resolved:
-        pair, contact = next(iter(strongest.items()))
-        lasting = float(contact["release"] - contact["onset"])
-        raise NotDrawable(
-            f"The strongest contact at {pair} lasts {lasting:.2g} s, from {contact['onset']:.7g} s,"
-            f" too short for the samples; run the job with an output_step of {lasting / 50.0:.1g} s"
-            " up to there, or choose a longer contact with start and stop.",
-            "start",
-        )
+        raise _too_short(*next(iter(strongest.items())))
     return resolved
+
+
+def _too_short(pair: str, contact: Any) -> NotDrawable:
+    """Say that samples show nothing of a contact, and what would."""
+    lasting = float(contact["release"] - contact["onset"])
+    return NotDrawable(
+        f"The strongest contact at {pair} lasts {lasting:.2g} s, from {contact['onset']:.7g} s,"
+        f" too short for the samples; run the job with an output_step of {lasting / 50.0:.1g} s"
+        " up to there, or choose a longer contact with start and stop.",
+        "start",
+    )
 
 
 def _strongest(source: Source, pair: str, selection: Selection) -> Any:
@@ -71,11 +73,25 @@ def _samples(source: Source, contact: Any) -> tuple[int, int]:
     return source.between(float(contact["onset"]), float(contact["release"]))
 
 
+def _has_samples(source: Source, contact: Any) -> bool:
+    first, last = _samples(source, contact)
+    return last - first >= _FEWEST_SAMPLES
+
+
+def _is_resolved(source: Source, contact: Any) -> bool:
+    """Tell whether a contact can be drawn; nothing is computed for that."""
+    return between_samples.covers(source, float(contact["release"])) or _has_samples(
+        source, contact
+    )
+
+
 def _loop_values(source: Source, pair: str, contact: Any) -> tuple[Floats, Floats]:
     """Give penetrations [m] and forces [N] during a contact, at samples or between them."""
     names = (f"{pair}.penetration", f"{pair}.normal_force")
     times = np.linspace(float(contact["onset"]), float(contact["release"]), _INSTANTS)
     exact = between_samples.at(source, names, times)
+    if exact is None and not _has_samples(source, contact):
+        raise _too_short(pair, contact)
     _, values = exact or sampling.joined(source, names, *_samples(source, contact))
     return values[names[0]], values[names[1]]
 

@@ -25,6 +25,10 @@ class BetweenSamples(Protocol):
     def reached(self) -> float:
         """Time up to which it is known, s."""
 
+    @property
+    def covered(self) -> float:
+        """Time up to which values at any instant are known, s; from what is stored alone."""
+
     def values(self, names: Sequence[str], times: Floats) -> Found:
         """Give channels (m, names) at ascending times (m,), s."""
 

@@ -34,8 +34,13 @@ _DRAWN: dict[int | str, dict[str, Any]] = {
 
 @router.head("", dependencies=[NO_PARAMETERS], include_in_schema=False)
 @router.get("", dependencies=[NO_PARAMETERS])
-def list_figures(results: ResultsOfThePath) -> Figures:
-    """List the figures that can be drawn of what the job has stored, also as it runs."""
+def list_figures(
+    results: ResultsOfThePath, windows: Annotated[WindowProcess, of_the_application("windows")]
+) -> Figures:
+    """List the figures that can be drawn of what the job has stored, also as it runs.
+
+    Stored metadata decide: nothing is computed for the list.
+    """
     base = f"{address(results.job.id)}/figures"
     return Figures(
         figures=[
@@ -44,7 +49,7 @@ def list_figures(results: ResultsOfThePath) -> Figures:
                 title=one.title,
                 **{form: f"{base}/{one.name}.{form}" for form in FORMS},
             )
-            for one in figures.available(_reader(results))
+            for one in figures.available(_reader(results, windows))
         ]
     )
 
@@ -67,10 +72,9 @@ def draw_figure(
     if form not in FORMS:
         sentence = f"Figures are drawn as {IN_WORDS}, not as {clipped(form)!r}."
         raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
-    store = _reader(results)
+    store = _reader(results, windows)
     if isinstance(store, ResultReader):
         selection.checked()
-        store.trajectory = windows.of(store)
     channels, joints = (
         [] if one is None else one.split(",") for one in (selection.channels, selection.joints)
     )
@@ -86,6 +90,10 @@ def draw_figure(
     return Response(picture, media_type=MEDIA_TYPES[form])
 
 
-def _reader(results: ResultsOfJob) -> ResultReader | StudyReader:
+def _reader(results: ResultsOfJob, windows: WindowProcess) -> ResultReader | StudyReader:
     results.insist("figures")
-    return results.study() if results.is_study else results.run()
+    if results.is_study:
+        return results.study()
+    run = results.run()
+    run.trajectory = windows.of(run)
+    return run

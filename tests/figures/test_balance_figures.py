@@ -132,3 +132,15 @@ def test_any_channel_is_drawn_against_any_other():
         np.testing.assert_array_equal(y, MOTION.values[name])
     with pytest.raises(NotDrawable, match="two channels at least"):
         figures.draw(MOTION, "xy", Selection(channels=("block.x",)))
+
+
+def test_a_figure_with_a_fault_is_left_out_of_lists_and_logged(monkeypatch, caplog):
+    def fault(source, selection):
+        return np.concatenate([])
+
+    listed = [one.name for one in figures.available(MOTION)]
+    faulty = replace(figures.ROSTER["orbit"], channels=fault)
+    monkeypatch.setitem(figures.ROSTER, "orbit", faulty)
+    assert [one.name for one in figures.available(MOTION)] == [n for n in listed if n != "orbit"]
+    assert "orbit" in caplog.text
+    assert "concatenate" in caplog.text

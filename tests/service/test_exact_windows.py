@@ -30,6 +30,17 @@ def ask(http, job, what="history", status=200, **query):
     return answer.json()
 
 
+def test_a_list_of_figures_computes_nothing(application, http, job):
+    process = application.state.windows._process
+    process.close()
+    listed = [one["name"] for one in ask(http, job, "figures")["figures"]]
+    assert {"impact-loop", "orbit", "certificate", "energy"} - set(listed) == {"certificate"}
+    assert process._process is None, "no kernel was asked for"
+    for name in listed:
+        assert http.get(f"/v1/jobs/{job}/figures/{name}.png").status_code == 200, name
+    assert [one["name"] for one in ask(http, job, "figures")["figures"]] == listed
+
+
 def test_every_peak_is_in_a_window_of_any_resolution(http, job):
     peak = ask(http, job, "peaks")["peaks"][FORCE]
     samples = ask(http, job, channels=FORCE)["channels"][FORCE]["values"]

@@ -64,6 +64,14 @@ class Trajectory:
             samples = self._intervals.behind
         return float(self._reader.history([], samples - 1, samples)[0][0]) if samples else 0.0
 
+    @property
+    def covered(self) -> float:
+        """Time up to which values at any instant are known, s; none of them is computed here."""
+        if self._is_motion:
+            return self.reached
+        steps = self._reader.steps
+        return 0.0 if steps is None else min(steps.end, self.reached)
+
     @cached_property
     def _intervals(self) -> Intervals | None:
         stored, steps = self._reader.intervals, self._reader.steps
