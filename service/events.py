@@ -47,9 +47,13 @@ class JobEvent(BaseModel):
     """One thing that happened to a job; its number is the id of the event in the stream."""
 
     seq: int = Field(description="Counts from 1 without gaps.")
-    type: str = Field(description="A state of the job, or claimed, compiling, released, lost.")
+    type: str = Field(
+        description="A state of the job, or claimed, compiling, released, lost, retried."
+    )
     time: str = Field(description="When it happened, RFC 3339 in UTC.")
-    data: dict[str, Any] = Field(description="What belongs to it: block, attempt, error.")
+    data: dict[str, Any] = Field(
+        description="What belongs to it: block, attempt, worker, error, job, retry_of."
+    )
 
 
 class JobProgress(BaseModel):

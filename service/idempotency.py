@@ -3,7 +3,7 @@
 import hashlib
 import json
 import secrets
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Annotated, Self
@@ -30,6 +30,12 @@ class SentKey:
     def made_here(cls, owner: str) -> Self:
         """Return a key like no other, with the blank that no client's own has."""
         return cls(f" {secrets.token_hex(16)}", owner, path="")
+
+    @classmethod
+    def of_retry(cls, batch: str, jobs: Sequence[str], owner: str) -> Self:
+        """Return the key of a retry of some jobs of a batch, which asked again finds the first."""
+        asked = hashlib.sha256(" ".join([batch, *jobs]).encode()).hexdigest()
+        return cls(f" retry {asked}", owner, path="")
 
     def with_document(self, document: object) -> SubmissionKey:
         """Return what to store with what a document makes."""

@@ -39,20 +39,26 @@ class BatchDocument(BaseModel):
 class QueueBatch:
     """The check of a batch, which is queued then: 10 000 jobs take seconds to write.
 
-    Its key lets a process that takes the place of a lost one find what that had queued.
+    Its key lets a process that takes the place of a lost one find what that had queued. Jobs that
+    repeat others have `retries`, their ids, one for each.
     """
 
     key: SentKey
     owner: str
     quota: Quota
+    retries: tuple[str, ...] = ()
 
     def __call__(
         self, document: object, settings: Settings, catalogue: Catalogue
     ) -> SubmittedBatch:
         """Check and queue a document's jobs; raises what `admit_batch` and `submit_batch` do."""
         jobs, label = admit_batch(document, settings)
+        repeated = self.retries or (None,) * len(jobs)
         return catalogue.submit_batch(
-            [replace(job, owner=self.owner) for job in jobs],
+            [
+                replace(job, owner=self.owner, retry_of=old)
+                for job, old in zip(jobs, repeated, strict=True)
+            ],
             label=label or None,
             key=self.key.with_document(document),
             owner=self.owner,

@@ -1,4 +1,4 @@
-"""``/v1/batches``: submit, look at and cancel many jobs at once."""
+"""``/v1/batches``: submit, look at, cancel, retry and delete many jobs at once."""
 
 from contextlib import suppress
 from typing import Annotated, Any, Self
@@ -16,7 +16,7 @@ from jointplay.service.jobs.queueing import QueueingDependency
 from jointplay.service.jobs.schemas import JobPage, Moment
 from jointplay.service.problems import RequestRefused, clipped, header, kinds, problems
 from jointplay.storage.catalogue.errors import BatchNotFound
-from jointplay.storage.catalogue.records import Batch, JobState
+from jointplay.storage.catalogue.records import Batch, JobState, SubmittedBatch
 
 router = APIRouter(prefix="/v1/batches", tags=["batches"])
 
@@ -57,7 +57,8 @@ class BatchResource(BaseModel):
             "jobs": batch.count,
             "progress": {"fraction": batch.fraction},
             "finished": batch.finished,
-            "links": {"self": base, "jobs": f"{base}/jobs", "cancel": f"{base}/cancel"},
+            "links": {"self": base}
+            | {name: f"{base}/{name}" for name in ("jobs", "cancel", "retry")},
         }
         return cls.model_validate(vars(batch) | shown | more)
 
@@ -100,6 +101,10 @@ def submit_batch(
     wrong field by the index of its job, such as `/jobs/17/duration`.
     """
     submitted = queueing.submit_batch(body, repeatable, caller)
+    return _accepted(submitted, response)
+
+
+def _accepted(submitted: SubmittedBatch, response: Response) -> AcceptedBatch:
     accepted = AcceptedBatch.of(submitted.batch, job_ids=submitted.jobs)
     response.headers["Location"] = accepted.links["self"]
     return accepted
@@ -156,3 +161,33 @@ def cancel_batch(batch: BatchOfThePath, catalogue: CatalogueDependency) -> Batch
     What they computed stays readable.  Asking again changes nothing.
     """
     return BatchResource.of(catalogue.cancel_batch(batch.id))
+
+
+@router.post(
+    "/{batch_id}/retry",
+    status_code=202,
+    responses=MADE | problems(kinds.UNKNOWN_BATCH, *kinds.OF_RETRIES),
+)
+def retry_batch(
+    batch: BatchOfThePath,
+    queueing: QueueingDependency,
+    caller: CallerDependency,
+    response: Response,
+) -> AcceptedBatch:
+    """Queue those jobs of a batch once more that failed or were cancelled, as a new batch.
+
+    The new batch has the label of this one, and each of its jobs names the one that it repeats as
+    POST /v1/jobs/{id}/retry does.  Jobs that were retried before are left out.  Asked again within
+    24 hours, the answer is the same batch, unless more jobs have failed meanwhile.
+    """
+    return _accepted(queueing.retry_batch(batch, caller), response)
+
+
+@router.delete("/{batch_id}", responses=problems(kinds.UNKNOWN_BATCH, kinds.NOT_FINISHED))
+def delete_batch(batch: BatchOfThePath, catalogue: CatalogueDependency) -> BatchResource:
+    """Delete a finished batch with all its jobs and their results; the answer is what it was.
+
+    It is refused while one of the jobs has not ended: cancel the batch first.  From then on the
+    addresses of the jobs answer 410, and that of the batch 404.
+    """
+    return BatchResource.of(catalogue.delete_batch(batch.id))

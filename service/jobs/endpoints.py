@@ -85,6 +85,27 @@ def cancel_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource
     return JobResource.of(catalogue.request_cancel(job.id))
 
 
+@router.post(
+    "/{job_id}/retry",
+    status_code=202,
+    responses=MADE_OR_FOUND | problems(*kinds.OF_A_JOB, *kinds.OF_RETRIES),
+)
+def retry_job(
+    job: JobOfThePath, queueing: QueueingDependency, caller: CallerDependency, response: Response
+) -> SubmittedJob:
+    """Queue a job that failed or was cancelled once more.
+
+    What has ended never changes: the document is queued as a new job with the same label, whose
+    first event has `retry_of`; an event `retried` of the old job names it.  Asked again, the answer
+    is that job, with 200 and `cached`, until it has failed or was cancelled itself.
+    """
+    submitted = queueing.retry(job, caller)
+    if submitted.cached:
+        response.status_code = 200
+    response.headers["Location"] = address(submitted.job.id)
+    return SubmittedJob.of(submitted.job, cached=submitted.cached)
+
+
 @router.delete("/{job_id}", responses=problems(*kinds.OF_A_JOB, kinds.NOT_FINISHED))
 def delete_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource:
     """Delete a finished job and its results; from then on its addresses answer 410."""

@@ -1,10 +1,12 @@
 """Queueing: what a request asks for is checked and stored, and those who compute it are woken."""
 
+import json
 from dataclasses import replace
 from typing import Annotated
 
 from fastapi import Depends, Request
 
+from jointplay.records.strict_json import parse
 from jointplay.service.access import Caller
 from jointplay.service.access.quotas import quota_of
 from jointplay.service.batches.admission import QueueBatch
@@ -13,7 +15,8 @@ from jointplay.service.idempotency import Repeatable, SentKey
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.bell import Bell
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Submitted, SubmittedBatch
+from jointplay.storage.catalogue.records import Batch, Job, Submitted, SubmittedBatch
+from jointplay.storage.catalogue.retries import RETRIABLE
 from jointplay.storage.settings import Settings
 from jointplay.worker.wake_up import wake_relay
 
@@ -47,12 +50,67 @@ class Queueing:
         return submitted
 
     def submit_batch(self, body: bytes, repeatable: Repeatable, caller: Caller) -> SubmittedBatch:
-        """Queue all jobs of a document, or none."""
+        """Queue all jobs of a document, or none; or find the batch of an earlier request."""
         with repeatable.in_flight():
             key = repeatable.sent_key or SentKey.made_here(caller.owner)
-            what = QueueBatch(key, caller.owner, quota_of(caller, self._settings))
-            submitted = self._checker.check(what, body)
-        self._wake(len(submitted.jobs))
+            submitted = self._earlier(key, body)
+            if submitted is None:
+                what = QueueBatch(key, caller.owner, quota_of(caller, self._settings))
+                submitted = self._checker.check(what, body)
+        return self._woken_for(submitted)
+
+    def retry(self, job: Job, caller: Caller) -> Submitted:
+        """Queue a job's document again as a new job, or find the one that computes the same.
+
+        The job must have failed or been cancelled; the new one belongs to its owner.
+        """
+        if job.state not in RETRIABLE:
+            detail = f"Job {job.id} is {job.state}; what failed or was cancelled can be retried."
+            raise RequestRefused(kinds.NOTHING_TO_RETRY, detail)
+        found = self._checker.check(CheckJob(), json.dumps(job.spec).encode())
+        own = replace(found.job, owner=job.owner, retry_of=job.id)
+        quota = quota_of(caller, self._settings)
+        submitted = self._catalogue.submit(own, reuse=True, quota=quota)
+        if submitted.created:
+            self._wake(len(own.blocks))
+        return submitted
+
+    def retry_batch(self, batch: Batch, caller: Caller) -> SubmittedBatch:
+        """Queue those jobs of a batch anew that failed or were cancelled, as a batch of their own.
+
+        Those that were retried before are left out; asked again, it finds the batch that it made.
+        """
+        ended = self._catalogue.unsuccessful(batch.id)
+        key = SentKey.of_retry(batch.id, [job.id for job, _ in ended], batch.owner)
+        found = self._catalogue.submitted_batch(key.with_document(None))
+        if found is not None:
+            return found
+        jobs = [job for job, retried in ended if not retried]
+        if not jobs:
+            why = (
+                "all that failed or were cancelled were retried before"
+                if ended
+                else "none failed or was cancelled"
+            )
+            detail = f"Batch {batch.id} has no job to retry: {why}."
+            raise RequestRefused(kinds.NOTHING_TO_RETRY, detail)
+        document = {"jobs": [job.spec for job in jobs], "label": batch.label or ""}
+        quota, retries = quota_of(caller, self._settings), tuple(job.id for job in jobs)
+        what = QueueBatch(key, batch.owner, quota, retries)
+        return self._woken_for(self._checker.check(what, json.dumps(document).encode()))
+
+    def _earlier(self, key: SentKey, body: bytes) -> SubmittedBatch | None:
+        """Return the batch that a key was answered with: to find it takes milliseconds.
+
+        Only a body whose key is known is parsed here.
+        """
+        if not self._catalogue.is_remembered(key.with_document(None)):
+            return None
+        return self._catalogue.submitted_batch(key.with_document(parse(body)))
+
+    def _woken_for(self, submitted: SubmittedBatch) -> SubmittedBatch:
+        if submitted.created:
+            self._wake(len(submitted.jobs))
         return submitted
 
     def _wake(self, blocks: int) -> None:

@@ -53,7 +53,10 @@ class JobResource(BaseModel):
 
     id: str
     kind: str = Field(description="The kind of the job.", examples=[*KINDS])
-    label: str | None
+    label: str | None = Field(description="The one that it was first asked for with.")
+    labels: list[str] = Field(
+        description="All that it was asked for with, as one request's answer may be another's."
+    )
     batch: str | None = Field(description="Id of the batch that the job belongs to.")
     state: JobState
     activity: str | None = Field(
@@ -87,7 +90,9 @@ class JobResource(BaseModel):
             "steps": job.steps,
         }
         error = job.error and job.error.document()
+        labels = [one for one in (job.label, *(job.further_labels or ())) if one is not None]
         shown = {"progress": progress, "error": error, "links": _links(job), "job": job.spec}
+        shown["labels"] = labels
         return cls.model_validate(vars(job) | shown | more)
 
 

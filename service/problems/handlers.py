@@ -21,6 +21,8 @@ from jointplay.service.problems import (
     kinds,
 )
 from jointplay.storage.catalogue.errors import (
+    BatchNotFinished,
+    BatchNotFound,
     Fenced,
     JobNotFinished,
     KeyReused,
@@ -163,6 +165,16 @@ def _(error: QuotaExceeded) -> RequestRefused:
 @refusal.register
 def _(error: JobNotFinished) -> RequestRefused:
     return RequestRefused(kinds.NOT_FINISHED, f"J{str(error)[1:]}.")
+
+
+@refusal.register
+def _(error: BatchNotFinished) -> RequestRefused:
+    return RequestRefused(kinds.NOT_FINISHED, f"{error}.")
+
+
+@refusal.register
+def _(error: BatchNotFound) -> RequestRefused:
+    return RequestRefused(kinds.UNKNOWN_BATCH, f"T{str(error)[1:]}.")
 
 
 def _sentence(message: str) -> str:

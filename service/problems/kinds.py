@@ -111,7 +111,15 @@ NOT_FINISHED = _kind(
     "not-finished",
     409,
     "The job is not finished",
-    "Cancel it with POST /v1/jobs/{id}/cancel and wait for its end first.",
+    "Cancel it with POST /v1/jobs/{id}/cancel, or /v1/batches/{id}/cancel, and wait for its end "
+    "first.",
+)
+NOTHING_TO_RETRY = _kind(
+    "nothing-to-retry",
+    409,
+    "There is nothing to retry",
+    "Only a job that failed or was cancelled can be retried; GET it, or the batch, for its state. "
+    "To compute another one once more, post its document with `cache: false`.",
 )
 KEY_REUSED = _kind(
     "key-reused",
@@ -241,6 +249,8 @@ OF_THE_DOOR = KEY_MISSING, SCOPE_MISSING, FOREIGN_HOST, TOO_MANY_REQUESTS
 """Problems of every address that shows or changes jobs."""
 OF_A_JOB = UNKNOWN_JOB, EXPIRED_JOB
 """Problems of every address of a job."""
+OF_RETRIES = NOTHING_TO_RETRY, INVALID_JOB, LIMIT_EXCEEDED, QUOTA_EXCEEDED, DISK_FULL, UNAVAILABLE
+"""Problems of retries: a document may be one that this version refuses."""
 OF_A_BODY = MALFORMED_JSON, BODY_TOO_LARGE, NOT_JSON, INVALID_JOB, LIMIT_EXCEEDED
 OF_SUBMISSIONS = (
     *OF_A_BODY,

@@ -4,13 +4,18 @@ from collections.abc import Collection, Sequence
 from itertools import islice
 from typing import Any
 
-from sqlalchemy import func, insert, literal, select, update
+from sqlalchemy import delete, func, insert, literal, select, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
-from jointplay.storage.catalogue.errors import BatchNotFound
-from jointplay.storage.catalogue.idempotency import earlier_answer, remember_batch
+from jointplay.storage.catalogue.errors import BatchNotFinished, BatchNotFound
+from jointplay.storage.catalogue.idempotency import (
+    earlier_answer,
+    forget_batch,
+    remember_batch,
+    remembered,
+)
 from jointplay.storage.catalogue.quotas import Quota, Uses
 from jointplay.storage.catalogue.records import (
     TERMINAL,
@@ -48,9 +53,7 @@ def submit_batch(
         take_turns(unit.connection, key.number)
         earlier = earlier_answer(unit, key)
         if earlier is not None and earlier.batch is not None:
-            found = select(_job.c.id).where(_job.c.batch == earlier.batch).order_by(_job.c.id)
-            known = tuple(unit.execute(found).scalars())
-            return SubmittedBatch(find_batch(unit, earlier.batch), known, created=False)
+            return _submitted(unit, earlier.batch)
     Uses(unit, [owner] if quota else []).add(owner, len(jobs), quota)
     new_batch = {"id": batch_id, "label": label, "created": unit.now, "count": len(jobs)}
     unit.execute(insert(tables.batch).values(new_batch | {"owner": owner}))
@@ -62,6 +65,25 @@ def submit_batch(
     if key is not None:
         remember_batch(unit, key, batch_id)
     return SubmittedBatch(find_batch(unit, batch_id), tuple(job_ids), created=True)
+
+
+def _submitted(unit: Unit, batch_id: str) -> SubmittedBatch:
+    """Return the answer to a request that had been answered with a batch."""
+    found = select(_job.c.id).where(_job.c.batch == batch_id).order_by(_job.c.id)
+    known = tuple(unit.execute(found).scalars())
+    return SubmittedBatch(find_batch(unit, batch_id), known, created=False)
+
+
+def submitted_by(unit: Unit, key: SubmissionKey) -> SubmittedBatch | None:
+    """Return the batch that an earlier request with a key made, if it is remembered.
+
+    Raises
+    ------
+    KeyReused
+        The key was used for another request.
+    """
+    row = remembered(unit, key)
+    return None if row is None or row.batch is None else _submitted(unit, row.batch)
 
 
 def find_batch(unit: Unit, batch_id: str) -> Batch:
@@ -109,6 +131,29 @@ def _with_progress(unit: Unit, rows: Sequence[Any]) -> list[Batch]:
         )
         for row in rows
     ]
+
+
+def delete_batch(unit: Unit, batch_id: str) -> Batch:
+    """Delete a batch, with its jobs as `upkeep.expire` does; return it as it was.
+
+    A request that is sent again with its key makes a batch anew.
+
+    Raises
+    ------
+    BatchNotFound
+    BatchNotFinished
+        Some of its jobs have not ended; nothing was deleted.
+    """
+    batch = find_batch(unit, batch_id)
+    if not batch.finished:
+        live = sum(count for state, count in batch.states.items() if not state.terminal)
+        raise BatchNotFinished(batch_id, live)
+    there = _job.c.expires.is_(None) | (_job.c.expires > unit.now)
+    expired = update(_job).where(_job.c.batch == batch_id, there).values(expires=unit.now)
+    unit.execute(expired)
+    forget_batch(unit, batch_id)
+    unit.execute(delete(tables.batch).where(tables.batch.c.id == batch_id))
+    return batch
 
 
 def cancel_batch(unit: Unit, batch_id: str) -> Batch:

@@ -17,9 +17,11 @@ from jointplay.storage.catalogue import (
     disagreements,
     ending,
     holding,
+    idempotency,
     keys,
+    labels,
     listing,
-    rows,
+    retries,
     schema,
     solvers,
     stored,
@@ -192,7 +194,7 @@ class Catalogue:
 
         return self.connections.repeated(submit)
 
-    get = reading(rows.find_job)
+    get = reading(labels.labelled_job)
     batch = reading(batches.find_batch)
     page_of_batches = reading(batches.page_of_batches)
     jobs = reading(listing.page_of_jobs)
@@ -203,6 +205,10 @@ class Catalogue:
     identical = reading(submission.same_job)
     request_cancel = durably(submission.request_cancel)
     cancel_batch = durably(batches.cancel_batch)
+    delete_batch = durably(batches.delete_batch)
+    submitted_batch = reading(batches.submitted_by)
+    is_remembered = reading(idempotency.is_remembered)
+    unsuccessful = reading(retries.unsuccessful)
     delete = durably(upkeep.expire)
     mark_damaged = writing(upkeep.mark_damaged)
     use_of = reading(use_of)

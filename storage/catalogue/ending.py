@@ -191,9 +191,10 @@ def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes:
     free = {"state": BlockState.queued, "lease_until": None, "worker": None}
     job = lock_held(unit, block_id, attempt)
     change_held(unit, block_id, attempt, **free, **changes)
-    _end_attempt(unit, job, block_id, attempt, outcome)
+    worker = _end_attempt(unit, job, block_id, attempt, outcome)
     sum_progress(unit, job.id)
-    record_event(unit, job.id, outcome, {"block": block_id, "attempt": attempt})
+    facts = {"block": block_id, "attempt": attempt, "worker": worker}
+    record_event(unit, job.id, outcome, facts)
     return job
 
 
@@ -212,9 +213,11 @@ def queue_again(unit: Unit, block_id: str, pause: float = 0.0) -> None:
     )
 
 
-def _end_attempt(unit: Unit, job: Job, block_id: str, attempt: int, outcome: str) -> None:
+def _end_attempt(unit: Unit, job: Job, block_id: str, attempt: int, outcome: str) -> str:
+    """End an attempt, and return the name of its worker."""
     of_attempt = {"of_block": block_id, "of_number": attempt}
     row = unit.execute(_END, {**of_attempt, "moment": unit.now, "ending": outcome}).one()
     tally.add(unit, of_outcome(outcome), row.worker)
     if job.owner:
         usage.add(unit, job.owner, row.worker, max(unit.now - row.started, 0.0))
+    return str(row.worker)

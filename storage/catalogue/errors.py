@@ -46,6 +46,16 @@ class BatchNotFound(CatalogueError):
         super().__init__(f"there is no batch {batch!r}")
 
 
+class BatchNotFinished(CatalogueError):
+    """A batch with jobs that are not finished cannot be deleted."""
+
+    def __init__(self, batch: str, live: int) -> None:
+        jobs = "job has" if live == 1 else "jobs have"
+        super().__init__(
+            f"{live} {jobs} not ended of batch {batch}; cancel it before it is deleted"
+        )
+
+
 class KeyNotFound(CatalogueError):
     """No key of the service has this id."""
 

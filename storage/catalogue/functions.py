@@ -6,11 +6,14 @@ of both. The job is locked first: every later statement of a function sees what 
 before that.
 """
 
+from functools import reduce
 from typing import Final
 
 from sqlalchemy import Connection
 
-FUNCTIONS: Final = (
+from jointplay.storage.catalogue import turns
+
+_WRITTEN: Final = (
     """
 CREATE OR REPLACE FUNCTION claim_block(wanted text, claimant text, moment float8, lease float8,
   by_version text, by_processor text)
@@ -36,7 +39,7 @@ BEGIN
     RETURN;
   END IF;
   DELETE FROM outbox WHERE block = wanted;
-  least := coalesce((SELECT max(began) FROM share WHERE queue = 'jobs'), 0) - 600;
+  least := coalesce((SELECT max(began) FROM share WHERE queue = 'jobs'), 0) - MOST_BEHIND;
   UPDATE share SET began = greatest(next, least), next = greatest(next, least) + cost
     WHERE queue = 'jobs' AND owner IN (
       SELECT owner FROM share WHERE queue = 'jobs' AND owner = of_job.owner
@@ -84,7 +87,7 @@ BEGIN
       LEFT JOIN share ON share.queue = 'jobs' AND share.owner = waiting.owner
       WHERE waiting.owner IS NOT NULL AND NOT waiting.owner = ANY(busy)
       ORDER BY waiting.queue <> 'recovered', coalesce(share.next, 0)
-        + CASE waiting.queue WHEN 'interactive' THEN 0 ELSE 60 END, waiting.owner
+        + CASE waiting.queue WHEN 'interactive' THEN 0 ELSE HEAD_START END, waiting.owner
   LOOP
     FOR wanted IN
       SELECT outbox.block FROM outbox
@@ -209,7 +212,12 @@ BEGIN
 END $$
 """,
 )
-"""A migration that changes one of them calls `make` again."""
+_NAMED: Final = {"MOST_BEHIND": turns.MOST_BEHIND, "HEAD_START": turns.HEAD_START}
+FUNCTIONS: Final = tuple(
+    reduce(lambda written, one: written.replace(one[0], f"{one[1]:g}"), _NAMED.items(), function)
+    for function in _WRITTEN
+)
+"""A migration that changes one of them, or a number that they name, calls `make` again."""
 
 
 def make(connection: Connection) -> None:

@@ -34,12 +34,29 @@ def still_counting(unit: Unit, key: SubmissionKey, row: Any | None) -> Any | Non
     """Return the row of a key, if there is one and it is still remembered; or KeyReused."""
     if row is None:
         return None
-    if row.expires <= unit.now or (row.job is None and row.batch is None):
+    if not _counts(unit, row):
         unit.execute(delete(_table).where(_table.c.key == key.stored))
         return None
     if row.fingerprint != key.fingerprint:
         raise KeyReused(key.key)
     return row
+
+
+def remembered(unit: Unit, key: SubmissionKey) -> Any | None:
+    """Return what `earlier_answer` does, and write nothing."""
+    row = answers(unit, [key.stored]).get(key.stored)
+    return None if row is None or not _counts(unit, row) else still_counting(unit, key, row)
+
+
+def is_remembered(unit: Unit, key: SubmissionKey) -> bool:
+    """Tell whether a key, whatever was sent with it, was answered with something."""
+    row = answers(unit, [key.stored]).get(key.stored)
+    return row is not None and _counts(unit, row)
+
+
+def _counts(unit: Unit, row: Any) -> bool:
+    """Whether a key is remembered still, and what it was answered with is there."""
+    return bool(row.expires > unit.now and (row.job is not None or row.batch is not None))
 
 
 def remember(unit: Unit, jobs: Sequence[tuple[SubmissionKey, str]]) -> None:
@@ -51,6 +68,11 @@ def remember(unit: Unit, jobs: Sequence[tuple[SubmissionKey, str]]) -> None:
 def remember_batch(unit: Unit, key: SubmissionKey, batch: str) -> None:
     """Have a key find this batch while it is remembered."""
     unit.execute(insert(_table), _row(unit, key) | {"batch": batch})
+
+
+def forget_batch(unit: Unit, batch: str) -> None:
+    """Have no key find a batch."""
+    unit.execute(delete(_table).where(_table.c.batch == batch))
 
 
 def _row(unit: Unit, key: SubmissionKey) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from sqlalchemy import and_, func, not_, select
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.identifiers import earliest
+from jointplay.storage.catalogue.labels import is_label, labelled
 from jointplay.storage.catalogue.records import (
     TERMINAL,
     Attempt,
@@ -52,7 +53,9 @@ def page_of_jobs(
     statement = select(tables.job).order_by(order).limit(limit + 1)
     if after is not None:
         statement = statement.where(columns.id > after if oldest_first else columns.id < after)
-    for name in ("state", "kind", "label", "scene", "batch", "owner"):
+    if wanted.label is not None:
+        statement = statement.where(is_label(wanted.label))
+    for name in ("state", "kind", "scene", "batch", "owner"):
         value = getattr(wanted, name)
         if value is not None:
             statement = statement.where(columns[name] == value)
@@ -65,7 +68,7 @@ def page_of_jobs(
     statement = statement.where(columns.expires.is_(None) | not_(expired))
     found = [Job(**row._mapping) for row in unit.execute(statement)]
     more = len(found) > limit
-    jobs = tuple(found[:limit])
+    jobs = tuple(labelled(unit, found[:limit]))
     return JobPage(jobs, jobs[-1].id if more else None)
 
 

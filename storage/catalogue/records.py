@@ -98,11 +98,13 @@ class NewJob(JobRequest):
     """A checked job about to be submitted; `blocks` are (first, count) of its units of work.
 
     With `seal` there is one more, with a count of 0, that is queued when all others are done: it
-    finishes the store that they filled, and the job succeeds with it.
+    finishes the store that they filled, and the job succeeds with it. `retry_of` is the id of a job
+    that failed or was cancelled and is computed again by this one.
     """
 
     blocks: tuple[tuple[int, int], ...] = ((0, 1),)
     seal: bool = False
+    retry_of: str | None = None
 
     @property
     def number(self) -> int:
@@ -151,6 +153,7 @@ class Job(JobRequest):
     damaged: str | None = None  # which file of its results is not what was stored
     processor: str | None = None  # class of the processors that compute it, from its first claim on
     stored: int | None = None  # bytes of its results, if it has ended and is some owner's
+    further_labels: tuple[str, ...] | None = None  # that it was asked for with later; in no row
 
     def expired(self, now: float) -> bool:
         """Whether it and its results can be read no more; what is still live never expires."""

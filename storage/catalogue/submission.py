@@ -15,7 +15,7 @@ from sqlalchemy import (
     update,
 )
 
-from jointplay.storage.catalogue import idempotency, tables, turns
+from jointplay.storage.catalogue import idempotency, labels, retries, tables, turns
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import CatalogueError, KeyReused, QuotaExceeded
@@ -149,6 +149,11 @@ def _earlier(unit: Unit, request: Request, found: Mapping[Hashable, Any]) -> Sub
     if job.label is None and new.label is not None:
         unit.execute(update(tables.job).where(tables.job.c.id == same).values(label=new.label))
         job = replace(job, label=new.label)
+    elif new.label is not None:
+        labels.add(unit, job, new.label)
+    if new.retry_of is not None:
+        retries.tell_once(unit, new.retry_of, same)
+    (job,) = labels.labelled(unit, [job])
     return Submitted(job, created=False, cached=True)
 
 
@@ -231,8 +236,11 @@ def insert_jobs(unit: Unit, jobs: Sequence[tuple[Row, NewJob]]) -> None:
         for block, (queue, owner) in zip(queued, places, strict=True)
     ]
     unit.execute(insert(tables.outbox), wake_ups)
-    first = {"seq": 1, "time": now, "type": JobState.queued.value, "data": {}}
-    unit.execute(insert(tables.event), [first | {"job": row["id"]} for row, _ in jobs])
+    first = {"seq": 1, "time": now, "type": JobState.queued.value}
+    data = {row["id"]: {"retry_of": new.retry_of} if new.retry_of else {} for row, new in jobs}
+    events = [first | {"job": job, "data": facts} for job, facts in data.items()]
+    unit.execute(insert(tables.event), events)
+    retries.tell(unit, [(new.retry_of, row["id"]) for row, new in jobs if new.retry_of])
 
 
 def _blocks(job_id: str, new: NewJob) -> Iterator[Row]:

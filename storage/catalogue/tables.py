@@ -115,6 +115,16 @@ NO_SOLVER: Final = "no worker has its solver"
 UNSERVED: Final = job.c.activity == literal_column(f"'{NO_SOLVER}'")
 Index("ix_job_unserved", job.c.id, sqlite_where=UNSERVED, postgresql_where=UNSERVED)
 
+# Labels beside that of the job's row; see `storage.catalogue.labels`.
+label = Table(
+    "label",
+    metadata,
+    Column("label", Text, nullable=False),
+    Column("job", ForeignKey("job.id", ondelete="CASCADE"), nullable=False),
+    PrimaryKeyConstraint("label", "job"),
+    Index("ix_label_job", "job"),
+)
+
 batch = Table(
     "batch",
     metadata,

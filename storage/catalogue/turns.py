@@ -26,11 +26,10 @@ from jointplay.storage.catalogue.records import (
 )
 
 HEAD_START: Final = 60.0
-"""Seconds of workers that jobs which came alone may be ahead of studies and batches of others;
-`functions` has them, too."""
+"""Seconds of workers that jobs which came alone may be ahead of studies and batches of others."""
 MOST_BEHIND: Final = 600.0
 """Seconds that an owner may be behind: while what he has waiting fits no worker's solver he saves
-up no more than that; `functions` has them, too."""
+up no more than that."""
 ACCOUNT: Final = FRESH_QUEUE
 """Name under which shares are kept, of all queues together."""
 _share = tables.share

@@ -6,6 +6,7 @@ import httpx
 import pytest
 
 from jointplay.records.job import JobError
+from jointplay.service.batches import admission
 from jointplay.service.batches.admission import MOST_JOBS
 from jointplay.service.body import LARGEST_BATCH
 from jointplay.storage.catalogue.records import BlockState
@@ -138,3 +139,97 @@ def test_an_id_that_is_no_batchs_is_not_found(http, batch_id, rest):
     answer = http.get(f"/v1/batches/{batch_id}{rest}")
     assert answer.status_code == 404
     assert answer.json()["type"] == "/problems/unknown-batch"
+
+
+def ended_otherwise(worker: Any, batch: dict[str, Any]) -> None:
+    """Have the first job succeed, the second fail, and the third be cancelled."""
+    done, failed, cancelled = batch["job_ids"]
+    worker.finish(worker.start(done), BlockState.done)
+    error = JobError("platform", "worker-lost", "Lost.")
+    worker.finish(worker.start(failed), BlockState.failed, error)
+    worker._http.post(f"/v1/jobs/{cancelled}/cancel").raise_for_status()
+
+
+def test_a_retry_of_a_batch_is_a_batch_of_what_failed_or_was_cancelled(http, worker):
+    batch = submitted(http, [PENDULUM | {"label": name} for name in "abc"], label="three")
+    assert http.post(batch["links"]["retry"]).json()["type"] == "/problems/nothing-to-retry"
+    ended_otherwise(worker, batch)
+    answer = http.post(batch["links"]["retry"])
+    assert answer.status_code == 202, answer.text
+    retry = answer.json()
+    assert answer.headers["Location"] == retry["links"]["self"]
+    assert (retry["label"], retry["jobs"], retry["states"]["queued"]) == ("three", 2, 2)
+    jobs = http.get(retry["links"]["jobs"]).json()["jobs"]
+    assert [job["label"] for job in jobs] == ["b", "c"]
+    assert http.post(batch["links"]["retry"]).json() == retry, "asked again, it is the same"
+    assert http.get(batch["links"]["self"]).json()["states"]["failed"] == 1
+    events = http.get(f"/v1/jobs/{batch['job_ids'][1]}/events").text
+    assert '"type":"retried"' in events
+    assert f'"data":{{"job":"{retry["job_ids"][0]}"}}' in events
+    # what failed later is retried without what was
+    worker.finish(worker.start(retry["job_ids"][0]), BlockState.done)
+    more = submitted(http, [PENDULUM] * 3)
+    ended_otherwise(worker, more)
+    one = http.post(f"/v1/jobs/{more['job_ids'][1]}/retry").json()["id"]
+    (other,) = http.post(more["links"]["retry"]).json()["job_ids"]
+    assert one == more["job_ids"][0], "which has computed the same"
+    assert one != other
+    assert f'"job":"{other}"' in http.get(f"/v1/jobs/{more['job_ids'][2]}/events").text
+
+
+def test_a_retry_of_a_job_is_one_job_however_often_it_is_asked_for(http, worker):
+    job = worker.submit(label="to be retried", duration=0.7)
+    path = f"/v1/jobs/{job}/retry"
+    refused = http.post(path)
+    assert (refused.status_code, refused.json()["type"]) == (409, "/problems/nothing-to-retry")
+    assert "queued" in refused.json()["detail"]
+    http.post(f"/v1/jobs/{job}/cancel").raise_for_status()
+    first = http.post(path)
+    assert first.status_code == 202
+    new = first.json()
+    assert first.headers["Location"] == new["links"]["self"] != f"/v1/jobs/{job}"
+    assert (new["label"], new["cached"], new["state"]) == ("to be retried", False, "queued")
+    again = http.post(path)
+    assert (again.status_code, again.json()["id"], again.json()["cached"]) == (200, new["id"], True)
+    http.post(f"{new['links']['self']}/cancel").raise_for_status()
+    assert http.post(path).json()["id"] not in (job, new["id"]), "the retry was cancelled itself"
+    assert http.get(f"/v1/jobs/{job}").json()["state"] == "cancelled"
+
+
+def test_a_batch_is_deleted_with_its_jobs(http, worker):
+    batch = submitted(http, [PENDULUM] * 3)
+    path = batch["links"]["self"]
+    refused = http.delete(path)
+    assert (refused.status_code, refused.json()["type"]) == (409, "/problems/not-finished")
+    assert "3 jobs have not ended" in refused.json()["detail"]
+    ended_otherwise(worker, batch)
+    deleted = http.delete(path)
+    assert (deleted.status_code, deleted.json()["id"]) == (200, batch["id"])
+    for address in (path, batch["links"]["jobs"]):
+        assert http.get(address).status_code == 404
+    assert http.delete(path).status_code == 404
+    for job in batch["job_ids"]:
+        assert http.get(f"/v1/jobs/{job}").status_code == 410
+
+
+@pytest.mark.parametrize("size", [2, 200])
+def test_a_batch_that_is_sent_again_is_found_before_its_jobs_are_checked(
+    application, http, monkeypatch, size
+):
+    checked = []
+    document = {"jobs": [PENDULUM | {"label": "x" * 180}] * size}
+    headers = {"Idempotency-Key": f"sent twice {size}".replace(" ", "-")}
+    first = http.post("/v1/batches", json=document, headers=headers).json()
+    process = application.state.checker._others
+    process.close()
+    checks = admission.checked
+    monkeypatch.setattr(admission, "checked", lambda *of: checked.append(of) or checks(*of))
+    again = http.post("/v1/batches", json=document, headers=headers)
+    assert (again.status_code, again.json()) == (202, first)
+    assert not checked
+    assert process._process is None, "no other process was asked"
+    other = http.post("/v1/batches", json={"jobs": [PENDULUM]}, headers=headers)
+    assert (other.status_code, other.json()["type"]) == (422, "/problems/key-reused")
+    headers = {"Idempotency-Key": f"another-{size}"}
+    assert http.post("/v1/batches", json=document, headers=headers).json()["id"] != first["id"]
+    assert len(checked) == (2 if size == 2 else 0)

@@ -8,7 +8,7 @@ from stepped_clock import Clock
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.errors import BatchNotFound, KeyReused
+from jointplay.storage.catalogue.errors import BatchNotFinished, BatchNotFound, KeyReused
 from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, SubmissionKey
 
 NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc")
@@ -153,3 +153,75 @@ def test_what_to_publish_and_how_far_a_batch_is_are_found_by_index_in_sqlite(
     assert not any("SCAN" in plan or "TEMP B-TREE" in plan for plan in plans), plans
     assert sum("USING COVERING INDEX" in plan for plan in plans) >= 4, plans
     catalogue.close()
+
+
+def ended(catalogue: Catalogue, job: str, outcome: BlockState) -> None:
+    assert catalogue.claim_block(f"{job}-0", "worker", 30)
+    error = JobError("solver", "step-size-underflow", "why") if outcome == "failed" else None
+    catalogue.finish(f"{job}-0", 1, outcome, error)
+
+
+def test_a_batch_is_deleted_with_its_jobs_once_all_have_ended(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    key = SubmissionKey("k", "f" * 64)
+    other = catalogue.submit_batch([NEW]).batch.id
+    submitted = catalogue.submit_batch([NEW] * 3, key=key)
+    batch, (done, failed, waiting) = submitted.batch.id, submitted.jobs
+    ended(catalogue, done, BlockState.done)
+    ended(catalogue, failed, BlockState.failed)
+    with pytest.raises(BatchNotFinished, match="1 job has not ended"):
+        catalogue.delete_batch(batch)
+    assert not catalogue.expired(catalogue.get(done))
+    catalogue.request_cancel(waiting)
+    assert catalogue.delete_batch(batch).id == batch
+    assert all(catalogue.expired(catalogue.get(job)) for job in submitted.jobs)
+    assert set(catalogue.removable(10)) == set(submitted.jobs)
+    with pytest.raises(BatchNotFound):
+        catalogue.delete_batch(batch)
+    assert [one.id for one in catalogue.page_of_batches()[0]] == [other]
+    again = catalogue.submit_batch([NEW] * 3, key=key)
+    assert again.created, "its key does not lead to a batch that is gone"
+
+
+def test_what_a_key_was_answered_with_is_found_without_the_jobs(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    key = SubmissionKey("k", "f" * 64)
+    assert not catalogue.is_remembered(key)
+    assert catalogue.submitted_batch(key) is None
+    made = catalogue.submit_batch([NEW] * 2, key=key)
+    assert catalogue.is_remembered(replace(key, fingerprint="of something else"))
+    assert catalogue.submitted_batch(key) == replace(made, created=False)
+    with pytest.raises(KeyReused):
+        catalogue.submitted_batch(replace(key, fingerprint="0" * 64))
+    clock.now += key.seconds
+    assert not catalogue.is_remembered(key)
+    assert catalogue.submitted_batch(key) is None
+
+
+def test_a_retry_is_told_in_the_events_of_both_jobs(catalogue: Catalogue) -> None:
+    submitted = catalogue.submit_batch([NEW] * 3)
+    done, failed, cancelled = submitted.jobs
+    ended(catalogue, done, BlockState.done)
+    ended(catalogue, failed, BlockState.failed)
+    assert [(job.id, told) for job, told in catalogue.unsuccessful(submitted.batch.id)] == [
+        (failed, False)
+    ]
+    catalogue.request_cancel(cancelled)
+    alone = catalogue.submit(replace(NEW, retry_of=failed), reuse=False).job.id
+    assert [(job.id, told) for job, told in catalogue.unsuccessful(submitted.batch.id)] == [
+        (failed, True),
+        (cancelled, False),
+    ]
+    (last,) = catalogue.events(failed)[-1:]
+    assert (last.type, last.data) == ("retried", {"job": alone})
+    (first,) = catalogue.events(alone)
+    assert (first.type, first.data) == ("queued", {"retry_of": failed})
+    together = catalogue.submit_batch([replace(NEW, retry_of=one) for one in (failed, cancelled)])
+    assert [event.data["job"] for event in catalogue.events(failed) if event.type == "retried"] == [
+        alone,
+        together.jobs[0],
+    ]
+    assert catalogue.events(cancelled)[-1].data == {"job": together.jobs[1]}
+    assert catalogue.get(failed).state is JobState.failed

@@ -6,6 +6,7 @@ import pytest
 from stepped_clock import Clock
 
 from jointplay.records.job import JobError
+from jointplay.storage.catalogue import labels
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import JobNotFinished
 from jointplay.storage.catalogue.records import BlockState, NewJob, SubmissionKey
@@ -119,3 +120,25 @@ def test_a_status_shows_how_far_a_job_is(catalogue: Catalogue) -> None:
     assert (status.state, status.time, status.fraction, status.steps) == ("running", 1.0, 0.5, 600)
     assert status.last_event == catalogue.events(job)[-1].seq
     assert catalogue.get(job).steps == 600
+
+
+def test_a_job_is_found_by_every_label_that_it_was_asked_for_with(catalogue: Catalogue) -> None:
+    first = catalogue.submit(replace(NEW, label="a"), reuse=True).job
+    assert first.further_labels is None
+    for label in ("c", "b", "a", "b", None):
+        found = catalogue.submit(replace(NEW, label=label), reuse=True)
+        assert (found.job.id, found.cached) == (first.id, True)
+    assert (found.job.label, found.job.further_labels) == ("a", ("b", "c"))
+    other = catalogue.submit(replace(NEW, label="b"), reuse=False).job
+    assert [job.id for job in catalogue.jobs(label="b").jobs] == [other.id, first.id]
+    for label in "ac":
+        (job,) = catalogue.jobs(label=label).jobs
+        assert job == catalogue.get(first.id) == found.job
+    assert catalogue.jobs(label="d").jobs == ()
+
+
+def test_further_labels_are_bounded(catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(labels, "MOST", 2)
+    for label in "abcd":
+        found = catalogue.submit(replace(NEW, label=label), reuse=True)
+    assert found.job.further_labels == ("b", "c")
