@@ -18,6 +18,7 @@ from jointplay.figures.mechanism_elements import (
     wheels,
 )
 from jointplay.figures.mechanism_geometry import Geometry, Point, Pose, geometry
+from jointplay.figures.mechanism_guides import Guide, draw_guides, guides
 from jointplay.figures.mechanism_marks import draw_bodies, draw_joints, draw_rails
 from jointplay.figures.quantity import Scale, scale
 from jointplay.records.arrays import Floats
@@ -37,6 +38,7 @@ class PlacedScene:
     cams: list[tuple[Floats, Floats]]
     gears: list[Wheels]
     elements: list[Element]
+    guides: list[Guide]
 
     def within(self, corners: Iterable[Point]) -> "PlacedScene":
         """Return the same with an extent that holds these points, too."""
@@ -54,7 +56,10 @@ def place(scene: Mapping[str, Any], pose: Pose) -> PlacedScene:
     """Place a scene document, checked, at a pose of all its bodies."""
     curves, gears = cam_curves(scene, pose), wheels(scene, pose)
     wide = [curve for pair in curves for curve in pair] + [c for g in gears for c in circles(g)]
-    placed = PlacedScene(geometry(scene, pose), curves, gears, elements(scene, pose))
+    shape = geometry(scene, pose)
+    walled = guides(scene, pose, shape.size)
+    wide += [points.T for guide in walled for points in (guide.slider, *guide.walls)]
+    placed = PlacedScene(shape, curves, gears, elements(scene, pose), walled)
     return placed.within((x, y) for curve in wide for x, y in curve.T.tolist())
 
 
@@ -104,6 +109,7 @@ def draw_placed(axes: page.Axes, placed: PlacedScene, metre: float) -> None:
     draw_rails(axes, placed.shape, metre)
     draw_cams(axes, placed.cams, metre)
     draw_wheels(axes, placed.gears, metre)
+    draw_guides(axes, placed.guides, placed.shape, metre)
     draw_bodies(axes, placed.shape, metre)
     draw_joints(axes, placed.shape, metre)
     draw_elements(axes, placed.elements, placed.shape.size, metre)

@@ -6,6 +6,7 @@ from typing import Final
 from jointplay.figures import colours, page
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
+from jointplay.records.certificate import unconverged
 from jointplay.records.run import Source
 
 LABEL: Final = "not converged"
@@ -35,12 +36,4 @@ class TimeAxis:
 
 def _gaps(source: Source, start: float, stop: float) -> list[tuple[float, float]]:
     certificate = source.certificate()
-    if certificate is None:
-        return []
-    found, reached = [], start
-    for begin, end in certificate.attributes["converged"]:
-        if begin > reached:
-            found.append((reached, min(begin, stop)))
-        reached = max(reached, end)
-    found.append((reached, stop))
-    return [(a, b) for a, b in found if a < b]
+    return [] if certificate is None else unconverged(certificate.attributes, start, stop)

@@ -62,6 +62,17 @@ def converged(certificate: CertificateRecord, time: Floats) -> NDArray[np.bool_]
     return np.any(inside, axis=0) if inside else np.zeros(len(time), np.bool_)
 
 
+def unconverged(facts: Mapping[str, Any], start: float, stop: float) -> list[tuple[float, float]]:
+    """Return the spans [s] of a window in which the motion is not converged."""
+    found, reached = [], start
+    for begin, end in facts["converged"]:
+        if begin > reached:
+            found.append((reached, min(begin, stop)))
+        reached = max(reached, end)
+    found.append((reached, stop))
+    return [(a, b) for a, b in found if a < b]
+
+
 def _of_channel(
     certificate: CertificateRecord, column: int, known: NDArray[np.bool_]
 ) -> Mapping[str, Any]:

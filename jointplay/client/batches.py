@@ -39,6 +39,17 @@ class Batch(BatchRecord):
         self.renew(self._connection.post(f"{self._path}/cancel"))
         return self
 
+    def retry(self) -> Self:
+        """Queue those jobs anew that failed or were cancelled, as a batch of their own.
+
+        Asked again it is the same batch. `Refused` if there is none to retry.
+        """
+        return type(self)(self._connection.post(f"{self._path}/retry"), self._connection)
+
+    def delete(self) -> None:
+        """Delete the batch with all its jobs and results; `NotFinished` before all have ended."""
+        self._connection.delete(self._path)
+
     def wait(
         self, *, report: Callable[[Self], None] | None = None, timeout: float | None = None
     ) -> Self:

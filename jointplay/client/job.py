@@ -135,6 +135,14 @@ class Job(ReadableJob):
         return self
 
     @abstractmethod
+    def retry(self) -> "Job":
+        """Queue a job that failed or was cancelled once more, and return the new job.
+
+        Asked again it is the same one, until that has failed or was cancelled itself.  `Refused`
+        if there is nothing to retry.
+        """
+
+    @abstractmethod
     def delete(self) -> None:
         """Delete the finished job with its results; there is no way back."""
 

@@ -41,6 +41,8 @@ class Estimate:
 class JobRecord:
     """One job; ``job`` is its document with every default filled in.
 
+    ``label`` is the first of the ``labels`` that it was asked for with: other requests for the same
+    computation are answered with it, too.
     ``activity`` says what it is busy with before it advances, such as compiling.  ``cached``: the
     answer to a submission was a job that was there already.  ``damaged`` says which file of its
     results is not what was stored: submit ``job`` again.
@@ -64,6 +66,7 @@ class JobRecord:
     solver_version: str | None
     cached: bool = field(default=False, compare=False)
     damaged: str | None = None
+    labels: list[str] = field(default_factory=list)
 
     @property
     def is_finished(self) -> bool:

@@ -28,6 +28,10 @@ class ServiceJob(Job):
         self._connection = connection
         self._path = f"/v1/jobs/{segment(self.id)}"
 
+    def retry(self) -> Job:
+        """Queue it once more, as `Job.retry` says."""
+        return type(self)(self._connection.post(f"{self._path}/retry"), self._connection)
+
     def delete(self) -> None:
         """Delete the finished job with its results; there is no way back."""
         self._connection.delete(self._path)

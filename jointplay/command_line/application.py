@@ -24,6 +24,7 @@ COMMANDS: Final = (
     "ls",
     "show",
     "cancel",
+    "retry",
     "delete",
     "export",
     "certificate",

@@ -54,4 +54,4 @@ def _row(job: "Job") -> str:
     created = job.created.astimezone().strftime("%Y-%m-%d %H:%M:%S")
     done = f"{job.progress.fraction:.0%}"
     row = f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:11}"
-    return f"{row}  {job.label or job.scene_name}"
+    return f"{row}  {', '.join(job.labels) or job.scene_name}"

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from jointplay.client.errors import NotFound
+from jointplay.client.errors import ClientError, NotFound
 from jointplay.client.job import Job
 from jointplay.storage.errors import ResultsError
 from jointplay.worker.local.folder import OUTCOME_FILE, STORE
@@ -27,6 +27,11 @@ class FolderJob(Job):
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         super().__init__(self._look())
+
+    def retry(self) -> Job:
+        """Refuse: a run in a folder is no job of a service."""
+        sentence = "A run in a folder goes on with jointplay.run(..., resume=True), or anew."
+        raise ClientError(sentence)
 
     def delete(self) -> None:
         """Remove the folder."""

@@ -1,22 +1,21 @@
 /** One job in a list. */
 
+import { deleteJob, mayDelete, retriable, retryJob } from "./acting.js";
 import { element, fill } from "./element.js";
 import { ago, span } from "./numbers.js";
 import { address } from "./place.js";
 import { progressWords, sceneName, stateMark } from "./state.js";
 import { TERMINAL } from "../requests/following.js";
-import { get, post, remove } from "../requests/service.js";
+import { get, post } from "../requests/service.js";
 
 export class JobRow {
-  /** @param acts `choose(job, chosen)` false if that is too many, `gone(job)`, and `chosen` */
+  /** @param acts `choose(job, chosen)`, `gone(job)`, and `chosen` */
   constructor(job, acts) {
     Object.assign(this, { job, acts });
     this.box = element("input", {
-      type: "checkbox", checked: acts.chosen, disabled: job.kind !== "simulate",
-      "aria-label": `Compare ${job.label || sceneName(job.job)}`,
-      onchange: () => {
-        if (!acts.choose(this.job, this.box.checked)) this.box.checked = false;
-      },
+      type: "checkbox", checked: acts.chosen,
+      "aria-label": `Choose ${job.label || sceneName(job.job)}`,
+      onchange: () => acts.choose(this.job, this.box.checked),
     });
     this.mark = element("span");
     this.progress = element("div", { class: "parameters small quiet" });
@@ -50,12 +49,15 @@ export class JobRow {
       (Date.parse(job.finished) - Date.parse(job.started)) / 1000;
     this.cost.textContent = took ? `took ${span(took)}` : "";
     fill(this.buttons, TERMINAL.has(job.state)
-      ? [this.button("Again", async () => {
-           const { job: document } = await get(`/v1/jobs/${job.id}`);
-           await post("/v1/jobs", { ...document, cache: false });
-         }),
+      ? [retriable(job)
+           ? this.button("Retry", () => retryJob(job))
+           : this.button("Again", async () => {
+               const { job: document } = await get(`/v1/jobs/${job.id}`);
+               await post("/v1/jobs", { ...document, cache: false });
+             }),
          this.button("Delete", async () => {
-           await remove(`/v1/jobs/${job.id}`);
+           if (!mayDelete(1)) return;
+           await deleteJob(job);
            this.acts.gone(job);
          })]
       : this.button("Cancel", () => post(`/v1/jobs/${job.id}/cancel`)));

@@ -1,6 +1,7 @@
 /** How far a mechanism reaches. */
 
 import { cams } from "./cams.js";
+import { guides } from "./guides.js";
 import { GROUND, ends, placeOf, reference, world } from "./placing.js";
 
 /** Returns the smallest box around all points of poses: `[left, low, right, high]`. */
@@ -26,6 +27,10 @@ export function bounds(scene, poses) {
   }
   for (const pose of poses) {
     for (const { outline, moved } of cams(scene, pose)) [...outline, ...moved].forEach(include);
+  }
+  const extent = Math.max(box[2] - box[0], box[3] - box[1]);
+  for (const pose of poses) {
+    for (const { slider, walls } of guides(scene, pose, extent)) [slider, ...walls].flat().forEach(include);
   }
   for (const { stiffness, first, second } of Object.values(scene.forces ?? {})) {
     if (!stiffness || !first || !second) continue;

@@ -8,6 +8,7 @@
 
 import { bounds } from "./bounds.js";
 import { cams } from "./cams.js";
+import { guides } from "./guides.js";
 import { GROUND, ends, heading, placeOf, play, world } from "./placing.js";
 
 const BLOCK = [15, 9]; // half a slider's length and height, px
@@ -22,6 +23,10 @@ export function shapes(scene, pose, { labels = false } = {}) {
     ...pairs.map(({ outline }) =>
       ({ kind: "polygon", points: outline, fill: "ground", stroke: "edge", width: 1.2 })),
     ...supports(scene, pose),
+    ...guides(scene, pose, size).flatMap(({ slider, walls }) => [
+      { kind: "polygon", points: slider, fill: "ground", stroke: "edge", width: 1.2 },
+      ...walls.map((points) => ({ kind: "line", points, colour: "play", width: 3 })),
+    ]),
     ...Object.keys(scene.bodies).flatMap((name, i) => body(scene, pose, name, i)),
     ...springs(scene, pose),
     ...pairs.map(({ moved }) =>

@@ -7,7 +7,7 @@ import { onNewColours, palette } from "../mechanism/palette.js";
 import { pause } from "../requests/service.js";
 import { histories } from "./history_data.js";
 import { axisFont, letters } from "./axes.js";
-import { drawHorizon, drawImpacts } from "./marks.js";
+import { drawUnconverged, drawImpacts } from "./marks.js";
 import { Panning } from "./panning.js";
 
 const HEIGHT = 150; // px of a plot
@@ -169,7 +169,7 @@ export class HistoryPlots {
       ],
       hooks: {
         drawAxes: [(plot) => {
-          drawHorizon(plot, this.certificate?.horizon, this.certificate?.channels[channel]?.extremes);
+          drawUnconverged(plot, this.certificate, this.certificate?.channels[channel]?.extremes);
         }],
         draw: [(plot) => drawImpacts(plot, this.onsets)],
         setSelect: [(plot) => this.select(plot)],

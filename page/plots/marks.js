@@ -1,5 +1,6 @@
-/** What is drawn behind curves: impacts, and what lies beyond the horizon. */
+/** What is drawn behind curves: impacts, and where the motion is not converged. */
 
+import { gaps } from "../interface/converged.js";
 import { palette } from "../mechanism/palette.js";
 
 const MOST = 400; // impacts in a window; more would be a wall
@@ -20,16 +21,22 @@ export function drawImpacts(plot, onsets) {
 }
 
 /**
- * Shades what is beyond a horizon, and the spread of the extremes there.
+ * Shades where the motion is not converged, and the spread of the extremes there.
  *
- * @param horizon s; null where there is none
+ * @param certificate of the run; or nothing
  * @param extremes of the channel over companions, as the certificate has them; or undefined
  */
-export function drawHorizon(plot, horizon, extremes) {
-  if (horizon === null || horizon === undefined || horizon >= plot.scales.x.max) return;
+export function drawUnconverged(plot, certificate, extremes) {
+  if (!certificate) return;
+  const { min, max } = plot.scales.x;
+  for (const [begin, end] of gaps(certificate, min, max)) {
+    const [left, right] = [begin, end].map((time) => plot.valToPos(time, "x", true));
+    shade(plot, left, Math.max(right - left, devicePixelRatio), extremes);
+  }
+}
+
+function shade(plot, left, width, extremes) {
   const { ctx, bbox } = plot;
-  const left = Math.max(plot.valToPos(Math.max(horizon, plot.scales.x.min), "x", true), bbox.left);
-  const width = bbox.left + bbox.width - left;
   ctx.save();
   ctx.beginPath();
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);

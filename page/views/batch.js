@@ -3,9 +3,9 @@
 import { element, fill } from "../interface/element.js";
 import { declaredFor, differing } from "../interface/job_words.js";
 import { span } from "../interface/numbers.js";
-import { address } from "../interface/place.js";
+import { address, go } from "../interface/place.js";
 import { sceneName, stateMark } from "../interface/state.js";
-import { Unreachable, get, pause, post } from "../requests/service.js";
+import { Unreachable, get, pause, post, remove } from "../requests/service.js";
 import { counts } from "./batches.js";
 
 const SHOWN = 200;
@@ -31,8 +31,7 @@ function draw(room, batch, jobs, words, path) {
     room,
     element("div", { class: "head" }, element("h1", {}, batch.label || "Batch"),
       element("div", { class: "buttons" },
-        !batch.finished &&
-          element("button", { type: "button", onclick: () => post(`${path}/cancel`) }, "Cancel all"),
+        buttons(batch, path),
         element("a", { class: "button", href: "#/batches" }, "All batches"))),
     element("p", {}, counts(batch.states ?? {})),
     !batch.finished && element("progress", {
@@ -47,6 +46,26 @@ function draw(room, batch, jobs, words, path) {
       batch.jobs > jobs.length &&
         element("p", { class: "quiet small" }, `The first ${jobs.length} of ${batch.jobs} are shown.`)),
   );
+}
+
+/** Returns what can be done with all of a batch, or with those that did not succeed. */
+function buttons(batch, path) {
+  const button = (text, act) => element("button", {
+    type: "button", onclick: ({ target }) => act().catch(({ message }) => {
+      target.replaceWith(element("span", { role: "alert" }, message));
+    }),
+  }, text);
+  const { failed = 0, cancelled = 0 } = batch.states;
+  const retry = async () => go(["batch", (await post(`${path}/retry`)).id]);
+  const all = async () => {
+    if (!confirm(`Delete this batch with its ${batch.jobs} jobs and their results?`)) return;
+    await remove(path);
+    go(["batches"]);
+  };
+  return [
+    failed + cancelled > 0 && button(`Retry ${failed + cancelled}`, retry),
+    batch.finished ? button("Delete", all) : button("Cancel all", () => post(`${path}/cancel`)),
+  ];
 }
 
 function row(job, words) {

@@ -1,5 +1,6 @@
 /** One job: its state, and tabs with what it has computed so far. */
 
+import { deleteJob, mayDelete, retriable, retryJob } from "../interface/acting.js";
 import { element, fill } from "../interface/element.js";
 import { ago, withUnit } from "../interface/numbers.js";
 import { declaredFor, jobWords } from "../interface/job_words.js";
@@ -8,7 +9,7 @@ import { address, go } from "../interface/place.js";
 import { progressWords, sceneName, stateMark } from "../interface/state.js";
 import { whyQueued, workers } from "../interface/workers.js";
 import { TERMINAL, follow } from "../requests/following.js";
-import { get, pause, post, remove } from "../requests/service.js";
+import { get, pause, post } from "../requests/service.js";
 
 const TABS = {
   watch: ["Watch", () => import("./job/watch.js"), ["history"]],
@@ -155,13 +156,14 @@ class Head {
     }
     if (job.damaged) box("bad", element("p", {}, job.damaged));
     if (job.state === "queued" && this.queued) box("", this.queued);
+    if (this.lost && !TERMINAL.has(job.state)) box("", element("p", {}, this.lost));
     if (job.attempt > 1) box("", element("p", {}, `This is attempt ${job.attempt}: the one before did not end, and this one went on from there.`));
     return found;
   }
 
   /** Shows an event of the job's history that readers want to see. */
   happened({ type, data }) {
-    if (type === "lost") this.words.textContent = `A worker was lost (${data.worker ?? "unknown"}); another goes on.`;
+    if (type === "lost") this.lost = `The worker ${data.worker} was lost; another goes on.`;
   }
 
   showButtons(over) {
@@ -173,14 +175,16 @@ class Head {
       this.buttons,
       over
         ? [
-            button("Run again", async () => {
-              const again = await post("/v1/jobs", { ...job.job, cache: false });
-              go(["job", again.id]);
-            }),
+            retriable(job)
+              ? button("Retry", async () => go(["job", (await retryJob(job)).id]))
+              : button("Run again", async () => {
+                  const again = await post("/v1/jobs", { ...job.job, cache: false });
+                  go(["job", again.id]);
+                }),
             changed(job),
             button("Delete", async () => {
-              if (!confirm("Delete this job and its results?")) return;
-              await remove(`/v1/jobs/${job.id}`);
+              if (!mayDelete(1)) return;
+              await deleteJob(job);
               go(["jobs"]);
             }),
           ]

@@ -1,5 +1,8 @@
 /** The list of jobs: filters in the address, as many rows as fit the screen, live. */
 
+import {
+  deletable, deleteJob, mayDelete, retriable, retryJob, withEach,
+} from "../interface/acting.js";
 import { element, fill } from "../interface/element.js";
 import { JobRow } from "../interface/job_row.js";
 import { listed } from "../interface/listed.js";
@@ -29,7 +32,7 @@ export async function show(room, { query, signal }) {
 
 class JobList {
   constructor(query, signal) {
-    Object.assign(this, { signal, jobs: null, next: null, compared: new Set(), rows: new Map() });
+    Object.assign(this, { signal, jobs: null, next: null, chosen: new Map(), rows: new Map() });
     this.filters = Object.fromEntries(["state", "kind", "scene", "label"].map((name) =>
       [name, query.get(name) ?? ""]));
     this.inside = element("div", { class: "inside", role: "list", "aria-label": "Jobs" });
@@ -37,13 +40,17 @@ class JobList {
       "aria-label": "List of jobs, scrolls", onscroll: () => this.scrolled() }, this.inside);
     this.empty = element("div");
     this.notice = element("div", { "aria-live": "polite" });
+    this.problem = element("div", { "aria-live": "polite" });
     this.said = element("span", { role: "status", class: "quiet" });
-    this.compare = element("a", { class: "button", hidden: true }, "Compare");
+    this.acts = element("span", { class: "buttons" });
+    this.all = element("input", {
+      type: "checkbox", id: "choose-all", onchange: () => this.chooseAll(this.all.checked),
+    });
     this.element = element("div", {},
       element("div", { class: "head" }, element("h1", {}, "Jobs"), this.said,
-        element("div", { class: "buttons" }, this.compare,
+        element("div", { class: "buttons" }, this.acts,
           element("a", { class: "button", href: "#/batches" }, "Batches"))),
-      this.form(), this.notice, this.scroll, this.empty);
+      this.form(), this.notice, this.problem, this.scroll, this.empty);
     new ResizeObserver(() => this.resized()).observe(this.scroll);
   }
 
@@ -61,7 +68,8 @@ class JobList {
     }));
     return element("div", { class: "filters", role: "search" },
       select("state", "State", STATES), select("kind", "Kind", KINDS),
-      text("scene", "Mechanism"), text("label", "Label"));
+      text("scene", "Mechanism"), text("label", "Label"),
+      element("label", { class: "all", for: "choose-all" }, this.all, "All shown"));
   }
 
   async filter(name, value) {
@@ -167,6 +175,7 @@ class JobList {
   draw() {
     const [first, last] = this.range();
     this.count();
+    this.showActs();
     const shown = this.jobs.slice(first, last);
     const ids = new Set(shown.map(({ id }) => id));
     for (const [id, row] of this.rows) {
@@ -179,8 +188,8 @@ class JobList {
       if (!row) {
         row = new JobRow(job, {
           choose: (one, chosen) => this.choose(one, chosen),
-          gone: (one) => this.gone(one),
-          chosen: this.compared.has(job.id),
+          gone: (one) => this.gone({ done: [one] }),
+          chosen: this.chosen.has(job.id),
         });
         this.rows.set(job.id, row);
         this.inside.append(row.element);
@@ -216,17 +225,53 @@ class JobList {
   }
 
   choose(job, chosen) {
-    if (chosen && this.compared.size >= MOST_COMPARED) return false;
-    this.compared[chosen ? "add" : "delete"](job.id);
-    this.compare.hidden = this.compared.size < 2;
-    this.compare.textContent = `Compare ${this.compared.size}`;
-    this.compare.href = address(["compare"], { jobs: [...this.compared].join(",") });
-    return true;
+    if (chosen) this.chosen.set(job.id, job);
+    else this.chosen.delete(job.id);
+    this.showActs();
   }
 
-  gone(job) {
-    this.jobs = this.jobs.filter(({ id }) => id !== job.id);
-    this.compared.delete(job.id);
+  /** Chooses all that are listed, or none. */
+  chooseAll(chosen) {
+    this.chosen = new Map(chosen ? this.jobs.map((job) => [job.id, job]) : []);
+    for (const [id, row] of this.rows) row.box.checked = this.chosen.has(id);
+    this.showActs();
+  }
+
+  /** Shows what can be done with the chosen jobs, with how many of them. */
+  showActs() {
+    for (const job of this.jobs) if (this.chosen.has(job.id)) this.chosen.set(job.id, job);
+    const jobs = [...this.chosen.values()];
+    const runs = jobs.every(({ kind }) => kind === "simulate");
+    const [ended, failed] = [jobs.filter(deletable), jobs.filter(retriable)];
+    const now = [...jobs.map(({ id }) => id), ended.length, failed.length].join();
+    if (now === this.offered) return;
+    this.offered = now;
+    this.all.checked = jobs.length > 0 && this.jobs.every(({ id }) => this.chosen.has(id));
+    const button = (text, act) => element("button", {
+      type: "button", onclick: ({ target }) => this.act(target, act),
+    }, text);
+    fill(this.acts,
+      runs && jobs.length > 1 && jobs.length <= MOST_COMPARED && element("a", {
+        class: "button", href: address(["compare"], { jobs: [...this.chosen.keys()].join(",") }),
+      }, `Compare ${jobs.length}`),
+      failed.length > 0 && button(`Retry ${failed.length}`, () => withEach(failed, retryJob, "retried")),
+      ended.length > 0 && button(`Delete ${ended.length}`, () => mayDelete(ended.length)
+        ? withEach(ended, deleteJob, "deleted").then((found) => this.gone(found)) : null));
+  }
+
+  async act(button, work) {
+    button.disabled = true;
+    const found = await work();
+    button.disabled = false;
+    const said = found?.sentence;
+    fill(this.problem, said ? element("div", { class: "notice bad" }, said) : null);
+  }
+
+  gone(found) {
+    const ids = new Set(found.done.map(({ id }) => id));
+    this.jobs = this.jobs.filter(({ id }) => !ids.has(id));
+    for (const id of ids) this.chosen.delete(id);
     this.draw();
+    return found;
   }
 }

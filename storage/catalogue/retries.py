@@ -48,8 +48,8 @@ def tell(unit: Unit, retries: Sequence[tuple[str, str]]) -> None:
         old = _job.c.id.in_([old for old, _ in retries])
         locked = select(_job.c.id).where(old).order_by(_job.c.id)
         unit.execute(locked.with_for_update(key_share=True)).all()
-    for old, new in retries:
-        record_event(unit, old, _RETRIED, {"job": new})
+    for repeated, new in retries:
+        record_event(unit, repeated, _RETRIED, {"job": new})
 
 
 def tell_once(unit: Unit, old: str, new: str) -> None:

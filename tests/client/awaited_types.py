@@ -26,6 +26,8 @@ async def used(client: AsyncClient, document: dict[str, Any]) -> None:
         assert_type(ended, AsyncJob)
     async for batch in client.batches():
         assert_type(await batch.cancel(), AsyncBatch)
+        assert_type(await batch.retry(), AsyncBatch)
+    assert_type(await job.retry(), AsyncJob)
     await client.job(5)  # type: ignore[arg-type]
     await job.wait(timeot=1.0)  # type: ignore[call-arg]
 

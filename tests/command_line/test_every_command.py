@@ -93,11 +93,13 @@ def test_what_it_prints_is_one_json_document(jointplay, service_url, places, com
     assert keys <= set(json.loads(ended.out))
 
 
-def test_jobs_are_cancelled_and_deleted_with_a_document(jointplay, service_url, worker):
-    job_id = worker.submit()
+def test_jobs_are_cancelled_retried_and_deleted_with_a_document(jointplay, service_url, worker):
+    job_id = worker.submit(duration=0.77)
     at = ["--url", service_url, "--json"]
     assert json.loads(jointplay("cancel", job_id, *at).out)["state"] == "cancelled"
+    (new,) = json.loads(jointplay("retry", job_id, *at).out)["retried"].values()
     assert json.loads(jointplay("delete", job_id, *at).out) == {"deleted": [job_id]}
+    assert json.loads(jointplay("cancel", new, *at).out)["state"] == "cancelled"
 
 
 def test_what_a_job_has_not_is_one_line(jointplay, service_url, finished_job, finished_study):
@@ -117,7 +119,8 @@ BY_COMMAND = {
     "plot": "Job.figure figures film",
     "certificate": "Job.certificate",
     "cancel": "Job.cancel",
-    "delete": "Job.delete",
+    "delete": "Job.delete Batch.delete",
+    "retry": "Job.retry Batch.retry",
     "batch": "Client.submit_batch batch batches map Batch.wait refresh cancel",
     "laws": "Client.laws",
     "scene list": "Client.scenes",

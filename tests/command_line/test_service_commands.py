@@ -57,6 +57,55 @@ def test_an_identical_job_is_computed_again_only_if_that_is_asked_for(jointplay,
     assert jointplay(*job, "--anew").out != first
 
 
+def test_a_job_is_listed_by_each_label_that_it_was_asked_for_with(jointplay, at):
+    job = ["submit", "pendulum", "--duration", "0.8135", *at]
+    (first,) = {jointplay(*job, "--label", label).out.strip() for label in ("a", "b")}
+    for label in ("a", "b"):
+        listed = jointplay("ls", "--label", label, *at).out
+        assert listed.startswith(first)
+        assert listed.endswith("a, b\n")
+
+
+def test_jobs_are_retried_and_deleted_by_what_they_are(jointplay, at, worker):
+    named = ["--label", "to be retried", *at]
+    jobs = [worker.submit(label="to be retried", duration=0.1 * n) for n in (1, 2, 3)]
+    assert jointplay("retry", "--state", "failed", *named) == (0, "", "")
+    error = JobError("platform", "worker-lost", "Lost.")
+    worker.finish(worker.start(jobs[0]), BlockState.failed, error)
+    jointplay("cancel", jobs[1], *at)
+    retried = jointplay("retry", "--state", "failed", *named).out
+    old, _, _, new = retried.split()
+    assert old == jobs[0]
+    assert jointplay("retry", old, *at).out == retried
+    asked = jointplay("delete", "--state", "cancelled", *named)
+    assert (asked.code, asked.out) == (2, "")
+    assert "Delete 1 jobs and their results? Say --yes" in asked.line()
+    deleted = jointplay("delete", "--state", "cancelled", "--yes", *named)
+    assert deleted.out == f"{jobs[1]}  deleted\n"
+    left = {one["id"] for one in json.loads(jointplay("ls", "--json", *named).out)["jobs"]}
+    assert left == {jobs[0], jobs[2], new}
+    for wrong in (["--state", "queued"], [], [old, "--label", "x"]):
+        assert jointplay("delete", *wrong, "--yes", *at).code == 2
+
+
+def test_a_batch_is_retried_and_deleted(jointplay, at, worker, tmp_path):
+    press = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 0.3}
+    file = tmp_path / "jobs.json"
+    file.write_text(json.dumps([press, press | {"duration": 0.4}]))
+    batch = jointplay("batch", file, *at).out.strip()
+    refused = jointplay("delete", "--batch", batch, "--yes", *at)
+    assert (refused.code, refused.line().count("2 jobs have not ended")) == (2, 1)
+    jointplay("batch", batch, "--cancel", *at)
+    new = jointplay("retry", "--batch", batch, *at).out
+    assert new.endswith("  2 jobs: 2 queued\n")
+    assert jointplay("retry", "--batch", batch, *at).out == new
+    assert jointplay("delete", "--batch", batch, "--state", "failed", "--yes", *at).out == ""
+    deleted = jointplay("delete", "--batch", batch, "--yes", *at)
+    assert deleted.out == f"{batch}  deleted with 2 jobs\n"
+    assert jointplay("batch", batch, *at).code == 2
+    assert jointplay("delete", *new.split()[:1], "--yes", *at).code == 2
+
+
 def test_a_finished_job_is_shown_with_its_peaks(jointplay, at, finished_job):
     shown = jointplay("show", finished_job, *at).out
     assert "succeeded" in shown

@@ -1,13 +1,16 @@
 """Springs, forces, gears and cams in the picture of a mechanism: where they are."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 
 from jointplay import figures
+from jointplay.figures import colours
 from jointplay.figures.mechanism_cams import cam_curves
 from jointplay.figures.mechanism_elements import Wheels, circles, elements
+from jointplay.figures.mechanism_guides import guides
 
 RADIUS, ECCENTRICITY, ROLLER = 0.03, 0.01, 0.008
 KNOTS = np.linspace(0.0, 2.0 * math.pi, 64)
@@ -39,6 +42,38 @@ FOLLOWERS = {
     "flat": {"type": "flat-follower", "profile": WAVE, "normal": [0.0, 1.0]},
     "roller": {"type": "roller-follower", "profile": TABLE, "roller_radius": ROLLER},
 }
+
+
+def guided(length: float) -> dict[str, Any]:
+    """A slider of a length [m], twice its height, in a guide that stands upright."""
+    place = {"guide": "ground.S", "slider": "tappet.F", "axis": [0.0, 2.0]}
+    play = {"wall_clearance": 1e-3, "length": length, "height": 0.5 * length}
+    joint = {"type": "prismatic", **place, "clearance": play}
+    return SCENE | {"joints": {"guide": joint}, "gears": {}, "forces": {}}
+
+
+@pytest.mark.parametrize(("length", "larger"), [(0.04, 1.0), (0.004, 5.0)])
+def test_a_guide_with_play_shows_its_walls_and_its_slider(length: float, larger: float) -> None:
+    (guide,) = guides(guided(length), POSE, extent=0.2)
+    assert guide.body == "tappet"
+    half = 0.5 * length * larger
+    # the slider is at F, 0.03 m up the shaft's side; the guide's axis goes up through S
+    np.testing.assert_allclose(np.ptp(guide.slider, axis=0), [half, 2.0 * half])
+    np.testing.assert_allclose(guide.slider.mean(axis=0), [0.0, 0.03], atol=1e-12)
+    np.testing.assert_allclose(np.ptp(guide.walls[:, :, 0]), half + 2.0 * larger * 1e-3)
+    assert np.ptp(guide.walls[0, :, 1]) == pytest.approx(2.2 * 2.0 * half)
+
+
+def test_a_guide_with_play_is_drawn_and_named_in_the_legend() -> None:
+    scene = guided(0.04)
+    (axes,) = figures.draw_mechanism(scene, POSE).axes
+    (named,) = [line for line in axes.lines if line.get_label() == "joint with clearance"]
+    assert named.get_color() == colours.MARKED
+    walls = [line for line in axes.lines if line.get_color() == colours.MARKED]
+    assert len(walls) == 2
+    ideal = scene["joints"]["guide"] | {"clearance": None}
+    (axes,) = figures.draw_mechanism(scene | {"joints": {"guide": ideal}}, POSE).axes
+    assert colours.MARKED not in [line.get_color() for line in axes.lines]
 
 
 @pytest.mark.parametrize("shape", FOLLOWERS)

@@ -14,6 +14,7 @@ from jointplay.storage.catalogue.records import BlockState, Solver
 from jointplay.storage.settings import Settings
 from tests.page.browsing import barriers, barriers_everywhere, expect
 from tests.service_in_thread import client_of, serving
+from tests.worker_by_hand import BIFURCATION
 
 JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 SCROLLED_TO = """last => {
@@ -52,6 +53,92 @@ def test_of_400_jobs_those_are_drawn_that_are_seen(browsing, http, service_url, 
         assert barriers(page) == []
         page.get_by_role("button", name="Cancel").click()
         page.locator(".row").get_by_text("cancelled", exact=True).wait_for()
+
+
+def answering(page, answer):
+    """Have the page's questions answered, and return them as they come."""
+    asked = []
+
+    def seen(dialog):
+        asked.append(dialog.message)
+        dialog.accept() if answer[0] else dialog.dismiss()
+
+    page.on("dialog", seen)
+    return asked
+
+
+def test_a_row_is_deleted_after_the_question_that_the_job_asks(browsing, http, service_url, worker):
+    job = worker.finished(label="to go")
+    answer = [False]
+    question = "Delete this job and its results?"
+    with browsing.page(f"{service_url}/#/job/{job}") as page:
+        asked = answering(page, answer)
+        page.get_by_role("button", name="Delete").click()
+        page.goto(f"{service_url}/#/jobs?label=to+go")
+        row = page.locator(f"[data-job='{job}']")
+        row.get_by_role("button", name="Delete").click()
+        assert asked == [question, question]
+        assert http.get(f"/v1/jobs/{job}").status_code == 200
+        answer[0] = True
+        row.get_by_role("button", name="Delete").click()
+        row.wait_for(state="detached")
+        assert asked == [question] * 3
+    assert http.get(f"/v1/jobs/{job}").status_code == 410
+
+
+def test_chosen_jobs_are_compared_retried_and_deleted_with_one_question(
+    browsing, http, service_url, worker, artifacts
+):
+    label = "to be chosen"
+    done = [worker.finished(label=label) for _ in range(2)]
+    study = worker.submit(**BIFURCATION, label=label)
+    cancelled = worker.submit(label=label, duration=0.123)
+    waiting = worker.submit(label=label, duration=0.124)
+    for one in (study, cancelled):
+        http.post(f"/v1/jobs/{one}/cancel").raise_for_status()
+    with browsing.page(f"{service_url}/#/jobs?label=to+be+chosen") as page:
+        asked = answering(page, [True])
+
+        def box(job):
+            return page.locator(f"[data-job='{job}']").get_by_role("checkbox")
+
+        for job in done:
+            box(job).check()
+        page.get_by_role("link", name="Compare 2").wait_for()
+        assert page.get_by_role("button", name=re.compile("^Retry [0-9]")).count() == 0
+        box(study).check()
+        expect(page.get_by_role("link", name="Compare 2")).to_have_count(0)
+        page.get_by_role("button", name="Delete 3", exact=True).wait_for()
+        page.get_by_label("All shown").check()
+        page.screenshot(path=artifacts / "jobs-chosen.png")
+        assert barriers_everywhere(page) == {}
+        page.get_by_role("button", name="Retry 2", exact=True).click()
+        expect(page.locator(".row")).to_have_count(7)
+        page.get_by_role("button", name="Delete 4", exact=True).click()
+        expect(page.locator(".row")).to_have_count(3)
+        assert asked == ["Delete these 4 jobs and their results?"]
+        expect(page.get_by_role("button", name="Delete 4", exact=True)).to_have_count(0)
+    left = http.get("/v1/jobs", params={"label": label}).json()["jobs"]
+    assert {job["state"] for job in left} == {"queued"}
+    assert waiting in {job["id"] for job in left}
+
+
+def test_a_batch_is_retried_and_deleted(browsing, http, service_url):
+    jobs = [JOB | {"duration": 0.01 * n} for n in (1, 2, 3)]
+    batch = http.post("/v1/batches", json={"jobs": jobs, "label": "by hand"}).json()["id"]
+    with browsing.page(f"{service_url}/#/batch/{batch}") as page:
+        asked = answering(page, [True])
+        page.get_by_role("button", name="Cancel all").click()
+        page.get_by_role("button", name="Retry 3").wait_for()
+        assert barriers_everywhere(page) == {}
+        page.get_by_role("button", name="Retry 3").click()
+        page.wait_for_url(lambda url: batch not in url)
+        page.get_by_role("button", name="Cancel all").wait_for()
+        page.goto(f"{service_url}/#/batch/{batch}")
+        page.get_by_role("button", name="Delete").click()
+        page.wait_for_url(re.compile("#/batches$"))
+        assert asked == ["Delete this batch with its 3 jobs and their results?"]
+    assert http.get(f"/v1/batches/{batch}").status_code == 404
 
 
 def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, worker, catalogue):
@@ -125,3 +212,14 @@ def test_a_key_is_asked_for_where_one_is_needed(browsing, tmp_path):
             page.locator("#operations-jobs-list_jobs_v1_jobs_get").click()
             page.get_by_role("button", name="Execute").click()
             page.locator(".live-responses-table .response-col_status", has_text="200").wait_for()
+
+
+def test_a_lost_worker_is_named(browsing, service_url, worker, catalogue):
+    job = worker.submit(label="lost once", duration=1.5)
+    with browsing.page(f"{service_url}/#/job/{job}") as page:
+        page.get_by_text("Nothing is computed yet").wait_for()
+        block = catalogue.blocks(job)[0]
+        assert catalogue.claim_block(block.id, "mill-7", 60.0) is not None
+        page.get_by_text("running", exact=True).wait_for()
+        catalogue.reap(3, ["mill-7"])
+        page.get_by_text("The worker mill-7 was lost; another goes on.").wait_for()

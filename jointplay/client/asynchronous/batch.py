@@ -1,7 +1,7 @@
 """`AsyncBatch`: jobs that were submitted together, awaited."""
 
 from jointplay.client.asynchronous.job import AsyncJob
-from jointplay.client.asynchronous.verbs import changing, iterated
+from jointplay.client.asynchronous.verbs import awaited, changing, iterated
 from jointplay.client.batch_record import BatchRecord
 from jointplay.client.batches import Batch
 
@@ -18,4 +18,6 @@ class AsyncBatch(BatchRecord):
     jobs = iterated(Batch.jobs, AsyncJob)
     refresh = changing(Batch.refresh)
     cancel = changing(Batch.cancel)
+    retry = awaited(Batch.retry, lambda batch: AsyncBatch(batch))
+    delete = awaited(Batch.delete)
     wait = changing(Batch.wait)

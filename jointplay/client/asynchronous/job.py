@@ -44,6 +44,7 @@ class AsyncJob(JobRecord):
     refresh = changing(Job.refresh)
     wait = changing(Job.wait)
     cancel = changing(Job.cancel)
+    retry = awaited(Job.retry, lambda job: AsyncJob(job))
     delete = awaited(Job.delete)
     follow = iterated(Job.follow, lambda job: AsyncJob(job))
 

@@ -2,6 +2,7 @@
 
 import { element, fill } from "../../interface/element.js";
 import { notRounding, short, span, withUnit } from "../../interface/numbers.js";
+import { convergence, gaps } from "../../interface/converged.js";
 import { table } from "../../interface/table.js";
 import { openAddress } from "../../requests/key.js";
 import { whenThere } from "../../interface/when_there.js";
@@ -30,19 +31,19 @@ function certificate(found, duration) {
         element("p", {}, found.criterion),
         Object.entries(found.bars).map(([kind, sentence]) =>
           element("p", { class: "small" }, element("strong", {}, kind), ": ", sentence)))),
-    element("section", { class: "panel" }, element("h2", {}, "Channel by channel"), channels(found)));
+    element("section", { class: "panel" }, element("h2", {}, "Channel by channel"),
+      gaps(found, 0, duration).length > 0 && element("p", { class: "quiet small" },
+        "A channel may stay accurate where the motion is not converged: its own error is small there,"
+        + " while a journal or a body elsewhere takes another path."),
+      channels(found)));
 }
 
 /** Returns sentences about a certificate, the most important first. */
 function words(found, duration) {
-  const sentences = [];
-  const { horizon, forces_until: forces } = found;
-  const far = horizon !== null && horizon >= duration * (1 - 1e-9);
-  if (far) sentences.push("Trust the whole curve: another tolerance gives the same motion.");
-  else if (horizon) {
-    sentences.push(`Trust the curve until ${withUnit(horizon, "s", 3)}. After that small differences`
-      + " have grown so much that another tolerance takes another path; trust the statistics there.");
-  } else sentences.push("Do not trust the course of the curve: no part of it is shown to be converged.");
+  const { forces_until: forces } = found;
+  const [course, growth] = convergence(found, duration);
+  const sentences = [course];
+  const far = !gaps(found, 0, duration).length;
   const spread = spreads(found.channels);
   if (!far && spread) {
     sentences.push(`Largest values agree between runs with other tolerances: ${spread}.`);
@@ -50,14 +51,7 @@ function words(found, duration) {
   if (forces !== null && forces !== undefined && !far) {
     sentences.push(`Forces and accelerations are accurate until ${withUnit(forces, "s", 3)}.`);
   }
-  if (found.exponent) {
-    const { value, error } = found.exponent;
-    const grows = value > 2 * (error ?? 0)
-      ? `Small differences grow tenfold every ${span(Math.log(10) / value)}: the motion is chaotic`
-        + " or close to it."
-      : "Small differences do not grow: the motion is regular as far as this run tells.";
-    sentences.push(grows);
-  } else if (found.exponent_note) sentences.push(found.exponent_note);
+  if (growth) sentences.push(growth);
   if (found.energy_error !== null && found.energy_error !== undefined) {
     sentences.push(`Energy is accounted for to ${short(100 * Math.abs(found.energy_error), 2)} % of`
       + " all work that was done.");

@@ -1,8 +1,8 @@
 /** A run to watch: the mechanism in motion, its clearance joints magnified, its histories. */
 
 import { ChannelChoice } from "../../interface/channel_choice.js";
+import { gaps, spansInWords } from "../../interface/converged.js";
 import { element, fill } from "../../interface/element.js";
-import { withUnit } from "../../interface/numbers.js";
 import { saving } from "../../interface/saving.js";
 import { note } from "../../interface/place.js";
 import { sceneOf } from "../../interface/scene_of_job.js";
@@ -148,12 +148,12 @@ class Watch {
 
   /** Says what the marks in the plots mean. */
   explain(certificate) {
-    const { horizon } = certificate ?? {};
-    const beyond = horizon !== null && horizon !== undefined && horizon < this.clock.last;
+    const apart = certificate ? gaps(certificate, 0, this.clock.last) : [];
+    const beyond = apart.length > 0;
     const entry = (look, words) => element("li", {}, element("span", { class: `swatch ${look}` }), words);
     fill(this.marks,
       this.impacts.length > 0 && entry("swatch-impact", "a contact begins"),
-      beyond && entry("swatch-beyond", `after ${withUnit(horizon, "s", 3)} other tolerances take other paths`),
+      beyond && entry("swatch-beyond", `not converged, ${spansInWords(apart)}: other tolerances take other paths`),
       beyond && entry("swatch-spread", "where their extremes lie"));
   }
 
