@@ -1,7 +1,9 @@
 """``jointplay doctor``: whether everything that a service, or a run, keeps is as it should be."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,7 +14,7 @@ from jointplay.command_line.options import AS_JSON
 from jointplay.command_line.output import aligned, tell
 
 if TYPE_CHECKING:
-    from jointplay.storage.reconciliation import Finding
+    from jointplay.storage.reconciliation import Finding, Look
 
 
 def doctor(
@@ -25,21 +27,31 @@ def doctor(
         ),
     ] = Path(".jointplay"),
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Only look, mend nothing.")] = False,
+    every_byte: Annotated[
+        bool, typer.Option("--bytes", "--all", help="Read every byte of all results.")
+    ] = False,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="Of the sample of results; default: of the day.")
+    ] = None,
     as_json: AS_JSON = False,
 ) -> None:
     """Compare catalogue, results and broker with one another, and mend what can be mended.
 
-    Every byte of all sealed results is compared with its checksum.  Jobs whose results are damaged
-    are marked, so that submitting them again computes them anew; leftovers are removed, whole
-    results without a job get one.  The service may run meanwhile: what a worker holds is left
-    alone.  Exit code 0: nothing was found; 1: something was, and is in the table.
+    All results are looked for; of a sample of 100 of them, or of all with --bytes, every byte is
+    compared with its checksum.  Jobs whose results are damaged are marked, so that submitting them
+    again computes them anew; leftovers are removed, whole results without a job get one.  The
+    service may run meanwhile: what a worker holds is left alone.  Exit code 0: nothing was found;
+    1: something was, and is in the table.
 
     Example: `jointplay doctor .jointplay --dry-run`
     """
     from jointplay.progress import progress
+    from jointplay.storage.reconciliation.look import Counted, Look
 
-    found = []
-    with progress("doctor") as report, _examination(folder, report) as findings:
+    found, counted = [], Counted()
+    seed = _day() if seed is None else seed
+    look = partial(Look, None if every_byte else seed, counted=counted)
+    with progress("doctor") as report, _examination(folder, look(report=report)) as findings:
         for finding in findings:
             if finding.mend is not None and not dry_run:
                 finding.mend()
@@ -48,7 +60,13 @@ def doctor(
     document = {
         "findings": [finding.document() for finding in found],
         "mended": 0 if dry_run else mendable,
+        "results": counted.there,
+        "read": counted.read,
+        "seed": seed if counted.read < counted.there else None,
     }
+    if counted.read < counted.there and not as_json:
+        sample = f"every byte was read of {counted.read} of {counted.there} results (--seed {seed})"
+        typer.echo(f"{sample}; --bytes reads all", err=True)
     tell(document, _lines(found, dry_run=dry_run), as_json=as_json)
     if found:
         done = "can be mended" if dry_run else "mended"
@@ -56,10 +74,8 @@ def doctor(
 
 
 @contextmanager
-def _examination(
-    folder: Path, report: Callable[[float, str], None]
-) -> "Iterator[Iterable[Finding]]":
-    """Give what is found in a folder, while it is looked for; `report` hears how far that is."""
+def _examination(folder: Path, look: "Look") -> "Iterator[Iterable[Finding]]":
+    """Give what is found in a folder, while it is looked for."""
     from jointplay.worker.local.folder import JOB_FILE, STORE
 
     if any((folder / name).exists() for name in (JOB_FILE, STORE)):
@@ -81,9 +97,14 @@ def _examination(
         raise Stopped(line)
     catalogue = Catalogue(settings.catalogue_url)
     try:
-        yield findings(settings, catalogue, (stray_messages,), report)
+        yield findings(settings, catalogue, (stray_messages,), look)
     finally:
         catalogue.close()
+
+
+def _day() -> int:
+    """Return the number of this day, so that each day other results are read."""
+    return datetime.now(UTC).toordinal()
 
 
 def _lines(found: "list[Finding]", *, dry_run: bool) -> Iterator[str]:

@@ -9,23 +9,27 @@ from typing import Final
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.leftovers import leftovers
+from jointplay.storage.reconciliation.look import Counted, Look
 from jointplay.storage.reconciliation.results import damage
 from jointplay.storage.reconciliation.rows import contradictions, unsound
 from jointplay.storage.reconciliation.solvers import unserved
 from jointplay.storage.reconciliation.surroundings import clock, disk
 from jointplay.storage.settings import Settings
 
-__all__ = ["CHECKS", "Finding", "findings"]
+__all__ = ["CHECKS", "Counted", "Finding", "Look", "findings"]
 
 Check = Callable[[Settings, Catalogue], Iterator[Finding]]
-CHECKS: Final[tuple[Check, ...]] = (disk, clock, unserved, contradictions, damage, leftovers)
+CHECKS: Final[tuple[Check, ...]] = (disk, clock, unserved, contradictions)
+"""Checks that are made at once."""
+_READ, _LEFT_OVER = 0.9, 0.99
+"""Parts of the time after which results were read, and what is left over was looked for."""
 
 
 def findings(
     settings: Settings,
     catalogue: Catalogue,
     more: tuple[Check, ...] = (),
-    report: Callable[[float, str], None] = lambda fraction, note: None,
+    look: Look | None = None,
 ) -> Iterator[Finding]:
     """Yield everything that is not as it should be; nothing is mended by it.
 
@@ -35,12 +39,19 @@ def findings(
         Of the installation.
     more
         Further checks, which only other packages can make.
-    report
-        Called before each check with the part of all that are done, and its name.
+    look
+        How closely results are looked at, and who hears how far that is; by default at every byte.
     """
+    look = look or Look()
     flaws = [*unsound(settings, catalogue)]
     yield from flaws
-    checks = () if flaws else (*CHECKS, *more)
-    for done, check in enumerate(checks):
-        report(done / len(checks), f"looking at {check.__name__.replace('_', ' ')}")
+    if flaws:
+        return
+    for check in CHECKS:
+        look.report(0.0, f"looking at {check.__name__}")
+        yield from check(settings, catalogue)
+    yield from damage(settings, catalogue, look.within(0.0, _READ))
+    yield from leftovers(settings, catalogue, look.within(_READ, _LEFT_OVER - _READ))
+    for check in more:
+        look.report(_LEFT_OVER, f"looking at {check.__name__.replace('_', ' ')}")
         yield from check(settings, catalogue)

@@ -12,6 +12,7 @@ from jointplay.storage.durable import PARTIAL
 from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation.finding import Finding
+from jointplay.storage.reconciliation.look import Look
 from jointplay.storage.reconciliation.results import damage_of, sealed_results, verified
 from jointplay.storage.settings import OF_A_JOB, RUNNING, Settings
 
@@ -30,20 +31,26 @@ _SEALED: Final = re.compile(
     r"../(?P<job>[0-9A-Z]{26})-(a(?P<attempt>\d+)|study)\.zarr\.zip(\.[0-9a-f]+\.partial)?"
 )
 _LEFT: Final = "is left over"
+_TOLD: Final = 100
+"""Objects between two words on how far it is."""
 _READ: Final = "jointplay show FILE reads it; remove it, or keep it elsewhere"
 
 
-def leftovers(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
+def leftovers(
+    settings: Settings, catalogue: Catalogue, look: Look | None = None
+) -> Iterator[Finding]:
     """Look for files of jobs that have ended, longer ago than workers take to tidy up."""
-    return left_after(settings, catalogue, settings.lease)
+    return left_after(settings, catalogue, settings.lease, look)
 
 
-def left_after(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
+def left_after(
+    settings: Settings, catalogue: Catalogue, grace: float, look: Look | None = None
+) -> Iterator[Finding]:
     """Look for files of jobs that ended more than some seconds ago, and of no job.
 
     Files are listed before their job is looked up: what a worker is about to write is not here.
     """
-    yield from _of_the_place(settings, catalogue, grace)
+    yield from _of_the_place(settings, catalogue, grace, look or Look())
     yield from of_running_jobs(settings, catalogue, grace)
     for path in sorted(settings.data.glob("*")):
         if path.name not in _DATA:
@@ -52,9 +59,15 @@ def left_after(settings: Settings, catalogue: Catalogue, grace: float) -> Iterat
             )
 
 
-def _of_the_place(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
+def _of_the_place(
+    settings: Settings, catalogue: Catalogue, grace: float, look: Look
+) -> Iterator[Finding]:
     place = settings.place
-    for key in sorted([*place.list(""), *place.cut_off()]):
+    keys = sorted([*place.list(""), *place.cut_off()])
+    listed = set(keys)
+    for done, key in enumerate(keys):
+        if done % _TOLD == 0:
+            look.report(done / len(keys), f"looking at object {done} of {len(keys)}")
         if settings.sends and key.startswith(f"{RUNNING}/") and key.count("/") >= OF_A_JOB:
             continue
         named = _SEALED.fullmatch(key)
@@ -65,6 +78,8 @@ def _of_the_place(settings: Settings, catalogue: Catalogue, grace: float) -> Ite
         job = _job_of(catalogue, named["job"])
         if job is None and not key.endswith(PARTIAL):
             yield _without_job(settings, catalogue, StoredObject(place, key), named)
+        elif job is not None and _is_due(settings, job, key, listed):
+            continue
         elif job is None or (_settled(job, catalogue, grace) and _not_due(settings, job, key)):
             remove = partial(place.remove, key)
             yield _left("results", key, remove, needed=job is not None and _needed(settings, job))
@@ -102,6 +117,12 @@ def _settled(job: Job, catalogue: Catalogue, grace: float) -> bool:
     """Whether a job has ended, and workers had the time to remove what it needed."""
     moment = job.removed or job.finished or 0.0
     return job.state.terminal and moment <= catalogue.clock() - grace
+
+
+def _is_due(settings: Settings, job: Job, key: str, listed: set[str]) -> bool:
+    """Whether an object is a job's results, as far as a list of all objects tells that."""
+    study, run = settings.sealed_study(job.id).key, settings.sealed_run(job.id, job.attempt).key
+    return job.removed is None and (key == study or (key == run and study not in listed))
 
 
 def _not_due(settings: Settings, job: Job, key: str) -> bool:

@@ -12,6 +12,7 @@ from jointplay.storage.identity import growing_study, require_results_of
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation.finding import Finding
+from jointplay.storage.reconciliation.look import Look, several_at_once
 from jointplay.storage.results import manifest
 from jointplay.storage.results.metadata import FILE, Document
 from jointplay.storage.results.reader import ResultReader
@@ -21,12 +22,30 @@ WHERE = "results"
 _ANEW = "jointplay show {0} --job > job.json; jointplay submit job.json"
 
 
-def damage(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
-    """Compare the results of every job that has ended, byte by byte, with what was stored."""
+def damage(settings: Settings, catalogue: Catalogue, look: Look | None = None) -> Iterator[Finding]:
+    """Compare the results of jobs that have ended with what was stored.
+
+    All are looked for in a list of what there is; of those that `look` chooses, of those that are
+    marked as damaged or not in that list, every byte is read.
+    """
+    look = look or Look()
+    listed = {job_in(key) for key in settings.place.list("")}
+    ended, besides = [], []
     for job in catalogue.every_job():
-        if not job.state.terminal:
-            continue
-        found = damage_of(settings, job) or _unsealed_damage(settings, catalogue, job)
+        if job.state.terminal:
+            ended.append(job.id)
+            lacks = job.state is JobState.succeeded and job.id not in listed
+            if lacks or job.damaged:
+                besides.append(job.id)
+    chosen = look.chosen(ended, besides)
+    look.counted.read, look.counted.there = len(chosen), len(ended)
+
+    def compared(job_id: str) -> tuple[Job, str | None]:
+        job = catalogue.get(job_id)
+        return job, damage_of(settings, job) or _unsealed_damage(settings, catalogue, job)
+
+    for done, (_, (job, found)) in enumerate(several_at_once(compared, chosen)):
+        look.report(done / len(chosen), f"read {done} of {len(chosen)} results")
         if found == job.damaged:
             mended = None
         elif found is None:
@@ -43,6 +62,11 @@ def damage(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
             _ANEW.format(job.id) if found else None,
             partial(catalogue.mark_damaged, job.id, found) if mended else None,
         )
+
+
+def job_in(key: str) -> str:
+    """Return the id of the job that an object's name begins with."""
+    return key.rpartition("/")[2].partition("-")[0]
 
 
 def damage_of(settings: Settings, job: Job) -> str | None:

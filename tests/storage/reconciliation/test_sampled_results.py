@@ -1,0 +1,82 @@
+"""All results are looked for; where not all are read, a sample and what is in doubt are."""
+
+from collections import Counter
+
+import pytest
+
+from jointplay.storage.places import StoredObject
+from jointplay.storage.reconciliation import Finding, Look, findings, look, results
+from tests.storage.reconciliation.harms import flip, remove
+from tests.storage.reconciliation.installation import Installed
+
+
+@pytest.fixture
+def read(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """Count the results of which every byte is read."""
+    counted: Counter[str] = Counter()
+    verified = results.verified
+
+    def counting(sealed: StoredObject) -> object:
+        counted[results.job_in(sealed.key)] += 1
+        return verified(sealed)
+
+    monkeypatch.setattr(results, "verified", counting)
+    monkeypatch.setattr(look, "SAMPLE", 1)
+    return counted
+
+
+def looked(installed: Installed, way: Look) -> list[Finding]:
+    return [*findings(installed.settings, installed.catalogue, look=way)]
+
+
+def seed_without(installed: Installed, job: str) -> int:
+    """Find a seed whose sample leaves out a job."""
+    ended = [one.id for one in installed.catalogue.every_job() if one.state.terminal]
+    return next(seed for seed in range(99) if job not in Look(seed).chosen(ended, []))
+
+
+def test_bytes_are_read_of_a_sample_or_of_all(installed: Installed, read: Counter[str]) -> None:
+    harmed = installed.jobs["succeeded"]
+    flip(installed.sealed("succeeded"))
+    told: list[float] = []
+    some = Look(seed_without(installed, harmed), lambda done, _: told.append(done))
+    assert looked(installed, some) == []
+    assert (some.counted.read, harmed in read) == (1, False)
+    assert some.counted.there > 2
+    assert told == sorted(told)
+    every = Look()
+    (finding,) = looked(installed, every)
+    assert finding.subjects == (f"job {harmed}",)
+    assert every.counted.read == every.counted.there == some.counted.there
+
+
+def test_what_is_not_there_or_is_marked_is_found_whatever_the_sample(
+    installed: Installed, read: Counter[str]
+) -> None:
+    harmed = installed.jobs["succeeded"]
+    seed = seed_without(installed, harmed)
+    installed.catalogue.mark_damaged(harmed, "it was")
+    (finding,) = looked(installed, Look(seed))
+    assert finding.mended == "no longer marked as damaged"
+    installed.catalogue.mark_damaged(harmed, None)
+    remove(installed.sealed("succeeded"))
+    (finding,) = looked(installed, Look(seed))
+    assert finding.found.endswith("is gone")
+
+
+def test_what_is_in_its_place_is_not_asked_for_again(
+    installed: Installed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A bucket is asked for nothing but its list about results that nobody reads."""
+    asked: Counter[str] = Counter()
+    exists = StoredObject.exists
+
+    def counting(self: StoredObject) -> bool:
+        asked[results.job_in(self.key)] += 1
+        return exists(self)
+
+    monkeypatch.setattr(look, "SAMPLE", 1)
+    monkeypatch.setattr(StoredObject, "exists", counting)
+    harmed = installed.jobs["succeeded"]
+    assert looked(installed, Look(seed_without(installed, harmed))) == []
+    assert harmed not in asked
