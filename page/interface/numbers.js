@@ -5,6 +5,9 @@ const PREFIXES = [
 ];
 const RAISED = Object.fromEntries([..."-0123456789n"].map((one, i) => [one, [..."⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ"][i]]));
 const PREFIXED = new Set(["m", "s", "N", "J", "W", "Pa", "N m", "N s", "Hz"]);
+const AXIS_PREFIXES = PREFIXES.filter(([one]) => one <= 1e6 && one >= 1e-9);
+const SCALED = /^(m|s|N|J|W|N m|N s|m\/s|m\/s\^2)$/;
+const NEVER_LARGER = /^(m|s)(\/s(\^2)?)?$/; // no mechanism is measured in kilometres
 const ROUNDING = 1e-14;
 
 /** Returns a number with few digits: 0.0005, 1569, 2.07e+11. */
@@ -34,6 +37,16 @@ export function withUnit(value, unit, digits = 4) {
   const [factor, prefix] =
     PREFIXES.find(([one]) => Math.abs(value) >= one * 0.9995) ?? PREFIXES.at(-1);
   return `${short(value / factor, digits)} ${prefix}${unit}`;
+}
+
+/** Returns what one of an axis's unit is in SI, and the unit with its prefix, as figures have it. */
+export function axisUnit(unit, largest) {
+  const plain = [1, unit === "1" ? "" : unitText(unit)];
+  if (!SCALED.test(unit) || !(largest > 0) || (largest >= 0.1 && largest < 1e4)) return plain;
+  if (largest >= 1e4 && NEVER_LARGER.test(unit)) return plain;
+  const [one, prefix] = AXIS_PREFIXES.find(([factor]) =>
+    largest >= (factor > 1 ? factor : 0.1 * factor)) ?? AXIS_PREFIXES.at(-1);
+  return [one, prefix + unitText(unit)];
 }
 
 /** Returns a span of seconds for people: 0.3 s, 2 min 5 s, 3 h 20 min. */

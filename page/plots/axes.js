@@ -1,6 +1,6 @@
 /** Axes of plots on a canvas: nice numbers, labels, and the way from values to pixels. */
 
-import { short, unitText } from "../interface/numbers.js";
+import { axisUnit, short } from "../interface/numbers.js";
 
 /** Returns how much larger letters are than on a page of usual size: they grow on large screens. */
 export function letters() {
@@ -50,10 +50,11 @@ export function ticks([low, high], wanted) {
   return found;
 }
 
-/** Draws a frame with ticks and labels. */
+/** Draws a frame with ticks and labels, whose units `[m]` get prefixes that suit the values. */
 export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = true }, colours) {
   const [left, top, width, height] = to.room;
   const [x0, x1, y0, y1] = to.domain;
+  const [across, up] = [suited(xLabel, [x0, x1]), suited(yLabel, [y0, y1])];
   const size = letters();
   context.font = axisFont();
   context.lineWidth = 1;
@@ -62,16 +63,16 @@ export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = tru
   context.strokeRect(left + 0.5, top + 0.5, width, height);
   context.textAlign = "center";
   context.textBaseline = "top";
-  for (const value of ticks([x0, x1], width / (90 * size))) {
-    const x = Math.round(to.x(value)) + 0.5;
+  for (const value of ticks([x0 / across.one, x1 / across.one], width / (90 * size))) {
+    const x = Math.round(to.x(value * across.one)) + 0.5;
     line(context, [x, top + height], [x, top + height + 5]);
     if (numbersX) context.fillText(short(value, 4), x, top + height + 7);
   }
-  if (numbersX) context.fillText(unitText(xLabel), left + width / 2, top + height + 9 + 14 * size);
+  if (numbersX) context.fillText(across.label, left + width / 2, top + height + 9 + 14 * size);
   context.textAlign = "right";
   context.textBaseline = "middle";
-  for (const value of ticks([y0, y1], height / (45 * size))) {
-    const y = Math.round(to.y(value)) + 0.5;
+  for (const value of ticks([y0 / up.one, y1 / up.one], height / (45 * size))) {
+    const y = Math.round(to.y(value * up.one)) + 0.5;
     line(context, [left - 5, y], [left, y]);
     context.fillText(short(value, 4), left - 8, y);
   }
@@ -79,8 +80,16 @@ export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = tru
   context.translate(10 * size, top + height / 2);
   context.rotate(-Math.PI / 2);
   context.textAlign = "center";
-  context.fillText(unitText(yLabel), 0, 0);
+  context.fillText(up.label, 0, 0);
   context.restore();
+}
+
+/** Returns a label `name [unit]` with a prefix that suits values, and what one of its unit is. */
+function suited(label, values) {
+  const [, name, unit] = /^(.*) \[([^\]]*)\]$/.exec(label) ?? [null, label, ""];
+  if (!unit) return { label, one: 1 };
+  const [one, written] = axisUnit(unit, Math.max(...values.map(Math.abs)));
+  return { label: `${name} [${written}]`, one };
 }
 
 function line(context, from, to) {

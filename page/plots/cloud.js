@@ -3,6 +3,7 @@
 import { letters } from "./axes.js";
 
 const FEW = 30000; // points below which each is a visible dot
+const RADII = [[30, 3.2], [300, 2.2], [FEW / 10, 1.2], [FEW, 0.8]]; // px, of so many points at most
 const LEAST = 0.35; // opacity of a single point among more of them
 
 /**
@@ -17,7 +18,8 @@ export function drawCloud(context, to, layers) {
   if (width < 1 || height < 1) return;
   const across = dots * letters();
   const total = layers.reduce((sum, { x }) => sum + x.length, 0);
-  const size = total < FEW ? Math.max(1, Math.round((total < FEW / 10 ? 1.2 : 0.8) * across)) : 0;
+  const [, radius] = RADII.find(([most]) => total <= most) ?? [0, 0];
+  const size = radius ? Math.max(1, Math.round(radius * across)) : 0;
   const image = new ImageData(width, height);
   for (const { x, y, colour } of layers) {
     const counts = new Uint16Array(width * height);
@@ -26,6 +28,7 @@ export function drawCloud(context, to, layers) {
       const row = Math.round(to.y(y[i]) * dots) - top;
       for (let r = row - size; r <= row + size; r++) {
         for (let c = column - size; c <= column + size; c++) {
+          if ((c - column) ** 2 + (r - row) ** 2 > (size + 0.5) ** 2) continue;
           if (c >= 0 && r >= 0 && c < width && r < height) {
             const at = r * width + c;
             if (counts[at] < 65535) counts[at] += 1;

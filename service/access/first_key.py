@@ -25,8 +25,11 @@ def require_key_beyond_this_machine(host: str) -> None:
             of_data = (
                 f" --data {settings.data}" if settings.catalogue_url.startswith("sqlite") else ""
             )
+            why = f"others can reach {host}"
+            if settings.keys == "required":
+                why = "keys are required"
             raise SystemExit(
-                f"nobody has a key, and others can reach {host}: make one with `jointplay key new"
+                f"nobody has a key, and {why}: make one with `jointplay key new"
                 f" --owner NAME{of_data}`, or set JOINTPLAY_KEYS=none to let everybody do"
                 " everything"
             )

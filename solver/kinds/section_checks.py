@@ -84,6 +84,8 @@ def _onset(section: OnsetSection, checked: PlacedPoints) -> list[Problem]:
 FARTHEST = 2.0
 """Clearances from the bearing's centre that no journal leaves: it would be as deep in the wall."""
 PLACE = "/section/value"
+LARGEST_ANGLE = 1e6
+"""Angle of a section, rad: turns are told apart to 1e-10 rad there, and not at all far beyond."""
 
 
 def crossing_problems(
@@ -98,6 +100,14 @@ def crossing_problems(
             yield Problem("/section/channel", sentence)
             return
         seen = _Seen(channel, section.value, output.channel, output.factor, output.offset)
+    if channel.unit == "rad" and abs(section.value) > LARGEST_ANGLE:
+        sentence = (
+            f"An angle is crossed once a turn, whatever turns its value has; give one between"
+            f" -{LARGEST_ANGLE:g} and {LARGEST_ANGLE:g} rad, such as"
+            f" {math.remainder(section.value, 2.0 * math.pi):.6g}."
+        )
+        yield Problem(PLACE, sentence)
+        return
     owner, _, quantity = seen.source.rpartition(".")
     joint = owner.partition(".")[0]
     if joint in checked.declared.joints:

@@ -146,7 +146,9 @@ def _admission(
         samples=samples,
         sections=sections,
         period=period.seconds,
-        section_note=period.note,
+        section_note=f"{period.note} Without one there is no Poincare section."
+        if period.note
+        else "",
         notes=tuple(misfit.sentence for misfit in assemble(scene).misfits),
         joints=tuple(contact_pairs(scene)),
         stored_bytes=int(limits.BYTES_PER_VALUE * (len(channels) + 1) * (samples + sections)),

@@ -113,7 +113,7 @@ def driven_travel(scene: Scene, unit: float, until: float) -> float:
 def period_of(speeds: Sequence[float]) -> Period:
     """Return the least common period of turning drivers, whose speeds (rad/s) are positive."""
     if not speeds:
-        return Period(None, "No driver turns, so there is no period and no Poincare section.")
+        return Period(None, "No driver turns, so there is no period.")
     if min(speeds) < SLOWEST:
         return Period(
             None, f"A driver turns slower than {SLOWEST:g} rad/s, so there is no period in reach."
@@ -126,8 +126,8 @@ def period_of(speeds: Sequence[float]) -> Period:
         if not exact or ratio.numerator > LARGEST_RATIO:
             return Period(
                 None,
-                f"The drivers' speeds {first:g} and {speed:g} rad/s have no common period, so there"
-                " is no Poincare section; choose speeds in a ratio of whole numbers.",
+                f"The drivers' speeds {first:g} and {speed:g} rad/s have no common period;"
+                " choose speeds in a ratio of whole numbers.",
             )
         # the first driver makes `turns` turns until every other one has made whole turns
         whole = Fraction(ratio.denominator)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 
 Contacts = NDArray[np.void]
-"""Contacts that ended, of dtype `solver.runs.results.IMPACT`."""
+"""Contacts that ended, of dtype `records.impact.IMPACT`."""
 
 
 @dataclass(frozen=True)

@@ -73,6 +73,41 @@ def test_a_sweep_over_one_parameter_has_curves_of_what_is_known(
         page.get_by_role("img", name="A.contact_share [1] over clearance").wait_for()
 
 
+UNITS = {
+    (0.00035, "m"): [1e-3, "mm"],
+    (0.05, "m"): [1e-3, "mm"],
+    (0.5, "m"): [1, "m"],
+    (25000, "m"): [1, "m"],
+    (25000, "N"): [1e3, "kN"],
+    (2e-5, "m/s"): [1e-6, "µm/s"],
+    (0.001, "rad"): [1, "rad"],
+    (0.001, "1"): [1, ""],
+}
+DOTS = """async (count) => {
+  const { drawCloud } = await import("/page/plots/cloud.js");
+  const { scales } = await import("/page/plots/axes.js");
+  const context = new OffscreenCanvas(400, 400).getContext("2d");
+  const some = Array.from({ length: count }, (_, i) => i / count);
+  drawCloud(context, scales([0, 0, 400, 400], [-0.1, 1.1], [-0.1, 1.1]),
+    [{ x: some, y: some, colour: "#000000" }]);
+  const { data } = context.getImageData(0, 0, 400, 400);
+  return data.filter((one, i) => i % 4 === 3 && one > 0).length / count;
+}"""
+
+
+def test_axes_have_the_units_of_figures_and_few_points_are_large(browsing, service_url):
+    with browsing.page(f"{service_url}/#/jobs") as page:
+        for (largest, unit), expected in UNITS.items():
+            found = page.evaluate(
+                """async ([largest, unit]) =>
+                  (await import("/page/interface/numbers.js")).axisUnit(unit, largest)""",
+                [largest, unit],
+            )
+            assert found == expected, (largest, unit)
+        two, some, many = (page.evaluate(DOTS, count) for count in (2, 200, 2000))
+    assert two > 28 > some > 5 > many, (two, some, many)
+
+
 def test_two_runs_are_compared_in_the_same_plots(browsing, url, press, artifacts):
     with browsing.page(f"{url}/#/compare?jobs={press},{press}", still=True) as page:
         page.locator(".uplot").nth(3).wait_for()

@@ -173,6 +173,14 @@ def test_clients_send_it(guarded: Guarded) -> None:
         client.job(guarded.job)
 
 
+def test_where_keys_are_required_the_first_sentence_says_so(tmp_path: Path) -> None:
+    command = [sys.executable, "-P", "-m", "jointplay.service.processes.api"]
+    environment = os.environ | {"JOINTPLAY_DATA": str(tmp_path), "JOINTPLAY_KEYS": "required"}
+    ended = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+    assert ended.returncode == 1
+    assert ended.stderr.startswith("nobody has a key, and keys are required: make one with")
+
+
 @pytest.mark.parametrize("in_postgresql", [False, True])
 def test_a_service_that_nobody_has_a_key_to_says_how_one_is_made(
     tmp_path: Path, *, in_postgresql: bool

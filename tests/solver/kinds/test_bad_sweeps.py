@@ -54,7 +54,7 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         S,
         {"scene": PENDULUM, "grid": {"angle": [0.1, 0.2]}},
         "/periods",
-        "Give a 'duration'",
+        "No driver turns, so there is no period. Give a 'duration'.",
     ),
     "unknown parameter of a grid": (S, {"grid": {"frict": [0.1]}}, "/grid/frict", "'friction'"),
     "value of a grid outside": (

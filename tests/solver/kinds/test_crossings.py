@@ -57,6 +57,11 @@ NEVER: dict[str, tuple[dict[str, Any], str, str]] = {
         "/section/value",
         "never below zero",
     ),
+    "an angle of so many turns that none is told from the next": (
+        {"channel": "crank1.theta", "value": 1e300},
+        "/section/value",
+        "between -1e+06 and 1e+06 rad",
+    ),
     "no kinetic energy": (
         {"channel": "energy.kinetic", "value": -1.0},
         "/section/value",
