@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 AXE = Path(__file__).parent / "vendor" / "axe.min.js"
-PATIENCE = 30_000  # ms: of a wait; a machine may be busy, or compile equations for the first time
+PATIENCE = 300_000  # ms: of a wait; a machine may be busy, or compile equations for the first time
 _RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}
 
 
