@@ -19,7 +19,7 @@ YES = Annotated[bool, typer.Option("--yes", help="Do not ask.")]
 
 
 class Filters(NamedTuple):
-    """What jobs have in common; None: anything."""
+    """Facts that jobs have in common; None: anything."""
 
     state: str | None
     kind: str | None

@@ -91,8 +91,13 @@ class JobResource(BaseModel):
         }
         error = job.error and job.error.document()
         labels = [one for one in (job.label, *(job.further_labels or ())) if one is not None]
-        shown = {"progress": progress, "error": error, "links": _links(job), "job": job.spec}
-        shown["labels"] = labels
+        shown = {
+            "labels": labels,
+            "progress": progress,
+            "error": error,
+            "links": _links(job),
+            "job": job.spec,
+        }
         return cls.model_validate(vars(job) | shown | more)
 
 

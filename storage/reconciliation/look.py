@@ -1,4 +1,4 @@
-"""How closely results are looked at: every byte of all of them, or of a sample."""
+"""Ways to look at results: at every byte of all of them, or of a sample."""
 
 import random
 from collections import deque
@@ -18,7 +18,7 @@ Answer = TypeVar("Answer")
 
 @dataclass
 class Counted:
-    """Of how many results every byte was read, and how many there are."""
+    """Number of results of which every byte was read, and of all that there are."""
 
     read: int = 0
     there: int = 0

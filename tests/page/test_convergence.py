@@ -8,7 +8,7 @@ from jointplay.figures.time_axis import TimeAxis
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.packed import Packed
 from jointplay.storage.results.reader import ResultReader
-from tests.page.browsing import barriers_everywhere
+from tests.page.browsing import barriers_everywhere, expect
 from tests.service.damage.subjects import certificate_of
 
 SPANS = [[0.0, 0.0469], [0.62, 2.0]]
@@ -55,8 +55,8 @@ def test_one_story_is_told_of_spans_that_are_not_converged(
             " tolerances take other paths: trust the statistics there."
         ).wait_for()
         page.get_by_text("Small differences show no lasting growth").wait_for()
-        assert page.get_by_text("have grown so much").count() == 0
-        assert page.get_by_text("Small differences do not grow").count() == 0
+        expect(page.get_by_text("have grown so much")).to_have_count(0)
+        expect(page.get_by_text("Small differences do not grow")).to_have_count(0)
         assert barriers_everywhere(page) == {}
         page.screenshot(path=artifacts / "converged-accuracy.png", full_page=True)
     run = ResultReader(Packed(settings.sealed_run(job, 1)))

@@ -105,7 +105,7 @@ def test_chosen_jobs_are_compared_retried_and_deleted_with_one_question(
         for job in done:
             box(job).check()
         page.get_by_role("link", name="Compare 2").wait_for()
-        assert page.get_by_role("button", name=re.compile("^Retry [0-9]")).count() == 0
+        expect(page.get_by_role("button", name=re.compile("^Retry [0-9]"))).to_have_count(0)
         box(study).check()
         expect(page.get_by_role("link", name="Compare 2")).to_have_count(0)
         page.get_by_role("button", name="Delete 3", exact=True).wait_for()
