@@ -11,7 +11,7 @@ from jointplay.records.peak import Peak
 
 PROMISED: Final = 1e-6
 """Share of a channel's range by which its extremes may be off."""
-ROUNDING: Final = 1e-10
+ROUNDING: Final = 1e-9
 """Share of the largest range of all channels that may be nothing but rounding."""
 
 

@@ -1,6 +1,6 @@
 """Extremes of channels from the time on that a job leaves out as settling."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,9 +11,8 @@ from jointplay.records.peak import Peak
 from jointplay.solver.kernels.emit.places import LENGTH
 from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.seeking import SHARP
-from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
-from jointplay.solver.runs.dense_output.replay import Replay, scaled
+from jointplay.solver.runs.dense_output.replay import ProblemReplay, scaled
 
 
 class SettledPeaks:
@@ -24,15 +23,20 @@ class SettledPeaks:
 
     Parameters
     ----------
-    admission, method
-        As `Replay` takes them.
+    replay
+        Of the run.
+    names
+        Channels.
+    settle, end
+        Of the time that counts, s.
     """
 
-    def __init__(self, admission: Admission, method: str) -> None:
-        self._replay = Replay(admission, method)
-        self._edges = np.array([admission.settle, float(admission.job["duration"])])
-        self._names = [channel.name for channel in admission.channels]
-        self._sources, self._wanted = self._replay.sought(self._names)
+    def __init__(
+        self, replay: ProblemReplay, names: Sequence[str], settle: float, end: float
+    ) -> None:
+        self._replay, self._names = replay, names
+        self._edges = np.array([settle, end])
+        self._sources, self._wanted = self._replay.sought(names)
         self._rows, self._table = self._replay.rows(self._wanted), self._replay.table()
         self._book = self._replay.book(self._wanted, np.zeros(len(self._wanted)))
         self._record = np.full((1, len(self._wanted), 4), np.nan)

@@ -22,6 +22,7 @@ from jointplay.solver.runs.certificate.survey import Survey
 from jointplay.solver.runs.dense_output.columns import most_steps, number_of
 from jointplay.solver.runs.dense_output.intervals import IntervalExtremes
 from jointplay.solver.runs.followers import Followers, with_pulls
+from jointplay.solver.runs.dense_output.replay import Replay
 from jointplay.solver.runs.ideal.run import IdealRun
 from jointplay.solver.runs.lane_results import (
     failure_of,
@@ -119,7 +120,7 @@ class DynamicRun:
         formulation = self.admission.job["formulation"]
         problem = stiff_method.problem_for(self.problem, method, self.admission)
         kernel = ready_kernel(problem.scene, formulation, method)
-        bundle = Bundle(kernel, [problem], keep_steps=True)
+        bundle = Bundle(kernel, [problem], keep_steps=1)
         certified = self.admission.job["certificate"]
         survey = Survey(bundle, problem, formulation) if certified else None
         # compiling may have ended the run, with what it had so far
@@ -131,7 +132,11 @@ class DynamicRun:
         self.sections_done = 0
         self.steps_kept = 0
         self.intervals: IntervalExtremes | None = None
-        self.settled = SettledPeaks(self.admission, method) if self.admission.settle else None
+        self.settled: SettledPeaks | None = None
+        if self.admission.settle:
+            names, stop = [channel.name for channel in channels], self.admission.job["duration"]
+            replay = Replay(self.admission, method)
+            self.settled = SettledPeaks(replay, names, self.admission.settle, float(stop))
         self.sampled = SampledExtremes(len(channels), self.admission.settle or 0.0)
         is_open = stiff_method.is_open(self.admission)
         self.choice = stiff_method.MethodChoice(bundle) if is_open else None
@@ -274,7 +279,7 @@ class DynamicRun:
 
     def _steps(self) -> tuple[Floats, Floats]:
         """Return the steps that are kept, with their method; intervals of those that are not."""
-        steps = self.bundle.steps()
+        steps = self.bundle.steps(LANE)
         count = max(min(len(steps), self.most_steps - self.steps_kept), 0)
         self.steps_kept += count
         method = np.full((count, 1), number_of(self.kernel.tableau.name))

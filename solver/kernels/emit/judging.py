@@ -23,7 +23,7 @@ NOTICED = 0.01
 
 REJECTED, DUE, ONSET, RELEASE, PACE, PASSING, SWINGING = 1, 2, 4, 8, 16, 32, 64
 """Bit mask of what a lane's attempt asks the loop to look after; lanes hold it as a float."""
-INSIDE = DUE | PASSING | SWINGING
+INSIDE = PASSING | SWINGING
 """Flags of steps that may have extremes inside which their ends do not tell."""
 
 

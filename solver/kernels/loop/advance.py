@@ -10,7 +10,7 @@ import numpy as np
 from numba import int64
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.judging import INSIDE
+from jointplay.solver.kernels.emit.judging import DUE, INSIDE
 from jointplay.solver.kernels.emit.places import PLACES, Places
 from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel, kernel
 from jointplay.solver.kernels.lanes import LANES
@@ -31,21 +31,21 @@ from jointplay.solver.kernels.loop.events import (
 from jointplay.solver.kernels.loop.inner_peaks import look_at_passages, look_inside
 from jointplay.solver.kernels.loop.peaks import refine_peaks
 from jointplay.solver.kernels.loop.roughness import any_due, is_due
-from jointplay.solver.kernels.loop.runs import BUFFERS, NO_PAIR, RUNS, Buffers, Run
+from jointplay.solver.kernels.loop.runs import BUFFERS, NO_PAIR, RUNS, Buffers
 from jointplay.solver.kernels.loop.unowned_view import unowned
-
-KEEPING = 0
-"""Lane whose accepted steps are kept, if any are."""
 
 
 @inner_kernel()
-def keep_step(run: Run, at: Places, work: np.ndarray, steps: np.ndarray) -> bool:
-    """Write the step that the lane that keeps them takes; whether the buffer is full now."""
-    if len(steps) == 0 or not work[at.accept, KEEPING] > 0.0:
-        return False
-    write_step(steps[run.kept], KEEPING, run, at, work)
-    run.kept += 1
-    return run.kept == len(steps)
+def keep_steps(runs: np.ndarray, at: Places, work: np.ndarray, steps: np.ndarray) -> bool:
+    """Write the steps that lanes take which keep them; whether a buffer is full now."""
+    full = False
+    for lane in range(len(steps)):
+        if work[at.accept, lane] > 0.0:
+            run = runs[lane]
+            write_step(steps[lane, run.kept], lane, run, at, work)
+            run.kept += 1
+            full |= run.kept == steps.shape[1]
+    return full
 
 
 @kernel()
@@ -91,12 +91,12 @@ def look_closer(
     """Seek extremes that no scan of step ends finds."""
     for lane in range(LANES):
         flag, run = int(work[at.flag, lane]), runs[lane]
-        due = flag & INSIDE or is_due(lane, run, at, work)
+        closely = at.watched_closely or flag & INSIDE or is_due(lane, run, at, work)
         if not work[at.accept, lane] > 0.0:
             continue
-        if at.watched_closely or due:
+        if closely:
             look_at_passages(lane, run, at, work, spare, table, channels_around, channels_within)
-        if at.watched_closely or due or run.landing != NO_PAIR:
+        if closely or flag & DUE or run.landing != NO_PAIR:
             look_inside(lane, run, at, work, spare, table, channels_around, channels_within)
         if may_pass_bend(lane, at, work):
             rows = np.empty(at.rows, np.int64)
@@ -205,7 +205,7 @@ def advance(
                     )
         if watch:
             call.remember(work)
-        full |= keep_step(runs[KEEPING], at, work, steps)
+        full |= keep_steps(runs, at, work, steps)
         if tangents and (quiet or any_accepted(at, work)):
             call.tangent_step(work)
         call.take(work)

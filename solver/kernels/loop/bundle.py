@@ -37,7 +37,7 @@ Floats = NDArray[np.float64]
 ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
 STEPS_AT_ONCE = 32_768
-"""The same of accepted steps: some 50 ms of computing."""
+"""The same of accepted steps, of all lanes that keep them: some 50 ms of computing."""
 ENERGIES = ("energy.kinetic", "energy.potential", "stored")
 
 
@@ -69,13 +69,13 @@ class Bundle:
         *,
         watch: bool = True,
         tangents: Tangents | None = None,
-        keep_steps: bool = False,
+        keep_steps: int = 0,
     ) -> None:
         """Load the problems.
 
         `watch` says whether extremes of channels are sought. With the kernel's `tangents` every
         lane carries a tangent vector, and `growth` tells how it grows; nothing else changes.
-        With `keep_steps`, accepted steps of the first lane are handed out; see `steps`.
+        Of the first `keep_steps` lanes, accepted steps are handed out; see `steps`.
         """
         if len(problems) > BUNDLE:
             raise ValueError(f"a bundle holds {BUNDLE} problems, not {len(problems)}")
@@ -99,7 +99,8 @@ class Bundle:
                     kernel.rows.scanned,
                     tangents=tangents is not None,
                     steps=(
-                        STEPS_AT_ONCE if keep_steps and first == 0 else 0,
+                        min(max(keep_steps - first, 0), LANES),
+                        STEPS_AT_ONCE // max(keep_steps, 1),
                         kernel.step_row.width,
                     ),
                 ),
@@ -237,12 +238,13 @@ class Bundle:
         group, index = divmod(i, LANES)
         return self.groups[group].buffers.impacts[index, : self.runs["impacts"][i]].copy()
 
-    def steps(self) -> Floats:
-        """Return the accepted steps of the first lane in the last call, (count, width).
+    def steps(self, i: int) -> Floats:
+        """Return the accepted steps of a lane that keeps them in the last call, (count, width).
 
-        Rows as `StepRow` arranges them; none unless they are kept.
+        Rows as `StepRow` arranges them.
         """
-        return self.groups[0].buffers.steps[: self.runs["kept"][0]]
+        group, index = divmod(i, LANES)
+        return self.groups[group].buffers.steps[index, : self.runs["kept"][i]]
 
     def growth(self, i: int) -> Floats:
         """Return how a lane's tangent grew in the last call: (k, 2) ends of time, s, logarithms."""

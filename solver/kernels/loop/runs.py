@@ -132,7 +132,7 @@ class Buffers(NamedTuple):
     growths: NDArray[np.void]
     """(lanes, capacity) of `GROWTH`; without capacity there are no tangents."""
     steps: NDArray[np.float64]
-    """Accepted steps of the first lane, (capacity, width); without capacity none is kept."""
+    """Accepted steps of the lanes that keep them, the first ones, (lanes, capacity, width)."""
     table: NDArray[np.float64]
     """See `solver.kernels.loop.windows`."""
 
@@ -145,9 +145,9 @@ class Buffers(NamedTuple):
         channels: int,
         *,
         tangents: bool,
-        steps: tuple[int, int],
+        steps: tuple[int, int, int],
     ) -> Buffers:
-        """Return empty buffers; `steps` : capacity and width of accepted steps."""
+        """Return empty buffers; `steps` : lanes, capacity and width of accepted steps."""
         return cls(
             np.zeros((2, lanes, capacity, width)),
             np.zeros((lanes, capacity), IMPACT),
@@ -162,7 +162,7 @@ BUFFERS = types.NamedTuple(
         float64[:, :, :, ::1],
         from_dtype(IMPACT)[:, ::1],
         from_dtype(GROWTH)[:, ::1],
-        float64[:, ::1],
+        float64[:, :, ::1],
         float64[::1],
     ],
     Buffers,

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.places import LENGTH
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.lanes import LANES
@@ -35,35 +36,19 @@ Source = tuple[str, float, float]
 """Channel that another is a multiple of, factor, and offset."""
 
 
-class Replay:
-    """A job's equations with one method, ready to make its steps again.
+class ProblemReplay:
+    """A problem's equations, ready to make its steps again.
 
     Parameters
     ----------
-    admission
-        Of the job that the steps are of.
-    method
-        Name of the method that made them.
-
-    Raises
-    ------
-    LimitExceeded, CompilationEnded
-        The equations cannot be compiled, or not so fast.
+    kernel
+        That the steps were made with.
+    problem
+        That they are of.
     """
 
-    def __init__(self, admission: Admission, method: str) -> None:
-        job = admission.job
-        self.kernel = ready_kernel(admission.scene, job["formulation"], method)
-        problem = LaneProblem(
-            admission.scene,
-            job["duration"],
-            admission.tolerance,
-            job["duration"],
-            samples=0,
-            sections=0,
-            section_offset=0.0,
-            step=job["step"],
-        )
+    def __init__(self, kernel: Kernel, problem: LaneProblem) -> None:
+        self.kernel = kernel
         self._bundle = Bundle(self.kernel, [problem], watch=False)
         self.runs = self._bundle.runs[:LANES]
         self.runs[:] = self.runs[LANE]
@@ -231,6 +216,37 @@ class Replay:
     def rows(self, names: Sequence[str]) -> NDArray[np.int64]:
         """Return the rows of the channel block that channels have, (names,)."""
         return np.array([self.kernel.rows.index(name) for name in names], np.int64)
+
+
+class Replay(ProblemReplay):
+    """A job's equations with one method, ready to make its steps again.
+
+    Parameters
+    ----------
+    admission
+        Of the job that the steps are of.
+    method
+        Name of the method that made them.
+
+    Raises
+    ------
+    LimitExceeded, CompilationEnded
+        The equations cannot be compiled, or not so fast.
+    """
+
+    def __init__(self, admission: Admission, method: str) -> None:
+        job = admission.job
+        problem = LaneProblem(
+            admission.scene,
+            job["duration"],
+            admission.tolerance,
+            job["duration"],
+            samples=0,
+            sections=0,
+            section_offset=0.0,
+            step=job["step"],
+        )
+        super().__init__(ready_kernel(admission.scene, job["formulation"], method), problem)
 
 
 def scaled(records: Floats, wanted: list[str], sources: list[Source]) -> Floats:

@@ -1,7 +1,7 @@
 """The lanes that compute points of one structure, side by side."""
 
 from collections.abc import Iterator
-from dataclasses import astuple, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
 from jointplay.solver.nonlinear.lyapunov import undecided
-from jointplay.solver.runs.lane_results import failure_of, peaks_of, statistics_of
+from jointplay.solver.runs.lane_results import failure_of, statistics_of
 from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.runs.study.finer import COST, go_on_finer, go_on_longer, periods_of
 from jointplay.solver.runs.study.grounds import limits
@@ -26,6 +26,10 @@ from jointplay.solver.runs.study.indicators import (
     indicators_of,
 )
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.point_extremes import (
+    PointExtremes,
+    lanes_that_keep_steps,
+)
 from jointplay.solver.runs.study.point_run import (
     PointRun,
     statistics_in,
@@ -54,7 +58,10 @@ class LaneGroup:
         tangents = compile_tangents(kernel) if "lyapunov" in study.indicators else None
         self.study = study
         self.structure = structure
-        self.bundle = Bundle(kernel, watch=bool(study.channels), tangents=tangents)
+        keep_steps = lanes_that_keep_steps(study)
+        watch = bool(study.channels)
+        self.bundle = Bundle(kernel, watch=watch, tangents=tangents, keep_steps=keep_steps)
+        self.extremes = PointExtremes(study, self.bundle)
         self.lanes: list[PointRun | None] = [None] * BUNDLE
         self.columns, self.sampled = (
             np.array([kernel.rows.index(channel.name) for channel in chosen], dtype=np.int64)
@@ -143,6 +150,7 @@ class LaneGroup:
         sections = self._rows(lane, run)
         if run.tallies:
             self._tally(lane, run)
+        self.extremes.take(lane, run)
         return sections
 
     def _looks_again(self, lane: int, run: PointRun) -> bool:
@@ -191,13 +199,13 @@ class LaneGroup:
         return [SectionRows(run.point, first, times, values)]
 
     def _tally(self, lane: int, run: PointRun) -> None:
-        """Take a lane's new samples, and the contacts that ended after settling."""
+        """Take a lane's new samples, and the contacts that ended."""
         bundle, study = self.bundle, self.study
         rows = bundle.rows(SAMPLES, lane)
         if len(rows):
             take_samples(study, run, bundle.observe(lane, rows, self.sampled))
         contacts = bundle.impacts(lane)
-        if run.settled >= 0 and len(contacts):
+        if len(contacts):
             take_contacts(study, run, contacts)
 
     def _goes_on(self, lane: int, run: PointRun) -> bool:
@@ -206,10 +214,6 @@ class LaneGroup:
             return False
         study, point, bundle = self.study, run.point, self.bundle
         scene = study.point_scene(point)
-        if study.record == 0:
-            run.settled = 0
-            bundle.extend(lane, scene, float(study.duration[point]), 0, forget=True)
-            return True
         period = float(study.period[point])
         most = most_settling(study, point)
         scales, angles = scales_of(study, bundle.kernel, point)
@@ -234,14 +238,12 @@ class LaneGroup:
             settled = run.settled * float(study.period[run.point])
             scene = study.point_scene(run.point)
             run.lasting = lasting_contacts(bundle, lane, scene, settled)
-        names = [channel.name for channel in study.channels]
-        peaks = peaks_of(bundle, lane, names).values()
         return PointEnd(
             run.point,
             failure.code if failure else "",
             failure.detail if failure else "",
             bundle.lane(lane).time,
-            np.array([astuple(peak) for peak in peaks]).reshape(-1, 4),
+            self.extremes.end(lane, run),
             self._statistics(lane, run, whole=failure is None),
             {},
         )

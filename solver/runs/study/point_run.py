@@ -47,6 +47,8 @@ class PointRun:
     """Tallies of the job's statistics, in its order; see `begin_tallies`."""
     sampled: int = 0
     """Samples that they have had."""
+    extremes: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    """State of what seeks its extremes after settling; see `point_extremes`."""
     settling: Settling | None = field(default=None, repr=False)
 
     def has_settled(self, scales: Floats, angles: Flags, most: int) -> bool:

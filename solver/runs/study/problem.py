@@ -31,10 +31,9 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
         start = _perturbed(study, kernel, point, study.perturbation)
     if study.record == 0:
         run.reached = 0
-        settle = float(study.settle[point])
-        first_leg = settle if settle > 0.0 else float(study.duration[point])
-        run.settled = 0 if settle == 0.0 else -1
-        step, samples, first = first_leg, 0, 0
+        run.settled = 0
+        duration = float(study.duration[point])
+        step, samples, first = duration, 0, 0
         if study.statistics:
             begin_tallies(study, run, len(kernel.pairs))
             window = window_of(study, point)
@@ -42,7 +41,7 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
             samples = first + window.grid.samples + 1  # the last one is taken at the end
         return LaneProblem(
             scene,
-            first_leg,
+            duration,
             study.tolerance,
             step,
             samples,

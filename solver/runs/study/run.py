@@ -19,6 +19,7 @@ from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.study.lane_group import LaneGroup
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.point_extremes import STATE
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.version import SOLVER_VERSION
 
@@ -105,6 +106,7 @@ class StudyRun:
             for name in SERIES:
                 parts = getattr(run, name)
                 arrays |= {f"{name}{run.point}-{i}": part for i, part in enumerate(parts)}
+            arrays |= {f"{name}-{run.point}": array for name, array in run.extremes.items()}
             if run.start is not None:
                 arrays |= {
                     f"start{run.point}-{name}": value
@@ -155,6 +157,8 @@ def _run(facts: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PointRun:
     run = PointRun(**facts)
     for name, count in counts.items():
         setattr(run, name, [arrays[f"{name}{run.point}-{i}"] for i in range(count)])
+    names = [name for name in STATE if f"{name}-{run.point}" in arrays]
+    run.extremes = {name: arrays[f"{name}-{run.point}"] for name in names}
     if ended:
         peaks = np.array(ended.pop("peaks")).reshape(-1, 4)
         run.ended = PointEnd(**ended, peaks=peaks)

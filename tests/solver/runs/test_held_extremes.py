@@ -59,6 +59,16 @@ def test_each_extreme_is_reached_at_its_own_time(name: str, duration: float) -> 
         assert not wrong.any(), [name for name, bad in zip(peaks, wrong, strict=True) if bad]
 
 
+def test_extremes_have_the_same_bits_whatever_is_sampled() -> None:
+    """At 26.8 ms a journal passes the centre of its bearing in a step that samples fall into."""
+    scene = {"preset": "seven-bar-press", "parameters": {"clearance": 4e-4}}
+    found = [
+        computed("", 0.05, scene=scene, output_step=step)[1].summary().peaks
+        for step in (1e-3, 1e-4, 0.05)
+    ]
+    assert found[0] == found[1] == found[2]
+
+
 def test_no_sample_is_beyond_an_extreme_where_reactions_have_a_pole() -> None:
     """At 0.714 s all bars are in line: the reactions of the middle crank have no limit there."""
     _, simulation, _ = computed("double-four-bar", 0.75)

@@ -1,6 +1,7 @@
 """Blocks of studies: the same bits as single runs, whatever shares the lanes or interrupts them."""
 
 from collections import defaultdict
+from dataclasses import astuple
 from typing import Any
 
 import numpy as np
@@ -71,10 +72,12 @@ def diagram() -> Computed:
     return Computed(DIAGRAM)
 
 
-def run_alone(duration: float, **values: float) -> tuple[Admission, list[Any], Simulation]:
+def run_alone(
+    duration: float, more: dict[str, Any] | None = None, **values: float
+) -> tuple[Admission, list[Any], Simulation]:
     scene = SCENE | {"parameters": CASE_3 | values}
     document = {"kind": "simulate", "scene": scene, "duration": duration, "output_step": duration}
-    admission = admit(document)
+    admission = admit(document | (more or {}))
     assert isinstance(admission, Admission)
     simulation = Simulation(admission)
     return admission, list(simulation.slices()), simulation
@@ -137,6 +140,34 @@ def test_a_sweep_has_the_extremes_of_single_runs() -> None:
     for channel, row in zip(swept.study.channels, swept.ends[point].peaks, strict=True):
         peak = peaks[channel.name]
         assert row.tolist() == [peak.minimum, peak.minimum_time, peak.maximum, peak.maximum_time]
+
+
+@pytest.mark.parametrize("settle", [0.0, 0.2137])
+def test_a_sweep_has_the_bits_of_single_runs_that_settle_as_long(settle: float) -> None:
+    """Of every channel, in a study that is interrupted, beside runs with samples of their own."""
+    grid = {"clearance": [2e-4, 3e-4, 4e-4, 7e-4]}
+    more = {"channels": ["*"], "settle": settle}
+    document = {"kind": "sweep", "scene": SCENE, "grid": grid, "duration": 0.5, **more}
+    study = admit(document)
+    assert isinstance(study, Study)
+    ends: dict[int, PointEnd] = {}
+    checkpoint: bytes | None = None
+    for most in (1, 10**9):
+        block = StudyRun(study, 0, checkpoint)
+        for number, piece in enumerate(block.slices(), start=1):
+            ends |= {end.point: end for end in piece.ended}
+            if number == most:
+                checkpoint = block.checkpoint()
+                break
+    own = {"certificate": False, "output_step": 0.5 / 640, **more}
+    for point, clearance in enumerate(grid["clearance"]):
+        _, _, simulation = run_alone(0.5, own, clearance=clearance)
+        summary = simulation.summary()
+        rows = np.array([astuple(peak) for peak in summary.peaks.values()])
+        assert [channel.name for channel in study.channels] == list(summary.peaks)
+        assert ends[point].peaks.tobytes() == rows.tobytes()
+        for name in ("steps", "rejections", "onsets", "smallest_step"):
+            assert ends[point].statistics[name] == summary.statistics[name]
 
 
 def test_what_comes_before_settling_is_no_extreme() -> None:
