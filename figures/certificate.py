@@ -11,8 +11,9 @@ from jointplay.records.run import CertificateRecord, Source, inside
 MOST_PANELS = 8
 _PANEL_HEIGHT = 24.0  # mm
 _CONVERGED = (
-    "Converged: the error of each journal's centre is below a tenth of its clearance, that of each"
-    " body's position below a twentieth of its range. The horizon is the first end of that."
+    "Converged: the error of each journal's centre, and of the gap at each corner, wall and cam, is"
+    " below a tenth of the clearance, that of each body's position below a twentieth of its range."
+    " The horizon is the first end of that; impacts are certified no further."
 )
 _SMALLEST = 1e-12
 """Share of the largest error that a panel shows: errors below are drawn there."""
@@ -27,10 +28,10 @@ def _of(source: Source) -> CertificateRecord:
 
 def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
     _of(source)
-    joints = scene_facts.clearances(scene_facts.scene(source))
-    centres = [f"{joint}.eccentricity_x" for joint in joints]
     stored = [channel.name for channel in source.channels]
-    usual = [*scene_facts.outputs(source), *(name for name in centres if name in stored)]
+    played = ([f"{pair}.eccentricity_x", f"{pair}.penetration"] for pair in source.joints)
+    places = [next((name for name in names if name in stored), None) for names in played]
+    usual = [*scene_facts.outputs(source), *filter(None, places)]
     names = selection.channels or usual[:MOST_PANELS] or stored[:1]
     return scene_facts.stored(source, at_most(MOST_PANELS, names))
 

@@ -68,6 +68,9 @@ def headlines(job: "Job") -> Iterator[str]:
     forces = document.get("forces_until")
     known = "" if forces is None else f", forces to {forces:.4g} s"
     yield f"converged {', '.join(spans)}{known}"
+    if (impacts := document.get("impacts")) is not None:
+        share = f"{impacts['certified']} of {impacts['count']}"
+        yield f"impacts   certified until {impacts['until']:.4g} s, {share}"
     if (advice := _advice(job.job, document)) is not None:
         yield f"advice    {advice}"
     if document["note"] and document.get("lanes"):

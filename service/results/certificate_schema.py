@@ -19,6 +19,17 @@ class Exponent(BaseModel):
     time: float = in_unit("s", "Of all windows together.")
 
 
+class CertifiedImpacts(BaseModel):
+    """How long the list of impacts is that of the motion, not of the steps."""
+
+    until: float = in_unit("s", "Until when number and order of contacts are certified.")
+    certified: int = Field(description="Contacts that began by then.")
+    count: int = Field(description="Contacts that began in the whole run.")
+    onset_error: float | None = in_unit(
+        "s", "Largest estimated error of a certified onset; null without any."
+    )
+
+
 class Violation(BaseModel):
     """Largest violation of the constraints of joints and drivers, at the samples."""
 
@@ -90,6 +101,9 @@ class Certificate(Partial):
     )
     converged: list[Span] = in_unit("s", "Spans in which it is; the first ends at the horizon.")
     criterion: str = Field(default="", description="What converged means.")
+    impacts: CertifiedImpacts | None = Field(
+        default=None, description="How long the list of impacts is known; null: nothing touches."
+    )
     safety: float | None = Field(default=None, description="Factor in the estimated errors.")
     bars: dict[str, str] = Field(
         default={},
@@ -108,6 +122,10 @@ class Certificate(Partial):
     energy_residual: float | None = in_unit("J", "What the energy ledger lacks.", default=None)
     gross_work: float | None = in_unit("J", "All works without their signs.", default=None)
     energy_error: float | None = Field(default=None, description="Residual by gross work.")
+    energy_in_tolerances: float | None = Field(
+        default=None,
+        description="The same by the tolerance: most runs have less than 10; null: fixed steps.",
+    )
     constraint_violation: Violation | None = None
     lanes: list[Lane] = []
     lanes_with_extremes: list[int] = Field(default=[], description="Lanes that sought extremes.")

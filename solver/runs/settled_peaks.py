@@ -11,8 +11,9 @@ from jointplay.records.peak import Peak
 from jointplay.solver.kernels.emit.places import LENGTH
 from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
-from jointplay.solver.runs.dense_output.replay import ProblemReplay, scaled
+from jointplay.solver.runs.dense_output.replay import ProblemReplay, Replay, scaled
 
 
 class SettledPeaks:

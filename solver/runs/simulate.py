@@ -21,8 +21,8 @@ from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.certificate.survey import Survey
 from jointplay.solver.runs.dense_output.columns import most_steps, number_of
 from jointplay.solver.runs.dense_output.intervals import IntervalExtremes
-from jointplay.solver.runs.followers import Followers, with_pulls
 from jointplay.solver.runs.dense_output.replay import Replay
+from jointplay.solver.runs.followers import Followers, with_pulls
 from jointplay.solver.runs.ideal.run import IdealRun
 from jointplay.solver.runs.lane_results import (
     failure_of,

@@ -51,6 +51,11 @@ function words(found, duration) {
   if (forces !== null && forces !== undefined && !far) {
     sentences.push(`Forces and accelerations are accurate until ${withUnit(forces, "s", 3)}.`);
   }
+  if (found.impacts && found.impacts.until < duration * (1 - 1e-9)) {
+    const { until, certified, count } = found.impacts;
+    sentences.push(`Trust the list of impacts until ${withUnit(until, "s", 3)}, ${certified} of ${count}.`
+      + " How many follow, and when, is what the steps of this run made of it.");
+  }
   if (growth) sentences.push(growth);
   if (found.energy_error !== null && found.energy_error !== undefined) {
     sentences.push(`Energy is accounted for to ${short(100 * Math.abs(found.energy_error), 2)} % of`

@@ -26,7 +26,7 @@ def begin(lane: Lane, problem: LaneProblem) -> None:
     """Evaluate a lane's start: first slopes, contacts that begin closed, first records."""
     module, start = lane.kernel.module, problem.start
     lane["stage"] = lane["y"]
-    if start is not None and lane.kernel.equations.loops is not None:
+    if start is not None and not start.closed and lane.kernel.equations.loops is not None:
         _close_loops(lane)
     floor = lane["impact_floor"]
     lane["mode"], lane["impact_rate"] = 0.0, floor

@@ -43,6 +43,8 @@ class LaneStart:
     """Whole periods of the drivers that have passed."""
     time: float = 0.0
     """Since then, s."""
+    closed: bool = False
+    """Whether loops are closed already: else they are, which moves the start by its rounding."""
 
     @classmethod
     def at_row(cls, row: Floats, columns: DenseRow) -> LaneStart:

@@ -44,6 +44,10 @@ SHORT = 4.0
 """Runs of fewer periods record extremes in fewer lanes: there each record costs most."""
 LOUD, LOUD_IN_SHORT = (TIGHTEST, TIGHTER, *PERTURBED), (TIGHTEST, PERTURBED[0])
 """Lanes that seek extremes."""
+MOST_CONTACTS = 16_384
+"""Contacts that are compared of each lane, the first ones."""
+ONSETS = np.dtype([("joint", "<i4"), ("onset", "<f8")])
+"""What is kept of a contact: index of its pair, and when it began, s."""
 MOST_ATTEMPTS = 1.6
 """Multiple of the run's own attempts: companions that need more are left behind where they are."""
 
@@ -57,6 +61,10 @@ class Companions:
     loud: tuple[int, ...]
     rows: dict[int, list[Floats]]
     """By lane, dense states at the instants reached so far."""
+    contacts: dict[int, list[NDArray[np.void]]]
+    """By lane, contacts that have ended, of dtype `ONSETS`, `MOST_CONTACTS` at most."""
+    forgotten_from: float = math.inf
+    """Earliest onset of a contact that was not kept, s."""
 
     @classmethod
     def beside(cls, bundle: Bundle, problem: LaneProblem) -> Companions:
@@ -69,7 +77,7 @@ class Companions:
             output_step=instants.finest,
             samples=instants.last + 1,
             sections=0,
-            start=LaneStart(start.state),
+            start=LaneStart(start.state, closed=True),  # the trajectory's, to the last bit
         )
         order = bundle.kernel.tableau.order
         for lane, factor in enumerate(LADDER, start=1):
@@ -90,7 +98,10 @@ class Companions:
             if lane not in loud:  # no value is a record
                 bundle.lane(lane)["highest"] = math.inf
                 bundle.lane(lane)["lowest"] = -math.inf
-        return cls(bundle, instants, loud, {lane: [] for lane in range(1, BUNDLE)})
+        lanes = range(1, BUNDLE)
+        return cls(
+            bundle, instants, loud, {lane: [] for lane in lanes}, {lane: [] for lane in lanes}
+        )
 
     @property
     def running(self) -> bool:
@@ -128,8 +139,9 @@ class Companions:
         return budget
 
     def collect(self) -> None:
-        """Keep the rows that were handed out, and let later instants lie farther apart."""
+        """Keep what was handed out, and let later instants lie farther apart."""
         for i in self.rows:
+            self._keep_contacts(i)
             rows = self.bundle.rows(SAMPLES, i)
             if not len(rows):
                 continue
@@ -143,6 +155,17 @@ class Companions:
                 self._coarsen(lane, following, stride, coarser)
             self.rows[i].append(rows.copy())
 
+    def _keep_contacts(self, lane: int) -> None:
+        ended = self.bundle.impacts(lane)
+        if not len(ended):
+            return
+        found = np.empty(len(ended), ONSETS)
+        found["joint"], found["onset"] = ended["joint"], ended["onset"]
+        room = MOST_CONTACTS - sum(map(len, self.contacts[lane]))
+        if room > 0:
+            self.contacts[lane].append(found[:room])
+        self.forgotten_from = min([self.forgotten_from, *found["onset"][max(room, 0) :]])
+
     def _coarsen(self, lane: Lane, following: int, stride: int, coarser: int) -> None:
         lane.run["output_step"] = coarser * self.instants.finest
         lane.run["next"][SAMPLES] = -(-following * stride // coarser)
@@ -153,21 +176,40 @@ class Companions:
 
     def checkpoint(self) -> dict[str, NDArray[Any]]:
         """Return arrays that `restore` takes; the lanes' own state is the bundle's."""
-        return {f"companion{lane}": self.dense(lane) for lane in self.rows}
+        rows = {f"companion{lane}": self.dense(lane) for lane in self.rows}
+        contacts = {f"contacts{lane}": self.ended_contacts(lane) for lane in self.contacts}
+        return {**rows, **contacts, "forgotten_from": np.array(self.forgotten_from)}
 
     def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
         """Continue from a checkpoint."""
         self.rows = {lane: [saved[f"companion{lane}"]] for lane in self.rows}
+        self.contacts = {lane: [saved[f"contacts{lane}"]] for lane in self.contacts}
+        self.forgotten_from = float(saved["forgotten_from"])
 
     def dense(self, lane: int) -> Floats:
         """Return a lane's dense states, (instants reached, width)."""
         width = self.bundle.kernel.row.width
         return np.concatenate([np.zeros((0, width)), *self.rows[lane]])
 
+    def ended_contacts(self, lane: int) -> NDArray[np.void]:
+        """Return contacts of a lane that have ended, of dtype `ONSETS`, in the order of ends."""
+        return np.concatenate([np.zeros(0, ONSETS), *self.contacts[lane]])
+
+    @property
+    def compared(self) -> int:
+        """Number of instants that the trajectory has reached: none beyond is compared."""
+        reached = int(np.searchsorted(self.instants.time, self.bundle.lane(RUN).time, "right"))
+        if self.bundle.lane(RUN).status == Status.DONE:
+            reached = len(self.instants.index)
+        return max(min(reached, len(self.dense(TWIN))), 1)
+
     def values(self, columns: Integers) -> Floats:
-        """Return channels of lanes 1 to 7, (7, instants, columns); NaN: not reached."""
-        found = np.full((BUNDLE - 1, len(self.instants.index), len(columns)), np.nan)
+        """Return channels of lanes 1 to 7, (7, instants, columns); NaN: not reached.
+
+        Instants are those that the trajectory has reached, of companions that came further, too.
+        """
+        found = np.full((BUNDLE - 1, self.compared, len(columns)), np.nan)
         for lane in range(1, BUNDLE):
-            rows = self.dense(lane)
+            rows = self.dense(lane)[: self.compared]
             found[lane - 1, : len(rows)] = self.bundle.observe(lane, rows, columns)
         return found

@@ -123,8 +123,10 @@ def histogram(values: Floats, time: Floats) -> tuple[Floats, Floats, Floats]:
     if not lanes:
         nothing = np.full((BINS, channels), np.nan)
         return np.full((BINS + 1, channels), np.nan), nothing, nothing
-    weights = np.gradient(time)
-    weights[[0, -1]] *= 0.5
+    weights = np.ones(1)
+    if len(time) > 1:
+        weights = np.gradient(time)
+        weights[[0, -1]] *= 0.5
     low, high = whole.min(axis=(0, 1)), whole.max(axis=(0, 1))
     width = np.where(high > low, high - low, 1.0)
     bins = np.minimum((BINS * (whole - low) / width).astype(np.int64), BINS - 1)

@@ -45,14 +45,16 @@ class Windows:
     """Eight windows in the lanes of a bundle of their own: `advance` until it is over."""
 
     def __init__(self, companions: Companions, problem: LaneProblem, tangents: Tangents) -> None:
-        """Start windows from the tightest companion's states, as far as it came."""
+        """Start windows from the tightest companion's states, as far as it and the run came."""
         kernel = companions.bundle.kernel
         self.bundle = Bundle(kernel, watch=False, tangents=tangents)
         self.attempts = int(min(max(SHARE * companions.bundle.lane(RUN).attempts, FEWEST), MOST))
         self.grown = np.zeros(BUNDLE)
         self.aligned = np.full((2, BUNDLE), np.nan)
-        plain = replace(problem, output_step=problem.duration, samples=0, sections=0)
-        rows = companions.dense(TIGHTEST)
+        run = companions.bundle.lane(RUN)
+        end = problem.duration if run.status == Status.DONE else run.time
+        plain = replace(problem, duration=end, output_step=end, samples=0, sections=0)
+        rows = companions.dense(TIGHTEST)[: companions.compared]
         index = companions.instants.index
         wanted = [index.searchsorted(companions.instants.last * k // BUNDLE) for k in range(BUNDLE)]
         self.bundle.number_like(companions.bundle, RUN, problem.scene)

@@ -114,7 +114,10 @@ class IdealRun:
         """See `Simulation.certificate`."""
         if not self.admission.job["certificate"]:
             return None
-        return with_pulls(Certificate.of_exact(len(self.names), self.duration), self.pulled)
+        last = max(self.samples_done - 1, 0) * float(self.admission.job["output_step"])
+        whole = self.samples_done == self.admission.samples
+        certificate = Certificate.of_exact(len(self.names), self.duration if whole else last)
+        return with_pulls(certificate, self.pulled)
 
     def channels(self, times: Floats, local: Floats | None = None) -> Floats:
         """Return (instants, channels) at times in s; `local` is the time within the period."""

@@ -50,6 +50,14 @@ def test_a_rod_too_short_to_turn_is_followed_until_it_pulls_tight() -> None:
     with pytest.raises(SimulationFailed, match="do not reach") as failed:
         list(simulation.slices())
     assert failed.value.time == pytest.approx(math.asin(0.6) / (2.0 * math.pi), abs=1e-11)
+    certificate = simulation.certificate()
+    assert certificate is not None
+    horizon = certificate.facts["horizon"]
+    assert (
+        failed.value.time - 2e-3 <= horizon <= failed.value.time
+    )  # certified no longer than it ran
+    assert certificate.facts["converged"] == [[0.0, horizon]]
+    assert certificate.until.max() == horizon
 
 
 def test_whole_turns_in_a_drivers_position_change_nothing_but_the_angle() -> None:

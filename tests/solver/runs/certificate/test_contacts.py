@@ -16,7 +16,9 @@ def test_a_press_so_hard_that_a_loose_tolerance_chatters(tolerance: float, chatt
     own, tighter = (lane["onsets"] for lane in facts["lanes"][:2])
     assert (own > 2 * tighter) == chatters
     assert (f"{own} contacts, and {tighter} at a quarter" in facts["note"]) == chatters
-    assert bool(facts["note"]) == chatters
+    assert ("ask for a smaller tolerance" in facts["note"]) == chatters
+    assert facts["impacts"]["count"] == own
+    assert facts["impacts"]["until"] <= facts["horizon"]
 
 
 @pytest.mark.parametrize(("gravity", "lasts"), [(2000.0, True), (0.0, False)])

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
 from jointplay.solver.runs.certificate.companions import LADDER, RUN, TWIN, Companions
 from jointplay.solver.runs.certificate.instants import FIRST, Instants
-from tests.solver.runs.test_determinism import PROBLEMS, bundle_of
+from tests.solver.runs.test_determinism import PROBLEMS, bundle_of, preset
 
 
 @pytest.mark.parametrize(("duration", "unit", "octaves"), [(1.0, 2.0, 0), (8.0, 1.0, 3), (9, 1, 4)])
@@ -53,19 +54,26 @@ def test_companions_hand_out_the_instants_however_the_run_is_sliced() -> None:
         np.testing.assert_allclose(found, companions.instants.time, atol=1e-12)
 
 
-def test_one_companion_is_the_trajectory_bit_for_bit() -> None:
-    step = Instants.over(1.5, 1.0).finest
-    problem = replace(
-        PROBLEMS[4], duration=1.5, tolerance=1e-6, output_step=step, samples=round(1.5 / step) + 1
-    )
-    bundle = bundle_of([problem])
+@pytest.mark.parametrize(
+    ("problem", "duration"),
+    [
+        pytest.param(PROBLEMS[4], 1.5, id="open"),
+        pytest.param(replace(PROBLEMS[4], scene=preset("quick-return")), 0.02, id="closed loop"),
+    ],
+)
+def test_one_companion_is_the_trajectory_bit_for_bit(problem: LaneProblem, duration: float) -> None:
+    period = float(bundle_of([problem]).lane(RUN).run["period"])
+    step = Instants.over(duration, period).finest
+    samples = round(duration / step) + 1
+    same = replace(problem, duration=duration, output_step=step, samples=samples, tolerance=1e-6)
+    bundle, problem = bundle_of([same]), same
     companions = Companions.beside(bundle, problem)
-    samples = []
+    handed_out = []
     while bundle.lane(RUN).running or companions.running:
         bundle.advance(companions.allowance(10**6))
         companions.collect()
-        samples.append(bundle.rows(SAMPLES, RUN).copy())
-    own = np.concatenate(samples)[companions.instants.index]
+        handed_out.append(bundle.rows(SAMPLES, RUN).copy())
+    own = np.concatenate(handed_out)[companions.instants.index]
     assert companions.dense(TWIN).tobytes() == own.tobytes()
 
 

@@ -1,0 +1,61 @@
+"""What says how long a trajectory is known, and the sizes that errors are compared with."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.runs.certificate.estimate import CONVERGED
+from jointplay.solver.runs.starts import start_scales
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.pairs import contact_pairs
+
+PLACE_OF_JOURNAL = ("eccentricity_x", "eccentricity_y")
+GAP = "penetration"
+COORDINATES = ("x", "y", "theta")
+HARDLY = 1e-3
+"""A channel that moves by less than this share of another of its unit is measured by that one."""
+CRITERION = (
+    "the estimated error of each journal's centre, and of the gap at each corner of a slider, wall"
+    f" of a slot and cam, is below {CONVERGED:g} of the clearance from side to side, and that of"
+    f" each body's position and angle below {CONVERGED:g} of its range"
+)
+
+
+def motion_of(scene: Scene) -> dict[str, str]:
+    """Return channels whose errors say how long the trajectory is known, with their units.
+
+    Where each joint with play is in it, and where each body is: the range of a body is often
+    many clearances, so that its place says nothing about what touches.
+    """
+    found = {}
+    for name, pair in contact_pairs(scene).items():
+        parts = PLACE_OF_JOURNAL if pair.is_journal else (GAP,)
+        found |= {f"{name}.{part}": "m" for part in parts}
+    for body in scene.bodies:
+        found |= {f"{body}.{part}": "rad" if part == "theta" else "m" for part in COORDINATES}
+    return found
+
+
+def scales_of(values: Floats, names: Sequence[str], units: Sequence[str], scene: Scene) -> Floats:
+    """Return what errors are compared with, (channels,), in the channels' units.
+
+    Of places in a joint's play, the clearance from side to side; of all else the range of
+    `values`, (lanes, instants, channels), where NaN is a lane that did not come so far.
+    """
+    reached = values[~np.isnan(values).any(axis=(1, 2))]
+    if not len(reached):
+        reached = np.nan_to_num(values)
+    ranges = np.ptp(reached, axis=(0, 1))
+    of_unit = np.array(units)
+    largest = np.array([ranges[of_unit == unit].max() for unit in units])
+    scales: Floats = np.maximum(ranges, HARDLY * largest)
+    finest = start_scales(scene, names, 1.0)  # of positions and angles, where there is play
+    play = contact_pairs(scene)
+    for column, name in enumerate(names):
+        owner, _, quantity = name.rpartition(".")
+        if quantity in (*PLACE_OF_JOURNAL, GAP):
+            scales[column] = 2.0 * play[owner].play
+        elif play and quantity in COORDINATES:
+            scales[column] = max(scales[column], finest[column])
+    return scales
