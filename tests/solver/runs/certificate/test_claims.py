@@ -89,9 +89,9 @@ def test_a_run_that_failed_is_certified_no_longer_than_it_ran() -> None:
 @pytest.mark.parametrize(
     ("job", "least", "most"),
     [
-        pytest.param(BRISTLES, 50.0, 1000.0, id="bristles"),
+        pytest.param(BRISTLES, 50.0, 1000.0, id="bristles", marks=pytest.mark.long),
         pytest.param(ROTOR, 50.0, 1000.0, id="rotor"),
-        pytest.param(LEG, 0.0, 10.0, id="leg"),
+        pytest.param(FAILS, 0.0, 10.0, id="bars"),
     ],
 )
 def test_what_the_energy_ledger_lacks_is_told_in_tolerances(
@@ -106,6 +106,7 @@ def test_what_the_energy_ledger_lacks_is_told_in_tolerances(
     assert (f"lacks {lacking:.3g} times the tolerance" in facts["note"]) == (lacking > 10.0)
 
 
+@pytest.mark.long
 def test_a_contact_that_only_the_trajectory_has_is_inside_its_bar() -> None:
     """The second contact begins at 0.362640 ms by the independent integration, to 1e-14."""
     found, (own,), _ = computed(LEG)

@@ -58,7 +58,7 @@ def test_companions_hand_out_the_instants_however_the_run_is_sliced() -> None:
     ("problem", "duration"),
     [
         pytest.param(PROBLEMS[4], 1.5, id="open"),
-        pytest.param(replace(PROBLEMS[4], scene=preset("quick-return")), 0.02, id="closed loop"),
+        pytest.param(replace(PROBLEMS[4], scene=preset("double-four-bar")), 0.2, id="closed loop"),
     ],
 )
 def test_one_companion_is_the_trajectory_bit_for_bit(problem: LaneProblem, duration: float) -> None:
