@@ -20,7 +20,7 @@ class Exponent(BaseModel):
 
 
 class CertifiedImpacts(BaseModel):
-    """How long the list of impacts is that of the motion, not of the steps."""
+    """Span in which the list of impacts is that of the motion, not of the steps."""
 
     until: float = in_unit("s", "Until when number and order of contacts are certified.")
     certified: int = Field(description="Contacts that began by then.")

@@ -239,10 +239,7 @@ class Bundle:
         return self.groups[group].buffers.impacts[index, : self.runs["impacts"][i]].copy()
 
     def steps(self, i: int) -> Floats:
-        """Return the accepted steps of a lane that keeps them in the last call, (count, width).
-
-        Rows as `StepRow` arranges them.
-        """
+        """Return accepted steps of a lane in the last call, (count, width); see `StepRow`."""
         group, index = divmod(i, LANES)
         return self.groups[group].buffers.steps[index, : self.runs["kept"][i]]
 

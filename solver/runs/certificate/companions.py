@@ -47,7 +47,7 @@ LOUD, LOUD_IN_SHORT = (TIGHTEST, TIGHTER, *PERTURBED), (TIGHTEST, PERTURBED[0])
 MOST_CONTACTS = 16_384
 """Contacts that are compared of each lane, the first ones."""
 ONSETS = np.dtype([("joint", "<i4"), ("onset", "<f8")])
-"""What is kept of a contact: index of its pair, and when it began, s."""
+"""Facts of a contact that are kept: index of its pair, and when it began, s."""
 MOST_ATTEMPTS = 1.6
 """Multiple of the run's own attempts: companions that need more are left behind where they are."""
 

@@ -1,4 +1,4 @@
-"""How long the list of a trajectory's contacts is certified.
+"""The span in which the list of a trajectory's contacts is certified.
 
 Contacts of a pair are compared one by one: the third of each companion with the third of the
 others. The list is certified until a companion has a contact that another has not, or until an

@@ -1,4 +1,4 @@
-"""What a certificate remarks about a run, as sentences; empty where there is nothing to say."""
+"""Remarks of a certificate about a run, as sentences; empty where there is nothing to say."""
 
 import math
 

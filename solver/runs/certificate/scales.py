@@ -1,4 +1,4 @@
-"""What says how long a trajectory is known, and the sizes that errors are compared with."""
+"""Channels that say how long a trajectory is known, and sizes that errors are compared with."""
 
 from collections.abc import Sequence
 
@@ -28,7 +28,7 @@ def motion_of(scene: Scene) -> dict[str, str]:
     Where each joint with play is in it, and where each body is: the range of a body is often
     many clearances, so that its place says nothing about what touches.
     """
-    found = {}
+    found: dict[str, str] = {}
     for name, pair in contact_pairs(scene).items():
         parts = PLACE_OF_JOURNAL if pair.is_journal else (GAP,)
         found |= {f"{name}.{part}": "m" for part in parts}

@@ -157,8 +157,8 @@ def _run(facts: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PointRun:
     run = PointRun(**facts)
     for name, count in counts.items():
         setattr(run, name, [arrays[f"{name}{run.point}-{i}"] for i in range(count)])
-    names = [name for name in STATE if f"{name}-{run.point}" in arrays]
-    run.extremes = {name: arrays[f"{name}-{run.point}"] for name in names}
+    kept = {name: f"{name}-{run.point}" for name in STATE}
+    run.extremes = {name: arrays[place] for name, place in kept.items() if place in arrays}
     if ended:
         peaks = np.array(ended.pop("peaks")).reshape(-1, 4)
         run.ended = PointEnd(**ended, peaks=peaks)

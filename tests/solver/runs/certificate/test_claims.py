@@ -1,4 +1,4 @@
-"""What certificates say of runs that once had more certified than was so."""
+"""Certificates of runs that once had more certified than was so."""
 
 from typing import Any
 

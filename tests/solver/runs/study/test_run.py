@@ -144,7 +144,7 @@ def test_a_sweep_has_the_extremes_of_single_runs() -> None:
 
 @pytest.mark.parametrize("settle", [0.0, 0.2137])
 def test_a_sweep_has_the_bits_of_single_runs_that_settle_as_long(settle: float) -> None:
-    """Of every channel, in a study that is interrupted, beside runs with samples of their own."""
+    """Every channel, in a study that is interrupted, beside runs with samples of their own."""
     grid = {"clearance": [2e-4, 3e-4, 4e-4, 7e-4]}
     more = {"channels": ["*"], "settle": settle}
     document = {"kind": "sweep", "scene": SCENE, "grid": grid, "duration": 0.5, **more}
