@@ -1,7 +1,7 @@
 """Bounds on what happens inside a step: how far bodies turn in it, how far journals move in it.
 
 In free flight the local error vanishes, so that it says nothing of a step's length; what forces do
-not limit, geometry must. Two rules make a step's inside known from its ends:
+not limit, geometry must. Three rules make a step's inside known from its ends:
 
 1. No body turns by more than `TURN` in a step (`longest`).
 2. A journal's centre moves along the quintic that has its place, velocity and acceleration at both
@@ -12,16 +12,19 @@ not limit, geometry must. Two rules make a step's inside known from its ends:
    free bodies, which gravity makes parabolas. If k derivatives of an angle are worth at most
    turn^k each (turn: |omega| h or sqrt(|alpha|) h, whichever is more), the sixth of a vector of
    length r is worth 203 r turn^6, for 203 is the number of partitions of six.
+3. A journal in contact stays so if a straight line parts the six points from the clearance circle
+   (`may_open`): the tangent at the normal in the middle between those at both ends.
 """
 
 import math
 from collections.abc import Callable, Iterable
 from functools import reduce
+from operator import add
 
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import MOTION
 from jointplay.solver.kernels.record.recorder import Expression
-from jointplay.solver.quantities.scalars import maximum, sqrt
+from jointplay.solver.quantities.scalars import maximum, minimum, sqrt
 
 TURN = 0.5
 """Largest angle by which a body may turn in a step, rad."""
@@ -29,6 +32,8 @@ REMAINDER = 203.0 / 46080.0
 SKIN = 1e-3
 """Share of the clearance that an enclosure keeps from the wall, for what forces do to the sixth
 derivative: a hundred times the local error of a step at the largest tolerance."""
+HELD = 0.1
+"""The same in contact, where depths are small, in tolerances: of the clearance, as errors are."""
 SLIGHT = 1e-300
 WHIP = 0.5
 """Angle of a normal in a step, rad, beyond which channels that follow it are looked at closely."""
@@ -39,11 +44,13 @@ PATHS = ("eccentricity_start", "eccentricity")
 def allocate(layout: Layout, pairs: int) -> None:
     """Give slots to the motion of journals at both ends of a step, and to what bounds it.
 
-    ``inner`` is the radius that a journal's enclosure must not exceed, m; ``lever`` the size of the
-    mechanism, m; ``driven_speed`` the sum of all drivers' angular speeds, rad/s.
+    ``inner`` is the radius that a journal's enclosure must not exceed, m, ``outer`` the one that it
+    must be beyond in contact; ``lever`` the size of the mechanism, m; ``driven_speed`` the sum of
+    all drivers' angular speeds, rad/s.
     """
     layout.add("lever", "driven_speed")
     layout.add_block("inner", pairs)
+    layout.add_block("outer", pairs)
     for name in PATHS:
         layout.add_block(name, len(MOTION) * pairs)
 
@@ -96,15 +103,7 @@ def beyond(v: Callable[[str], Expression], j: int, away: Expression, enclosure: 
     """
     if enclosure == "none":
         return v("tried")
-    step = v("tried")
-    points: list[list[Expression]] = []
-    for axis in range(2):
-        between = []
-        for block, sense in zip(PATHS, (1.0, -1.0), strict=True):
-            place, rate, bend = (v(f"{block}{len(MOTION) * j + axis + 2 * k}") for k in range(3))
-            fifth = 0.2 * sense * step * rate
-            between += [place + fifth, place + 2.0 * fifth + 0.05 * step * step * bend]
-        points.append(between)
+    points = _between(v, j)
     if enclosure == "wall":
         farthest: Expression = reduce(maximum, points[0]) + away - v(f"inner{j}")
         return farthest
@@ -114,6 +113,42 @@ def beyond(v: Callable[[str], Expression], j: int, away: Expression, enclosure: 
     inner = maximum(v(f"inner{j}") - away, 0.0)
     distance: Expression = square - inner * inner
     return distance
+
+
+def may_open(
+    v: Callable[[str], Expression], j: int, away: Expression, enclosure: str
+) -> Expression:
+    """Return a number that is positive unless pair j, closed at both ends, surely is all the step.
+
+    Parameters as `beyond` has them. The points at the ends count, too: what a straight line parts
+    from a disc includes the way to the next point.
+    """
+    if enclosure == "none":
+        return v("tried")
+    points, outer = _between(v, j), v(f"outer{j}") + away
+    if enclosure == "wall":
+        missing: Expression = outer - reduce(minimum, points[0])
+        return missing
+    ends = [[v(f"{block}{len(MOTION) * j + axis}") for block in PATHS] for axis in range(2)]
+    x, y = (first + last for first, last in ends)
+    along = [x * px + y * py for px, py in zip(*map(add, ends, points), strict=True)]
+    nearest = maximum(reduce(minimum, along), 0.0)
+    short: Expression = outer * outer * (x * x + y * y) - nearest * nearest
+    return short
+
+
+def _between(v: Callable[[str], Expression], j: int) -> list[list[Expression]]:
+    """Return x and y of the control points of pair j's quintic but for its ends, m."""
+    step = v("tried")
+    points: list[list[Expression]] = []
+    for axis in range(2):
+        between = []
+        for block, sense in zip(PATHS, (1.0, -1.0), strict=True):
+            place, rate, bend = (v(f"{block}{len(MOTION) * j + axis + 2 * k}") for k in range(3))
+            fifth = 0.2 * sense * step * rate
+            between += [place + fifth, place + 2.0 * fifth + 0.05 * step * step * bend]
+        points.append(between)
+    return points
 
 
 def whips_round(v: Callable[[str], Expression], j: int) -> Expression:

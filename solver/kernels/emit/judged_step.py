@@ -85,8 +85,8 @@ class JudgedStep:
         flag = REJECTED * (1.0 - good) + due + pace + swinging
         away = self._away()
         flags = [
-            contact_flags(v, j, away, shape, shortened=bool(self.tableau.error))
-            for j, shape in enumerate(self.equations.enclosures)
+            contact_flags(v, j, away, shape, held, shortened=bool(self.tableau.error))
+            for j, (shape, held) in enumerate(self._enclosures())
         ]
         for kind in zip(*flags, strict=True):
             flag = flag + reduce(maximum, kind)
@@ -151,6 +151,14 @@ class JudgedStep:
         wanted = minimum(v("seeks_extremes"), minimum(most, due))
         flag: Expression = select_positive(wanted, self.recorder.constant(SWINGING), 0.0)
         return flag, most
+
+    def _enclosures(self) -> list[tuple[str, str]]:
+        """Return what encloses each pair apart, and in contact.
+
+        Steps that are long beside what a contact does in them have no enclosure there.
+        """
+        closely = self.tableau.watched_closely
+        return [(shape, "none" if closely else shape) for shape in self.equations.enclosures]
 
     def _away(self) -> Expression:
         """Return what journals may be away from the quintic that encloses them, m."""

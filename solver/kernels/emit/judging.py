@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-from jointplay.solver.kernels.emit.enclosure import beyond, whips_round
+from jointplay.solver.kernels.emit.enclosure import beyond, may_open, whips_round
 from jointplay.solver.kernels.record.lane_functions import coarse_exp2
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.quantities.scalars import Scalar, maximum, minimum, select_positive
@@ -59,14 +59,21 @@ def swings(first: Scalar, inside: Scalar, last: Scalar, share: float, weighed: S
 
 
 def contact_flags(
-    v: Callable[[str], Expression], j: int, away: Expression, enclosure: str, *, shortened: bool
+    v: Callable[[str], Expression],
+    j: int,
+    away: Expression,
+    enclosure: str,
+    held: str,
+    *,
+    shortened: bool,
 ) -> tuple[Expression, ...]:
-    """Flag a gap that closed, or perhaps did; one in contact that opened; passages.
+    """Flag a gap that closed, or perhaps did; one in contact that opened, or perhaps did; passages.
 
     Either may be over at the step's end, so both look at what is in between; but not where steps
     are fixed, not `shortened`: there contacts change where a step ends. A gap whose journal stays
-    in an enclosure off the wall did not close (`solver.kernels.emit.enclosure`, also of `away`). A
-    journal that passes the centre of its bearing is flagged where its normal turns much.
+    in an enclosure off the wall did not close, and one in contact that stays in one beyond it did
+    not open (`solver.kernels.emit.enclosure`, also of `away`): `held` is the enclosure in contact.
+    A journal that passes the centre of its bearing is flagged where its normal turns much.
     """
     gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
     start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
@@ -74,16 +81,7 @@ def contact_flags(
     dip: Expression | float = 0.0
     if shortened:
         perhaps = _where(ONSET, beyond(v, j, away, enclosure))
-        # the extreme of the cubic through both ends, at the zero of the linear rate
-        turn = start_rate / (start_rate - rate + 1e-300)
-        rest = 1.0 - turn
-        extreme = (
-            rest * rest * (1.0 + 2.0 * turn) * start
-            + turn * turn * (3.0 - 2.0 * turn) * gap
-            + turn * rest * v("tried") * (rest * start_rate - turn * rate)
-        )
-        open_between = 0.1 * abs(extreme - minimum(gap, start)) - extreme
-        dip = _where(RELEASE, open_between, -start_rate, rate)
+        dip = _where(RELEASE, may_open(v, j, away, held))
     onset = select_positive(gap, ONSET, perhaps)
     opened = _where(RELEASE, maximum(-rate, start - LANDED))
     release = select_positive(gap, dip, opened)

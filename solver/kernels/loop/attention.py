@@ -44,7 +44,7 @@ def attend(
     run.attended += 1
     opening = 1.0
     if flag & RELEASE:
-        opening = note_openings(lane, at, work, spare, gaps_within)
+        opening = note_openings(lane, at, work, spare, gaps_within, not flag & REJECTED)
     if flag & REJECTED:
         run.rejections += 1
         run.landing = NO_PAIR  # its attempts count on, or they might go in circles

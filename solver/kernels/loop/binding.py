@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.enclosure import SKIN
+from jointplay.solver.kernels.emit.enclosure import HELD, SKIN
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BENDS
@@ -131,6 +131,7 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     lane["driven_speed"] = driven_speed(scene, lane.number("lever"), problem.duration)
     for j, (name, pair) in enumerate(contact_pairs(scene).items()):
         lane["inner"][j] = (1.0 - SKIN) * pair.play
+        lane["outer"][j] = (1.0 + HELD * problem.tolerance) * pair.play
         law = pair.clearance.friction
         if law is not None and not law.is_off:
             lane["bend"][BENDS * j : BENDS * (j + 1)] = law.bends

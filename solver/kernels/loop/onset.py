@@ -1,4 +1,4 @@
-"""Finds where inside a step a gap closes, on the dense output."""
+"""Finds where inside a step a gap closes, or opens, on the dense output."""
 
 import math
 
@@ -47,13 +47,13 @@ def first_onset(
     begun = 0
     while begun < INSTANTS:
         look_between(0.0, 1.0, lane, at, work, spare, gaps_within)
-        i = next_suspect(j, begun, lane, at, work, spare)
+        i = next_suspect(1.0, j, begun, lane, at, work, spare)
         if i == INSTANTS:
             break
         left, right = i / INSTANTS, (i + 1) / INSTANTS
         closed = right
         if spare[at.gap + j, i] <= 0.0:
-            closed = closed_between(j, left, right, lane, at, work, spare, gaps_within)
+            closed = crossed_between(1.0, j, left, right, lane, at, work, spare, gaps_within)
         if closed < NO_ONSET:
             return polish(j, left, closed, lane, at, work, spare, gaps_within)
         begun = i + 1
@@ -62,18 +62,21 @@ def first_onset(
 
 @inner_kernel()
 def next_suspect(
-    j: int, begun: int, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
+    sense: float, j: int, begun: int, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
 ) -> int:
     """Return the first eighth of the step, from the one with number `begun` on, that may touch.
 
     The gap is closed at its end, or rises at its beginning and falls at its end from where it would
-    close if it went on for the eighth at twice these rates. None: the number of eighths.
+    close if it went on for the eighth at twice these rates. None: the number of eighths. With the
+    `sense` -1 instead of 1, all is the other way round: the first in which it may open.
     """
     for i in range(begun, INSTANTS):
-        gap, rate = spare[at.gap + j, i], spare[at.gap_rate + j, i]
-        before, before_rate = work[at.gap_start + j, lane], work[at.gap_rate_start + j, lane]
+        gap, rate = sense * spare[at.gap + j, i], sense * spare[at.gap_rate + j, i]
+        before = sense * work[at.gap_start + j, lane]
+        before_rate = sense * work[at.gap_rate_start + j, lane]
         if i > 0:
-            before, before_rate = spare[at.gap + j, i - 1], spare[at.gap_rate + j, i - 1]
+            before = sense * spare[at.gap + j, i - 1]
+            before_rate = sense * spare[at.gap_rate + j, i - 1]
         if gap > 0.0:
             return i
         reach = 2.0 * work[at.tried, lane] / INSTANTS
@@ -83,7 +86,8 @@ def next_suspect(
 
 
 @inner_kernel()
-def closed_between(
+def crossed_between(
+    sense: float,
     j: int,
     left: float,
     right: float,
@@ -95,15 +99,16 @@ def closed_between(
 ) -> float:
     """Return a share of the step at which pair j's gap is closed, `NO_ONSET` if there is none.
 
-    From one share to another, between which the gap's rate turns from rising to falling.
+    From one share to another, between which the gap's rate turns from rising to falling. With the
+    `sense` -1 instead of 1, at which it is open, and the other way round.
     """
     for _ in range(TURNING_LEVELS):
         look_between(left, right, lane, at, work, spare, gaps_within)
         turning = INSTANTS - 1
         for i in range(INSTANTS):
-            if spare[at.gap + j, i] > 0.0:
+            if sense * spare[at.gap + j, i] > 0.0:
                 return float(spare[at.theta, i])
-            if spare[at.gap_rate + j, i] < 0.0 and turning == INSTANTS - 1:
+            if sense * spare[at.gap_rate + j, i] < 0.0 and turning == INSTANTS - 1:
                 turning = i
         width = (right - left) / INSTANTS
         left = left + width * turning

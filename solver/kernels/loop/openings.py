@@ -6,7 +6,12 @@ from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, inner_kernel, kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.onset import look_between
+from jointplay.solver.kernels.loop.onset import (
+    NO_ONSET,
+    crossed_between,
+    look_between,
+    next_suspect,
+)
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Run
 
 MOST_ITERATIONS = 40
@@ -27,14 +32,32 @@ def dip(
     spare: np.ndarray,
     gaps_within: LaneFunction,
 ) -> float:
-    """Return a share of the step at which pair j's gap is open, though closed at both ends.
+    """Return a share of the step at which pair j's gap is open, though it closes again.
 
-    It opened an eighth of the step before at most. 1: it stays closed.
+    The gap is looked at in eight places, and for where it turns between two of them. 1: it stays
+    closed, or once open it stays so. Where contact has only just begun, it must have been deeper.
     """
     look_between(0.0, 1.0, lane, at, work, spare, gaps_within)
-    for i in range(INSTANTS):
+    begun = 0
+    if work[at.gap_start + j, lane] <= LANDED:
+        while begun < INSTANTS and spare[at.gap + j, begun] <= LANDED:
+            begun += 1
+        begun += 1
+    while begun < INSTANTS:
+        i = next_suspect(-1.0, j, begun, lane, at, work, spare)
+        if i == INSTANTS:
+            break
+        left, right = i / INSTANTS, (i + 1) / INSTANTS
         if spare[at.gap + j, i] < 0.0:
-            return (i + 1) / INSTANTS
+            for later in range(i + 1, INSTANTS):
+                if spare[at.gap + j, later] > 0.0:
+                    return right
+            break
+        open_at = crossed_between(-1.0, j, left, right, lane, at, work, spare, gaps_within)
+        if open_at < NO_ONSET:
+            return open_at
+        begun = i + 1
+        look_between(0.0, 1.0, lane, at, work, spare, gaps_within)
     return 1.0
 
 
@@ -66,14 +89,20 @@ def falling_root(start: float, start_rate: float, end: float, end_rate: float) -
 
 @inner_kernel()
 def note_openings(
-    lane: int, at: Places, work: np.ndarray, spare: np.ndarray, gaps_within: LaneFunction
+    lane: int,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    gaps_within: LaneFunction,
+    inside: bool,
 ) -> float:
     """Note when in this step each gap opens: at the root of the cubic through both its ends.
 
     Infinite where it is not open at the end; where contact has only just begun, it must be on its
     way apart. Return the smallest of these shares of the step, 1 where no contact worth mentioning
-    ends. A gap that is closed again at the end was open nevertheless: what touches then is another
-    contact, with an impact rate of its own.
+    ends. A gap that was open `inside` the step, which is to be taken otherwise, and closed again
+    has ended a contact: what touches then is another one, with an impact rate of its own. The
+    share is then such that the step redone ends within that opening, or at least before its end.
     """
     step = work[at.tried, lane]
     soonest = 1.0
@@ -83,14 +112,15 @@ def note_openings(
         start_rate = work[at.gap_rate_start + j, lane] * step
         closed = work[at.mode + j, lane] > 0.0
         fixed = work[at.restart + j, lane] == np.inf
-        shortened = start > LANDED and closed and not fixed
         high = 1.0
         if start > 0.0 >= gap:
             high = falling_root(start, start_rate, gap, rate)
-        elif shortened and start_rate < 0.0 < rate:
-            high = dip(j, lane, at, work, spare, gaps_within)
-        if shortened:
+        if start > LANDED and closed and not fixed:
             soonest = min(soonest, high)
+        if inside and closed and not fixed:
+            low = dip(j, lane, at, work, spare, gaps_within)
+            if low < 1.0:
+                soonest = min(soonest, min(low, LATE) / BEHIND)
         open_now = gap <= 0.0 and (start > LANDED or rate < 0.0)
         work[at.opened + j, lane] = work[at.time, lane] + high * step if open_now else np.inf
     return soonest

@@ -1,5 +1,7 @@
 """Openings of gaps: where a cubic falls to zero, and what a step sees of them."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 from numba import njit
 
 from jointplay.solver.integrators import METHODS
+from jointplay.solver.kernels.emit.enclosure import may_open
 from jointplay.solver.kernels.emit.judging import RELEASE
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.places import DTYPE
@@ -46,25 +49,58 @@ def test_a_straight_line_is_met_at_once(start: float, speed: float) -> None:
 
 
 @njit
-def gaps_of_a_parabola(work: np.ndarray, spare: np.ndarray, lane: int) -> None:
-    """Gaps below zero in the second half of a step, but not at its end."""
+def gaps_of_a_polynomial(work: np.ndarray, spare: np.ndarray, lane: int) -> None:
+    """A gap with up to four zeros in a step, and its rate: it is as deep as their product."""
     for i in range(INSTANTS):
-        share = spare[0, i]
-        spare[1, i] = (share - 0.6) * (share - 0.9)
+        share, depth, rate = spare[0, i], 1.0, 0.0
+        for k in range(4):
+            zero = work[3 + k, lane]
+            rate = rate * (share - zero) + depth
+            depth *= share - zero
+        spare[1, i], spare[2, i] = depth, rate
 
 
-@njit
-def no_gaps(work: np.ndarray, spare: np.ndarray, lane: int) -> None:
-    for i in range(INSTANTS):
-        spare[1, i] = 1.0
-
-
-def test_a_gap_that_opens_and_closes_inside_a_step_is_found() -> None:
+@pytest.mark.parametrize(
+    ("zeros", "share"),
+    [
+        ((0.6, 0.9, -1.0, -1.0), 5.0 / 8.0),
+        ((0.3, 0.302, -1.0, -1.0), 0.301),  # between two of the eighths
+        ((0.991, 0.993, -1.0, -1.0), 0.992),
+        ((0.1, 0.101, 0.7, 0.702), 0.1005),  # the first of two
+        ((0.2, 0.7, 0.8, 2.0), 2.0 / 8.0),  # and open at the end, for good
+        ((0.7, 2.0, -1.0, -1.0), 1.0),  # open at the end, once
+        ((2.0, 2.0, -1.0, -1.0), 1.0),
+    ],
+)
+def test_a_gap_that_opens_and_closes_inside_a_step_is_found(
+    zeros: tuple[float, ...], share: float
+) -> None:
     places = np.zeros(1, DTYPE)
-    places["theta"], places["gap"] = 0, 1
-    work, spare = np.zeros((2, LANES)), np.zeros((2, INSTANTS))
-    assert dip(0, 3, places[0], work, spare, gaps_of_a_parabola) == 5.0 / 8.0
-    assert dip(0, 3, places[0], work, spare, no_gaps) == 1.0
+    for place, name in enumerate(("theta", "gap", "gap_rate")):
+        places[name] = place
+    for place, name in enumerate(("gap_start", "gap_rate_start", "tried"), start=7):
+        places[name] = place
+    work, spare = np.zeros((10, LANES)), np.zeros((3, INSTANTS))
+    work[3:7, 3] = zeros
+    gaps_of_a_polynomial(work, spare, 3)  # at zero
+    work[7:, 3] = spare[1, 0], spare[2, 0], 1.0
+    found = dip(0, 3, places[0], work, spare, gaps_of_a_polynomial)
+    assert found == pytest.approx(share, abs=1.1e-3)
+
+
+def test_a_contact_that_has_just_begun_must_have_been_deeper_before_it_opens() -> None:
+    places = np.zeros(1, DTYPE)
+    for place, name in enumerate(("theta", "gap", "gap_rate")):
+        places[name] = place
+    for place, name in enumerate(("gap_start", "gap_rate_start", "tried"), start=7):
+        places[name] = place
+    work, spare = np.zeros((10, LANES)), np.zeros((3, INSTANTS))
+    work[3:7, 3] = 0.0, 0.4, 0.6, 2.0  # it rises where it is positive: 0.4 to 0.6 is closed
+    work[7:, 3] = 0.0, -0.48, 1.0
+    assert dip(0, 3, places[0], work, spare, gaps_of_a_polynomial) == 1.0
+    work[3:7, 3] = 0.0, 0.4, 0.6, -2.0
+    work[7:, 3] = 0.0, 0.48, 1.0
+    assert dip(0, 3, places[0], work, spare, gaps_of_a_polynomial) == 4.0 / 8.0
 
 
 @pytest.mark.parametrize(
@@ -72,8 +108,10 @@ def test_a_gap_that_opens_and_closes_inside_a_step_is_found() -> None:
     [
         (1e-6, -1.0, 1e-6, 1.0, True),  # 1.5e-6 m open in between
         (1e-6, -0.1, 1e-6, 0.1, False),  # closed all the time
+        (1e-6, 0.1, 1e-6, 0.1, False),  # it turns twice, but hardly
+        (1e-6, 1.0, 1e-6, 1.0, True),  # far enough to open
         (1e-6, -1.0, -1e-7, 0.1, True),  # on its way back already
-        (-1e-14, 1.0, 1e-6, 1.0, False),  # just landed
+        (-1e-14, 1.0, 1e-6, 1.0, True),  # just landed: one line parts it from no disc
         (1e-6, -1.0, -1e-6, -1.0, True),
     ],
 )
@@ -83,10 +121,46 @@ def test_a_step_in_contact_asks_for_a_look_where_its_gap_may_have_opened(
     scene = preset("bouncing-journal")
     kernel = compile_kernel(scene, spanning_tree(scene), "reduced", METHODS["tsitouras"])
     work = aligned_zeros(kernel.layout.size, LANES)
+    clearance = 1e-4
     for name, value in {
+        "outer0": clearance, "eccentricity_start0": clearance + start,
+        "eccentricity_start2": start_rate, "eccentricity0": clearance + end,
+        "eccentricity2": end_rate,
         "active": 1.0, "tried": 1e-5, "step": 1e-5, "fastest": 1.0, "full": 1.0, "mode0": 1.0,
         "next_due": 1.0, "pace_at": 1e9, "gap_start0": start, "gap_rate_start0": start_rate,
         "gap0": end, "gap_rate0": end_rate,
     }.items():  # fmt: skip
         work[kernel.layout[name]] = value
     assert kernel.module.judge(work) == (RELEASE if opens else 0.0)
+
+
+numbers = st.lists(st.floats(-1.0, 1.0), min_size=12, max_size=12)
+
+
+@given(numbers=numbers, size=st.floats(1e-9, 1.0), outer=st.floats(0.5, 1.1))
+def test_a_path_that_surely_stays_beyond_a_circle_does(
+    numbers: list[float], size: float, outer: float
+) -> None:
+    """Paths that leave (1, 0) for a place beside it, and curve on their way."""
+    parts = size * np.array(numbers)
+    slots = {f"eccentricity_start{i}": float(part) for i, part in enumerate(parts[:6])}
+    slots |= {f"eccentricity{i}": float(part) for i, part in enumerate(parts[6:])}
+    for name in ("eccentricity_start0", "eccentricity0"):
+        slots[name] += 1.0
+    slots |= {"tried": 1.0, "outer0": outer}
+    if may_open(slots.__getitem__, 0, 0.0, "circle") > 0.0:
+        return
+    powers = np.linspace(0.0, 1.0, 1001)[:, None] ** np.arange(6)
+    radii = np.hypot(*(powers @ quintic(slots, axis) for axis in range(2)))
+    assert radii.min() >= outer * (1.0 - 1e-12)
+
+
+def quintic(slots: dict[str, float], axis: int) -> np.ndarray:
+    """Return the coefficients of the polynomial of least degree that fits both ends."""
+    rows, values = [], []
+    for block, at in (("eccentricity_start", 0.0), ("eccentricity", 1.0)):
+        for order in range(3):
+            factors = [math.perm(k, order) * (at ** max(k - order, 0)) for k in range(6)]
+            rows.append(factors)
+            values.append(slots[f"{block}{axis + 2 * order}"])
+    return np.linalg.solve(np.array(rows), np.array(values))
