@@ -25,6 +25,7 @@ ALL = (
     "ledger",
     "contacts",
     "lies",
+    "openings",
     "platform",
     "catalogue",
     "submission",
