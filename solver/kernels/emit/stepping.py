@@ -49,7 +49,15 @@ def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) 
     layout.add_block("mode", pairs)
     layout.add_block("impact_rate", pairs)
     layout.add_block("inverse_rate", pairs)
-    for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total", "opened"):
+    for name in (
+        "impact_floor",
+        "restart",
+        "onset_time",
+        "approach",
+        "onset_total",
+        "opened",
+        "abrupt",
+    ):
         layout.add_block(name, pairs)
     enclosure.allocate(layout, pairs)
 

@@ -215,7 +215,17 @@ def advance(
             flag, run = int(work[at.flag, lane]), runs[lane]
             wanted = flag != 0 or run.landing != NO_PAIR or has_all_events(run)
             if wanted and work[at.accept, lane] > 0.0:
-                full |= settle(flag, lane, run, at, work, buffers, call.weigh, call.tangent_gaps)
+                full |= settle(
+                    flag,
+                    lane,
+                    run,
+                    at,
+                    work,
+                    buffers,
+                    call.weigh,
+                    call.right_hand_side,
+                    call.tangent_gaps,
+                )
         still = count_active(at, work)
         landing = still_landing(runs)
         if full or still < running:  # a free lane may have a new problem waiting

@@ -13,6 +13,7 @@ from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.loop.contacts import (
     CAUTIOUS,
+    begin_abruptly,
     begin_contact,
     end_contact,
     is_touching,
@@ -26,6 +27,10 @@ from jointplay.solver.kernels.loop.peaks import end_peaks
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers, Run, SectionKind, Status
 from jointplay.solver.kernels.loop.tangent import latch_tangent, record_growth
+
+AT_ONSET = 1e-4
+"""Share of a run's smallest step that one may have which begins where contact does: a force that
+grows as a root of time may ask for it. So short a one need not move time, but it moves the rest."""
 
 
 @inner_kernel()
@@ -48,10 +53,12 @@ def attend(
     if flag & REJECTED:
         run.rejections += 1
         run.landing = NO_PAIR  # its attempts count on, or they might go in circles
-        if work[at.next_step, lane] < run.smallest_step:
+        touching = is_touching(lane, at, work)
+        smallest = run.smallest_step * AT_ONSET if touching else run.smallest_step
+        if work[at.next_step, lane] < smallest:
             stop(Status.UNDERFLOW, lane, run, at, work)
             return False
-        if is_touching(lane, at, work):
+        if touching:
             work[at.next_step, lane] *= CAUTIOUS
     if opening < LATE:
         end_behind_opening(opening, lane, run, at, work)
@@ -77,6 +84,7 @@ def settle(
     work: np.ndarray,
     buffers: Buffers,
     weigh: LaneFunction,
+    right_hand_side: LaneFunction,
     tangent_gaps: LaneFunction,
 ) -> bool:
     """Look after one lane once its step is taken; whether a buffer is nearly full."""
@@ -86,6 +94,7 @@ def settle(
     full = False
     landed = run.landing
     if landed != NO_PAIR:
+        abrupt = False
         for j in range(at.pairs):
             if j != landed and not lands_beside(j, lane, at, work):
                 continue
@@ -99,6 +108,9 @@ def settle(
             run.slow += int(work[at.approach + j, lane] < work[at.impact_floor + j, lane])
             if run.section_kind == SectionKind.ONSET and run.section_place == j:
                 full |= record_event(lane, lane, run, at, work, work, buffers.rows)
+            abrupt |= work[at.abrupt + j, lane] > 0.0
+        if abrupt:
+            begin_abruptly(landed, lane, at, work, right_hand_side)
         run.landing = NO_PAIR
         run.landings = 0
     if flag & RELEASE:

@@ -111,6 +111,7 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
         lane["weight"][i] = 1.0 / (problem.tolerance * state.scale)
     for j, pair in enumerate(pairs):
         lane["impact_floor"][j] = impact_floor(scene, pair, length)
+        lane["abrupt"][j] = float(pair.clearance.contact.jumps_at_onset)
         restart = RESTART * pair.play if problem.step is None else math.inf
         lane["restart"][j] = restart
 

@@ -169,6 +169,27 @@ def begin_contact(j: int, now: float, lane: int, at: Places, work: np.ndarray) -
 
 
 @inner_kernel()
+def begin_abruptly(
+    j: int, lane: int, at: Places, work: np.ndarray, right_hand_side: LaneFunction
+) -> None:
+    """Begin the next step with the slopes just behind the onset of pair j, whose force jumps there.
+
+    Those that the step before has left are without it, and no step would be short enough.
+    """
+    kept = work[:, lane].copy()
+    behind = 2.0 * LANDED / max(work[at.gap_rate + j, lane], LANDED)
+    work[at.stage_time, lane] += behind
+    for i in range(at.step_row.coordinates):
+        work[at.stage + i, lane] += behind * work[at.k1_ + i, lane]
+    right_hand_side(work)
+    for i in range(at.states):
+        kept[at.k1_ + i] = work[at.slope + i, lane]
+    for i in range(at.ledger):
+        kept[at.kledger1_ + i] = work[at.power + i, lane]
+    work[:, lane] = kept
+
+
+@inner_kernel()
 def end_contact(
     j: int, now: float, lane: int, run: Run, at: Places, work: np.ndarray, impacts: np.ndarray
 ) -> None:

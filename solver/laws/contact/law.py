@@ -68,6 +68,11 @@ class ContactLaw(Strict):
         return True
 
     @property
+    def jumps_at_onset(self) -> bool:
+        """True if the force is there at once where a contact begins."""
+        return False
+
+    @property
     def tangent_obstacle(self) -> str:
         """Reason why no tangent vector follows a run with this law, with the remedy, or nothing."""
         return ""

@@ -62,9 +62,14 @@ class StiffnessAndDissipation(ContactLaw):
         return f"{self.stiffness.law} with {self.dissipation.law}"
 
     @property
+    def jumps_at_onset(self) -> bool:
+        """True where the dissipation acts at no depth."""
+        return self.dissipation.jumps_at_onset(self.stiffness)
+
+    @property
     def tangent_obstacle(self) -> str:
         """A force that is there at once where a contact begins."""
-        if not self.dissipation.jumps_at_onset(self.stiffness):
+        if not self.jumps_at_onset:
             return ""
         return (
             f"The force of '{self.title}' jumps where a contact begins, and a tangent with it."
