@@ -104,7 +104,7 @@ def _sections(source: StudySource, name: str, points: slice) -> Floats:
 def _with_offset(axis: page.Axis, label: str) -> str:
     """Return a label with what an axis leaves out of its numbers, in place of a text across it."""
     numbers = axis.get_major_formatter()
-    numbers.set_locs(axis.get_majorticklocs())
+    numbers.set_locs(axis.get_majorticklocs().tolist())
     offset = numbers.get_offset()
     axis.get_offset_text().set_visible(False)
     return f"{label}  {offset}" if offset else label

@@ -65,7 +65,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Measured:
-    """What was computed, and in how much time of the processor."""
+    """Work that was computed, and its time of the processor."""
 
     seconds: float
     steps: float

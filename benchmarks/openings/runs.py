@@ -27,7 +27,7 @@ class Ran(NamedTuple):
     release: Floats
     """Infinite where the contact lasts."""
     rate: Floats
-    """Of approach, m/s."""
+    """Approach rate, m/s."""
     time: Floats
     depth: Floats
     done: bool
@@ -39,7 +39,7 @@ class Ran(NamedTuple):
 
     @property
     def sizes(self) -> Floats:
-        """How far gaps open between contacts, m: as a throw that comes back at such a rate."""
+        """Width to which gaps open between contacts, m: a throw that comes back at such a rate."""
         return 0.25 * self.rate[1:] * (self.onset[1:] - self.release[:-1])
 
     @property

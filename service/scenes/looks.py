@@ -28,7 +28,7 @@ _REFUSALS = problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST, kinds.UNAVAILABLE)
 
 
 class GivenStart(BaseModel):
-    """What becomes of one thing that a scene gives of its start."""
+    """One value that a scene gives of its start, and the one that is taken."""
 
     pointer: str = Field(description="Where the scene has it.")
     unit: str

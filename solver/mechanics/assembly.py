@@ -74,7 +74,7 @@ class Assembly:
     """Largest rate at which constraints are violated then, m/s or rad/s; above zero if drivers
     fight."""
     given: tuple[Taken, ...]
-    """What becomes of all that the scene gives of the start."""
+    """All values that the scene gives of the start, and those that are taken."""
 
     told: float
     """Smallest difference from what is given that is told, m or m/s."""
@@ -133,7 +133,7 @@ def directionless(scene: Scene, pose: Floats) -> list[str]:
 
 @dataclass(frozen=True)
 class _Found:
-    """What one geometry comes to, whatever its clearances are."""
+    """Assemblies of one geometry, whatever its clearances are."""
 
     places: Places
     closed: Assembly

@@ -8,8 +8,9 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.assembly import ASSEMBLED, first_clocks, shortest_link
+from jointplay.solver.mechanics.assembly import ASSEMBLED, shortest_link
 from jointplay.solver.mechanics.closing import LARGEST_TURN, RANK_TOLERANCE, arrays, close
+from jointplay.solver.mechanics.start.guess import first_clocks
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 

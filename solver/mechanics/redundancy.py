@@ -6,9 +6,10 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.assembly import assemble, first_clocks, shortest_link
+from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, rank
 from jointplay.solver.mechanics.rows import Row
+from jointplay.solver.mechanics.start.guess import first_clocks
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import ends

@@ -24,7 +24,7 @@ LOOSE = 0.01
 """Error of a rotation number, in turns, from which on the curve is not traversed steadily."""
 SMALLER, MORE = "choose a smaller tolerance", "record more sections"
 TEST = f"record {FEWEST_TELLING} sections with the indicator 'zero_one'"
-"""What to try where nothing is decided."""
+"""Remedies where nothing is decided."""
 
 
 @dataclass(frozen=True)

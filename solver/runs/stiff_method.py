@@ -86,11 +86,11 @@ def with_reason(reason: str, change: str) -> str:
 
 @dataclass
 class Trial:
-    """What a look at a run of one method decides by."""
+    """Facts of a run of one method by which a look decides."""
 
     bundle: Bundle
     problem: LaneProblem
-    """Of the job, at its own tolerance."""
+    """Problem of the job, at its own tolerance."""
     admission: Admission
     row: Floats
     """Dense state, (1, width), where the stretch began that is looked at."""

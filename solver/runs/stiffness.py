@@ -1,4 +1,4 @@
-"""How fast the fastest part of a lane's motion dies or swings: what limits an explicit step."""
+"""Rate at which the fastest part of a lane's motion dies or swings: it limits an explicit step."""
 
 import numpy as np
 

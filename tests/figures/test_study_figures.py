@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from closed_form_study import SCENE, accuracy_study, bifurcation, calibration, one_point, sweep
+from closed_form_study import accuracy_study, bifurcation, calibration, one_point, sweep
 from drawn import drawn_with, stand_apart
 from matplotlib.colors import to_hex
 
@@ -274,37 +274,3 @@ def test_exponents_alone_are_drawn_with_their_verdicts():
         figures.draw(bifurcation(points=3), "exponents")
     with pytest.raises(NotDrawable, match="over one parameter"):
         figures.draw(one_point(), "exponents")
-
-
-def held_at(level: float, channel: str = "left.eccentricity_x"):
-    """Sections where a channel is at a level, but for the rounding of their location."""
-    source = one_point()
-    rounding = 1e-17 * np.sin(np.arange(source.record))[None, :]
-    return replace(
-        source,
-        attributes={"job": {"kind": "poincare", "section": {"channel": channel, "value": level}}}
-        | {"scene": SCENE},
-        section_values=dict(source.section_values) | {channel: level + rounding},
-    )
-
-
-def test_a_section_leaves_out_the_coordinate_that_it_holds():
-    drawn = drawn_with(held_at(0.0), "section", None)
-    assert [axes.get_xlabel() for axes in drawn.axes] == ["eccentricity y [mm]"]
-    # if it is asked for, its axis shows the level, not the rounding
-    asked = ("left.eccentricity_x", "left.eccentricity_rate_x")
-    (axes,) = drawn_with(held_at(1e-4), "section", Selection(channels=asked)).axes
-    low, high = axes.get_xlim()
-    assert high - low > 1e-3 * abs(high)
-
-
-def test_what_an_axis_leaves_out_of_its_numbers_stands_in_its_label():
-    source = one_point()
-    name = "left.eccentricity_x"
-    close = dict(source.section_values) | {name: 1.0 + 1e-6 * source.section_values[name]}
-    figure = drawn_with(replace(source, section_values=close), "section", None)
-    axes = figure.axes[0]
-    assert not axes.xaxis.get_offset_text().get_visible()
-    assert axes.get_xlabel().startswith("eccentricity x [")
-    assert axes.get_xlabel().endswith(axes.xaxis.get_major_formatter().get_offset())
-    assert axes.xaxis.get_major_formatter().get_offset()

@@ -52,7 +52,7 @@ class Function:
 
     @property
     def calls(self) -> int:
-        """How often loops of this process called it: work is counted, for times depend on cores."""
+        """Number of calls by loops of this process: work is counted, for times depend on cores."""
         return ctypes.c_int64.from_address(address_of_number(f"{self._symbol}{CALLS}")).value
 
     @cached_property

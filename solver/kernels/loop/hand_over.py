@@ -15,9 +15,9 @@ KEPT = """
 total gross potential_start stored_start highest lowest highest_time lowest_time
 onset_time approach onset_total largest_step steps pace_at smallest_step
 """
-"""What lanes have counted and recorded, whatever the method."""
+"""Slots of counts and records of lanes, whatever the method."""
 SCALES = ("weight", "full", "fastest")
-"""What is in inverse proportion to the tolerance."""
+"""Slots in inverse proportion to the tolerance."""
 
 
 def handed_over(bundle: Bundle, kernel: Kernel, problem: LaneProblem, sharper: float) -> Bundle:

@@ -1,4 +1,4 @@
-"""What a scene gives of its start, as rows: positions and angles, and their rates.
+"""Start values that a scene gives, as rows: positions and angles, and their rates.
 
 Rows are in metres, and in m/s: an angle counts by the arc at the body's farthest point. The
 distance of a start from what was given is the root of the sum of their squares.
@@ -49,7 +49,7 @@ class Given:
 
 
 class Taken(NamedTuple):
-    """What the start makes of one thing that a scene gives."""
+    """One value that a scene gives of its start, and the one that is taken."""
 
     pointer: str
     unit: str

@@ -22,8 +22,8 @@ from jointplay.solver.mechanics.start.levels import MOST_ITERATIONS, approach
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Prismatic
-from jointplay.solver.scene.pairs import has_play
+from jointplay.solver.scene.joints import Clearance, Prismatic, SliderClearance
+from jointplay.solver.scene.pairs import pairs_of
 
 CLOSED = 1e-11
 """Largest residual, in lengths of the shortest link, of an assembled mechanism."""
@@ -40,7 +40,7 @@ ROUGHLY, FEW = 6, 8
 
 @dataclass(frozen=True)
 class Places:
-    """What is asked of a pose: constraints, and what is given."""
+    """Demands on a pose: constraints, and what is given."""
 
     scene: Scene
     closed: AbsoluteMechanism
@@ -160,19 +160,19 @@ def within_play(places: Places, scene: Scene, pose: Floats) -> bool:
 
 
 def _is_within(scene: Scene, name: str, parts: dict[str, float], length: float) -> bool:
-    joint = scene.joints[name]
-    if not has_play(joint):
-        return True
     rounding = KEPT * length
-    clearance = joint.clearance
-    if joint.type == "revolute":
-        return math.hypot(parts["x"], parts["y"]) <= clearance.radial_clearance + rounding
-    if joint.type in ("flat-follower", "roller-follower"):
-        return parts["normal"] >= -clearance.lash - rounding  # away from the cam there is room
-    aside = abs(parts["normal"])
-    if isinstance(joint, Prismatic):
-        aside += 0.5 * clearance.length * abs(math.sin(parts["angle"]))
-    return bool(aside <= clearance.wall_clearance + rounding)
+    for pair in pairs_of(name, scene.joints[name]):
+        clearance, play = pair.clearance, pair.play + rounding
+        if isinstance(clearance, Clearance):
+            fits = math.hypot(parts["x"], parts["y"]) <= play
+        elif isinstance(clearance, SliderClearance):
+            turned = 0.5 * clearance.length * abs(math.sin(parts["angle"]))
+            fits = abs(parts["normal"]) + turned <= play
+        else:  # away from a cam there is room
+            fits = (-parts["normal"] if pair.cam else abs(parts["normal"])) <= play
+        if not fits:
+            return False
+    return True
 
 
 def _nearest_here(places: Places, pose: Floats, iterations: int) -> Floats:

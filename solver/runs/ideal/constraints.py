@@ -22,7 +22,7 @@ class System(NamedTuple):
     rate: Floats
     """dΦ/dt, 1/s."""
     gamma: Floats
-    """What Φ_q q̈ must be, 1/s^2."""
+    """Value that Φ_q q̈ must have, 1/s^2."""
 
 
 class Constraints:

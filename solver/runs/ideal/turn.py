@@ -21,13 +21,13 @@ class Turn(NamedTuple):
     """A driven mechanism, its play closed, over a turn of its drivers."""
 
     span: float
-    """How long the turn takes, s."""
+    """Length of the turn, s."""
     reached: float
-    """How far it was followed, s: less where it jams, or where that takes too many poses."""
+    """Time up to which it was followed, s: less where it jams, or that takes too many poses."""
     lost: SimulationFailed | None
-    """How it jams, if it does."""
+    """Failure with which it jams, if it does."""
     margin: Margin | None
-    """How near it comes to a dead point; where it jams, by how much it fails to go on."""
+    """Distance from a dead point; where it jams, the gap by which it fails to go on."""
     agrees: bool
     """Whether its redundant constraints, if any, agree all the way."""
 

@@ -17,7 +17,7 @@ from tests.solver.readable_mechanics import preset
 
 LANES = 8
 WAYS = ("bare", "extremes", "tangents", "crossings")
-"""What the runs are asked for beside their motion."""
+"""Demands on the runs beside their motion."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ CASES = {
 
 @dataclass(frozen=True)
 class Work:
-    """What eight runs took."""
+    """Work of eight runs."""
 
     attempts: int
     """Attempts at a step of all lanes together."""

@@ -1,4 +1,4 @@
-"""What the loop does beside attempting steps is bounded, in numbers of calls: a loss is noticed.
+"""The loop's work beside attempting steps is bounded, in numbers of calls: a loss is noticed.
 
 A run that seeks nothing looks after single lanes only where contacts begin or end, samples or
 sections are due, or a step is rejected. Bounds are a quarter above what was counted, and 0.01.

@@ -1,4 +1,4 @@
-"""What a scene gives of its pose holds if the joints allow it; else the nearest pose is taken."""
+"""A given pose holds if the joints allow it; else the nearest one is taken."""
 
 import math
 

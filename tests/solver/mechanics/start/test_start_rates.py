@@ -1,4 +1,4 @@
-"""What a scene gives of its velocities holds if the joints allow it; the rest is fitted."""
+"""Given velocities hold if the joints allow it; the rest is fitted."""
 
 import math
 
