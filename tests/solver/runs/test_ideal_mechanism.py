@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.records.failure import InvalidInput, LimitExceeded, SimulationFailed
 from jointplay.solver.kinds import admit
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.simulate import Simulation
@@ -87,3 +87,15 @@ def test_sections_come_in_pieces_and_are_all_there() -> None:
     sections = np.concatenate(pieces)
     assert len(sections) == 2501
     np.testing.assert_allclose(sections, 0.17, atol=1e-12)  # stretched at each whole turn
+
+
+def test_drivers_that_hardly_ever_come_round_are_run_for_300_turns_at_most() -> None:
+    scene = slider_crank(0.05, 0.12, speed=1000.0)
+    scene["bodies"]["wheel"] = {"mass": 1.0, "inertia": 1.0, "points": {"hub": [0.0, 0.0]}}
+    pin = {"type": "revolute", "bearing": "ground.O", "journal": "wheel.hub"}
+    scene["joints"]["W"] = pin
+    scene["drivers"]["second"] = {"joint": "W", "speed": 999.0}
+    turn = 2.0 * math.pi / 1000.0
+    with pytest.raises(LimitExceeded, match="turns 301 times until all come round"):
+        admit(job(scene, 301.0 * turn))
+    assert admit(job(scene, 299.0 * turn)).period == pytest.approx(1000.0 * turn)
