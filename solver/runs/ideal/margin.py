@@ -1,4 +1,4 @@
-"""Distance of a driven mechanism from its dead points, and the gap by which it fails to pass one.
+"""Margins: how near a driven mechanism comes to a dead point, how far it fails to pass one.
 
 At either, one joint is off by the vector γ λ_j that lets the others just close, stretched or
 folded: Φ = γ λ in this joint's rows and 0 in all others, Φ_qᵀ λ = 0, |λ_j| = 1, by Newton's

@@ -21,13 +21,13 @@ class Turn(NamedTuple):
     """A driven mechanism, its play closed, over a turn of its drivers."""
 
     span: float
-    """Length of the turn, s."""
+    """Time that the turn takes, s."""
     reached: float
-    """Time up to which it was followed, s: less where it jams, or that takes too many poses."""
+    """Time up to which it was followed, s: less if it jams, or if that takes too many poses."""
     lost: SimulationFailed | None
-    """Failure with which it jams, if it does."""
+    """The way in which it jams, if it does."""
     margin: Margin | None
-    """Distance from a dead point; where it jams, the gap by which it fails to go on."""
+    """Distance from a dead point where it is nearest; where it jams, what it lacks to go on."""
     agrees: bool
     """Whether its redundant constraints, if any, agree all the way."""
 
