@@ -19,6 +19,9 @@ def test_a_press_so_hard_that_a_loose_tolerance_chatters(tolerance: float, chatt
     assert ("ask for a smaller tolerance" in facts["note"]) == chatters
     assert facts["impacts"]["count"] == own
     assert facts["impacts"]["until"] <= facts["horizon"]
+    # so hard that some impacts are slower than the floor of 1 mm/s that the preset gives
+    assert facts["slow_impacts"] > 0
+    assert f"{facts['slow_impacts']} impacts were slower than the impact" in facts["note"]
 
 
 @pytest.mark.parametrize(("gravity", "lasts"), [(2000.0, True), (0.0, False)])
