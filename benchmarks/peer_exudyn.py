@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from jointplay.solver.mechanics.impact_floors import MOST
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.joints import Clearance
@@ -63,7 +64,8 @@ def law_of(clearance: Clearance, crank_spin: float) -> Law:
     journal, turning = bearing - play, bearing * crank_spin
     stiffness = clearance.contact.contact_stiffness(clearance)
     hysteresis = 0.75 * (1.0 - clearance.contact.restitution**2)
-    floor, friction = clearance.contact.impact_rate_floor, clearance.friction.coefficient
+    floor = clearance.contact.impact_rate_floor or MOST  # its impacts are far above either
+    friction = clearance.friction.coefficient
     static, dynamic = clearance.friction.static_velocity, clearance.friction.dynamic_velocity
     impact_rate = 0.0
 

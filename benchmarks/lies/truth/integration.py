@@ -231,7 +231,7 @@ def integrate(
     if not accelerate(m, 0.0, y, closed, impact, k[0], before, multipliers):
         return SINGULAR
     for j in range(joints):
-        impact[j] = max(before[j, GAP_RATE], m.law[j, 5])
+        impact[j] = max(before[j, GAP_RATE], m.law[j, 10])
         closed[j] = before[j, GAP] > landed
     accelerate(m, 0.0, y, closed, impact, k[0], before, multipliers)
     t, natural = 0.0, 1e-6 * instants[-1]

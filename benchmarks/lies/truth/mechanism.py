@@ -7,6 +7,11 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.mechanics.impact_floors import impact_floor, resting_rate
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.pairs import contact_pairs
+
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
@@ -31,8 +36,9 @@ class Mechanism(NamedTuple):
     row : (rows, 3) kind of each constraint, its first point, its second
     motion : (rows, 4) position and speed of a driver, the axis in the guide's coordinates
     play : (joints, 2) bearing's point and journal's
-    law : (joints, 10) radial clearance, bearing radius, K, exponent, 3 (1 - c_e^2) / 4, floor of
-        the impact rate, friction coefficient, v_0, v_1, whether the slip is as published
+    law : (joints, 11) radial clearance, bearing radius, K, exponent, 3 (1 - c_e^2) / 4, floor of
+        the impact rate, friction coefficient, v_0, v_1, whether the slip is as published, least
+        impact rate of a contact that is there from the start on
     spring, spring_law : (springs, 2), (springs, 3) points; stiffness, damping, free length
     """
 
@@ -132,7 +138,7 @@ def read(scene: Mapping[str, Any]) -> Named:
         np.array(
             [[place[j["bearing"]], place[j["journal"]]] for j in loose.values()], np.int64
         ).reshape(-1, 2),
-        np.array([_law(j["clearance"]) for j in loose.values()], np.float64).reshape(-1, 10),
+        np.array(_laws(scene, loose), np.float64).reshape(-1, 11),
         np.array([[place[s["first"]], place[s["second"]]] for s in springs], np.int64).reshape(
             -1, 2
         ),
@@ -143,7 +149,20 @@ def read(scene: Mapping[str, Any]) -> Named:
     return Named(mechanism, rows, list(loose), drivers)
 
 
-def _law(fit: Mapping[str, Any]) -> tuple[float, ...]:
+def _laws(scene: Mapping[str, Any], loose: Mapping[str, Any]) -> list[tuple[float, ...]]:
+    made = Scene.model_validate(dict(scene))
+    pairs, length = contact_pairs(made), shortest_link(made)
+    return [
+        _law(
+            joint["clearance"],
+            impact_floor(made, pairs[name], length),
+            resting_rate(made, pairs[name], length),
+        )
+        for name, joint in loose.items()
+    ]
+
+
+def _law(fit: Mapping[str, Any], floor: float, resting: float) -> tuple[float, ...]:
     """Return the numbers of a joint's laws; eq. 9 of the press paper where K is not given."""
     contact, friction = fit["contact"], fit["friction"]
     clearance, radius = fit["radial_clearance"], fit["bearing_radius"]
@@ -165,6 +184,7 @@ def _law(fit: Mapping[str, Any]) -> tuple[float, ...]:
         stiffness,
         contact["exponent"],
         0.75 * (1.0 - contact["restitution"] ** 2),
-        contact["impact_rate_floor"],
+        floor,
         *rubbing,
+        resting,
     )

@@ -11,9 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.mechanics.impact_floors import impact_floor
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.pairs import contact_pairs
 from tests.solver.readable_mechanics import Instant, at_start
 
 Floats = NDArray[np.float64]
@@ -64,7 +67,8 @@ class IndependentProgram:
                     mode[joint] = 0.0
                     continue
                 contact = self._instant(now, state, mode, impact_rate).reduced().contacts[joint]
-                floor = self.start.impact_rate[joint]
+                pair = contact_pairs(self.scene)[joint]
+                floor = impact_floor(self.scene, pair, shortest_link(self.scene))
                 mode[joint] = 1.0
                 impact_rate[joint] = max(contact.penetration_rate, floor)
                 self.onsets.append(Onset(joint, now, contact.penetration_rate))
