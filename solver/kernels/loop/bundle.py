@@ -19,7 +19,7 @@ from jointplay.solver.kernels.loop.beginning import begin
 from jointplay.solver.kernels.loop.binding import FIRST_STEP, bind, number
 from jointplay.solver.kernels.loop.dense_rows import observe_rows
 from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.periods import look_ahead, plan, product_difference
+from jointplay.solver.kernels.loop.periods import look_ahead, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import (
     DTYPE,
@@ -179,7 +179,6 @@ class Bundle:
         arguments = (lane.index, lane.run, lane.places[0], lane.work)
         for kind in (SAMPLES, SECTIONS):
             look_ahead(kind, *arguments)
-        plan(*arguments)
         lane["next_due"] = -math.inf  # the first step is looked at, whatever is due in it
 
     @property
