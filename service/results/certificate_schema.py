@@ -124,7 +124,8 @@ class Certificate(Partial):
     energy_error: float | None = Field(default=None, description="Residual by gross work.")
     energy_in_tolerances: float | None = Field(
         default=None,
-        description="The same by the tolerance: most runs have less than 10; null: fixed steps.",
+        description="The same by the tolerance: most runs have less than 10; null: fixed steps, or"
+        " rounding alone.",
     )
     constraint_violation: Violation | None = None
     lanes: list[Lane] = []
