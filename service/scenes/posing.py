@@ -15,8 +15,8 @@ from jointplay.service.problems.handlers import refusal
 from jointplay.solver.kinds.assembled import resolved_scene
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.dragging import drag
-from jointplay.solver.mechanics.following import follow
 from jointplay.solver.quantities.units import Angle, Coordinate, PointReference, Strict, quantity
+from jointplay.solver.runs.ideal.following import follow
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers_time import drivers_time
 from jointplay.solver.scene.sentences import schema_problems

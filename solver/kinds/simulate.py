@@ -26,7 +26,7 @@ from jointplay.solver.scene.periods import (
     characteristic_time,
     common_period,
     drivers_period,
-    drivers_time,
+    quickest_driver,
     section_offset,
 )
 
@@ -185,7 +185,7 @@ def section_count(scene: Scene, period: Period, job: SimulateJob) -> int:
 
 def _check_followed(scene: Scene, duration: float) -> None:
     """Refuse an ideal mechanism whose drivers take too many turns until they come round."""
-    turn = drivers_time(scene, shortest_link(scene))
+    turn = quickest_driver(scene, shortest_link(scene))
     followed = min(duration, drivers_period(scene).seconds or duration)
     if followed > limits.MOST_TURNS_FOLLOWED * turn:
         sentence = (

@@ -151,7 +151,7 @@ def characteristic_time(scene: Scene, length: float) -> float:
     return 2.0 * math.pi * math.sqrt(length / gravity) if gravity > 0.0 else 1.0
 
 
-def drivers_time(scene: Scene, length: float) -> float:
+def quickest_driver(scene: Scene, length: float) -> float:
     """Return the time in which the fastest driver turns, bends, or moves by 2 pi lengths, s.
 
     Infinite where all drivers stand.
@@ -196,13 +196,6 @@ def _turn(scene: Scene, driver: Driver) -> float:
     turned = (abs(float(motion.at(end).value) - float(first.value)) for end in ends)
     whole = (end for end, angle in zip(ends, turned, strict=True) if angle >= 2.0 * math.pi)
     return next(whole if turns(scene, driver) else iter(()), min(4.0 * bends, last))
-
-
-def quickest_driver(scene: Scene) -> float:
-    """Return the shortest time, s, in which a driver turns once or bends; infinite: none moves."""
-    speeds = [speed for driver in scene.drivers.values() for speed in _speeds(scene, driver)]
-    quickest = max(speeds, default=0.0)
-    return 2.0 * math.pi / quickest if quickest > 0.0 else math.inf
 
 
 def _speeds(scene: Scene, driver: Driver) -> list[float]:

@@ -12,8 +12,8 @@ from jointplay.solver.kinds.assembled import assembled_scene, resolved_scene
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import first_clocks
 from jointplay.solver.mechanics.closing import arrays
-from jointplay.solver.mechanics.following import follow
 from jointplay.solver.mechanics.view import view
+from jointplay.solver.runs.ideal.following import follow
 from jointplay.solver.scene import presets
 from tests.page.browsing import expect
 from tests.page.test_own_mechanism import paste

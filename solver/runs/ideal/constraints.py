@@ -7,6 +7,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.mechanics.closing import RANK_TOLERANCE
 from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
@@ -74,9 +75,14 @@ class Constraints:
 def solve(matrix: Floats, right: Floats) -> Floats:
     """Return x of A x = b, (..., n); of more rows than columns, those of least squares.
 
-    A : (..., rows, n) of rank n; LinAlgError if it is singular. b : (..., rows).
+    A : (..., rows, n) of rank n; LinAlgError if it is singular. With fewer rows than columns, of
+    any rank: the smallest x. b : (..., rows).
     """
-    if matrix.shape[-2] == matrix.shape[-1]:
+    rows, count = matrix.shape[-2:]
+    if rows < count:
+        inverse = np.linalg.pinv(matrix, rcond=RANK_TOLERANCE)
+        return np.asarray((inverse @ right[..., None])[..., 0], np.float64)
+    if rows == count:
         return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0], np.float64)
     q, r = np.linalg.qr(matrix)
     return np.asarray(np.linalg.solve(r, _transposed(q) @ right[..., None])[..., 0], np.float64)

@@ -18,7 +18,7 @@ from jointplay.solver.runs.ideal.constraints import Constraints, solve, solve_tr
 from jointplay.solver.runs.ideal.dead_point import elsewhere, lost_at
 from jointplay.solver.runs.ideal.path import Lost, Path
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import characteristic_time, drivers_time
+from jointplay.solver.scene.periods import characteristic_time, quickest_driver
 
 COMES_BACK = 1e-6
 """Distance of poses a period apart, in rad and lengths of the shortest link, that is rounding."""
@@ -39,7 +39,7 @@ class IdealMotion:
         self.unit = period or characteristic_time(scene, self.constraints.length)
         self.lost: SimulationFailed | None = None
         span = min(duration, self.unit) if self.period else duration
-        scale = min(drivers_time(scene, self.constraints.length), span)
+        scale = min(quickest_driver(scene, self.constraints.length), span)
         self.path = Path(self.constraints, assemble(scene).pose, scale)
         if not self.path.follow(span):
             self.lost = lost_at(self.path, scene)

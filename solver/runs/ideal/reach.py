@@ -12,7 +12,7 @@ from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.scene.channels import BODY
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.periods import drivers_period, drivers_time
+from jointplay.solver.scene.periods import drivers_period, quickest_driver
 
 QUANTITIES = tuple(quantity for quantity, _, _ in BODY)
 INSTANTS_A_PERIOD = 96
@@ -80,7 +80,7 @@ def motion_reach(scene: Scene) -> MotionReach | None:
     period = drivers_period(scene).seconds
     if period is None or scene.gears:
         return None
-    if period > MOST_SCALES * drivers_time(scene, shortest_link(scene)):
+    if period > MOST_SCALES * quickest_driver(scene, shortest_link(scene)):
         return None
     try:
         found = MotionReach(scene, period)

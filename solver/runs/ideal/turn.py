@@ -11,7 +11,7 @@ from jointplay.solver.runs.ideal.margin import Margin, lacking, nearest
 from jointplay.solver.runs.ideal.path import Path
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.latest import once_per_scene
-from jointplay.solver.scene.periods import drivers_time, drivers_turn
+from jointplay.solver.scene.periods import drivers_turn, quickest_driver
 
 MOST_WORK = 40_000
 """Coordinates of all poses after which a check leaves off: seconds."""
@@ -41,7 +41,7 @@ def turn(scene: Scene) -> Turn | None:
     if span is None:
         return None
     constraints = Constraints(scene)
-    scale = min(drivers_time(scene, constraints.length), span)
+    scale = min(quickest_driver(scene, constraints.length), span)
     path = Path(constraints, found.pose, scale)
     most = MOST_WORK // max(len(found.pose), 20)
     whole = path.follow(span, most)
