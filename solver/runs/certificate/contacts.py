@@ -109,6 +109,8 @@ def _shared(onsets: list[Floats], reach: Floats, safety: float) -> tuple[Floats,
     if shared == most:
         return np.stack([own[:most], bar[:most]]), math.inf
     earliest = float(first[shared] - safety * spread[shared])
+    if shared:  # it comes after the last that they share, however far lanes are apart in it
+        earliest = max(earliest, float(own[shared - 1] - bar[shared - 1]))
     return np.stack([own[:shared], bar[:shared]]), earliest
 
 

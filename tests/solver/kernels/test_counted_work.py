@@ -34,9 +34,9 @@ CALLS = {
         "crossings": {"scan_some": 0.009, "channels_within": 0.01},
     },
     "press, in flight": {
-        "bare": {"gaps_within": 1.172, "weigh": 0.136},
+        "bare": {"gaps_within": 1.613, "weigh": 0.136},
         "extremes": {
-            "gaps_within": 1.607,
+            "gaps_within": 2.047,
             "scan_some": 0.698,
             "channels_within": 0.518,
             "channels_around": 4.78,
@@ -53,9 +53,9 @@ CALLS = {
         "crossings": {"scan_some": 0.55, "channels_within": 1.372},
     },
     "journal, bouncing": {
-        "bare": {"gaps_within": 0.578, "weigh": 0.116},
+        "bare": {"gaps_within": 0.872, "weigh": 0.116},
         "extremes": {
-            "gaps_within": 0.694,
+            "gaps_within": 0.989,
             "scan_some": 0.884,
             "channels_within": 0.38,
             "channels_around": 2.258,

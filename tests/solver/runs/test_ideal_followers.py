@@ -32,7 +32,7 @@ def unsprung(shape: str, profile: dict[str, Any], speed: float, **how: Any) -> d
     if how.get("driven", True):
         scene["drivers"]["motor"]["speed"] = speed
     else:
-        scene["start"]["angular_velocities"] = {"shaft": speed}
+        scene["start"] = {"angles": {"shaft": 0.0}, "angular_velocities": {"shaft": speed}}
     return scene
 
 

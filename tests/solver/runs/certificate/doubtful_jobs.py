@@ -40,6 +40,7 @@ GUIDE: dict[str, Any] = {
                         "law": "lankarani-nikravesh",
                         "stiffness": 60926791200.0,
                         "restitution": 0.941141862,
+                        "impact_rate_floor": 1e-3,
                     },
                     "friction": {
                         "law": "lugre",
@@ -112,7 +113,11 @@ SLOT: dict[str, Any] = {
                             "stiffness": 94497755300.0,
                             "exponent": 1.24644713,
                         },
-                        "dissipation": {"law": "lankarani-nikravesh", "restitution": 0.597470127},
+                        "dissipation": {
+                            "law": "lankarani-nikravesh",
+                            "restitution": 0.597470127,
+                            "impact_rate_floor": 1e-3,
+                        },
                     },
                     "friction": {
                         "law": "lugre",
@@ -178,7 +183,11 @@ BRISTLES: dict[str, Any] = {
                             "stiffness": 12322052400.0,
                             "exponent": 1.33827993,
                         },
-                        "dissipation": {"law": "flores", "restitution": 0.932678503},
+                        "dissipation": {
+                            "law": "flores",
+                            "restitution": 0.932678503,
+                            "impact_rate_floor": 1e-3,
+                        },
                     },
                     "friction": {
                         "law": "lugre",
@@ -231,6 +240,7 @@ ROTOR: dict[str, Any] = {
                         "law": "lankarani-nikravesh",
                         "stiffness": 3964479450.0,
                         "restitution": 0.0,
+                        "impact_rate_floor": 1e-3,
                     },
                     "friction": {
                         "law": "modified-coulomb",
