@@ -93,8 +93,6 @@ def pulled(peaks: Mapping[str, Peak], first: Mapping[str, float]) -> list[Pulled
 
 def with_pulls(certificate: Certificate, found: list[Pulled]) -> Certificate:
     """Return a certificate that names the followers that are pulled."""
-    if not found:
-        return certificate
     note = " ".join(filter(None, (certificate.facts["note"], *(one.detail for one in found))))
     facts = {"note": note, "pulling": [one._asdict() for one in found]}
     return replace(certificate, facts=certificate.facts | facts)

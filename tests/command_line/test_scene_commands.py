@@ -36,10 +36,17 @@ def test_assemblies_are_told_apart_by_where_bodies_are(jointplay, tmp_path):
     file = tmp_path / "valve.json"
     file.write_text(json.dumps(valve(follower("roller", pitch_table(24), lash=1e-4))))
     lines = jointplay("scene", "check", file).out.splitlines()
-    assert lines[-2:] == [
-        "assemblies             2 found from 25 starts",
-        "                       another: tappet at 0, -0.028 m",
-    ]
+    # it starts as drawn, away from its cam; closed, it is on either side
+    assert "assemblies             3 found from 25 starts" in lines
+    (_, another) = (line for line in lines if line.startswith("another "))
+    begins = 'another                "start": {"angles": {"shaft": 0.0, "tappet": 0.0}, "points": '
+    assert another.startswith(begins)
+    # what is pasted is taken
+    document = json.loads(file.read_text()) | json.loads(f"{{{another[23:]}}}")
+    file.write_text(json.dumps(document))
+    again = jointplay("scene", "check", file).out.splitlines()
+    assert "starts at              tappet 0, 0.048 m, 0 rad" in again
+    assert sum(line.endswith(", kept") for line in again) == 3
 
 
 def test_a_smooth_table_that_passes_its_values_is_told_with_how_far_and_where(jointplay, tmp_path):
@@ -53,7 +60,8 @@ def test_a_smooth_table_that_passes_its_values_is_told_with_how_far_and_where(jo
     assert "overshoot" not in jointplay("scene", "check", file).out
     table["between"] = "smooth"
     file.write_text(json.dumps(scene))
-    told = jointplay("scene", "check", file).out.splitlines()[-1]
+    lines = jointplay("scene", "check", file).out.splitlines()
+    (told,) = (line for line in lines if line.startswith("overshoot "))
     assert told.startswith("overshoot              /forces/punch/course: ")
     assert "60 % of their range, most at -0.094; 'monotone' stays within them" in told
 
@@ -68,6 +76,7 @@ def test_a_mechanism_is_drawn(jointplay, tmp_path, form):
 
 def too_short(scene):
     scene["bodies"]["coupler"]["points"] = {"a": [-0.001, 0.0], "b": [0.001, 0.0]}
+    scene["bodies"]["rocker"]["points"] = {"a": [-0.1, 0.0], "b": [0.1, 0.0]}
 
 
 def over_constrained(scene):
