@@ -9,7 +9,7 @@ import { TextEditor } from "../editor/text.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { someDuration } from "../interface/kinds_of_job.js";
-import { typed } from "../interface/numbers.js";
+import { short, typed } from "../interface/numbers.js";
 import { go, note } from "../interface/place.js";
 import { onNewColours } from "../mechanism/palette.js";
 import { get, pause, post } from "../requests/service.js";
@@ -43,12 +43,21 @@ function factsOf({ freedom, ideal_freedom: ideal, joints_with_clearance: loose, 
   return `Degrees of freedom: ${free}.${ways}${told}`;
 }
 
+/** Tells what a scene asks for that a run of it does not do, sentence by sentence. */
+function notesOf({ given, turn, overshoots }) {
+  const values = (numbers, unit) => `${numbers.map((number) => short(number, 6)).join(", ")} ${unit}`;
+  const missed = given.filter(({ kept }) => !kept).map(({ pointer, unit, given: asked, taken }) =>
+    `${pointer} asks for ${values(asked, unit)}; the start has ${values(taken, unit)}.`);
+  return [...missed, ...(turn?.jams ? [turn.detail] : []), ...overshoots.map(({ detail }) => detail)];
+}
+
 class Editing {
   constructor(room, schema, scenes, text, signal) {
     Object.assign(this, { signal, document: {}, checking: new AbortController() });
     this.motion = new FreeMotion((found) => this.posed(found), signal);
     this.messages = element("ul", { class: "messages", "aria-live": "polite", "aria-label": "What is wrong" });
     this.facts = element("p", { class: "quiet", role: "status" });
+    this.notes = element("ul", { class: "quiet", "aria-label": "What a run does otherwise" });
     this.duration = element("input", { id: "duration", inputmode: "decimal" });
     this.button = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run");
     this.estimate = new Estimate(() => this.job(), signal, (errors) => this.tell(errors));
@@ -65,7 +74,7 @@ class Editing {
         + " to read what it means. Lengths in m, masses in kg, angles in rad."),
       element("div", { class: "editing" }, this.text.element,
         element("div", { class: "stacked" },
-          element("section", { class: "panel" }, this.motion.element, this.facts, this.messages),
+          element("section", { class: "panel" }, this.motion.element, this.facts, this.notes, this.messages),
           element("section", { class: "panel stacked" },
             element("div", { class: "field" }, element("label", { for: "duration" }, "Duration"),
               element("div", { class: "entry" }, this.duration, element("span", { class: "unit" }, "s"))),
@@ -119,11 +128,13 @@ class Editing {
       const found = await post("/v1/scenes/check", this.document, signal);
       this.checked = true;
       fill(this.facts, factsOf(found));
+      fill(this.notes, notesOf(found).map((sentence) => element("li", {}, sentence)));
       this.tell(found.problems);
       if (!found.problems.length) this.estimate.refresh();
     } catch (error) {
       if (error.name === "AbortError") return; // typed on
       fill(this.facts);
+      fill(this.notes);
       this.tell(error.errors?.length ? error.errors : [{ pointer: "", detail: error.message }]);
     }
   }

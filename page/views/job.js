@@ -91,6 +91,13 @@ class Head {
     this.refresh();
   }
 
+  /** Shows, once there are results, what of the scene's start the run did not keep. */
+  async showNotes() {
+    const { notes } = await get(this.job.links.statistics, {}, this.signal);
+    this.notes = notes.map((sentence) => element("p", {}, sentence));
+    this.refresh();
+  }
+
   /** Asks now and then, while the job is queued, who is there to compute it. */
   async watchQueue() {
     while (this.job.state === "queued") {
@@ -143,6 +150,10 @@ class Head {
     this.bar.dataset.fraction = String(job.progress.fraction);
     fill(this.notice, this.notices());
     if (this.shown !== over) this.showButtons((this.shown = over));
+    if (over && job.links.statistics && !this.notes) {
+      this.notes = [];
+      this.showNotes().catch(() => {}); // a run that failed at once has none
+    }
   }
 
   notices() {
@@ -155,6 +166,7 @@ class Head {
         element("p", { class: "small" }, REMEDIES[job.error.class]));
     }
     if (job.damaged) box("bad", element("p", {}, job.damaged));
+    if (this.notes?.length) box("", this.notes);
     if (job.state === "queued" && this.queued) box("", this.queued);
     if (this.lost && !TERMINAL.has(job.state)) box("", element("p", {}, this.lost));
     if (job.attempt > 1) box("", element("p", {}, `This is attempt ${job.attempt}: the one before did not end, and this one went on from there.`));

@@ -67,8 +67,7 @@ def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
         "residual": assembly.residual,
         "pose": {body: list(pose) for body, pose in scene.pose().items()},
         "given": [
-            {"pointer": t.pointer, "unit": t.unit, "given": t.given, "taken": t.taken, "off": t.off}
-            for t in assembly.given
+            {**taken._asdict(), "kept": taken.off <= assembly.told} for taken in assembly.given
         ],
         "assemblies": found.angles,
         "places": found.places,

@@ -37,6 +37,7 @@ class GivenStart(BaseModel):
     off: float = Field(
         description="Distance between both, m or m/s; of angles that of the body's farthest point."
     )
+    kept: bool = Field(description="Whether they differ by no more than a drawing's last digits.")
 
 
 class DeadPointMargin(BaseModel):

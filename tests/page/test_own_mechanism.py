@@ -1,7 +1,10 @@
 """A mechanism of one's own: proposed, corrected, drawn, run."""
 
+import json
+
 from tests.page.browsing import barriers
 from tests.page.test_watching import MOVED
+from tests.two_assemblies import toggle
 
 PASTED = """(editor, text) => {
   const clipboardData = new DataTransfer();
@@ -62,3 +65,18 @@ def test_the_editor_proposes_and_explains_what_the_schema_says(browsing, service
         page.get_by_label("Find a field").fill("effective_mass")
         page.get_by_role("heading", name="Tsuji").wait_for()
         assert barriers(page) == []
+
+
+def test_what_a_run_does_not_keep_is_said_in_the_editor_and_of_the_run(browsing, url, artifacts):
+    document = toggle()
+    document["start"] = {"points": {"rod.K": [-0.06, 0.21]}}
+    with browsing.page(f"{url}/#/editor") as page:
+        page.get_by_label("Scene document").wait_for()
+        paste(page, json.dumps(document))
+        asked = "/start/points/rod.K asks for -0.06, 0.21 m; the start has -0.0518"
+        page.get_by_text(asked).wait_for()
+        page.screenshot(path=artifacts / "editor_notes.png")
+        page.get_by_label("Duration").fill("0.001")
+        page.get_by_role("button", name="Run", exact=True).click()
+        page.get_by_text("for -0.06, 0.21 at /start/points/rod.K.").wait_for()
+        page.screenshot(path=artifacts / "run_notes.png")

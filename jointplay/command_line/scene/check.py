@@ -53,7 +53,7 @@ def _lines(scene: "AssembledScene", document: dict[str, Any], found: "Branches")
     for body, (x, y, theta) in document["pose"].items():
         yield f"{'starts at':22} {body} {_near(x)}, {_near(y)} m, {_near(theta)} rad"
     for one in document["given"]:
-        yield f"{'given':22} {_kept(one, assembly.told)}"
+        yield f"{'given':22} {_kept(one)}"
     held = f", {' and '.join(found.held)} held" if found.held else ""
     yield f"{'assemblies':22} {len(found.angles)} found from {found.tried + 1} starts{held}"
     for start in document["starts"][1:]:
@@ -65,10 +65,10 @@ def _overshoots(document: dict[str, Any]) -> Iterator[str]:
         yield f"{'overshoot':22} {one['pointer']}: {one['detail']}"
 
 
-def _kept(one: dict[str, Any], told: float) -> str:
+def _kept(one: dict[str, Any]) -> str:
     """Return one thing that is given, and how far what is taken is from it."""
     given, taken = (", ".join(map(_near, one[name])) for name in ("given", "taken"))
-    if one["off"] <= told:
+    if one["kept"]:
         return f"{one['pointer']} {given} {one['unit']}, kept"
     apart = math.dist(one["given"], one["taken"])
     return f"{one['pointer']} {given} {one['unit']}: taken {taken}, off by {apart:.3g}"
