@@ -176,9 +176,14 @@ def test_a_mechanism_in_the_editor_is_dragged(browsing, url):
     with browsing.page(f"{url}/#/editor") as page:
         page.get_by_text("of one core").wait_for()  # the last that comes, and moves the drawing
         corner = page.get_by_label(EDITED).bounding_box()
+        asked, answered = [], []
+        page.on("request", lambda one: asked.append(one.url))
+        page.on("response", lambda one: answered.append(one.url))
 
         def pin():
-            """Place of the only joint with play, at the end of the crank."""
+            """Place of the only joint with play, at the end of the crank, once all is answered."""
+            while len(answered) < len(asked):
+                page.wait_for_timeout(20)
             page.evaluate(REDRAWN)  # the pointer's moves are told to the page once a frame
             _, right, down = drawn(page, EDITED, "play", 20)
             return corner["x"] + right, corner["y"] + down

@@ -91,7 +91,7 @@ def test_chosen_jobs_are_compared_retried_and_deleted_with_one_question(
 ):
     label = "to be chosen"
     done = [worker.finished(label=label) for _ in range(2)]
-    study = worker.submit(**BIFURCATION, label=label)
+    study = worker.submit(**BIFURCATION | {"record": 7}, label=label)  # that nobody has computed
     cancelled = worker.submit(label=label, duration=0.123)
     waiting = worker.submit(label=label, duration=0.124)
     for one in (study, cancelled):

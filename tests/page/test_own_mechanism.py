@@ -73,7 +73,8 @@ def test_what_a_run_does_not_keep_is_said_in_the_editor_and_of_the_run(browsing,
     with browsing.page(f"{url}/#/editor") as page:
         page.get_by_label("Scene document").wait_for()
         paste(page, json.dumps(document))
-        asked = "/start/points/rod.K asks for -0.06, 0.21 m; the start has -0.0518"
+        minus = "\N{MINUS SIGN}"
+        asked = f"/start/points/rod.K asks for {minus}0.06, 0.21 m; the start has {minus}0.0518"
         page.get_by_text(asked).wait_for()
         page.screenshot(path=artifacts / "editor_notes.png")
         page.get_by_label("Duration").fill("0.001")

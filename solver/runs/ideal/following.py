@@ -47,8 +47,8 @@ def follow(scene: Scene, times: Sequence[float]) -> Followed:
     instants = np.array(times, np.float64)
     if start.residual > ASSEMBLED * constraints.length:
         miss = f"The joints do not close at t = 0: {start.residual:.3g} (m or rad) remain."
-        lost = SimulationFailed("assembly-lost", miss, 0.0)
-        return Followed(np.tile(start.pose, (int((instants <= 0.0).sum()), 1)), lost)
+        first = np.tile(start.pose, (int((instants <= 0.0).sum()), 1))
+        return Followed(first, SimulationFailed("assembly-lost", miss, 0.0))
     scale = quickest_driver(scene, constraints.length)
     if math.isinf(scale):  # nothing is driven
         return Followed(np.tile(start.pose, (len(instants), 1)), None)
