@@ -61,7 +61,7 @@ class Taken(NamedTuple):
     @property
     def sentence(self) -> str:
         """Both values in words."""
-        given, taken = (", ".join(f"{v:.6g}" for v in values) for values in self[2:4])
+        given, taken = (", ".join(f"{round(v, 12):z.6g}" for v in values) for values in self[2:4])
         return f"The start has {taken} {self.unit} for {given} at {self.pointer}."
 
 
