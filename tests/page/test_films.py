@@ -183,7 +183,7 @@ def test_a_mechanism_in_the_editor_is_dragged(browsing, url):
         def pin():
             """Place of the only joint with play, at the end of the crank, once all is answered."""
             while len(answered) < len(asked):
-                page.wait_for_timeout(20)
+                page.wait_for_event("response")
             page.evaluate(REDRAWN)  # the pointer's moves are told to the page once a frame
             _, right, down = drawn(page, EDITED, "play", 20)
             return corner["x"] + right, corner["y"] + down
