@@ -34,6 +34,7 @@ from jointplay.service import estimates, events, health, laws, metrics, problems
 from jointplay.service.access import links, needs, quotas
 from jointplay.service.access.door import Door
 from jointplay.service.access.signed import SignedLinks
+from jointplay.service.access.turns import Turns
 from jointplay.service.batches.admission import BatchDocument
 from jointplay.service.checking import Checker
 from jointplay.service.compression import Compression
@@ -155,6 +156,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     if settings.log_format == "json":
         app.add_middleware(RequestLog)
     app.add_middleware(SignedLinks)
+    app.add_middleware(Turns)
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)
     for resource, key in _BEHIND_THE_DOOR:

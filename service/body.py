@@ -1,16 +1,56 @@
-"""The body of a request, bounded and of the right media type."""
+"""The body of a request, bounded and of the right media type; all bodies together are bounded, too.
 
+A short one is kept in memory while it arrives, a longer one on disk; one that arrives too slowly is
+given up. Longer ones share `MOST_TOGETHER` bytes until their requests are answered.
+"""
+
+import asyncio
+import tempfile
 from collections.abc import Awaitable, Callable
-from typing import Annotated
+from typing import Annotated, Final
 
 from fastapi import Depends, Request
+from starlette.types import Scope
 
-from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.problems import RequestRefused, kinds, unavailable
 
 LARGEST_BODY = 8 * 1024 * 1024  # bytes; a job of 100 000 points, each with three parameters
 LARGEST_BATCH = 32 * 1024 * 1024  # 10 000 jobs of 3 kilobytes
 LARGEST_WORD = 64 * 1024  # of a worker
 MOST_DROPPED = 64 * 1024 * 1024
+SHORT: Final = 64 * 1024
+"""Bytes of a body that is bounded by the number of requests alone."""
+MOST_TOGETHER: Final = 128 * 1024 * 1024
+"""Bytes of all longer bodies."""
+PATIENCE: Final = 15.0
+"""Seconds that any body may take."""
+SLOWEST: Final = 100_000.0
+"""Bytes a second that a longer one must arrive with: 1 Mbit/s."""
+RETRY: Final = 5
+"""Seconds after which a client that found no room may ask again."""
+_HELD: Final = "jointplay.body"
+"""Where a request's scope has the bytes that its body takes of `MOST_TOGETHER`."""
+
+
+class Together:
+    """Bytes of longer bodies that are here."""
+
+    def __init__(self) -> None:
+        self.held = 0
+
+    def take(self, scope: Scope, size: int) -> None:
+        """Make room for more of a request's body; RequestRefused if there is none."""
+        if self.held + size > MOST_TOGETHER:
+            raise unavailable("Many large bodies are arriving; send this one again.", RETRY)
+        self.held += size
+        scope[_HELD] = scope.get(_HELD, 0) + size
+
+    def release(self, scope: Scope) -> None:
+        """Give back what the body of an answered request took."""
+        self.held -= scope.pop(_HELD, 0)
+
+
+TOGETHER = Together()
 
 
 async def _bounded(request: Request, largest: int) -> bytes:
@@ -19,21 +59,38 @@ async def _bounded(request: Request, largest: int) -> bytes:
     What is beyond the limit is read and dropped, up to `MOST_DROPPED`: a client that is still
     sending when the connection closes never sees why.
     """
-    body = bytearray()
-    received = 0
-    async for chunk in request.stream():
-        received += len(chunk)
-        if received <= largest:
-            body += chunk
-        if received > MOST_DROPPED:
-            break
-    if received > largest:
+    told = request.headers.get("content-length", "")
+    length = min(int(told), MOST_DROPPED) if told.isdecimal() else largest
+    try:
+        async with asyncio.timeout(PATIENCE + length / SLOWEST):
+            return await _arrived(request, largest)
+    except TimeoutError:
         raise RequestRefused(
-            kinds.BODY_TOO_LARGE,
-            f"The body is larger than {largest} bytes; a job is a few kilobytes.",
+            kinds.BODY_TOO_SLOW,
+            f"The body did not arrive within {PATIENCE + length / SLOWEST:.0f} s.",
             headers={"Connection": "close"},
-        )
-    return bytes(body)
+        ) from None
+
+
+async def _arrived(request: Request, largest: int) -> bytes:
+    received = 0
+    with tempfile.SpooledTemporaryFile(SHORT) as body:
+        async for chunk in request.stream():
+            received += len(chunk)
+            if received <= largest:
+                if received > SHORT:
+                    TOGETHER.take(request.scope, len(chunk))
+                body.write(chunk)
+            if received > MOST_DROPPED:
+                break
+        if received > largest:
+            raise RequestRefused(
+                kinds.BODY_TOO_LARGE,
+                f"The body is larger than {largest} bytes; a job is a few kilobytes.",
+                headers={"Connection": "close"},
+            )
+        body.seek(0)
+        return body.read()
 
 
 def _json_body(largest: int) -> Callable[[Request], Awaitable[bytes]]:

@@ -190,6 +190,12 @@ BODY_TOO_LARGE = _kind(
     "The body is too large",
     "A job is a few kilobytes; the limit is in the problem's `detail`.",
 )
+BODY_TOO_SLOW = _kind(
+    "body-too-slow",
+    408,
+    "The body arrived too slowly",
+    "Send it again over a faster connection, or in smaller batches; the limit is in `detail`.",
+)
 NOT_JSON = _kind(
     "unsupported-media-type",
     415,
@@ -251,7 +257,14 @@ OF_A_JOB = UNKNOWN_JOB, EXPIRED_JOB
 """Problems of every address of a job."""
 OF_RETRIES = NOTHING_TO_RETRY, INVALID_JOB, LIMIT_EXCEEDED, QUOTA_EXCEEDED, DISK_FULL, UNAVAILABLE
 """Problems of retries: a document may be one that this version refuses."""
-OF_A_BODY = MALFORMED_JSON, BODY_TOO_LARGE, NOT_JSON, INVALID_JOB, LIMIT_EXCEEDED
+OF_A_BODY = (
+    MALFORMED_JSON,
+    BODY_TOO_LARGE,
+    BODY_TOO_SLOW,
+    NOT_JSON,
+    INVALID_JOB,
+    LIMIT_EXCEEDED,
+)
 OF_SUBMISSIONS = (
     *OF_A_BODY,
     KEY_REUSED,

@@ -10,6 +10,7 @@ from fastapi import FastAPI
 from jointplay.records.log_lines import begin
 from jointplay.service.access.first_key import require_key_beyond_this_machine
 from jointplay.service.memory import keep_no_free_memory
+from jointplay.service.processes.connections import protocol
 from jointplay.storage.settings import Settings
 
 LONGEST_HEAD = 256 * 1024
@@ -39,7 +40,7 @@ def main() -> None:
         ssl_keyfile=arguments.ssl_keyfile,
         access_log=False,  # clients poll; the log would say little else than `request_log` says
         log_config=None,  # its lines are written as ours are
-        limit_concurrency=256,
+        http=protocol(),
         timeout_keep_alive=30,
         timeout_graceful_shutdown=5,
         h11_max_incomplete_event_size=LONGEST_HEAD,

@@ -1,0 +1,61 @@
+"""Requests at once, bounded; those that keep the service and its workers going have a reserve.
+
+One address cannot have all. With an answer, the room that a request's body took is given back.
+"""
+
+import re
+from collections import Counter
+from typing import Final
+
+from starlette.requests import Request
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from jointplay.service.body import TOGETHER
+from jointplay.service.problems import unavailable
+from jointplay.service.problems.handlers import answer
+
+MOST: Final = 256
+"""Requests at once, those that wait or stream included."""
+RESERVE: Final = 32
+"""Of them for those below alone."""
+OF_ONE: Final = 168
+"""Of one address: three quarters of the rest."""
+RETRY: Final = 5
+"""Seconds after which a refused client may ask again."""
+_VITAL: Final = re.compile(
+    r"/(healthz|readyz|v1/worker/blocks/[^/]+/[^/]+/(heartbeat|progress|finish))"
+)
+
+
+class Turns:
+    """Refuses requests beyond the bound with 503."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+        self._running: Counter[str] = Counter()
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass a request on while there is room for it."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        address = scope["client"][0] if scope.get("client") else ""
+        if not self._has_room(scope["path"], address):
+            refused = unavailable("The service answers as many requests as it can.", RETRY)
+            response = await answer(Request(scope), refused)
+            await response(scope, receive, send)
+            return
+        self._running[address] += 1
+        try:
+            await self._app(scope, receive, send)
+        finally:
+            TOGETHER.release(scope)
+            self._running[address] -= 1
+            if not self._running[address]:
+                del self._running[address]
+
+    def _has_room(self, path: str, address: str) -> bool:
+        running = self._running.total()
+        if _VITAL.fullmatch(path):
+            return running < MOST
+        return running < MOST - RESERVE and self._running[address] < OF_ONE

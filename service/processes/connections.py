@@ -1,0 +1,190 @@
+"""Connections of clients, bounded: none is held for nothing, and one address cannot have all.
+
+uvicorn counts connections, and refuses all requests while there are too many, whoever has them.
+Here a connection that waits for a request makes room for a new one, those of the address that has
+most first; one that has sent no whole head in `HEAD_PATIENCE` is closed, and one whose client takes
+nothing of its answer in `READER_PATIENCE`.
+"""
+
+import asyncio
+import logging
+import resource
+from collections import Counter, OrderedDict
+from typing import Any
+
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+from jointplay.service.problems import MEDIA_TYPE, ProblemDocument
+from jointplay.service.problems.kinds import UNAVAILABLE
+
+MOST = 1024
+"""Connections at once, if the system allows twice as many open files."""
+SHARE = 0.75
+"""Part of them that one address may have."""
+HEAD_PATIENCE = 5.0  # s
+READER_PATIENCE = 30.0  # s
+RETRY = 5  # s, what a refused client is told
+
+_log = logging.getLogger(__name__)
+
+
+class Room:
+    """Room for connections: who has how many, and which of them wait for a request."""
+
+    def __init__(self, most: int) -> None:
+        self.most, self.of_one = most, max(1, int(SHARE * most))
+        self._held: Counter[str] = Counter()
+        self._idle: dict[str, OrderedDict[Connection, None]] = {}
+
+    @property
+    def held(self) -> int:
+        """Connections that are open."""
+        return self._held.total()
+
+    def enter(self, connection: "Connection") -> bool:
+        """Take a connection in, if need be in place of an idle one; False: there is no room."""
+        address = connection.address
+        crowded = self._held[address] >= self.of_one
+        if crowded or self.held >= self.most:
+            idle = self._longest_idle(address if crowded else self._crowd())
+            if idle is None:
+                return False
+            idle.end()
+        self._held[address] += 1
+        self.rest(connection)
+        return True
+
+    def leave(self, connection: "Connection") -> None:
+        """Forget a connection that was let in."""
+        self.work(connection)
+        self._held[connection.address] -= 1
+        if not self._held[connection.address]:
+            del self._held[connection.address]
+
+    def rest(self, connection: "Connection") -> None:
+        """Note that a connection waits for a request."""
+        idle = self._idle.setdefault(connection.address, OrderedDict())
+        idle[connection] = None
+        idle.move_to_end(connection)
+
+    def work(self, connection: "Connection") -> None:
+        """Note that a connection has a request, or is gone."""
+        idle = self._idle.get(connection.address, OrderedDict())
+        idle.pop(connection, None)
+        if not idle:
+            self._idle.pop(connection.address, None)
+
+    def _crowd(self) -> str | None:
+        """Return the address with most connections, of those that have an idle one."""
+        return max(self._idle, key=lambda address: self._held[address], default=None)
+
+    def _longest_idle(self, address: str | None) -> "Connection | None":
+        return next(iter(self._idle.get(address or "", {})), None)
+
+
+class Connection(H11Protocol):
+    """One connection, which is closed where it keeps others out."""
+
+    room: Room
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__(*arguments, **named)
+        self.address, self._entered = "", False
+        self._head: asyncio.TimerHandle | None = None
+        self._reader: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """Let the connection in, or tell it why not."""
+        super().connection_made(transport)
+        self.address = self.client[0] if self.client else ""
+        self._entered = self.room.enter(self)
+        if not self._entered:
+            _log.debug("no room for a connection of %s", self.address)
+            transport.write(REFUSAL)
+            transport.close()
+            return
+        self._await_head()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Give its room to others."""
+        super().connection_lost(exc)
+        if self._entered:
+            self.room.leave(self)
+        self._head = _cancelled(self._head)
+        self._reader = _cancelled(self._reader)
+
+    def data_received(self, data: bytes) -> None:
+        """Take what was sent: a head must become whole soon."""
+        if not self._entered:
+            return
+        super().data_received(data)
+        self._look()
+
+    def on_response_complete(self) -> None:
+        """Wait for the next request."""
+        super().on_response_complete()
+        self._look()
+
+    def pause_writing(self) -> None:
+        """Wait for a client that does not take its answer, but not for ever."""
+        super().pause_writing()
+        if self._reader is None:
+            self._reader = self.loop.call_later(READER_PATIENCE, self.transport.abort)
+
+    def resume_writing(self) -> None:
+        """Go on: the client took some."""
+        super().resume_writing()
+        self._reader = _cancelled(self._reader)
+
+    def end(self) -> None:
+        """Close a connection that waits for a request."""
+        self.room.leave(self)
+        self._entered = False
+        self.transport.close()
+
+    def _look(self) -> None:
+        """Tell a connection with a request from one that waits for its head, or for any."""
+        if not self._entered:
+            return
+        if self.cycle is not None and not self.cycle.response_complete:
+            self._head = _cancelled(self._head)
+            self.room.work(self)
+            return
+        self.room.rest(self)
+        if self.conn.trailing_data[0]:
+            self._await_head()
+
+    def _await_head(self) -> None:
+        if self._head is None:
+            self._head = self.loop.call_later(HEAD_PATIENCE, self._close_headless)
+
+    def _close_headless(self) -> None:
+        self._head = None
+        self.transport.close()
+
+
+def protocol() -> type[Connection]:
+    """Return the class of connections of one server, with room of its own."""
+    files, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+    return type("RoomedConnection", (Connection,), {"room": Room(min(MOST, files // 2))})
+
+
+def _cancelled(timer: asyncio.TimerHandle | None) -> None:
+    if timer is not None:
+        timer.cancel()
+
+
+def _refusal() -> bytes:
+    detail = "There are too many connections; close those that are idle, and ask again."
+    document = ProblemDocument(
+        type=UNAVAILABLE.type, title=UNAVAILABLE.title, status=UNAVAILABLE.status, detail=detail
+    )
+    body = document.model_dump_json(exclude_defaults=True).encode()
+    head = (
+        f"HTTP/1.1 {UNAVAILABLE.status} Service Unavailable\r\nContent-Type: {MEDIA_TYPE}\r\n"
+        f"Retry-After: {RETRY}\r\nConnection: close\r\nContent-Length: {len(body)}\r\n\r\n"
+    )
+    return head.encode() + body
+
+
+REFUSAL = _refusal()
