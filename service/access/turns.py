@@ -17,9 +17,9 @@ from jointplay.service.problems.handlers import answer
 MOST: Final = 256
 """Requests at once, those that wait or stream included."""
 RESERVE: Final = 32
-"""Of them for those below alone."""
+"""Requests of these that only those below may be."""
 OF_ONE: Final = 168
-"""Of one address: three quarters of the rest."""
+"""Requests of one address at once: three quarters of the rest."""
 RETRY: Final = 5
 """Seconds after which a refused client may ask again."""
 _VITAL: Final = re.compile(

@@ -12,7 +12,7 @@ import resource
 from collections import Counter, OrderedDict
 from typing import Any
 
-from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
 from jointplay.service.problems import MEDIA_TYPE, ProblemDocument
 from jointplay.service.problems.kinds import UNAVAILABLE
@@ -24,6 +24,8 @@ SHARE = 0.75
 HEAD_PATIENCE = 5.0  # s
 READER_PATIENCE = 30.0  # s
 RETRY = 5  # s, what a refused client is told
+
+Timer = asyncio.TimerHandle | None
 
 _log = logging.getLogger(__name__)
 
@@ -90,8 +92,8 @@ class Connection(H11Protocol):
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
         self.address, self._entered = "", False
-        self._head: asyncio.TimerHandle | None = None
-        self._reader: asyncio.TimerHandle | None = None
+        self._head: Timer = None
+        self._reader: Timer = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Let the connection in, or tell it why not."""
@@ -110,8 +112,7 @@ class Connection(H11Protocol):
         super().connection_lost(exc)
         if self._entered:
             self.room.leave(self)
-        self._head = _cancelled(self._head)
-        self._reader = _cancelled(self._reader)
+        self._head, self._reader = _cancel(self._head), _cancel(self._reader)
 
     def data_received(self, data: bytes) -> None:
         """Take what was sent: a head must become whole soon."""
@@ -134,7 +135,7 @@ class Connection(H11Protocol):
     def resume_writing(self) -> None:
         """Go on: the client took some."""
         super().resume_writing()
-        self._reader = _cancelled(self._reader)
+        self._reader = _cancel(self._reader)
 
     def end(self) -> None:
         """Close a connection that waits for a request."""
@@ -146,8 +147,9 @@ class Connection(H11Protocol):
         """Tell a connection with a request from one that waits for its head, or for any."""
         if not self._entered:
             return
-        if self.cycle is not None and not self.cycle.response_complete:
-            self._head = _cancelled(self._head)
+        cycle: RequestResponseCycle | None = self.cycle
+        if cycle is not None and not cycle.response_complete:
+            self._head = _cancel(self._head)
             self.room.work(self)
             return
         self.room.rest(self)
@@ -169,9 +171,10 @@ def protocol() -> type[Connection]:
     return type("RoomedConnection", (Connection,), {"room": Room(min(MOST, files // 2))})
 
 
-def _cancelled(timer: asyncio.TimerHandle | None) -> None:
+def _cancel(timer: Timer) -> Timer:
     if timer is not None:
         timer.cancel()
+    return None
 
 
 def _refusal() -> bytes:
