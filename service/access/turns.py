@@ -18,8 +18,8 @@ MOST: Final = 256
 """Requests at once, those that wait or stream included."""
 RESERVE: Final = 32
 """Requests of these that only those below may be."""
-OF_ONE: Final = 168
-"""Requests of one address at once: three quarters of the rest."""
+OF_ONE: Final = 208
+"""Requests of one address at once: 200 workers that wait behind one proxy are as many."""
 RETRY: Final = 5
 """Seconds after which a refused client may ask again."""
 _VITAL: Final = re.compile(
