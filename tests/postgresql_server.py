@@ -156,6 +156,12 @@ def _binaries(folder: Path) -> Path:
     assert found.origin is not None
     installed = max(Path(found.origin).parent.glob("pginstall*"))  # one package has two, 18 last
     if os.getuid() == 0 and not all(one.stat().st_mode & 0o5 == 0o5 for one in installed.parents):
-        shutil.copytree(installed, folder / "pginstall", symlinks=True)
-        installed = folder / "pginstall"
+        # with the libraries that a wheel has beside the package, which programs find from there
+        package = installed.parent
+        copied = folder / "packages" / package.name / installed.name
+        shutil.copytree(installed, copied, symlinks=True)
+        libraries = package.with_name(f"{package.name}.libs")
+        if libraries.exists():
+            shutil.copytree(libraries, folder / "packages" / libraries.name)
+        installed = copied
     return installed / "bin"

@@ -26,7 +26,7 @@ DOCUMENTS: Final = "documents.zip"
 ROWS: Final = "rows"
 PARTS: Final = "parts"
 """Folder of what is not stored yet: the journal of a run, the parts of a study's blocks."""
-_PATIENCE: Final = 100
+_PATIENCE: Final = 10_000
 _TOGETHER: Final = {"pyramid": 4}
 """Places in one file, by the first part of the group's name."""
 Found = TypeVar("Found")
