@@ -1,10 +1,7 @@
 /** Poses of a scene before it is run, as the solver puts it together and follows it. */
 
-import { pause, post } from "./service.js";
-
-const BUSY = new Set([429, 503]);
-const TRIES = 5;
-const COME_BACK = 1000; // ms after which a service that was busy is asked again
+import { patiently } from "./patiently.js";
+import { post } from "./service.js";
 
 let turn = Promise.resolve();
 
@@ -29,15 +26,4 @@ export async function dragged(scene, pose, point, place, signal) {
 /** Returns a scene without what was declared for it: its parameters are set. */
 function plain({ parameters, reported, ...scene }) {
   return scene;
-}
-
-async function patiently(ask, signal) {
-  for (let tries = 1; ; tries++) {
-    try {
-      return await ask();
-    } catch (error) {
-      if (!BUSY.has(error.status) || tries === TRIES) throw error;
-      await pause(COME_BACK, signal);
-    }
-  }
 }

@@ -12,6 +12,7 @@ import { someDuration } from "../interface/kinds_of_job.js";
 import { short, typed } from "../interface/numbers.js";
 import { go, note } from "../interface/place.js";
 import { onNewColours } from "../mechanism/palette.js";
+import { patiently } from "../requests/patiently.js";
 import { get, pause, post } from "../requests/service.js";
 
 const KEPT = "jointplay-scene"; // in the tab's storage
@@ -125,7 +126,7 @@ class Editing {
     const { signal } = this.checking;
     try {
       await pause(QUIET, signal);
-      const found = await post("/v1/scenes/check", this.document, signal);
+      const found = await patiently(() => post("/v1/scenes/check", this.document, signal), signal);
       this.checked = true;
       fill(this.facts, factsOf(found));
       fill(this.notes, notesOf(found).map((sentence) => element("li", {}, sentence)));
