@@ -1,16 +1,10 @@
-"""The application: `create_app` puts the resources together, and describes them.
-
-The OpenAPI document is what FastAPI derives, plus the bodies' schemas and our kind of errors.
-"""
+"""The application: `create_app` puts the resources together."""
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from importlib.metadata import version
-from typing import Any
 
 from fastapi import FastAPI
-from fastapi.openapi.utils import get_openapi
-from pydantic import TypeAdapter
 
 import jointplay.service.batches.endpoints
 import jointplay.service.jobs.endpoints
@@ -35,17 +29,16 @@ from jointplay.service.access import links, needs, quotas
 from jointplay.service.access.door import Door
 from jointplay.service.access.signed import SignedLinks
 from jointplay.service.access.turns import Turns
-from jointplay.service.batches.admission import BatchDocument
 from jointplay.service.checking import Checker
 from jointplay.service.compression import Compression
+from jointplay.service.description import describe
 from jointplay.service.jobs.queueing import Queueing
-from jointplay.service.jobs.submission import FIELDS
 from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.metrics import registry_of
+from jointplay.service.pieces import Pieces
 from jointplay.service.prober import Prober
-from jointplay.service.problems import ProblemDocument
 from jointplay.service.problems.handlers import install
-from jointplay.service.problems.kinds import INVALID_REQUEST, OF_THE_DOOR
+from jointplay.service.problems.kinds import OF_THE_DOOR
 from jointplay.service.readiness import Readiness
 from jointplay.service.request_log import RequestLog
 from jointplay.service.results.damage import answer_damage
@@ -53,7 +46,6 @@ from jointplay.service.scenes.looks import scene_looker
 from jointplay.service.scenes.poses import scene_poser
 from jointplay.service.windows import WindowProcess
 from jointplay.service.workers.bell import Bell
-from jointplay.solver.kinds import KINDS, any_job
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore
 from jointplay.storage.places.fitness import require_fit
@@ -148,6 +140,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         version=version("jointplay"),
         description=_DESCRIPTION,
         lifespan=lifespan,
+        openapi_url=None,  # theirs writes the document anew for each request
         docs_url=None,  # theirs loads its scripts from elsewhere; ours: service/page
         redoc_url=None,
     )
@@ -156,6 +149,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     if settings.log_format == "json":
         app.add_middleware(RequestLog)
     app.add_middleware(SignedLinks)
+    app.add_middleware(Pieces)
     app.add_middleware(Turns)
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)
@@ -164,52 +158,5 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.include_router(resource.router, dependencies=[key], responses=refusals)
     for resource in _OPEN:
         app.include_router(resource.router)
-
-    def openapi() -> dict[str, Any]:
-        if app.openapi_schema is None:
-            app.openapi_schema = _described(app)
-        return app.openapi_schema
-
-    app.openapi = openapi  # type: ignore[method-assign]  # as FastAPI documents it
+    describe(app)
     return app
-
-
-def _described(app: FastAPI) -> dict[str, Any]:
-    document = get_openapi(
-        title=app.title, version=app.version, description=app.description, routes=app.routes
-    )
-    _add_schemas(document["components"]["schemas"])
-    _replace_fastapi_errors(document)
-    return document
-
-
-def _add_schemas(schemas: dict[str, Any]) -> None:
-    """Add what no endpoint's signature mentions: bodies that we parse, and problems."""
-    unmentioned = {
-        "JobDocument": any_job(),
-        "BatchDocument": BatchDocument,
-        "ProblemDocument": ProblemDocument,
-    }
-    for name, described_type in unmentioned.items():
-        schema = TypeAdapter(described_type).json_schema(ref_template=_REFERENCE)
-        for part, definition in schema.pop("$defs", {}).items():
-            schemas.setdefault(part, definition)
-        schemas[name] = schema
-    for kind in KINDS.values():
-        schemas[kind.document.__name__]["properties"] |= FIELDS
-    # its model takes them as they are: admission checks one after the other
-    schemas["BatchDocument"]["properties"]["jobs"]["items"] = {
-        "$ref": _REFERENCE.format(model="JobDocument")
-    }
-
-
-def _replace_fastapi_errors(document: dict[str, Any]) -> None:
-    """FastAPI announces its own 422 wherever there are parameters; we answer with a problem."""
-    problem = problems.problems(INVALID_REQUEST)[INVALID_REQUEST.status]
-    for operations in document["paths"].values():
-        for operation in operations.values():
-            responses = operation["responses"]
-            if "HTTPValidationError" in str(responses.get("422")):
-                responses["422"] = problem
-    for name in ("HTTPValidationError", "ValidationError"):
-        document["components"]["schemas"].pop(name, None)

@@ -1,6 +1,7 @@
 """Requests at once, bounded; those that keep the service and its workers going have a reserve.
 
-One address cannot have all. With an answer, the room that a request's body took is given back.
+Callers without a key cannot have all. With an answer, the room that a request's body took is given
+back.
 """
 
 import re
@@ -18,8 +19,9 @@ MOST: Final = 256
 """Requests at once, those that wait or stream included."""
 RESERVE: Final = 32
 """Requests of these that only those below may be."""
-OF_ONE: Final = 208
-"""Requests of one address at once: 200 workers that wait behind one proxy are as many."""
+WITHOUT_KEY: Final = 208
+"""Requests without a key at once: where none is required, 200 workers that wait are as many. Who
+sends one that is wrong is refused before anything is read of his body, and holds nothing."""
 RETRY: Final = 5
 """Seconds after which a refused client may ask again."""
 _VITAL: Final = re.compile(
@@ -32,30 +34,28 @@ class Turns:
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
-        self._running: Counter[str] = Counter()
+        self._running: Counter[bool] = Counter()  # with a key, and without
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass a request on while there is room for it."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        address = scope["client"][0] if scope.get("client") else ""
-        if not self._has_room(scope["path"], address):
+        has_key = any(name == b"authorization" for name, _ in scope["headers"])
+        if not self._has_room(scope["path"], has_key=has_key):
             refused = unavailable("The service answers as many requests as it can.", RETRY)
             response = await answer(Request(scope), refused)
             await response(scope, receive, send)
             return
-        self._running[address] += 1
+        self._running[has_key] += 1
         try:
             await self._app(scope, receive, send)
         finally:
             TOGETHER.release(scope)
-            self._running[address] -= 1
-            if not self._running[address]:
-                del self._running[address]
+            self._running[has_key] -= 1
 
-    def _has_room(self, path: str, address: str) -> bool:
+    def _has_room(self, path: str, *, has_key: bool) -> bool:
         running = self._running.total()
         if _VITAL.fullmatch(path):
             return running < MOST
-        return running < MOST - RESERVE and self._running[address] < OF_ONE
+        return running < MOST - RESERVE and (has_key or self._running[False] < WITHOUT_KEY)

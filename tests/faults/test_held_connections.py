@@ -9,19 +9,32 @@ from pathlib import Path
 
 import httpx
 import pytest
+from conftest import catalogue_of
 
 from jointplay.service.processes import connections, running_service
+from jointplay.storage.settings import Settings
+from tests.waiting import until
 
 HELD = 1000
+WANTED = b"GET /openapi.json HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"
 HALF = b"GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Half: "
 
 
 @pytest.fixture(scope="module")
-def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, int]]:
-    folder: Path = tmp_path_factory.mktemp("held")
-    with running_service(folder / "data", workers=0) as url:
+def keyed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[tuple[str, int], str]]:
+    """Return the address of a service that requires keys, and the header of an owner's key."""
+    data: Path = tmp_path_factory.mktemp("held") / "data"
+    settings = Settings(data=data)
+    with catalogue_of(settings) as catalogue:
+        key, _ = catalogue.make_key("ada", ["jobs:write"], "", None)
+    with running_service(data, workers=0, environment={"JOINTPLAY_KEYS": "required"}) as url:
         found = httpx.URL(str(url))
-        yield found.host, found.port or 80
+        yield (found.host, found.port or 80), f"Bearer {key}"
+
+
+@pytest.fixture(scope="module")
+def address(keyed: tuple[tuple[str, int], str]) -> tuple[str, int]:
+    return keyed[0]
 
 
 def held(
@@ -81,26 +94,30 @@ def test_a_kept_connection_whose_next_head_never_ends_is_closed(address: tuple[s
         assert closed(one)
 
 
-def test_a_client_that_takes_nothing_of_its_answer_is_closed(address: tuple[str, int]) -> None:
-    wanted = b"GET /openapi.json HTTP/1.1\r\nHost: 127.0.0.1\r\nAccept-Encoding: identity\r\n\r\n"
-    with ExitStack() as stack:
-        slow = []
-        for _ in range(20):
-            one = stack.enter_context(socket.socket())
-            one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-            one.settimeout(120.0)
-            one.connect(address)
-            one.sendall(10 * wanted)
-            slow.append(one)
-        healthy(address)
+@pytest.mark.long
+def test_a_client_that_takes_nothing_of_its_answer_is_cut_off(address: tuple[str, int]) -> None:
+    with socket.socket() as one:
+        one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        one.connect(address)
+        begun = time.monotonic()
+        one.sendall(10 * WANTED)
+        until(lambda: one.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR) != 0)
+        assert time.monotonic() - begun >= 0.5 * connections.READER_PATIENCE
 
 
-def test_bodies_that_never_end_take_no_memory_and_end(address: tuple[str, int]) -> None:
-    head = b"POST /v1/batches HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
-    head += b"Content-Length: %d\r\n\r\n"
+BATCH = (
+    "POST /v1/batches HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
+    "Authorization: {key}\r\nContent-Length: {length}\r\n\r\n["
+)
+
+
+def test_bodies_that_never_end_take_no_memory_and_end(keyed: tuple[tuple[str, int], str]) -> None:
+    address, key = keyed
+    small = BATCH.format(key=key, length=1000).encode()
+    big = BATCH.format(key=key, length=33_000_000).encode() + b" " * 8_000_000
     with ExitStack() as stack:
-        short = held(stack, address, 100, head % 1000 + b"[")
-        large = held(stack, address, 20, head % 33_000_000 + b"[" + b" " * 8_000_000)
+        short = held(stack, address, 100, small)
+        large = held(stack, address, 20, big)
         healthy(address)
         answer = b""
         while not answer.endswith(b"}"):
@@ -108,3 +125,28 @@ def test_bodies_that_never_end_take_no_memory_and_end(address: tuple[str, int]) 
         assert answer.startswith(b"HTTP/1.1 408")
         assert b"body-too-slow" in answer
         assert sum(b" 503 " in one.recv(65536)[:20] for one in ready(large)) >= 4  # 160 MB for 128
+
+
+def test_callers_without_a_key_keep_out_nobody_who_has_one(
+    keyed: tuple[tuple[str, int], str],
+) -> None:
+    """Idle connections, half heads, readers that take nothing and unfinished bodies at once."""
+    address, key = keyed
+    with ExitStack() as stack:
+        held(stack, address, 1000)
+        held(stack, address, 500, HALF)
+        for _ in range(200):
+            one = stack.enter_context(socket.socket())
+            one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            one.connect(address)
+            one.sendall(20 * WANTED)
+        held(stack, address, 100, BATCH.format(key="Bearer none", length=33_000_000).encode())
+        healthy(address)
+        host, port = address
+        with httpx.Client(headers={"Authorization": key}, timeout=60.0) as client:
+            for number in range(20):
+                job = {"kind": "simulate", "scene": {"preset": "pendulum"}}
+                sent = client.post(
+                    f"http://{host}:{port}/v1/jobs", json=job | {"duration": number + 1}
+                )
+                assert sent.status_code == 202
