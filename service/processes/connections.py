@@ -9,6 +9,8 @@ nothing of its answer in `READER_PATIENCE`.
 import asyncio
 import logging
 import resource
+import socket
+import struct
 from collections import Counter, OrderedDict
 from typing import Any
 
@@ -130,7 +132,7 @@ class Connection(H11Protocol):
         """Wait for a client that does not take its answer, but not for ever."""
         super().pause_writing()
         if self._reader is None:
-            self._reader = self.loop.call_later(READER_PATIENCE, self.transport.abort)
+            self._reader = self.loop.call_later(READER_PATIENCE, self._cut_off)
 
     def resume_writing(self) -> None:
         """Go on: the client took some."""
@@ -159,6 +161,13 @@ class Connection(H11Protocol):
     def _await_head(self) -> None:
         if self._head is None:
             self._head = self.loop.call_later(HEAD_PATIENCE, self._close_headless)
+
+    def _cut_off(self) -> None:
+        """End at once; else the system would keep what was not taken, for minutes."""
+        self.transport.get_extra_info("socket").setsockopt(
+            socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0)
+        )
+        self.transport.abort()
 
     def _close_headless(self) -> None:
         self._head = None

@@ -100,7 +100,7 @@ def test_a_client_that_takes_nothing_of_its_answer_is_cut_off(address: tuple[str
         one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         one.connect(address)
         begun = time.monotonic()
-        one.sendall(10 * WANTED)
+        one.sendall(400 * WANTED)  # more than the system keeps for it
         until(lambda: one.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR) != 0)
         assert time.monotonic() - begun >= 0.5 * connections.READER_PATIENCE
 
