@@ -11,6 +11,7 @@ import { dragged, poses } from "../requests/poses.js";
 
 const STEPS = 120; // of the slider
 const NEAR = 30; // px within which a point is taken hold of
+const TOGETHER = 1; // px between points that are drawn as one
 const RATE = 30; // poses a second while a point is dragged
 const MARGIN = 46; // px around the mechanism
 
@@ -135,15 +136,17 @@ export class FreeMotion {
     for (const end of ["pointerup", "pointercancel"]) addEventListener(end, release);
   }
 
-  /** Returns the reference of the point that is nearest to a pixel, or undefined if none is near. */
+  /** Returns the reference of the point that is nearest to a pixel, or undefined if none is near;
+   *  of points that a joint holds together, the one that the scene names first. */
   nearest([right, down]) {
     const found = Object.entries(this.scene.bodies).flatMap(([body, { points = {} }]) =>
       Object.keys(points).map((name) => {
         const [x, y] = this.view.pixel(placeOf(this.scene, this.pose, `${body}.${name}`));
         return { point: `${body}.${name}`, distance: Math.hypot(x - right, y - down) };
       }));
-    return found.filter(({ distance }) => distance < NEAR)
-      .sort((a, b) => a.distance - b.distance)[0]?.point;
+    const least = Math.min(...found.map(({ distance }) => distance));
+    if (least >= NEAR) return undefined;
+    return found.find(({ distance }) => distance < least + TOGETHER).point;
   }
 
   async pull({ scene, point, place }) {
