@@ -20,6 +20,7 @@ from jointplay.solver.mechanics.start.pose import (
     FAR,
     Places,
     hold,
+    in_given_turns,
     nearest,
     opened,
     within_play,
@@ -176,6 +177,7 @@ def _assembled(scene: Scene) -> _Found:
     guess = first_pose(places.closed, angles, places.driven, drawn_places(scene, angles))
     pose = guess.copy()
     close(places.closed, pose, places.driven, places.scale)
+    pose = in_given_turns(places, pose)
     if places.keeps(places.given, pose):
         return _Found(places, _assembly(places, places.closed, pose), None)
     found = opened(places, guess)
@@ -190,7 +192,7 @@ def _nearer(places: Places, pose: Floats) -> Floats:
     """Return the closed pose that is to be taken where the one first found does not keep all."""
     still, poses = np.zeros_like(pose), [pose] if places.is_closed(places.closed, pose) else []
     if not poses or distance(places.given, pose, still) > FAR * places.length:
-        poses += list(closings(places))
+        poses += [in_given_turns(places, closing) for closing in closings(places)]
     if not poses:
         return pose
     found = nearest(places, poses)

@@ -22,8 +22,9 @@ from jointplay.solver.mechanics.start.levels import MOST_ITERATIONS, approach
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Clearance, Prismatic, SliderClearance
+from jointplay.solver.scene.joints import Clearance, Fixed, Prismatic, SliderClearance
 from jointplay.solver.scene.pairs import pairs_of
+from jointplay.solver.scene.references import ends
 
 CLOSED = 1e-11
 """Largest residual, in lengths of the shortest link, of an assembled mechanism."""
@@ -116,6 +117,21 @@ def nearest(places: Places, poses: Iterable[Floats]) -> Floats:
     return min(alike, key=lambda pose: _from_zero(places, pose))
 
 
+def in_given_turns(places: Places, pose: Floats) -> Floats:
+    """Return a closed pose with whole turns added, so that angles are nearest to those given.
+
+    Bodies turn with what they are fixed to or slide in; what drivers or gears hold stays.
+    """
+    for body, angle in places.scene.start.angles.items():
+        columns = [3 * places.closed.bodies.index(one) + 2 for one in _turning_with(places, body)]
+        here = float(pose[3 * places.closed.bodies.index(body) + 2])
+        turned = pose.copy()
+        turned[columns] += 2.0 * math.pi * round((angle - here) / (2.0 * math.pi))
+        if places.is_closed(places.closed, turned):
+            pose = turned
+    return pose
+
+
 def hold(places: Places, pose: Floats) -> Floats:
     """Return a closed pose near another that keeps what it can of what is given, in its order."""
     kept: list[Given] = []
@@ -173,6 +189,17 @@ def _is_within(scene: Scene, name: str, parts: dict[str, float], length: float) 
         if not fits:
             return False
     return True
+
+
+def _turning_with(places: Places, body: str) -> list[str]:
+    """Return a body and those that joints keep at an angle to it."""
+    reached = [body]
+    for here in reached:
+        for joint in places.scene.joints.values():
+            pair = [reference.split(".")[0] for _, reference in ends(joint)]
+            if isinstance(joint, Prismatic | Fixed) and here in pair:
+                reached += [one for one in pair if one not in [*reached, "ground"]]
+    return reached
 
 
 def _nearest_here(places: Places, pose: Floats, iterations: int) -> Floats:

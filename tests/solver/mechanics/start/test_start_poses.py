@@ -11,9 +11,11 @@ from jointplay.solver.mechanics.branches import branches
 from jointplay.solver.scene.document import Scene
 from tests.solver.mechanics.start.mechanisms import (
     ball,
+    bar,
     cradle,
     lever,
     put_together,
+    revolute,
     slider_crank,
     toggle,
 )
@@ -135,3 +137,19 @@ def test_whole_turns_of_a_given_angle_are_kept() -> None:
     document = lever("slot", {"angles": {"lever": 7.0}})
     del document["joints"]["stop"]
     assert put_together(document)[1]["lever"][2] == 7.0
+
+
+@pytest.mark.parametrize("turns", [-2, -1, 0, 1, 2])
+@pytest.mark.parametrize("coupler", [-0.9623, 0.4851])
+def test_a_rough_angle_chooses_its_assembly_in_any_turn(turns: int, coupler: float) -> None:
+    """The two angles of a coupler of 0.35 m are those that circles meet at, by hand."""
+    wanted = coupler + 2.0 * math.pi * turns
+    document = slider_crank({"angles": {"rod": wanted + 0.1}}, 0.05, 0.175)
+    document["ground"]["points"]["D"] = [0.4, 0.0]
+    document["bodies"]["slider"] = bar(0.125)
+    document["joints"] |= {
+        "B": revolute("slider.b", "rod.b"),
+        "guide": revolute("ground.D", "slider.a"),
+    }
+    document["drivers"] = {"hold": {"joint": "O", "position": 1.0, "speed": 0.0}}
+    assert put_together(document)[1]["rod"][2] == pytest.approx(wanted, abs=1e-4)
