@@ -6,7 +6,7 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE
 from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.view import view
@@ -29,13 +29,14 @@ class System(NamedTuple):
 class Constraints:
     """The rows of a scene with its play closed; lengths are measured in its shortest link.
 
-    `scale` : (3 bodies,) what coordinates are measured in, m and rad.
+    `scale` : (3 bodies,) what coordinates are measured in, m and rad. `free` : whether something
+    moves that drivers do not.
     """
 
     def __init__(self, scene: Scene) -> None:
         self.numbers = view(scene)
         self.mechanism = AbsoluteMechanism(scene, self.numbers, close_play=True)
-        self.length = shortest_link(scene)
+        self.length, self.free = shortest_link(scene), assemble(scene).freedom > 0
         self.scale = np.tile([self.length, self.length, 1.0], len(self.mechanism.bodies))
         self._clocks = clocks(scene)
 
@@ -72,17 +73,16 @@ class Constraints:
         return np.array([1.0 if row.part == "angle" else self.length for row in rows])
 
 
-def solve(matrix: Floats, right: Floats) -> Floats:
+def solve(matrix: Floats, right: Floats, *, free: bool = False) -> Floats:
     """Return x of A x = b, (..., n); of more rows than columns, those of least squares.
 
-    A : (..., rows, n) of rank n; LinAlgError if it is singular. With fewer rows than columns, of
-    any rank: the smallest x. b : (..., rows).
+    A : (..., rows, n) of rank n; LinAlgError if it is singular. Where it is `free`, of any rank:
+    the smallest x. b : (..., rows).
     """
-    rows, count = matrix.shape[-2:]
-    if rows < count:
+    if free:
         inverse = np.linalg.pinv(matrix, rcond=RANK_TOLERANCE)
         return np.asarray((inverse @ right[..., None])[..., 0], np.float64)
-    if rows == count:
+    if matrix.shape[-2] == matrix.shape[-1]:
         return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0], np.float64)
     q, r = np.linalg.qr(matrix)
     return np.asarray(np.linalg.solve(r, _transposed(q) @ right[..., None])[..., 0], np.float64)

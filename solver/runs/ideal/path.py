@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
+from jointplay.solver.mechanics.closing import RANK_TOLERANCE
 from jointplay.solver.runs.ideal.constraints import Constraints, System, solve
 
 FEWEST_A_SCALE = 24
@@ -174,7 +175,7 @@ class Path:
         going, sound = np.full(most.shape, True), np.full(most.shape, True)
         for _ in range(MOST_CORRECTIONS):
             found = constraints.system(q, still, driven)
-            step = -solve(found.jacobian, found.value)
+            step = -solve(found.jacobian, found.value, free=constraints.free)
             size = np.abs(step).max(axis=-1)
             stays = going & ~(size <= most)
             sound = sound & ~(stays & ~(size < ROUNDING))
@@ -193,12 +194,15 @@ class Path:
         driven = constraints.driven(time)
         if system is None:
             system = constraints.system(pose, np.zeros_like(pose), driven)
-        square = system.jacobian.shape[0] == system.jacobian.shape[1]
-        inverse = np.asarray(
-            (np.linalg.inv if square else np.linalg.pinv)(system.jacobian), np.float64
-        )
+        jacobian = system.jacobian
+        if constraints.free:
+            found = np.linalg.pinv(jacobian, rcond=RANK_TOLERANCE)
+        else:
+            square = jacobian.shape[0] == jacobian.shape[1]
+            found = (np.linalg.inv if square else np.linalg.pinv)(jacobian)
+        inverse = np.asarray(found, np.float64)
         velocity = -inverse @ system.rate
-        left = np.abs(system.rate + system.jacobian @ velocity).max(initial=0.0)
+        left = np.abs(system.rate + jacobian @ velocity).max(initial=0.0)
         consistent = bool(left <= CONSISTENT * np.abs(system.rate).max(initial=0.0))
         velocity = velocity * constraints.scale
         moving = constraints.system(pose, velocity, driven)

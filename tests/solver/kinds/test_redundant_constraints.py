@@ -8,7 +8,9 @@ import pytest
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.kinds import admit
+from jointplay.solver.runs.ideal.following import follow
 from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.scene.document import Scene
 from tests.solver.closed_loops import parallel_cranks
 from tests.solver.kinds.refusals import assert_points
 
@@ -107,6 +109,10 @@ def test_side_rods_are_admitted_beside_play_elsewhere() -> None:
     scene["joints"] |= pins(loose="ground.O hung.top")
     scene["joints"]["loose"]["clearance"] = clearance
     assert admit(of(scene)).joints == ("loose",)
+    # as many rows as coordinates, of which one says what others say, and one moves freely
+    found = follow(Scene.model_validate(scene), [0.0, 0.1])
+    assert found.lost is None
+    np.testing.assert_allclose(found.poses[1, [2, 5]], 0.5 + 0.2 * math.pi, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("length", [0.5, 2.0])
