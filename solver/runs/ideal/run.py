@@ -16,7 +16,7 @@ from jointplay.solver.mechanics.observe import channel_values
 from jointplay.solver.quantities.extremes import refined_peaks, sampled_peak
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
-from jointplay.solver.runs.followers import Pulled, with_pulls
+from jointplay.solver.runs.followers import with_pulls
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.runs.ideal.pulls import pulls_of_motion
 from jointplay.solver.runs.results import Slice, Summary
@@ -45,7 +45,6 @@ class IdealRun:
         self.sections_done = 0
         self.seconds = 0.0
         self.peaks: dict[str, Peak] = {}
-        self.pulled: list[Pulled] = []
         self.offset = admission.offset
 
     def slices(self) -> Iterator[Slice]:
@@ -74,7 +73,6 @@ class IdealRun:
             self.seconds += time.perf_counter() - begun
             yield found
         self.peaks = self._extremes()
-        self.pulled = pulls_of_motion(self.motion, self.duration)
 
     def checkpoint(self) -> bytes:
         """See `Simulation.checkpoint`."""
@@ -116,8 +114,9 @@ class IdealRun:
             return None
         last = max(self.samples_done - 1, 0) * float(self.admission.job["output_step"])
         whole = self.samples_done == self.admission.samples
-        certificate = Certificate.of_exact(len(self.names), self.duration if whole else last)
-        return with_pulls(certificate, self.pulled)
+        reached = self.duration if whole else last
+        pulled = pulls_of_motion(self.motion, reached) if reached > 0.0 else []
+        return with_pulls(Certificate.of_exact(len(self.names), reached), pulled)
 
     def channels(self, times: Floats, local: Floats | None = None) -> Floats:
         """Return (instants, channels) at times in s; `local` is the time within the period."""

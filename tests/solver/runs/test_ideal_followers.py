@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kinds import admit
 from jointplay.solver.runs.simulate import Simulation
 from tests.solver.cams import CIRCLE, ECCENTRICITY, SPEED, follower, pitch_table, valve
@@ -48,6 +49,30 @@ def test_a_face_is_pulled_where_its_cam_falls_faster_than_it() -> None:
     assert pull["time"] == pytest.approx(np.pi / speed, abs=1e-6)
     assert "give it a lash" in pull["detail"]
     assert pull["detail"] in found["note"]
+
+
+def test_a_run_that_ends_early_tells_what_was_pulled_before() -> None:
+    speed, jams = 40.0, np.radians(150.0)
+    scene = unsprung("flat", CIRCLE, speed)
+    line = [0.0, -ECCENTRICITY * np.cos(jams) - 0.1]  # a rod of 0.1 m does not reach it beyond
+    scene["ground"]["points"]["L"] = line
+    scene["bodies"] |= {
+        "rod": {"mass": 0.1, "inertia": 1e-4, "points": {"a": [0.0, 0.05], "b": [0.0, -0.05]}},
+        "slide": {"mass": 0.1, "inertia": 1e-4, "points": {"c": [0.0, 0.0]}},
+    }
+    scene["joints"] |= {
+        "A": {"type": "revolute", "bearing": "shaft.C", "journal": "rod.a"},
+        "B": {"type": "revolute", "bearing": "slide.c", "journal": "rod.b"},
+        "line": {"type": "prismatic", "guide": "ground.L", "slider": "slide.c", "axis": [1.0, 0.0]},
+    }
+    job = {"kind": "simulate", "scene": scene, "duration": 0.1, "output_step": 1e-3}
+    simulation = Simulation(admit(job))
+    with pytest.raises(SimulationFailed) as failed:
+        list(simulation.slices())
+    assert failed.value.time == pytest.approx(jams / speed, rel=1e-6)
+    (pull,) = facts(simulation)["pulling"]
+    assert pull["joint"] == "cam"
+    assert pull["time"] == pytest.approx(0.065, abs=1e-9)  # the last sample, hardest pulled
 
 
 @pytest.mark.parametrize("shape", ["flat", "roller"])
