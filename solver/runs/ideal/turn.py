@@ -1,5 +1,6 @@
 """Whether a driven mechanism turns through: where it jams in a turn of its drivers, or nearly."""
 
+import math
 from typing import NamedTuple
 
 from jointplay.records.failure import SimulationFailed
@@ -21,7 +22,7 @@ class Turn(NamedTuple):
     """A driven mechanism, its play closed, over a turn of its drivers."""
 
     span: float
-    """Time that the turn takes, s."""
+    """Time that the turn takes, s; of a slider that never comes back, that for 2 pi links."""
     reached: float
     """Time up to which it was followed, s: less if it jams, or if that takes too many poses."""
     lost: SimulationFailed | None
@@ -34,15 +35,15 @@ class Turn(NamedTuple):
 
 @once_per_scene
 def turn(scene: Scene) -> Turn | None:
-    """Return how far a mechanism turns; None where it moves freely, or nothing turns it."""
-    found, span = assemble(scene), drivers_turn(scene)
-    if found.freedom or found.residual > ASSEMBLED * shortest_link(scene):
+    """Return how far a mechanism turns; None where it moves freely, or its drivers stand."""
+    found, length = assemble(scene), shortest_link(scene)
+    if found.freedom or found.residual > ASSEMBLED * length:
         return None
-    if span is None:
+    quickest = quickest_driver(scene, length)
+    span = drivers_turn(scene) or quickest
+    if math.isinf(span):
         return None
-    constraints = Constraints(scene)
-    scale = min(quickest_driver(scene, constraints.length), span)
-    path = Path(constraints, found.pose, scale)
+    path = Path(Constraints(scene), found.pose, min(quickest, span))
     most = MOST_WORK // max(len(found.pose), 20)
     whole = path.follow(span, most)
     if not path.end.consistent:
@@ -69,7 +70,8 @@ def in_words(scene: Scene, found: Turn) -> str:
         return found.lost.detail + short
     if found.reached < found.span:
         return f"It is followed up to t = {found.reached:.6g} s, and goes through so far."
-    told = f"It goes through the {found.span:.6g} s in which its drivers come round."
+    way = "its drivers come round" if drivers_turn(scene) else "a driver moves 2 pi shortest links"
+    told = f"It goes through the {found.span:.6g} s in which {way}."
     if near is None:
         return told
     return (

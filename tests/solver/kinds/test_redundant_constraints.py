@@ -9,6 +9,7 @@ import pytest
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.kinds import admit
 from jointplay.solver.runs.ideal.following import follow
+from jointplay.solver.runs.ideal.turn import turn
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene.document import Scene
 from tests.solver.closed_loops import parallel_cranks
@@ -89,6 +90,32 @@ def test_driven_side_rods_turn_as_one() -> None:
     # the rods move on circles without turning, so that nothing but their weight works
     wanted = WEIGHT * 0.3 * (np.cos(first) - np.sin(first))
     np.testing.assert_allclose(torque, wanted, rtol=0, atol=1e-9)
+
+
+def test_side_rods_are_held_where_their_driver_stands() -> None:
+    scene = side_rods()
+    scene["drivers"]["m"]["speed"] = 0.0
+    simulation = Simulation(admit(of(scene) | {"channels": ["m.torque"], "certificate": False}))
+    torque = np.concatenate([piece.samples for piece in simulation.slices()])
+    wanted = WEIGHT * 0.3 * (math.cos(0.5) - math.sin(0.5))
+    np.testing.assert_allclose(torque, wanted, rtol=0, atol=1e-9)
+
+
+def test_side_rods_are_pulled_by_a_slider_at_constant_speed_up_to_their_dead_point() -> None:
+    scene = side_rods()
+    bar = {"mass": 1.0, "inertia": 0.1, "points": {"s": [0, 0], "w": [1.0, 0]}}
+    scene["bodies"] |= {"slide": {"mass": 1.0, "inertia": 0.1, "points": {"c": [0, 0]}}, "bar": bar}
+    scene["joints"] |= pins(s="slide.c bar.s", w="w1.a bar.w")
+    guide = {"type": "prismatic", "guide": "ground.O", "slider": "slide.c", "axis": [1, 0]}
+    scene["joints"]["guide"] = guide
+    scene["start"] = {"angles": {"w1": 1.0, "w2": 1.0, "ra": 0.0, "rb": 0.0, "bar": 0.2}}
+    begin = 0.3 * math.cos(1.0) - math.sqrt(1.0 - (0.3 * math.sin(1.0)) ** 2)
+    scene["drivers"] = {"m": {"joint": "guide", "position": begin, "speed": 0.1}}
+    found = turn(Scene.model_validate(scene))
+    assert found is not None
+    assert found.lost is not None
+    assert found.lost.time == pytest.approx((-0.7 - begin) / 0.1, rel=1e-9)  # bar and pin in line
+    assert admit(of(scene, 0.5)).samples == 51
 
 
 def test_one_side_rod_alone_comes_to_its_dead_points() -> None:
