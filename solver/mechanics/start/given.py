@@ -60,9 +60,17 @@ class Taken(NamedTuple):
 
     @property
     def sentence(self) -> str:
-        """Both values in words."""
-        given, taken = (", ".join(f"{round(v, 12):z.6g}" for v in values) for values in self[2:4])
+        """Both values in words, to as many digits as tell them apart."""
+        given = taken = ""
+        for digits in (6, 9, 12):
+            if given == taken:
+                given, taken = (_in_words(values, digits) for values in (self.given, self.taken))
         return f"The start has {taken} {self.unit} for {given} at {self.pointer}."
+
+
+def _in_words(values: tuple[float, ...], digits: int) -> str:
+    """Return values to some digits; what is rounding of metres is 0."""
+    return ", ".join(f"{round(value, 12):z.{digits}g}" for value in values)
 
 
 def levers(scene: Scene, least: float) -> dict[str, float]:

@@ -63,6 +63,12 @@ def test_rates_that_contradict_one_another_are_held_in_their_order_and_told() ->
     assert one.sentence == "The start has -2 rad/s for 5 at /start/angular_velocities/rod."
 
 
+def test_values_that_differ_late_are_told_to_the_digit_that_does() -> None:
+    start = {"angles": {"crank": 0.5}, "angular_velocities": {"crank": 20.0, "rod": -20.00004}}
+    (one,) = put_together(slider_crank(start))[0].misfits
+    assert one.sentence == "The start has -20 rad/s for -20.00004 at /start/angular_velocities/rod."
+
+
 def test_a_rate_that_a_driver_prescribes_otherwise_is_told() -> None:
     document = toggle({"rod.K": [-0.0518, 0.2068]})
     document["start"]["angular_velocities"] = {"crank": 0.0}
