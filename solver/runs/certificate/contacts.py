@@ -125,6 +125,5 @@ def _before(time: Floats, known_to: float, horizon: float, onset: Floats, bar: F
 
 def _count(companions: Companions) -> int:
     """Return how many contacts the trajectory began with, or began."""
-    begun = companions.ended_contacts(TWIN)
-    closed_at_start = int(np.count_nonzero(begun["onset"] == 0.0))
+    closed_at_start = int(np.count_nonzero(_onsets(companions, TWIN)["onset"] == 0.0))
     return int(companions.bundle.lane(RUN).run["onsets"]) + closed_at_start

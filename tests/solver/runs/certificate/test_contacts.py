@@ -3,6 +3,9 @@
 import pytest
 
 from benchmarks.lies.run import Finished, finish
+from jointplay.solver.kinds import admit
+from jointplay.solver.runs.simulate import Simulation
+from tests.solver.held_part import held_part
 from tests.solver.laws.thrown import pair, thrown
 
 
@@ -22,6 +25,15 @@ def test_a_press_so_hard_that_a_loose_tolerance_chatters(tolerance: float, chatt
     # so hard that some impacts are slower than the floor of 1 mm/s that the preset gives
     assert facts["slow_impacts"] > 0
     assert f"{facts['slow_impacts']} impacts were slower than the impact" in facts["note"]
+
+
+def test_contacts_from_the_start_on_count_in_a_run_that_is_broken_off() -> None:
+    job = {"kind": "simulate", "scene": held_part(), "duration": 2.0, "method": "tsitouras"}
+    simulation = Simulation(admit(job))
+    assert next(simulation.slices()).samples.any()
+    certificate = simulation.certificate()
+    assert certificate is not None
+    assert certificate.facts["impacts"]["count"] == 2  # both corners that it is pressed on
 
 
 @pytest.mark.parametrize(("gravity", "lasts"), [(2000.0, True), (0.0, False)])
