@@ -38,6 +38,8 @@ def scene_speed(scene: Scene, play: float, length: float) -> float:
     speeds += [math.hypot(*velocity) for velocity in start.velocities.values()]
     speeds += [length * abs(spin) for spin in start.angular_velocities.values()]
     speeds += [math.hypot(*one.rate) for one in start.joints.values() if one.rate is not None]
+    for guided in start.guides.values():
+        speeds += [abs(guided.rate or 0.0), length * abs(guided.tilt_rate or 0.0)]
     return max(speeds)
 
 

@@ -50,6 +50,15 @@ def test_what_is_asked_is_delivered_however_slow_the_impact(speed: float) -> Non
     assert "impact_rate_floor" not in facts["note"]
 
 
+def test_a_speed_that_is_given_of_the_joint_counts_as_one_of_its_body() -> None:
+    scene = stop(0.0)
+    scene["start"] = {"guides": {"stop": {"offset": 1e-5, "rate": -1e-4}}}
+    assert scales(scene) == pytest.approx((1e-4, 1e-9, 1e-4))
+    back, facts = ended(scene, 4.0)
+    assert back == pytest.approx(-0.5e-4, abs=1e-8)
+    assert facts["slow_impacts"] == 0
+
+
 def test_impacts_below_a_given_floor_are_counted_and_told() -> None:
     speed, floor = 1e-4, 1e-3
     back, facts = ended(stop(speed, impact_rate_floor=floor), 4.0 * LASH / speed)
