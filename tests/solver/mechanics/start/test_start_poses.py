@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from jointplay.solver.mechanics.branches import branches
 from jointplay.solver.scene.document import Scene
 from tests.solver.mechanics.start.mechanisms import (
+    ELASTIC,
     ball,
     bar,
     cradle,
@@ -102,6 +103,27 @@ def test_a_given_angle_beyond_the_play_of_a_stop_does_not(stop: str) -> None:
     assert pose["lever"][2] == pytest.approx(0.0, abs=1e-9)
     (one,) = found.misfits
     assert (one.given, one.taken) == ((0.3,), (pytest.approx(0.0, abs=1e-9),))
+
+
+@pytest.mark.parametrize(
+    ("offset", "tilt", "fits"), [(0.0, 0.015, True), (0.0, 0.03, False), (5e-4, 0.015, False)]
+)
+def test_a_slider_is_within_its_play_with_its_corners(
+    offset: float, tilt: float, fits: bool
+) -> None:
+    """Corners 50 mm before and behind its point are aside by 50 mm times the tilt."""
+    guide = {"type": "prismatic", "guide": "ground.O", "slider": "block.c", "axis": [1, 0]}
+    play = {"wall_clearance": 1e-3, "length": 0.1, "height": 0.05, "contact": ELASTIC}
+    document = {
+        "name": "block",
+        "ground": {"points": {"O": [0, 0]}},
+        "bodies": {"block": {"mass": 1.0, "inertia": 0.1, "points": {"c": [0, 0]}}},
+        "joints": {"guide": guide | {"clearance": play}},
+        "start": {"angles": {"block": tilt}, "points": {"block.c": [0.0, offset]}},
+    }
+    _, pose, _ = put_together(document)
+    wanted = [0.0, offset, tilt] if fits else [0.0, 0.0, 0.0]
+    np.testing.assert_allclose(pose["block"], wanted, rtol=0, atol=1e-12)
 
 
 @settings(max_examples=30, deadline=None)

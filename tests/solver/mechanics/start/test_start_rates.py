@@ -9,9 +9,11 @@ from tests.solver.completed_runs import run
 from tests.solver.mechanics.start.mechanisms import (
     STOPS,
     ball,
+    bar,
     cradle,
     lever,
     put_together,
+    revolute,
     slider_crank,
     toggle,
 )
@@ -91,6 +93,33 @@ def test_a_body_that_is_thrown_carries_nothing_along() -> None:
     document = cradle({"angles": angles, "angular_velocities": {"b0": 1.0}})
     _, _, velocity = put_together(document)
     assert [velocity[f"b{i}"][2] for i in range(3)] == pytest.approx([1.0, 0.0, 0.0], abs=1e-13)
+
+
+def test_a_body_whose_centre_is_thrown_carries_nothing_along_through_play() -> None:
+    document = slider_crank({"angles": {"crank": 0.5}, "velocities": {"slider": [1.5, 0.0]}})
+    play = STOPS["pin"]["clearance"] | {"radial_clearance": 1e-4, "bearing_radius": 0.01}
+    document["joints"]["B"] |= {"clearance": play}
+    _, _, velocity = put_together(document)
+    np.testing.assert_allclose(velocity["slider"], [1.5, 0.0, 0.0], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(velocity["crank"], np.zeros(3), rtol=0, atol=1e-13)
+
+
+def test_a_bar_that_hangs_on_a_thrown_one_goes_along_without_turning() -> None:
+    document = {
+        "name": "two-bars",
+        "bodies": {"thrown": bar(0.5), "hung": bar(0.5)},
+        "joints": {"pin": revolute("thrown.b", "hung.a")},
+        "start": {"velocities": {"thrown": [0.0, 1.0]}, "angular_velocities": {"thrown": 0.0}},
+    }
+    _, _, velocity = put_together(document)
+    np.testing.assert_allclose(velocity["hung"], [0.0, 1.0, 0.0], rtol=0, atol=1e-13)
+
+
+def test_a_rate_that_holds_is_the_one_that_is_given_to_its_last_bit() -> None:
+    angle, rate = 0.34872110387436034, -41.84473826364873  # fitted, the last bit is another one
+    given = [-rate * 0.25 * np.sin(angle), rate * 0.25 * np.cos(angle)]
+    start = {"angles": {"crank": angle}, "velocities": {"crank": given}}
+    assert put_together(slider_crank(start))[2]["crank"][:2].tolist() == given
 
 
 def test_guides_and_followers_have_rates_as_journals_have() -> None:
