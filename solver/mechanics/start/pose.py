@@ -3,8 +3,8 @@
 Joints with play start closed, or as `start.joints` and `start.guides` say, unless what is given
 needs their play and is within it. What cannot hold all together holds in the scene's order as far
 as it can, angles first; the rest comes as near as it gets. Of several assemblies that is the
-nearest one, by `given.distance`; of equally near ones that in which bodies of which nothing is
-given are nearest to angle zero, and slides to the middle.
+nearest one, by `given.distance`: the first that closes if it keeps all; else, of equally near ones,
+that in which bodies of which nothing is given are nearest to angle zero, and slides to the middle.
 """
 
 import math
