@@ -54,8 +54,8 @@ def scales_of(values: Floats, names: Sequence[str], units: Sequence[str], scene:
     play = contact_pairs(scene)
     for column, name in enumerate(names):
         owner, _, quantity = name.rpartition(".")
-        if quantity in (*PLACE_OF_JOURNAL, GAP):
+        if owner in play and quantity in (*PLACE_OF_JOURNAL, GAP):
             scales[column] = 2.0 * play[owner].play
-        elif play and quantity in COORDINATES:
+        elif play and owner and quantity in COORDINATES:  # an output may be called so, too
             scales[column] = max(scales[column], finest[column])
     return scales

@@ -36,6 +36,16 @@ def test_contacts_from_the_start_on_count_in_a_run_that_is_broken_off() -> None:
     assert certificate.facts["impacts"]["count"] == 2  # both corners that it is pressed on
 
 
+@pytest.mark.parametrize("name", ["penetration", "eccentricity_x", "x"])
+def test_an_output_may_have_the_name_of_a_quantity_of_joints_or_bodies(name: str) -> None:
+    scene = thrown(pair({"law": "power", "stiffness": 1e9}, {"law": "exact", "restitution": 0.2}))
+    scene["outputs"] = [{"name": name, "channel": "bearing0.penetration", "factor": 1e3}]
+    run = finish({"kind": "simulate", "scene": scene, "duration": 1e-3, "tolerance": 1e-6})
+    assert isinstance(run, Finished)
+    assert run.certificate is not None
+    assert len(run.certificate.until) == len(run.certificate.facts["kinds"])
+
+
 @pytest.mark.parametrize(("gravity", "lasts"), [(2000.0, True), (0.0, False)])
 def test_a_contact_that_lasts_by_a_latched_rate_is_told(gravity: float, lasts: bool) -> None:
     scene = thrown(pair({"law": "power", "stiffness": 1e9}, {"law": "exact", "restitution": 0.2}))
