@@ -51,7 +51,8 @@ def impact_floor(scene: Scene, pair: ContactPair, length: float) -> float:
 def resting_rate(scene: Scene, pair: ContactPair, length: float) -> float:
     """Return the least impact rate of a pair that touches from the start on, m/s.
 
-    The law's floor, else the speed of the scene: the load that comes upon it is no impact.
+    The law's floor, else the speed of the scene, at most `MOST`: the load that comes upon it is no
+    impact.
     """
     return _floor(scene, pair, length, 1.0)
 

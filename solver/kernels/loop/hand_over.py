@@ -33,7 +33,7 @@ def handed_over(bundle: Bundle, kernel: Kernel, problem: LaneProblem, sharper: f
     sharper
         Tolerance of each lane before, in the one from here on.
     """
-    found = Bundle(kernel, watch=bundle.watch, keep_steps=True)
+    found = Bundle(kernel, watch=bundle.watch, keep_steps=1)
     for i in range(BUNDLE):
         lane = bundle.lane(i)
         if lane.status == Status.IDLE:
