@@ -154,11 +154,11 @@ def assemble(scene: Scene) -> Assembly:
     the points of most studies, share what was found for the first.
     """
     geometry = _geometry(scene)
-    if geometry not in _found:
+    found = _found.get(geometry)
+    if found is None:
         while len(_found) >= MOST_KEPT:
             _found.pop(next(iter(_found)), None)
-        _found[geometry] = _assembled(scene)
-    found = _found[geometry]
+        found = _found[geometry] = _assembled(scene)
     if found.opened is not None and within_play(found.places, scene, found.opened.pose):
         return found.opened
     return found.closed
