@@ -124,10 +124,10 @@ def in_given_turns(places: Places, pose: Floats) -> Floats:
     """
     for body, angle in places.scene.start.angles.items():
         columns = [3 * places.closed.bodies.index(one) + 2 for one in _turning_with(places, body)]
-        here = float(pose[3 * places.closed.bodies.index(body) + 2])
+        turns = round((angle - float(pose[columns[0]])) / (2.0 * math.pi))
         turned = pose.copy()
-        turned[columns] += 2.0 * math.pi * round((angle - here) / (2.0 * math.pi))
-        if places.is_closed(places.closed, turned):
+        turned[columns] += 2.0 * math.pi * turns
+        if turns and places.is_closed(places.closed, turned):
             pose = turned
     return pose
 
