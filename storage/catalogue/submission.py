@@ -133,7 +133,7 @@ def _earlier(unit: Unit, request: Request, found: Mapping[Hashable, Any]) -> Sub
     if key is not None:
         earlier = idempotency.still_counting(unit, key, found[key.stored])
         if earlier is not None and earlier.job is not None:
-            job = find_job(unit, earlier.job)
+            job = labels.labelled_job(unit, earlier.job)
             # a key is stored with the job that it made, and later than one that it found
             return Submitted(job, created=False, cached=earlier.created > job.created)
     same = found[_computed(new)] if request.reuse else None
@@ -261,7 +261,7 @@ def request_cancel(unit: Unit, job_id: str) -> Job:
     """
     job = lock_job(unit, job_id)
     if job.state.terminal or job.state is JobState.cancelling:
-        return job
+        return labels.labelled_job(unit, job_id)
     block = tables.block
     drop_blocks(unit, block.c.job == job_id, untouched=True)
     live = unit.execute(
@@ -271,7 +271,7 @@ def request_cancel(unit: Unit, job_id: str) -> Job:
         step_job(unit, job_id, JobState.cancelling)
     if not live:
         step_job(unit, job_id, JobState.cancelled)
-    return find_job(unit, job_id)
+    return labels.labelled_job(unit, job_id)
 
 
 def drop_blocks(unit: Unit, of: ColumnElement[bool], *, untouched: bool) -> None:

@@ -15,8 +15,9 @@ from jointplay.storage.catalogue import quotas, tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.ending import LONGEST_PAUSE, lose
 from jointplay.storage.catalogue.errors import JobNotFinished
+from jointplay.storage.catalogue.labels import labelled_job
 from jointplay.storage.catalogue.records import QUEUES, TERMINAL, BlockState, Job
-from jointplay.storage.catalogue.rows import find_job, lock_job
+from jointplay.storage.catalogue.rows import lock_job
 
 _job = tables.job
 _REAP_AT_ONCE = 200
@@ -170,7 +171,7 @@ def expire(unit: Unit, job_id: str) -> Job:
         raise JobNotFinished(job_id, job.state.value)
     if not job.expired(unit.now):
         unit.execute(update(_job).where(_job.c.id == job_id).values(expires=unit.now))
-    return find_job(unit, job_id)
+    return labelled_job(unit, job_id)
 
 
 def removable(unit: Unit, limit: int) -> tuple[str, ...]:

@@ -137,6 +137,17 @@ def test_a_job_is_found_by_every_label_that_it_was_asked_for_with(catalogue: Cat
     assert catalogue.jobs(label="d").jobs == ()
 
 
+def test_every_answer_about_a_job_has_its_further_labels(catalogue: Catalogue) -> None:
+    key = SubmissionKey("key", "fingerprint")
+    first = catalogue.submit(replace(NEW, label="a"), key).job
+    catalogue.submit(replace(NEW, label="b"), reuse=True)
+    again = catalogue.submit(replace(NEW, label="a"), key)
+    cancelled = [catalogue.request_cancel(first.id) for _ in range(2)]
+    deleted = catalogue.delete(first.id)
+    for job in (again.job, *cancelled, deleted):
+        assert (job.id, job.further_labels) == (first.id, ("b",))
+
+
 def test_further_labels_are_bounded(catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(labels, "MOST", 2)
     for label in "abcd":
