@@ -1,14 +1,16 @@
 """Requests at once, bounded; those that keep the service and its workers going have a reserve.
 
-Callers without a key cannot have all. With an answer, the room that a request's body took is given
-back.
+Callers without a key cannot have all: a key counts only where it is looked at. With an answer, the
+room that a request's body took is given back.
 """
 
 import re
 from collections import Counter
+from collections.abc import Sequence
 from typing import Final
 
 from starlette.requests import Request
+from starlette.routing import BaseRoute, Match
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from jointplay.service.body import TOGETHER
@@ -30,10 +32,16 @@ _VITAL: Final = re.compile(
 
 
 class Turns:
-    """Refuses requests beyond the bound with 503."""
+    """Refuses requests beyond the bound with 503.
 
-    def __init__(self, app: ASGIApp) -> None:
-        self._app = app
+    Parameters
+    ----------
+    unlocked
+        Routes of the API that nobody needs a key for.
+    """
+
+    def __init__(self, app: ASGIApp, unlocked: Sequence[BaseRoute]) -> None:
+        self._app, self._unlocked = app, unlocked
         self._running: Counter[bool] = Counter()  # with a key, and without
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -41,7 +49,7 @@ class Turns:
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        has_key = any(name == b"authorization" for name, _ in scope["headers"])
+        has_key = self._shows_key(scope)
         if not self._has_room(scope["path"], has_key=has_key):
             refused = unavailable("The service answers as many requests as it can.", RETRY)
             response = await answer(Request(scope), refused)
@@ -53,6 +61,14 @@ class Turns:
         finally:
             TOGETHER.release(scope)
             self._running[has_key] -= 1
+
+    def _shows_key(self, scope: Scope) -> bool:
+        """Whether a request has a key, at an address whose door looks at it first of all."""
+        return (
+            any(name == b"authorization" for name, _ in scope["headers"])
+            and scope["path"].startswith("/v1/")
+            and all(route.matches(scope)[0] is not Match.FULL for route in self._unlocked)
+        )
 
     def _has_room(self, path: str, *, has_key: bool) -> bool:
         running = self._running.total()

@@ -150,3 +150,22 @@ def test_callers_without_a_key_keep_out_nobody_who_has_one(
                     f"http://{host}:{port}/v1/jobs", json=job | {"duration": number + 1}
                 )
                 assert sent.status_code == 202
+
+
+def test_a_key_counts_only_where_it_is_looked_at(keyed: tuple[tuple[str, int], str]) -> None:
+    """Who takes nothing of an answer that needs no key holds no turn of keys with a wrong one."""
+    (host, port), key = keyed
+    wrong = WANTED.replace(b"\r\n\r\n", b"\r\nAuthorization: Bearer none\r\n\r\n")
+    with ExitStack() as stack:
+        for _ in range(260):
+            one = stack.enter_context(socket.socket())
+            one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            one.connect((host, port))
+            one.sendall(20 * wrong)
+        until(
+            lambda: httpx.get(f"http://{host}:{port}/openapi.json", timeout=60).status_code == 503
+        )
+        jobs = httpx.get(
+            f"http://{host}:{port}/v1/jobs", headers={"Authorization": key}, timeout=60
+        )
+        assert jobs.status_code == 403  # the key is for sending
