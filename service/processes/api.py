@@ -41,6 +41,7 @@ def main() -> None:
         access_log=False,  # clients poll; the log would say little else than `request_log` says
         log_config=None,  # its lines are written as ours are
         http=protocol(),
+        ws="none",  # a connection that became another one would be in nobody's room
         timeout_keep_alive=30,
         timeout_graceful_shutdown=5,
         h11_max_incomplete_event_size=LONGEST_HEAD,

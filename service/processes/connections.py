@@ -3,7 +3,8 @@
 uvicorn counts connections, and refuses all requests while there are too many, whoever has them.
 Here a connection that waits for a request makes room for a new one, those of the address that has
 most first; one that has sent no whole head in `HEAD_PATIENCE` is closed, and one whose client takes
-nothing of its answer in `READER_PATIENCE`.
+nothing of its answer in `READER_PATIENCE`. A request waits until the answers before it are taken:
+it has no turn meanwhile.
 """
 
 import asyncio
@@ -25,6 +26,9 @@ SHARE = 0.75
 """Part of them that one address may have."""
 HEAD_PATIENCE = 5.0  # s
 READER_PATIENCE = 30.0  # s
+UNSENT = 64 * 1024
+"""Bytes of an answer that the system keeps beyond those on their way: it would keep megabytes, and
+say for as long as a slow client takes a third of them that it takes nothing."""
 RETRY = 5  # s, what a refused client is told
 
 Timer = asyncio.TimerHandle | None
@@ -100,6 +104,9 @@ class Connection(H11Protocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Let the connection in, or tell it why not."""
         super().connection_made(transport)
+        transport.get_extra_info("socket").setsockopt(
+            socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT
+        )
         self.address = self.client[0] if self.client else ""
         self._entered = self.room.enter(self)
         if not self._entered:
@@ -123,8 +130,16 @@ class Connection(H11Protocol):
         super().data_received(data)
         self._look()
 
+    def handle_events(self) -> None:
+        """Begin what was asked, once the client has taken what it asked for before."""
+        if self.flow.write_paused:
+            self.flow.pause_reading()
+            return
+        super().handle_events()
+
     def on_response_complete(self) -> None:
-        """Wait for the next request."""
+        """Wait for the next request, and until all of the answer is taken."""
+        self.transport.set_write_buffer_limits(high=1, low=0)  # pauses now if there is anything
         super().on_response_complete()
         self._look()
 
@@ -138,12 +153,21 @@ class Connection(H11Protocol):
         """Go on: the client took some."""
         super().resume_writing()
         self._reader = _cancel(self._reader)
+        if self.transport.is_closing():
+            return
+        if self.cycle.response_complete:
+            self.flow.resume_reading()
+        self.handle_events()
+        self._look()
 
     def end(self) -> None:
         """Close a connection that waits for a request."""
         self.room.leave(self)
         self._entered = False
-        self.transport.close()
+        if self.flow.write_paused:
+            self._cut_off()
+        else:
+            self.transport.close()
 
     def _look(self) -> None:
         """Tell a connection with a request from one that waits for its head, or for any."""
@@ -153,6 +177,7 @@ class Connection(H11Protocol):
         if cycle is not None and not cycle.response_complete:
             self._head = _cancel(self._head)
             self.room.work(self)
+            self.transport.set_write_buffer_limits()
             return
         self.room.rest(self)
         if self.conn.trailing_data[0]:

@@ -1,0 +1,119 @@
+"""Clients that take their answers slowly, or not at all."""
+
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from typing import cast
+
+import pytest
+import uvicorn
+from starlette.types import Receive, Scope, Send
+
+from jointplay.service.pieces import Pieces
+from jointplay.service.processes import connections
+from jointplay.service.processes.connections import Connection, protocol
+from tests.waiting import until
+
+SHORT, LONG = 30_000, 3_000_000
+"""Bytes of answers; the system keeps more than a hundred of the former for a client at most."""
+
+
+class Answering:
+    """Answers with as many bytes as the path says, and counts."""
+
+    def __init__(self) -> None:
+        self.begun = self.running = 0
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        size = int(scope["path"][1:])
+        self.begun += 1
+        self.running += 1
+        head = [(b"content-length", str(size).encode())]
+        await send({"type": "http.response.start", "status": 200, "headers": head})
+        await send({"type": "http.response.body", "body": b"x" * size})
+        self.running -= 1
+
+
+@pytest.fixture
+def application() -> Answering:
+    return Answering()
+
+
+@pytest.fixture
+def server(application: Answering) -> Iterator[tuple[uvicorn.Server, tuple[str, int]]]:
+    configuration = uvicorn.Config(
+        Pieces(application), http=protocol(), lifespan="off", log_config=None
+    )
+    server = uvicorn.Server(configuration)
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]})
+        thread.start()
+        until(lambda: server.started)
+        try:
+            yield server, listening.getsockname()
+        finally:
+            server.should_exit = server.force_exit = True
+            thread.join()
+
+
+def asked(size: int, count: int = 1) -> bytes:
+    return count * f"GET /{size} HTTP/1.1\r\nHost: a\r\n\r\n".encode()
+
+
+def with_little_room(address: tuple[str, int]) -> socket.socket:
+    one = socket.socket()
+    one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    one.settimeout(60.0)
+    one.connect(address)
+    return one
+
+
+def connections_of(server: uvicorn.Server) -> list[Connection]:
+    return cast("list[Connection]", list(server.server_state.connections))
+
+
+def is_full(server: uvicorn.Server) -> bool:
+    return any(each.flow.write_paused for each in connections_of(server))
+
+
+def test_requests_wait_until_the_answers_before_are_taken(
+    server: tuple[uvicorn.Server, tuple[str, int]],
+    application: Answering,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(connections, "READER_PATIENCE", 3600.0)
+    running, address = server
+    with with_little_room(address) as one:
+        one.sendall(asked(SHORT, 200))
+        until(lambda: is_full(running) and application.running == 0)
+        assert application.begun < 200
+        taken = 0
+        while taken < 200 * SHORT:
+            taken += one.recv(65536).count(b"x")
+        assert application.begun == 200
+
+
+def test_a_connection_with_an_answer_that_is_not_taken_makes_room_at_once(
+    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connections, "READER_PATIENCE", 3600.0)
+    running, address = server
+    with with_little_room(address) as one:
+        one.sendall(asked(SHORT, 200))
+        until(lambda: is_full(running))
+        (held,) = connections_of(running)
+        held.loop.call_soon_threadsafe(held.end)
+        until(lambda: not connections_of(running))
+
+
+def test_a_client_that_takes_its_answer_slowly_gets_it(
+    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connections, "READER_PATIENCE", 4.0)
+    with with_little_room(server[1]) as one:
+        one.sendall(asked(LONG, 2))
+        taken = 0
+        while taken < LONG // 2:  # beside the answer itself the system would keep the other
+            taken += len(one.recv(16_000))
+            time.sleep(0.1)
