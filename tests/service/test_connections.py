@@ -117,3 +117,25 @@ def test_a_client_that_takes_its_answer_slowly_gets_it(
         while taken < LONG // 2:  # beside the answer itself the system would keep the other
             taken += len(one.recv(16_000))
             time.sleep(0.1)
+
+
+def test_long_answers_that_nobody_takes_share_a_bound(
+    server: tuple[uvicorn.Server, tuple[str, int]],
+    application: Answering,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(connections, "READER_PATIENCE", 3600.0)
+    monkeypatch.setattr("jointplay.service.pieces.MOST_TOGETHER", 2 * LONG)
+    _, address = server
+
+    def status() -> int:
+        with with_little_room(address) as one:
+            one.sendall(asked(LONG))
+            return int(one.recv(1000).split()[1])
+
+    with with_little_room(address) as first, with_little_room(address) as second:
+        first.sendall(asked(LONG))
+        second.sendall(asked(LONG))
+        until(lambda: application.begun == 2)
+        assert status() == 503
+    until(lambda: status() == 200)
