@@ -4,6 +4,7 @@ import socket
 import threading
 import time
 from collections.abc import Iterator
+from contextlib import ExitStack
 from typing import cast
 
 import pytest
@@ -12,7 +13,7 @@ from starlette.types import Receive, Scope, Send
 
 from jointplay.service.pieces import Pieces
 from jointplay.service.processes import connections
-from jointplay.service.processes.connections import Connection, protocol
+from jointplay.service.processes.connections import Connection, Room, protocol
 from tests.waiting import until
 
 SHORT, LONG = 30_000, 3_000_000
@@ -61,8 +62,9 @@ def asked(size: int, count: int = 1) -> bytes:
     return count * f"GET /{size} HTTP/1.1\r\nHost: a\r\n\r\n".encode()
 
 
-def with_little_room(address: tuple[str, int]) -> socket.socket:
+def with_little_room(address: tuple[str, int], own: str = "127.0.0.1") -> socket.socket:
     one = socket.socket()
+    one.bind((own, 0))
     one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     one.settimeout(60.0)
     one.connect(address)
@@ -139,3 +141,38 @@ def test_long_answers_that_nobody_takes_share_a_bound(
         until(lambda: application.begun == 2)
         assert status() == 503
     until(lambda: status() == 200)
+
+
+def test_one_address_cannot_have_all_connections(
+    server: tuple[uvicorn.Server, tuple[str, int]],
+    application: Answering,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    running, address = server
+    monkeypatch.setattr(running.config.http_protocol_class, "room", Room(4))
+    with ExitStack() as stack:
+        for _ in range(3):
+            stack.enter_context(with_little_room(address)).sendall(asked(LONG))
+        until(lambda: application.begun == 3)
+        refused = stack.enter_context(with_little_room(address))
+        assert refused.recv(1000).startswith(b"HTTP/1.1 503")
+        other = stack.enter_context(with_little_room(address, "127.0.0.2"))
+        other.sendall(asked(SHORT))
+        assert other.recv(1000).startswith(b"HTTP/1.1 200")
+
+
+def test_those_of_the_address_that_has_most_make_room(
+    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connections, "HEAD_PATIENCE", 3600.0)
+    running, address = server
+    monkeypatch.setattr(running.config.http_protocol_class, "room", Room(4))
+    with ExitStack() as stack:
+        few = stack.enter_context(with_little_room(address, "127.0.0.2"))
+        many = [stack.enter_context(with_little_room(address)) for _ in range(3)]
+        until(lambda: len(connections_of(running)) == 4)
+        new = stack.enter_context(with_little_room(address, "127.0.0.3"))
+        assert many[0].recv(1) == b""
+        for one in (few, new, *many[1:]):
+            one.sendall(asked(1))
+            assert one.recv(1000).startswith(b"HTTP/1.1 200")
