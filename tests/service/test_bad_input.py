@@ -8,7 +8,7 @@ from typing import Any
 import httpx
 import pytest
 
-from jointplay.service.body import LARGEST_BODY
+from jointplay.service.body import LARGEST_BODY, MOST_TOGETHER
 from jointplay.solver.scene import presets
 
 PRESS = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 2.0}
@@ -200,6 +200,11 @@ def test_the_estimate_is_given_when_a_limit_is_exceeded(http: httpx.Client) -> N
 def test_a_body_of_ten_megabytes_is_not_read(http: httpx.Client) -> None:
     refused(http, b" " * 10_000_000, 413)
     assert LARGEST_BODY < 10_000_000
+
+
+def test_answered_bodies_leave_their_room_to_others(http: httpx.Client) -> None:
+    for _ in range(MOST_TOGETHER // LARGEST_BODY + 1):
+        refused(http, b" " * (LARGEST_BODY + 1), 413)
 
 
 def test_another_media_type_is_refused(http: httpx.Client) -> None:
