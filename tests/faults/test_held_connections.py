@@ -4,14 +4,14 @@ import select
 import socket
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from pathlib import Path
 
 import httpx
 import pytest
-from conftest import catalogue_of
 
 from jointplay.service.processes import connections, running_service
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from tests.waiting import until
 
@@ -25,7 +25,9 @@ def keyed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[tuple[str,
     """Return the address of a service that requires keys, and the header of an owner's key."""
     data: Path = tmp_path_factory.mktemp("held") / "data"
     settings = Settings(data=data)
-    with catalogue_of(settings) as catalogue:
+    data.mkdir()
+    with closing(Catalogue(settings.catalogue_url)) as catalogue:
+        catalogue.migrate()
         key, _ = catalogue.make_key("ada", ["jobs:write"], "", None)
     with running_service(data, workers=0, environment={"JOINTPLAY_KEYS": "required"}) as url:
         found = httpx.URL(str(url))
