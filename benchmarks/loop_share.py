@@ -11,11 +11,13 @@ import time
 
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.target import own_target
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
+
+LANES = own_target().lanes
 
 SHOWN = ("slopes", "right_hand_side", "project", "judge")
 PRESETS = {"andrews-squeezer": 0.03, "jansen-leg": 0.3, "quick-return": 0.3}

@@ -26,7 +26,6 @@ from filelock import FileLock
 from numba.core.caching import UserProvidedCacheLocator
 
 from jointplay.solver.kernels.compiler import leave_out_slow_passes
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.watched import compile_if_watched
 from jointplay.solver.version import source_digest
 
@@ -35,7 +34,7 @@ _PACKAGE = Path(__file__).parent
 
 @cache
 def cache_folder() -> Path:
-    """Return the folder of code compiled by these sources for a number of lanes, made on first use.
+    """Return the folder of code compiled by these sources, made on first use.
 
     From then on Numba keeps its code there, and compiles as `compiler` says.
     ``JOINTPLAY_CACHE`` chooses the folder's parent; the default is the user's cache folder, or a
@@ -47,7 +46,7 @@ def cache_folder() -> Path:
     )
     digest = source_digest(_PACKAGE)
     for parent in (Path(chosen), Path(tempfile.gettempdir()) / f"jointplay-{os.getuid()}"):
-        folder = parent / f"kernels-{digest}-{LANES}"
+        folder = parent / f"kernels-{digest}"
         try:
             folder.mkdir(parents=True, exist_ok=True, mode=0o700)
             with tempfile.TemporaryFile(dir=folder):

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
 
 
@@ -11,24 +10,26 @@ def fastest_rate(bundle: Bundle, i: int) -> float:
 
     The slopes are differentiated by steps of the error that a state may have. 0: not known.
     """
-    lane, kernel = bundle.lane(i), bundle.kernel
+    lane, kernel, lanes = bundle.lane(i), bundle.kernel, bundle.width
     size = kernel.layout.size
-    work = aligned_zeros(size, LANES)
+    work = aligned_zeros(size, lanes)
     work[:] = lane.work[:size, lane.index, None]
     stage, slope = kernel.layout.block("stage"), kernel.layout.block("slope")
     y, moves = lane["y"].copy(), 1.0 / lane["weight"]
     states = len(y)
     work[kernel.layout["stage_time"]] = lane.number("time")
     jacobian = np.empty((states, states))
-    for first in range(0, states, LANES - 1):
-        chosen = np.arange(first, min(first + LANES - 1, states))
-        columns = np.arange(1, len(chosen) + 1)
+    work[stage] = y[:, None]
+    kernel.module.right_hand_side(work)
+    still = work[slope][:, :1].copy()
+    for first in range(0, states, lanes):
+        chosen = np.arange(first, min(first + lanes, states))
+        columns = np.arange(len(chosen))
         work[stage] = y[:, None]
         work[stage.start + chosen, columns] += moves[chosen]
         moved = work[stage.start + chosen, columns] - y[chosen]
         kernel.module.right_hand_side(work)
-        slopes = work[slope]
-        jacobian[:, chosen] = (slopes[:, columns] - slopes[:, :1]) / moved
+        jacobian[:, chosen] = (work[slope][:, columns] - still) / moved
     if not np.isfinite(jacobian).all():
         return 0.0
     return float(np.abs(np.linalg.eigvals(jacobian)).max())

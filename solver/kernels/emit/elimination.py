@@ -4,7 +4,7 @@ Blocks of work arrays hold vectors and the matrix, row after row. These are loop
 lines: there are n^3 / 3 products.
 """
 
-from jointplay.solver.kernels.emit.lane_arithmetic import NUMBERS, Lanes, same
+from jointplay.solver.kernels.emit.lane_arithmetic import Lanes, same
 
 
 def factorise(
@@ -41,7 +41,8 @@ def factorise(
             slope = lanes.arithmetic("fmul", same(float(gamma)), place.load(products, i))
             slope = lanes.arithmetic("fmul", slope, place.load(tried))
             diagonal = lanes.new(f"icmp eq i64 {i}, {j}")
-            unit = lanes.new(f"select i1 {diagonal}, {NUMBERS} {one}, {NUMBERS} {none}")
+            numbers = lanes.numbers_type
+            unit = lanes.new(f"select i1 {diagonal}, {numbers} {one}, {numbers} {none}")
             rest = lanes.arithmetic("fsub", unit, slope)
             place.store(rest, factor, place.entry(i, states), j)
         place.store(none, direction, j)
@@ -81,10 +82,10 @@ class _Places:
         self.lanes = lanes
 
     def load(self, *parts: str) -> str:
-        return self.lanes.new(f"load {NUMBERS}, ptr {self._at(parts)}, align 8")
+        return self.lanes.load(self._at(parts))
 
     def store(self, value: str, *parts: str) -> None:
-        self.lanes.lines.append(f"store {NUMBERS} {value}, ptr {self._at(parts)}, align 8")
+        self.lanes.store(value, self._at(parts))
 
     def entry(self, row: str, states: str) -> str:
         return self.lanes.new(f"mul i64 {row}, {states}")
@@ -100,4 +101,4 @@ class _Places:
         place, *others = parts
         for other in others:
             place = self.lanes.new(f"add i64 {place}, {other}")
-        return self.lanes.new(f"getelementptr {NUMBERS}, ptr %W, i64 {place}")
+        return self.lanes.new(f"getelementptr {self.lanes.numbers_type}, ptr %W, i64 {place}")

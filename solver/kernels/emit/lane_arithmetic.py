@@ -8,12 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
 
-from jointplay.solver.kernels.lanes import LANES
-
-NUMBERS, WORDS = f"<{LANES} x double>", f"<{LANES} x i64>"
-TRUTHS, PLACES = f"<{LANES} x i1>", f"<{LANES} x i32>"
-FLAGS = "nsz arcp contract"
-"""Liberties that arithmetic has: see `solver.kernels.record.operations`."""
+ALIGNED = 8
+"""Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
 
 
 @cache
@@ -32,10 +28,14 @@ class Lanes:
 
     same, word = staticmethod(same), staticmethod(word)
 
-    def __init__(self) -> None:
+    def __init__(self, count: int) -> None:
+        """Begin with nothing, for vectors of `count` lanes."""
+        self.count = count
+        self.numbers_type, self.words_type = f"<{count} x double>", f"<{count} x i64>"
         self.lines: list[str] = []
         self._block = "entry"
         self._differences: dict[str, tuple[str, str]] = {}
+        self._products: dict[str, tuple[str, str]] = {}
         self._names = 0
 
     def new(self, code: str) -> str:
@@ -69,86 +69,124 @@ class Lanes:
         self._block = block
 
     def arithmetic(self, operation: str, x: str, y: str) -> str:
-        """Return what LLVM's operation makes of numbers."""
-        name = self.new(f"{operation} {FLAGS} {NUMBERS} {x}, {y}")
+        """Return what LLVM's operation makes of numbers; a sum of a product is rounded once.
+
+        That is written out, for left to itself LLVM has every kind of processor round another sum.
+        """
+        if operation in ("fadd", "fsub") and (x in self._products or y in self._products):
+            name = self._fused(operation, x, y)
+        else:
+            name = self.new(f"{operation} {self.numbers_type} {x}, {y}")
+        if operation == "fmul":
+            self._products[name] = x, y
         if operation == "fsub":
             self._differences[name] = x, y
         return name
 
+    def _fused(self, operation: str, x: str, y: str) -> str:
+        """Return x + y or x - y, of which y is a product, or else x."""
+        if y in self._products:
+            (a, b), c = self._products[y], x
+            a = self.negative(a) if operation == "fsub" else a
+        else:
+            (a, b), c = self._products[x], self.negative(y) if operation == "fsub" else y
+        return self.call("fma", a, b, c)
+
     def negative(self, x: str) -> str:
         """Return -x."""
-        return self.new(f"fneg {FLAGS} {NUMBERS} {x}")
+        return self.new(f"fneg {self.numbers_type} {x}")
 
     def greater(self, x: str, y: str) -> str:
         """Return where x > y."""
-        return self.new(f"fcmp {FLAGS} ogt {NUMBERS} {x}, {y}")
+        return self.new(f"fcmp ogt {self.numbers_type} {x}, {y}")
 
     def positive(self, x: str) -> str:
         """Return where x > 0; a difference is compared, not formed: it may be a maximum."""
         return self.greater(*self._differences.get(x, (x, same(0.0))))
 
-    def choose(self, where: str, x: str, y: str, kind: str = NUMBERS) -> str:
+    def choose(self, where: str, x: str, y: str) -> str:
         """Return x where something holds, else y."""
-        return self.new(f"select {TRUTHS} {where}, {kind} {x}, {kind} {y}")
+        kind = self.numbers_type
+        return self.new(f"select <{self.count} x i1> {where}, {kind} {x}, {kind} {y}")
 
     def on_words(self, operation: str, x: str, y: str) -> str:
         """Return what LLVM's operation makes of whole numbers."""
-        return self.new(f"{operation} {WORDS} {x}, {y}")
+        return self.new(f"{operation} {self.words_type} {x}, {y}")
 
     def bits(self, x: str) -> str:
         """Return the bits of numbers as words."""
-        return self.new(f"bitcast {NUMBERS} {x} to {WORDS}")
+        return self.new(f"bitcast {self.numbers_type} {x} to {self.words_type}")
 
     def numbers(self, words: str) -> str:
         """Return the numbers of these bits."""
-        return self.new(f"bitcast {WORDS} {words} to {NUMBERS}")
+        return self.new(f"bitcast {self.words_type} {words} to {self.numbers_type}")
 
     def whole(self, x: str) -> str:
         """Return whole numbers as words."""
-        return self.new(f"fptosi {NUMBERS} {x} to {WORDS}")
+        return self.new(f"fptosi {self.numbers_type} {x} to {self.words_type}")
 
     def from_whole(self, words: str) -> str:
         """Return words as numbers."""
-        return self.new(f"sitofp {WORDS} {words} to {NUMBERS}")
+        return self.new(f"sitofp {self.words_type} {words} to {self.numbers_type}")
 
-    def call(self, name: str, x: str) -> str:
+    def call(self, name: str, *operands: str) -> str:
         """Return a function of the processor's own, one of `INTRINSIC`: no call is left of it."""
-        return self.new(f"call {NUMBERS} @llvm.{name}.v{LANES}f64({NUMBERS} {x})")
+        given = ", ".join(f"{self.numbers_type} {one}" for one in operands)
+        return self.new(f"call {self.numbers_type} @llvm.{name}.v{self.count}f64({given})")
+
+    def load(self, place: str) -> str:
+        """Return the numbers at an address."""
+        return self.new(f"load {self.numbers_type}, ptr {place}, align {ALIGNED}")
+
+    def store(self, value: str, place: str) -> None:
+        """Write numbers to an address."""
+        self.lines.append(f"store {self.numbers_type} {value}, ptr {place}, align {ALIGNED}")
 
 
-INTRINSIC = ("fabs", "sqrt", "floor")
-DECLARED = "\n".join(f"declare {NUMBERS} @llvm.{name}.v{LANES}f64({NUMBERS})" for name in INTRINSIC)
-"""Lines of a module that uses them."""
+INTRINSIC = {"fabs": 1, "sqrt": 1, "floor": 1, "fma": 3}
+"""The processor's own functions, with the number of their arguments."""
+
+
+def declared(count: int) -> str:
+    """Return the lines of a module that uses them on vectors of `count` lanes."""
+    numbers = f"<{count} x double>"
+    return "\n".join(
+        f"declare {numbers} @llvm.{name}.v{count}f64({', '.join([numbers] * arguments)})"
+        for name, arguments in INTRINSIC.items()
+    )
 
 
 def mask(lanes: Lanes, x: str) -> str:
     """Return bit k of eight for each lane k whose number is positive."""
-    bits = lanes.new(f"bitcast {TRUTHS} {lanes.greater(x, same(0.0))} to i{LANES}")
-    return bits if LANES == 8 else lanes.new(f"zext i{LANES} {bits} to i8")
+    count = lanes.count
+    where = lanes.greater(x, same(0.0))
+    bits = lanes.new(f"bitcast <{count} x i1> {where} to i{count}")
+    return bits if count == 8 else lanes.new(f"zext i{count} {bits} to i8")
 
 
 def everywhere(lanes: Lanes, number: str) -> str:
     """Return a number in every lane."""
-    alone = lanes.new(f"insertelement {NUMBERS} undef, double {number}, i32 0")
-    return _shuffled(lanes, alone, alone, [0] * LANES)
+    alone = lanes.new(f"insertelement {lanes.numbers_type} undef, double {number}, i32 0")
+    return _shuffled(lanes, alone, alone, [0] * lanes.count)
 
 
 def lower_and_upper(lanes: Lanes, lower: str, upper: str) -> str:
     """Return the lower half of one and the upper half of the other."""
-    half = LANES // 2
-    return _shuffled(lanes, lower, upper, [*range(half), *range(LANES + half, 2 * LANES)])
+    count, half = lanes.count, lanes.count // 2
+    return _shuffled(lanes, lower, upper, [*range(half), *range(count + half, 2 * count)])
 
 
 def largest(lanes: Lanes, x: str) -> str:
     """Return the largest of the lanes' numbers, which are all numbers."""
-    width = LANES // 2
+    count, width = lanes.count, lanes.count // 2
     while width:
-        other = _shuffled(lanes, x, x, [(k + width) % LANES for k in range(LANES)])
+        other = _shuffled(lanes, x, x, [(k + width) % count for k in range(count)])
         x = lanes.choose(lanes.greater(x, other), x, other)
         width //= 2
-    return lanes.new(f"extractelement {NUMBERS} {x}, i32 0")
+    return lanes.new(f"extractelement {lanes.numbers_type} {x}, i32 0")
 
 
 def _shuffled(lanes: Lanes, x: str, y: str, places: list[int]) -> str:
-    chosen = ", ".join(f"i32 {place}" for place in places)
-    return lanes.new(f"shufflevector {NUMBERS} {x}, {NUMBERS} {y}, {PLACES} <{chosen}>")
+    chosen, numbers = ", ".join(f"i32 {place}" for place in places), lanes.numbers_type
+    order = f"<{lanes.count} x i32> <{chosen}>"
+    return lanes.new(f"shufflevector {numbers} {x}, {numbers} {y}, {order}")

@@ -6,7 +6,6 @@ and keep an entry to each function for itself: more than half of the compilation
 
 import hashlib
 import os
-import platform
 import tempfile
 from collections.abc import Callable
 from functools import cache
@@ -17,28 +16,26 @@ import llvmlite
 from llvmlite import binding
 
 from jointplay.solver.kernels.compiler import order_instructions
-from jointplay.solver.kernels.lanes import target_processor
+from jointplay.solver.kernels.target import Target, own_target
 
 LEVEL_OF_FUNCTIONS, LEVEL_OF_MODULE = 1, 3
 """Levels of optimisation before code is generated. The passes that Numba runs, the highest level of
 functions, too, and some between both, make the same machine code, and take longer."""
-CODE_LEVEL = 3
-"""Level of optimisation of what generates code: the choice of instructions and registers."""
 LONG = 8_000_000
 """Bytes of text (26 four-bars in `reduced`, 14 in `lagrange`) beyond which instructions stay in the
 order in which they are written: to order them takes three times as long for twice the length."""
 
 
-def load_code(text: Callable[[], str], source: Path | None) -> None:
+def load_code(text: Callable[[], str], target: Target, source: Path | None) -> None:
     """Load what a module's text in LLVM's language comes to; compiled once, then from a file.
 
     `source` : beside which the file is; None: nothing is kept.
     """
-    path = None if source is None else _beside(source)
+    path = None if source is None else _beside(source, target)
     if path is not None and path.exists():
         code = path.read_bytes()
     else:
-        code = _compiled(text())
+        code = _compiled(text(), target)
         if path is not None:
             with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as partial:
                 partial.write(code)
@@ -62,18 +59,17 @@ def address_of_number(name: str) -> int:
     return address
 
 
-def _beside(source: Path) -> Path:
-    """Return the file of a source's code for this processor and this compiler."""
-    about = (*target_processor(), llvmlite.__version__, binding.llvm_version_info)
+def _beside(source: Path, target: Target) -> Path:
+    """Return the file of a source's code for a target and this compiler."""
+    about = (target, llvmlite.__version__, binding.llvm_version_info)
     return source.with_suffix(f".{hashlib.sha256(repr(about).encode()).hexdigest()[:12]}.o")
 
 
-def _compiled(text: str) -> bytes:
-    machine = _machine()
+def _compiled(text: str, target: Target) -> bytes:
+    machine = target.machine()
     module = binding.parse_assembly(text)
     module.data_layout = str(machine.target_data)
     module.verify()
-    # without those of functions some sums are written in another order, and have other bits
     for function in module.functions:
         builder = _passes(machine, LEVEL_OF_FUNCTIONS)
         builder.getFunctionPassManager().run(function, builder)
@@ -89,24 +85,8 @@ def _passes(machine: Any, level: int) -> Any:
     return binding.create_pass_builder(machine, options)
 
 
-def _machine() -> Any:
-    """Return the generator of code for this processor, set as Numba sets its own."""
-    binding.initialize_native_target()
-    binding.initialize_native_asmprinter()
-    name, features = target_processor()
-    on_x86 = platform.machine().lower() in ("x86_64", "amd64")
-    return binding.Target.from_triple(binding.get_process_triple()).create_target_machine(
-        cpu=name,
-        features=features,
-        opt=CODE_LEVEL,
-        reloc="static" if on_x86 else "default",
-        codemodel="jitdefault",
-        jit=True,
-    )
-
-
 @cache
 def _engine() -> Any:
     """Return what holds all code that is loaded, as long as the process lives."""
-    machine = _machine()
+    machine = own_target().machine()
     return binding.create_mcjit_compiler(binding.parse_assembly(""), machine)

@@ -6,9 +6,9 @@ Before the second step there is no change before: it is NaN, and no candidate.
 """
 
 from jointplay.solver.kernels.emit.emit import Tape
-from jointplay.solver.kernels.lanes import WIDTHS
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.kernels.target import WIDTHS
 from jointplay.solver.quantities.scalars import minimum, select_positive
 
 BLOCKS = ("channel", "previous", "change", "highest", "lowest")

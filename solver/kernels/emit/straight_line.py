@@ -35,7 +35,6 @@ from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.elimination import factorise, substitute
 from jointplay.solver.kernels.emit.lane_arithmetic import (
-    NUMBERS,
     Lanes,
     everywhere,
     largest,
@@ -43,14 +42,9 @@ from jointplay.solver.kernels.emit.lane_arithmetic import (
     mask,
     same,
 )
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.record.operations import OPERATIONS
 
-PARTS = INSTANTS // LANES
-"""Halves, or the whole, of the instants."""
-ALIGNED = 8
-"""Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
 ARGUMENTS: dict[str, dict[str, str]] = {
     "lanes": {"%W": "ptr"},
     "instants": {"%W": "ptr", "%S": "ptr", "%index": "i64"},
@@ -63,7 +57,7 @@ Symbol = Callable[[str], str]
 """Gives the name by which LLVM knows a function of the module."""
 
 
-def write(tape: str, over: str, rows: int, value: str, symbol: Symbol) -> list[str]:
+def write(tape: str, over: str, rows: int, value: str, symbol: Symbol, count: int) -> list[str]:
     """Return the lines of a function that does what a tape says.
 
     Parameters
@@ -79,16 +73,18 @@ def write(tape: str, over: str, rows: int, value: str, symbol: Symbol) -> list[s
         Type of the function's value.
     symbol
         How functions are called that the tape calls.
+    count
+        Number of lanes.
     """
-    lanes = Lanes()
+    lanes, parts = Lanes(count), INSTANTS // count
     if over == "rows":
         lanes.lines += ["%marks = alloca i8", "store i8 0, ptr %marks"]
         with lanes.loop("0", str(rows)) as row:
             _Tape(lanes, symbol, row=row).run(tape)
         found = lanes.new("load i8, ptr %marks")
         lanes.lines.append(f"ret i64 {lanes.new(f'zext i8 {found} to i64')}")
-    elif over == "instants" and PARTS > 1:
-        with lanes.loop("0", str(PARTS)) as part:
+    elif over == "instants" and parts > 1:
+        with lanes.loop("0", str(parts)) as part:
             _Tape(lanes, symbol, target="%S", part=part).run(tape)
     elif over == "instants":
         _Tape(lanes, symbol, target="%S").run(tape)
@@ -157,11 +153,10 @@ class _Tape:
         return self.values[text] if text in self.values else same(float(text))
 
     def _load(self, array: str, slot: str) -> str:
-        return self.lanes.new(f"load {NUMBERS}, ptr {self._place(array, slot)}, align {ALIGNED}")
+        return self.lanes.load(self._place(array, slot))
 
     def _store(self, slot: str, value: str) -> None:
-        place = self._place(self.target, slot)
-        self.lanes.lines.append(f"store {NUMBERS} {value}, ptr {place}, align {ALIGNED}")
+        self.lanes.store(value, self._place(self.target, slot))
 
     def _mark(self, slot: str, value: str) -> None:
         lanes, bits = self.lanes, mask(self.lanes, value)
@@ -178,19 +173,20 @@ class _Tape:
         late = self._spread_one(later_slot)
         if not self.part:
             return lower_and_upper(lanes, early, late)
-        is_early = lanes.new(f"icmp eq i64 {self.part}, 0")
-        return lanes.new(f"select i1 {is_early}, {NUMBERS} {early}, {NUMBERS} {late}")
+        is_early = lanes.new(f"icmp ult i64 {self.part}, {INSTANTS // lanes.count // 2}")
+        numbers = lanes.numbers_type
+        return lanes.new(f"select i1 {is_early}, {numbers} {early}, {numbers} {late}")
 
     def _place(self, array: str, slot: str) -> str:
         place = slot.removesuffix("+")
         if slot.endswith("+"):
             place = self.lanes.new(f"add i64 {place}, {self.row}")
         if self.part:  # only S is loaded from or stored to
-            whole = self.lanes.new(f"mul i64 {place}, {PARTS}")
+            whole = self.lanes.new(f"mul i64 {place}, {INSTANTS // self.lanes.count}")
             place = self.lanes.new(f"add i64 {whole}, {self.part}")
-        return self.lanes.new(f"getelementptr {NUMBERS}, ptr {array}, i64 {place}")
+        return self.lanes.new(f"getelementptr {self.lanes.numbers_type}, ptr {array}, i64 {place}")
 
     def _spread_one(self, slot: str) -> str:
-        place = self.lanes.new(f"add i64 {int(slot) * LANES}, %index")
+        place = self.lanes.new(f"add i64 {int(slot) * self.lanes.count}, %index")
         place = self.lanes.new(f"getelementptr double, ptr %W, i64 {place}")
         return everywhere(self.lanes, self.lanes.new(f"load double, ptr {place}"))

@@ -14,9 +14,10 @@ from numba.core.datamodel.registry import default_manager
 
 from jointplay.solver.kernels.emit.function import ARRAY, CALLS, OF_ARRAYS, Function
 from jointplay.solver.kernels.emit.functions import WORK
-from jointplay.solver.kernels.emit.lane_arithmetic import DECLARED
+from jointplay.solver.kernels.emit.lane_arithmetic import declared
 from jointplay.solver.kernels.emit.machine_code import load_code
 from jointplay.solver.kernels.emit.straight_line import ARGUMENTS, write
+from jointplay.solver.kernels.target import Target, own_target
 
 _ARRAY_MODEL = default_manager[WORK]
 ARRAY_IN_LOOPS = re.sub(r"\w+\*", "ptr", str(_ARRAY_MODEL.get_value_type()))
@@ -40,7 +41,7 @@ class _Source:
             return "i64"
         return "double" if "\nreturn " in self.tape else "void"
 
-    def text(self, symbol: Callable[[str], str]) -> str:
+    def text(self, symbol: Callable[[str], str], lanes: int) -> str:
         """Return both functions in LLVM's language, and how often loops called the second."""
         arguments, name = ARGUMENTS[self.over], symbol(self.name)
         calls = symbol(self.name + CALLS)
@@ -49,7 +50,7 @@ class _Source:
             # within another function its numbers would be joined with others to other bits
             f"define {self.value} {name}({_listed(arguments, ARRAY)}) noinline nounwind {{",
             "entry:",
-            *write(self.tape, self.over, self.rows, self.value, symbol),
+            *write(self.tape, self.over, self.rows, self.value, symbol, lanes),
             "}",
             f"define {self.value} {symbol(self.name + OF_ARRAYS)}("
             f"{_listed(arguments, ARRAY_IN_LOOPS)}) nounwind {{",
@@ -89,18 +90,28 @@ class Tapes:
         """
         self._sources.append(_Source(name, f"\n{tape}", over, rows))
 
-    def compiled(self, file: str | None = None) -> dict[str, Function]:
-        """Return all functions by name, compiled or, beside the module's file, found to be."""
-        digest = hashlib.sha256(repr(self._sources).encode()).hexdigest()[:24]
+    def compiled(
+        self, file: str | None = None, target: Target | None = None
+    ) -> dict[str, Function]:
+        """Return all functions by name, compiled or, beside the module's file, found to be.
+
+        Parameters
+        ----------
+        target
+            That they are for; by default that of this process.
+        """
+        target = target or own_target()
+        digest = hashlib.sha256(repr((self._sources, target)).encode()).hexdigest()[:24]
         prefix = f"jointplay.{digest}"
 
         def symbol(name: str) -> str:
             return f'@"{prefix}.{name}"'
 
         def text() -> str:
-            return "\n".join([*(one.text(symbol) for one in self._sources), DECLARED])
+            functions = (one.text(symbol, target.lanes) for one in self._sources)
+            return "\n".join([*functions, declared(target.lanes)])
 
-        load_code(text, None if file is None else Path(file))
+        load_code(text, target, None if file is None else Path(file))
         return {
             one.name: Function(
                 one.name, f"{prefix}.{one.name}", one.value, list(ARGUMENTS[one.over].values())

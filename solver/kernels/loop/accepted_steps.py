@@ -6,7 +6,6 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.places import LENGTH, PERIOD, TIME, Places
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.periods import set_clock
 from jointplay.solver.kernels.loop.runs import Run
 
@@ -59,7 +58,8 @@ def read_steps(
 
     Lanes for which none is left repeat the last one.
     """
-    count = min(LANES, len(steps) - first)
-    for lane in range(LANES):
+    lanes = work.shape[1]
+    count = min(lanes, len(steps) - first)
+    for lane in range(lanes):
         read_step(steps[first + min(lane, count - 1)], lane, runs[lane], at, work)
     return count

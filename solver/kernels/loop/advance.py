@@ -13,7 +13,6 @@ from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_a
 from jointplay.solver.kernels.emit.judging import DUE, INSIDE
 from jointplay.solver.kernels.emit.places import PLACES, Places
 from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel, kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.accepted_steps import write_step
 from jointplay.solver.kernels.loop.attention import attend, settle
 from jointplay.solver.kernels.loop.bends import (
@@ -52,7 +51,7 @@ def keep_steps(runs: np.ndarray, at: Places, work: np.ndarray, steps: np.ndarray
 def count_active(at: Places, work: np.ndarray) -> int:
     """Return how many lanes run."""
     running = 0
-    for lane in range(LANES):
+    for lane in range(work.shape[1]):
         if work[at.active, lane] > 0.0:
             running += 1
     return running
@@ -62,7 +61,7 @@ def count_active(at: Places, work: np.ndarray) -> int:
 def any_accepted(at: Places, work: np.ndarray) -> bool:
     """Whether a lane takes the step that was just judged."""
     accepted = 0.0
-    for lane in range(LANES):
+    for lane in range(work.shape[1]):
         accepted += work[at.accept, lane]
     return accepted > 0.0
 
@@ -71,7 +70,7 @@ def any_accepted(at: Places, work: np.ndarray) -> bool:
 def still_landing(runs: np.ndarray) -> bool:
     """Whether a lane is about to land on an onset."""
     landing = 0
-    for lane in range(LANES):
+    for lane in range(len(runs)):
         if runs[lane].landing != NO_PAIR:
             landing += 1
     return landing > 0
@@ -89,7 +88,7 @@ def look_closer(
     gaps_within: LaneFunction,
 ) -> None:
     """Seek extremes that no scan of step ends finds."""
-    for lane in range(LANES):
+    for lane in range(len(runs)):
         flag, run = int(work[at.flag, lane]), runs[lane]
         closely = at.watched_closely or flag & INSIDE or is_due(lane, run, at, work)
         if not work[at.accept, lane] > 0.0:
@@ -137,11 +136,11 @@ def advance(
         no room for growths.
     places
         Where quantities are in `work` and `spare`: one `Places`, in kernels called `at`.
-    work : (slots, LANES)
+    work : (slots, lanes)
         All quantities of all lanes.
     spare : (slots, INSTANTS)
         Room for instants inside a step of one lane.
-    runs : (LANES,)
+    runs : (lanes,)
         Record of each lane's run.
     buffers
         Rows that are handed out.
@@ -168,7 +167,7 @@ def advance(
         quiet = flags == 0.0 and not landing
         full = False
         if not quiet:
-            for lane in range(LANES):
+            for lane in range(len(runs)):
                 flag, run = int(work[at.flag, lane]), runs[lane]
                 wanted = flag != 0 or run.landing != NO_PAIR
                 if wanted and work[at.active, lane] > 0.0:
@@ -178,7 +177,7 @@ def advance(
         if watch or crossing:
             call.observe(work)
         if crossing:
-            for lane in range(LANES):
+            for lane in range(len(runs)):
                 run = runs[lane]
                 if work[at.accept, lane] > 0.0 and may_cross(lane, run, at, work):
                     quiet = False
@@ -198,7 +197,7 @@ def advance(
             )
         if watch or crossing:  # a scan also keeps the values from which channels go on
             candidates = call.scan(work) if quiet else call.scan_some(work)
-            for lane in range(LANES if watch and candidates > 0 else 0):
+            for lane in range(len(runs) if watch and candidates > 0 else 0):
                 if candidates >> lane & 1 and work[at.accept, lane] > 0.0:
                     refine_peaks(
                         lane, runs[lane], at, work, spare, marked, table, call.channels_around
@@ -211,7 +210,7 @@ def advance(
         call.take(work)
         if quiet and not full:
             continue
-        for lane in range(LANES):
+        for lane in range(len(runs)):
             flag, run = int(work[at.flag, lane]), runs[lane]
             wanted = flag != 0 or run.landing != NO_PAIR or has_all_events(run)
             if wanted and work[at.accept, lane] > 0.0:

@@ -10,7 +10,6 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.cuts_at_bends import (
     MOST_PLACES,
     bends_below,
@@ -102,7 +101,7 @@ def find_in_reach(lane: int, at: Places, work: np.ndarray, found: np.ndarray) ->
 @inner_kernel()
 def any_bend(at: Places, work: np.ndarray) -> bool:
     """Whether a slip in any lane may come to a bend in the step that it takes."""
-    for lane in range(LANES):
+    for lane in range(work.shape[1]):
         if work[at.accept, lane] > 0.0 and may_pass_bend(lane, at, work):
             return True
     return False

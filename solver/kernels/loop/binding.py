@@ -93,7 +93,8 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     finest = min((pair.play for pair in pairs), default=math.inf)
     reach = mechanism_size(scene, length)
     radian = unit / (2.0 * math.pi)
-    acceleration = math.hypot(*scene.gravity) + length / radian**2
+    gravity = math.sqrt(sum(part * part for part in scene.gravity))
+    acceleration = gravity + length / radian**2
     crossing = ACROSS * math.sqrt(acceleration * finest) / length
     laws = [pair.clearance.friction for pair in pairs]
     full = [law.full_slip_speed for law in laws if law is not None and not law.is_off]

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
 from jointplay.solver.kernels.loop.advance import advance
 from jointplay.solver.kernels.loop.beginning import begin
@@ -29,6 +28,7 @@ from jointplay.solver.kernels.loop.runs import (
     Buffers,
     Status,
 )
+from jointplay.solver.kernels.target import own_target
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed
 
@@ -46,9 +46,9 @@ class _Group:
     """Lanes that a kernel advances at once."""
 
     work: Floats
-    """(slots, LANES)."""
+    """(slots, lanes)."""
     runs: NDArray[np.void]
-    """(LANES,)."""
+    """(lanes,)."""
     buffers: Buffers
     attempts: int = 0
     """Attempts at a step that were made, each of all lanes at once."""
@@ -83,6 +83,7 @@ class Bundle:
         self.watch = watch
         self.tangents = tangents
         size = (kernel.layout if tangents is None else tangents.layout).size
+        self.width = width = own_target().lanes
         self.spare = aligned_zeros(kernel.layout.size, INSTANTS)
         self.runs = np.zeros(BUNDLE, DTYPE)
         self.runs["status"] = Status.IDLE
@@ -90,29 +91,29 @@ class Bundle:
         self.first_energy = np.zeros((len(ENERGIES), BUNDLE))
         self.groups = [
             _Group(
-                aligned_zeros(size, LANES),
-                self.runs[first : first + LANES],
+                aligned_zeros(size, width),
+                self.runs[first : first + width],
                 Buffers.of(
-                    LANES,
+                    width,
                     ROWS_AT_ONCE,
                     kernel.row.width,
                     kernel.rows.scanned,
                     tangents=tangents is not None,
                     steps=(
-                        min(max(keep_steps - first, 0), LANES),
+                        min(max(keep_steps - first, 0), width),
                         STEPS_AT_ONCE // max(keep_steps, 1),
                         kernel.step_row.width,
                     ),
                 ),
             )
-            for first in range(0, BUNDLE, LANES)
+            for first in range(0, BUNDLE, width)
         ]
         for i, problem in enumerate(problems):
             self.load(i, problem)
 
     def lane(self, i: int) -> Lane:
         """Return the lane of a run."""
-        group, index = divmod(i, LANES)
+        group, index = divmod(i, self.width)
         return Lane(self.kernel, self.tangents, self.groups[group].work, index, self.runs[i])
 
     def block(self, name: str) -> Floats:
@@ -128,7 +129,7 @@ class Bundle:
         """
         lane = self.lane(i)
         bind(lane, problem, None if like is None else self.lane(like))
-        fresh = self.groups[i // LANES].runs["status"] == Status.IDLE
+        fresh = self.groups[i // self.width].runs["status"] == Status.IDLE
         fresh[lane.index] = False
         lane.work[:, fresh] = lane.work[:, [lane.index]]
         lane.work[self.kernel.layout["active"], fresh] = 0.0
@@ -229,22 +230,22 @@ class Bundle:
 
         kind : `SAMPLES` or `SECTIONS`.
         """
-        group, index = divmod(i, LANES)
+        group, index = divmod(i, self.width)
         return self.groups[group].buffers.rows[kind, index, : self.runs["filled"][i, kind]]
 
     def impacts(self, i: int) -> NDArray[np.void]:
         """Return the contacts of a lane that ended in the last call, of dtype `IMPACT`."""
-        group, index = divmod(i, LANES)
+        group, index = divmod(i, self.width)
         return self.groups[group].buffers.impacts[index, : self.runs["impacts"][i]].copy()
 
     def steps(self, i: int) -> Floats:
         """Return accepted steps of a lane in the last call, (count, width); see `StepRow`."""
-        group, index = divmod(i, LANES)
+        group, index = divmod(i, self.width)
         return self.groups[group].buffers.steps[index, : self.runs["kept"][i]]
 
     def growth(self, i: int) -> Floats:
         """Return how a lane's tangent grew in the last call: (k, 2) ends of time, s, logarithms."""
-        group, index = divmod(i, LANES)
+        group, index = divmod(i, self.width)
         growths = self.groups[group].buffers.growths[index, : self.runs["growths"][i]]
         return growths.copy().view(np.float64).reshape(-1, 2)
 
@@ -252,7 +253,7 @@ class Bundle:
         """Return channels (rows, columns) of a lane at rows of dense state."""
         lane, kernel = self.lane(i), self.kernel
         out = np.empty((len(rows), len(columns)))
-        blank = self.spare.reshape(-1)[: kernel.layout.size * LANES].reshape(-1, LANES)
+        blank = self.spare.reshape(-1)[: kernel.layout.size * self.width].reshape(-1, self.width)
         observe_rows(
             kernel.addresses, kernel.places, lane.work, blank, lane.index, rows, columns, out
         )
@@ -285,7 +286,7 @@ class Bundle:
         """Continue from `state`, bit for bit."""
         self.runs[:] = saved[f"{name}/runs"]
         self.first_energy[:] = saved[f"{name}/first_energy"]
-        works = np.split(saved[f"{name}/work"], BUNDLE // LANES, axis=1)
+        works = np.split(saved[f"{name}/work"], BUNDLE // self.width, axis=1)
         for group, work in zip(self.groups, works, strict=True):
             group.work[:] = work
 

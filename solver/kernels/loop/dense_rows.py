@@ -6,7 +6,6 @@ from numba import float64, int64, void
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.places import PERIOD, PLACES, TIME, Places
 from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.periods import due_time
 from jointplay.solver.kernels.loop.runs import Run
@@ -102,7 +101,7 @@ def observe_rows(
 
     Parameters
     ----------
-    blank : (slots, LANES)
+    blank : (slots, lanes)
         Work array of its own.
     rows : (count, width)
         As `write_row` wrote them.
@@ -112,12 +111,13 @@ def observe_rows(
         In the channels' units.
     """
     call, at = functions_at(addresses[0]), places[0]
+    lanes = blank.shape[1]
     for s in range(at.numbers, at.size):
-        for i in range(LANES):
+        for i in range(lanes):
             blank[s, i] = work[s, lane]
-    for first in range(0, len(rows), LANES):
-        count = min(LANES, len(rows) - first)
-        for i in range(LANES):
+    for first in range(0, len(rows), lanes):
+        count = min(lanes, len(rows) - first)
+        for i in range(lanes):
             read_row(rows[first + min(i, count - 1)], i, at, blank)
         call.right_hand_side(blank)
         call.observe(blank)

@@ -6,7 +6,6 @@ from numba import float64, int64, void
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.places import PLACES, Places
 from jointplay.solver.kernels.jit import deferred, inner_kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
 from jointplay.solver.kernels.loop.bends import look_between_bends, may_pass_bend
@@ -144,10 +143,10 @@ def extremes_in_steps(
     blocks, cornered = eights(rows), np.empty_like(suspects)
     around, within = call.channels_around, call.channels_within
     p, present = 0, 0
-    for first in range(0, len(steps), LANES):
+    for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, runs, at, work)
         call.right_hand_side(work)
-        for lane in range(LANES):
+        for lane in range(work.shape[1]):
             remember_start(lane, at, work)
         call.attempt(work)
         while p < len(parts) and parts[p, 0] < first + count:

@@ -20,7 +20,7 @@ class Lane:
     kernel: Kernel
     tangents: Tangents | None
     work: Floats
-    """(slots, LANES) of all lanes beside it, too."""
+    """(slots, lanes) of all lanes beside it, too."""
     index: int
     """Column of the work array."""
     run: Any

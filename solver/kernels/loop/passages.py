@@ -112,7 +112,7 @@ def orbiting_at_end(j: int, lane: int, at: Places, work: np.ndarray) -> float:
     first = at.eccentricity + 6 * j
     x, y = work[first, lane], work[first + 1, lane]
     vx, vy = work[first + AXES, lane], work[first + AXES + 1, lane]
-    return float((x * vy - y * vx) / (np.hypot(x, y) + 1e-300))
+    return float((x * vy - y * vx) / (np.sqrt(x * x + y * y) + 1e-300))
 
 
 @inner_kernel()

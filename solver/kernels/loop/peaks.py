@@ -4,7 +4,6 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extreme import PLACES
 from jointplay.solver.kernels.loop.kinks_beside import look_at_kinks_beside
@@ -50,7 +49,7 @@ def refine_peaks(
         spare[at.theta, i] = (i % HALF) / HALF
     channels_around(work, spare, lane)
     rows, waiting = np.empty(at.rows, np.int64), 0
-    rows = rows[: find_marked(lane, at, marked, rows)]
+    rows = rows[: find_marked(lane, at, marked[at.marked * work.shape[1] :], rows)]
     for r in rows:
         waiting = look_at_quarters(r, waiting, lane, run, at, work, spare, table)
     waiting = look_at_kinks_beside(
@@ -61,11 +60,11 @@ def refine_peaks(
 
 @inner_kernel()
 def find_marked(lane: int, at: Places, marked: np.ndarray, rows: np.ndarray) -> int:
-    """Write the rows that the scan marked for a lane; how many."""
-    first, count = at.marked * LANES, 0
+    """Write the rows that the scan marked for a lane; how many. `marked` : from the marks on."""
+    count = 0
     lanes_bits = np.uint64(ONE_OF_EIGHT << lane)
     for word in range((at.rows + BYTES - 1) // BYTES):
-        bits = marked[first + word] & lanes_bits
+        bits = marked[word] & lanes_bits
         if bits != 0:
             for r in range(min(BYTES, at.rows - BYTES * word)):  # no marks beyond
                 if bits >> np.uint64(8 * r + lane) & np.uint64(1):

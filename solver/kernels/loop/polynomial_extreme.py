@@ -1,5 +1,7 @@
 """Extremes of a channel that is a polynomial in a step, as far as eight even values can tell."""
 
+from fractions import Fraction
+
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
@@ -11,9 +13,24 @@ from jointplay.solver.kernels.loop.tops import CORNER
 
 LAST = INSTANTS - 1
 MIDDLE = 0.5 * LAST
-COEFFICIENTS = np.ascontiguousarray(
-    np.linalg.inv(np.vander(np.arange(INSTANTS) - MIDDLE, increasing=True)).T
-)
+
+
+def lagrange_coefficients() -> list[list[float]]:
+    """Return the coefficients of Lagrange's polynomials about the middle, each rounded once."""
+    found = []
+    for i in range(INSTANTS):
+        powers, others = [Fraction(1)], [k for k in range(INSTANTS) if k != i]
+        for k in others:
+            place, shifted = Fraction(MIDDLE) - k, [Fraction(0), *powers]
+            powers = [
+                (one + place * other) / (i - k)
+                for one, other in zip(shifted, [*powers, Fraction(0)], strict=True)
+            ]
+        found.append([float(power) for power in powers])
+    return found
+
+
+COEFFICIENTS = np.array(lagrange_coefficients())
 """(values, powers): the polynomial through eight values, about the middle of them."""
 SEVENTH = (-1.0, 7.0, -21.0, 35.0)
 """Weights of the seventh difference, of a value less its mirror image."""

@@ -6,7 +6,6 @@ from numba import float64, int64, void
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.places import LENGTH, PERIOD, PLACES, TIME
 from jointplay.solver.kernels.jit import deferred, inner_kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_step, read_steps
 from jointplay.solver.kernels.loop.dense_rows import write_row
@@ -62,9 +61,9 @@ def states_in_steps(
 
     Parameters
     ----------
-    work : (slots, LANES)
+    work : (slots, lanes)
         Lanes that have the scene's numbers; the rest of them is overwritten.
-    runs : (LANES,)
+    runs : (lanes,)
         Each with the run's period.
     steps, moments, found
         As `find_steps` takes them; steps without an instant are not made again.
@@ -73,21 +72,21 @@ def states_in_steps(
     """
     call, at = functions_at(addresses[0]), places[0]
     work, spare, runs = unowned(work), unowned(spare), unowned(runs)
-    begins = np.empty(LANES + 1, np.int64)
-    done = 0
+    lanes, done = work.shape[1], 0
+    begins = np.empty(lanes + 1, np.int64)
     while done < len(found):
-        lanes, i = 0, done
-        while i < len(found) and lanes < LANES:
-            begins[lanes] = i
-            read_step(steps[found[i]], lanes, runs[lanes], at, work)
-            while i < len(found) and found[i] == found[begins[lanes]]:
+        busy, i = 0, done
+        while i < len(found) and busy < lanes:
+            begins[busy] = i
+            read_step(steps[found[i]], busy, runs[busy], at, work)
+            while i < len(found) and found[i] == found[begins[busy]]:
                 i += 1
-            lanes += 1
-        begins[lanes] = i
-        for lane in range(lanes, LANES):
+            busy += 1
+        begins[busy] = i
+        for lane in range(busy, lanes):
             read_step(steps[found[done]], lane, runs[lane], at, work)
         call.attempt(work)
-        for lane in range(lanes):
+        for lane in range(busy):
             start, tried = work[at.time, lane], work[at.tried, lane]
             for first in range(begins[lane], begins[lane + 1], INSTANTS):
                 count = min(INSTANTS, begins[lane + 1] - first)
@@ -116,17 +115,17 @@ def works_in_steps(
     """
     call, at = functions_at(addresses[0]), places[0]
     work, runs = unowned(work), unowned(runs)
-    for first in range(0, len(steps), LANES):
+    for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, runs, at, work)
         call.right_hand_side(work)
         call.weigh(work)
-        for lane in range(LANES):
+        for lane in range(work.shape[1]):
             work[at.stored_start, lane] = work[at.stored, lane]
             for k in range(at.ledger):
                 work[at.kledger1_ + k, lane] = work[at.power + k, lane]
                 work[at.total + k, lane] = 0.0
         call.attempt(work)
-        for lane in range(LANES):
+        for lane in range(work.shape[1]):
             work[at.accept, lane] = 1.0
         call.take(work)
         for lane in range(count):
@@ -146,7 +145,7 @@ def step_ends(
     """Write the states (n, states) that steps (n, width) end with; else as `states_in_steps`."""
     call, at = functions_at(addresses[0]), places[0]
     work, runs = unowned(work), unowned(runs)
-    for first in range(0, len(steps), LANES):
+    for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, runs, at, work)
         call.attempt(work)
         for lane in range(count):

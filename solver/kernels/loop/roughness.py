@@ -12,7 +12,6 @@ import numpy as np
 from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.seeking import HALF
@@ -42,7 +41,7 @@ def is_due(lane: int, run: Run, at: Places, work: np.ndarray) -> bool:
 def any_due(runs: np.ndarray, at: Places, work: np.ndarray) -> bool:
     """Whether a step of any lane is to be looked at inside."""
     found = False
-    for lane in range(LANES):
+    for lane in range(work.shape[1]):
         found |= is_due(lane, runs[lane], at, work)
     return found
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import inner_kernel, kernel
+from jointplay.solver.kernels.loop.logarithm import logarithm
 from jointplay.solver.kernels.loop.runs import Run
 
 GOLDEN = 0.6180339887498949
@@ -76,7 +77,7 @@ def renormalise(lane: int, at: Places, work: np.ndarray) -> float:
     length = tangent_length(lane, at, work)
     if SHORTEST < length < math.inf:
         scale_tangent(1.0 / length, lane, at, work)
-        return math.log(length)
+        return logarithm(length)
     if length <= SHORTEST:
         scale_tangent(0.0, lane, at, work)
         return -math.inf

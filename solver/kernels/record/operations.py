@@ -1,7 +1,6 @@
 """Operations of recorded expressions: one table of what each is on floats, on lanes, derived.
 
-Nothing is reassociated on lanes; products and sums may become one operation (contract), the sign of
-zero does not matter (nsz), a division may become a product (arcp).
+On lanes each is rounded as it is written, but that a sum of a product is rounded once.
 
 Where an operation has no derivative it takes that of the branch in force: a select that of its
 chosen value, a floor and the powers of two none at all. A square root at zero counts as constant,

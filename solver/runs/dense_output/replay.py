@@ -10,7 +10,6 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.places import LENGTH
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.book import blank_book
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
@@ -50,7 +49,7 @@ class ProblemReplay:
     def __init__(self, kernel: Kernel, problem: LaneProblem) -> None:
         self.kernel = kernel
         self._bundle = Bundle(self.kernel, [problem], watch=False)
-        self.runs = self._bundle.runs[:LANES]
+        self.runs = self._bundle.runs[: self._bundle.width]
         self.runs[:] = self.runs[LANE]
         self.period = float(self.runs["period"][LANE])
 

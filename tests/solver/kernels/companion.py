@@ -8,8 +8,10 @@ that end on its onsets.
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
+from jointplay.solver.kernels.target import own_target
+
+LANES = own_target().lanes
 
 Floats = NDArray[np.float64]
 

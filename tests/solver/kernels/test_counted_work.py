@@ -6,8 +6,10 @@ sections are due, or a step is rejected. Bounds are a quarter above what was cou
 
 import pytest
 
-from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.target import own_target
 from tests.solver.kernels.counted_work import CASES, WAYS, count
+
+LANES = own_target().lanes
 
 QUIET = 0.02
 """Share of attempts that a bare run in steady contact may be looked after: a period ends once in

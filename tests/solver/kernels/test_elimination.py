@@ -3,7 +3,9 @@
 import numpy as np
 
 from jointplay.solver.kernels.emit.tapes import Tapes
-from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.target import own_target
+
+LANES = own_target().lanes
 
 N, GAMMA = 4, 0.25
 TIME, TRIED, DIRECTION, PRODUCT, DRIFT, RIGHT, PIVOT, FACTOR = 0, 1, 2, 6, 10, 14, 18, 22

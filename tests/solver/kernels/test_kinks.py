@@ -6,11 +6,13 @@ import pytest
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import kinks
 from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, module_source
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.recorder import Recorder
+from jointplay.solver.kernels.target import own_target
 from jointplay.solver.laws.friction.modified_coulomb import ModifiedCoulomb
+
+LANES = own_target().lanes
 
 
 def slopes_over_steps(

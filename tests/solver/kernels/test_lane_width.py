@@ -1,4 +1,4 @@
-"""A run has the same bits on four lanes as on eight, and goes on at one width from the other."""
+"""A run has the same bits at every width and for every processor, and goes on at another."""
 
 import json
 import os
@@ -9,15 +9,18 @@ from typing import Any
 
 import pytest
 
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kernels.target import target_of
+
 PROGRAM = """
 import hashlib, json, sys
 from pathlib import Path
 import numpy as np
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.integrators import TSITOURAS5
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kinds import admit
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs import budget
@@ -68,18 +71,18 @@ if not saved.exists():
 take(whole, Simulation(admission))
 take(rest, Simulation(admission, saved.read_bytes()))
 print(json.dumps({
-    "lanes": LANES, "onsets": int(bundle.runs["onsets"].sum()),
+    "lanes": own_target().lanes, "onsets": int(bundle.runs["onsets"].sum()),
     "whole": whole.hexdigest(), "rest": rest.hexdigest(),
 }))
 """
 
 
-def run(lanes: str, checkpoint: Path) -> dict[str, Any]:
+def run(checkpoint: Path, lanes: str, **settings: str) -> dict[str, Any]:
     """Run the program in a process of that many lanes."""
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, str(checkpoint)],
         cwd=Path(__file__).parents[3],
-        env=os.environ | {"JOINTPLAY_LANES": lanes},
+        env=os.environ | {"JOINTPLAY_LANES": lanes} | settings,
         capture_output=True,
         text=True,
     )
@@ -88,33 +91,57 @@ def run(lanes: str, checkpoint: Path) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.long  # compiles the loop for the other width
-def test_four_lanes_and_eight_give_the_same_bits_and_take_each_others_checkpoints(
-    tmp_path: Path,
+@pytest.fixture(scope="module")
+def eight(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Path]:
+    """Return what eight lanes give, and the checkpoint that they left."""
+    checkpoint = tmp_path_factory.mktemp("eight") / "by-eight"
+    return run(checkpoint, "8"), checkpoint
+
+
+@pytest.mark.parametrize("lanes", ["1", "4"])
+def test_fewer_lanes_give_the_bits_of_eight_and_take_their_checkpoints(
+    lanes: str, eight: tuple[dict[str, Any], Path], tmp_path: Path
 ) -> None:
-    eight = run("8", tmp_path / "by-eight")
-    four = run("4", tmp_path / "by-eight")
-    assert (eight["lanes"], four["lanes"]) == (8, 4)
-    assert eight["onsets"] > 20
-    assert four["whole"] == eight["whole"]
-    assert four["rest"] == eight["rest"]
-    again = run("4", tmp_path / "by-four")
-    assert run("8", tmp_path / "by-four")["rest"] == again["rest"]
+    expected, checkpoint = eight
+    found = run(checkpoint, lanes)
+    assert (expected["lanes"], found["lanes"]) == (8, int(lanes))
+    assert expected["onsets"] > 20
+    assert found["whole"] == expected["whole"]
+    assert found["rest"] == expected["rest"]
+    again = run(tmp_path / "by-fewer", lanes)
+    assert run(tmp_path / "by-fewer", "8")["rest"] == again["rest"]
+
+
+@pytest.mark.long  # compiles the loop for another processor
+@pytest.mark.skipif(os.uname().machine != "x86_64", reason="Arm has one kind of arithmetic")
+def test_an_older_processor_gives_the_bits_of_this_one(eight: tuple[dict[str, Any], Path]) -> None:
+    expected, checkpoint = eight
+    older = {"NUMBA_CPU_NAME": "x86-64-v3", "NUMBA_CPU_FEATURES": ""}
+    found = run(checkpoint, "4", **older)
+    assert found["whole"] == expected["whole"]
+    assert found["rest"] == expected["rest"]
 
 
 @pytest.mark.parametrize("lanes", ["2", "16", "eight"])
 def test_another_number_of_lanes_is_refused_with_a_sentence(lanes: str) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", "import jointplay.solver.kernels.lanes"],
+        [
+            sys.executable,
+            "-c",
+            "from jointplay.solver.kernels.target import own_target; own_target()",
+        ],
         env=os.environ | {"JOINTPLAY_LANES": lanes},
         capture_output=True,
         text=True,
     )
     assert done.returncode == 1
-    assert f"It is '{lanes}'; it must be 4 (vectors of 256 bits) or 8 (512 bits)" in done.stderr
+    assert (
+        f"It is '{lanes}'; it must be 1 (no vectors), 4 (vectors of 256 bits) or 8 (512 bits)"
+        in done.stderr
+    )
 
 
-PROCESSORS = {"x86_64": {"haswell": 4, "x86-64-v4": 8, "generic": 4}, "aarch64": {"generic": 4}}
+PROCESSORS = {"x86_64": {"haswell": 4, "x86-64-v4": 8}, "aarch64": {"generic": 4}}
 
 
 def test_the_width_is_that_of_the_processor_that_is_compiled_for() -> None:
@@ -124,7 +151,7 @@ def test_the_width_is_that_of_the_processor_that_is_compiled_for() -> None:
             [
                 sys.executable,
                 "-c",
-                "from jointplay.solver.kernels.lanes import LANES; print(LANES)",
+                "from jointplay.solver.kernels.target import own_target; print(own_target().lanes)",
             ],
             env=os.environ | chosen,
             capture_output=True,
@@ -132,3 +159,9 @@ def test_the_width_is_that_of_the_processor_that_is_compiled_for() -> None:
             check=True,
         )
         assert int(done.stdout) == lanes, processor
+
+
+@pytest.mark.skipif(os.uname().machine != "x86_64", reason="any 64-bit Arm has fused products")
+def test_a_processor_without_fused_products_is_refused_by_name() -> None:
+    with pytest.raises(InvalidInput, match=r"processor 'x86-64-v2' has no fused multiplication"):
+        target_of("x86-64-v2", "")

@@ -13,12 +13,14 @@ from jointplay.solver.kernels.emit.enclosure import may_open
 from jointplay.solver.kernels.emit.judging import RELEASE
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.places import DTYPE
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.bundle import aligned_zeros
 from jointplay.solver.kernels.loop.openings import dip, falling_root
+from jointplay.solver.kernels.target import own_target
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.readable_mechanics import preset
+
+LANES = own_target().lanes
 
 depths = st.floats(1e-12, 1.0)
 rates = st.floats(-10.0, 10.0)

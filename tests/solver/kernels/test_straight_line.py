@@ -9,10 +9,12 @@ from hypothesis import strategies as st
 
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.emit.tapes import Tapes
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS, Layout
 from jointplay.solver.kernels.record.operations import OPERATIONS
 from jointplay.solver.kernels.record.recorder import Recorder
+from jointplay.solver.kernels.target import own_target
+
+LANES = own_target().lanes
 
 SLOTS = 24
 POSITIVE = {"sqrt", "exponent_of", "mantissa_of"}

@@ -6,13 +6,15 @@ from itertools import cycle
 import numpy as np
 import pytest
 
-from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.target import own_target
 from jointplay.solver.scene import presets
 from tests.solver.completed_runs import CASE_3
 from tests.solver.kernels.tangent_runs import bundle_of, grown, growth, problem
 from tests.solver.readable_mechanics import preset, scene_of
 from tests.solver.runs.test_determinism import PROBLEMS, finish
+
+LANES = own_target().lanes
 
 # what a run with tangents leaves alone
 

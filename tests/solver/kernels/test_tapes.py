@@ -8,7 +8,9 @@ from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import WORK
 from jointplay.solver.kernels.emit.tapes import Tapes
-from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.target import own_target
+
+LANES = own_target().lanes
 
 SQUARED = "v0 = load 0\nv1 = mul v0 v0\nstore 1 v1"
 MOVED = "v0 = load 0+\nstore 2+ v0"

@@ -1,0 +1,100 @@
+"""The processor that kernels are compiled for, and the number of lanes that they advance at once.
+
+Neither changes a result, only how fast one comes. Every lane computes what it would compute alone:
+a bundle has eight lanes at any width, and instants inside a step are looked at by eights. Every
+sum is rounded as it is written; see `solver.kernels.emit.lane_arithmetic`.
+"""
+
+# mypy: disable-error-code="no-untyped-call"
+
+import os
+import platform
+import re
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Final
+
+import numba
+from llvmlite import binding
+from numba.core.codegen import get_host_cpu_features
+
+from jointplay.records.failure import InvalidInput
+
+WIDTHS: Final = {"1": 1, "4": 4, "8": 8}
+"""For single numbers, and for vectors of 256 and of 512 bits."""
+CODE_LEVEL = 3
+"""Level of optimisation of what generates code: the choice of instructions and registers."""
+PROBE = """
+declare <8 x double> @llvm.fma.v8f64(<8 x double>, <8 x double>, <8 x double>)
+define <8 x double> @fused(<8 x double> %x, <8 x double> %y, <8 x double> %z) {
+  %sum = call <8 x double> @llvm.fma.v8f64(<8 x double> %x, <8 x double> %y, <8 x double> %z)
+  ret <8 x double> %sum
+}
+"""
+
+
+@dataclass(frozen=True)
+class Target:
+    """A processor, as LLVM knows it, and the numbers that are computed side by side."""
+
+    lanes: int
+    processor: str
+    features: str
+
+    def machine(self) -> Any:
+        """Return LLVM's generator of code for it, set as Numba sets its own."""
+        binding.initialize_native_target()
+        binding.initialize_native_asmprinter()
+        on_x86 = platform.machine().lower() in ("x86_64", "amd64")
+        return binding.Target.from_triple(binding.get_process_triple()).create_target_machine(
+            cpu=self.processor,
+            features=self.features,
+            opt=CODE_LEVEL,
+            reloc="static" if on_x86 else "default",
+            codemodel="jitdefault",
+            jit=True,
+        )
+
+
+@cache
+def own_target() -> Target:
+    """Return what this process compiles for.
+
+    The processor is the one that Numba compiles for: the host, or what ``NUMBA_CPU_NAME`` and
+    ``NUMBA_CPU_FEATURES`` say. ``JOINTPLAY_LANES`` chooses the lanes.
+
+    Raises
+    ------
+    InvalidInput
+        The variable is none of `WIDTHS`, or the processor has no fused products.
+    """
+    name, features = numba.config.CPU_NAME, numba.config.CPU_FEATURES  # type: ignore[attr-defined]
+    return target_of(
+        binding.get_host_cpu_name() if name is None else name,
+        get_host_cpu_features() if features is None else features,
+        os.environ.get("JOINTPLAY_LANES"),
+    )
+
+
+def target_of(processor: str, features: str, chosen: str | None = None) -> Target:
+    """Return a processor as a target; without a chosen width it has as many lanes as suit it.
+
+    Eight where eight numbers are one vector there: some processors have such vectors, and are known
+    to be slower with them.
+    """
+    if chosen and chosen not in WIDTHS:
+        raise InvalidInput.at(
+            "JOINTPLAY_LANES",
+            f"It is '{chosen}'; it must be 1 (no vectors), 4 (vectors of 256 bits) or 8 (512"
+            " bits). Unset it to have the width of the processor.",
+        )
+    found = Target(WIDTHS[chosen or "1"], processor, features)
+    code = found.machine().emit_assembly(binding.parse_assembly(PROBE))
+    if re.search(r"\bfma\b", code):  # a function of the C library
+        raise InvalidInput.at(
+            "NUMBA_CPU_NAME",
+            f"The processor '{processor}' has no fused multiplication and addition (FMA), without"
+            " which results would have other bits. Processors of 2013 and later have it:"
+            " x86-64-v3, and any 64-bit Arm.",
+        )
+    return found if chosen else Target(8 if "zmm" in code else 4, processor, features)

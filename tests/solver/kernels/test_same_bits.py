@@ -1,0 +1,66 @@
+"""Generated code gives the same bits at every width and on every processor it is compiled for."""
+
+import os
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.tangents import compile_tangents
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
+from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.target import Target, own_target
+from tests.solver.readable_mechanics import preset
+
+OWN = own_target()
+OTHER = "x86-64-v3" if os.uname().machine == "x86_64" else "generic"
+TARGETS = [Target(lanes, OWN.processor, OWN.features) for lanes in (1, 4, 8)]
+TARGETS += [Target(lanes, OTHER, "") for lanes in (1, 4, 8)]
+OF_LANES = ("right_hand_side", "attempt", "observe", "observe_rest", "weigh", "take", "remember")
+WITHIN = ("states_within", "gaps_within", "channels_within")
+
+
+@pytest.fixture(scope="module", params=["slider-crank tsitouras", "slider-crank rodas"])
+def bundle(request: pytest.FixtureRequest) -> Bundle:
+    """Return eight runs that have begun, some of them in contact."""
+    name, method = request.param.split()
+    scenes = [preset(name, clearance=float(value)) for value in np.linspace(1e-4, 5e-4, BUNDLE)]
+    kernel = ready_kernel(scenes[0], "reduced", method)
+    problems = [LaneProblem(scene, 1e3, 1e-6, 1e3, 0, 0, 0.0) for scene in scenes]
+    begun = Bundle(kernel, problems, tangents=compile_tangents(kernel))
+    begun.advance(3000)
+    assert begun.runs["onsets"].sum() > BUNDLE
+    return begun
+
+
+def results(bundle: Bundle, target: Target) -> Iterator[tuple[str, Any]]:
+    """Yield the name of each function and what it leaves in W, and in S, on a target."""
+    kernel: Kernel = bundle.kernel
+    assert bundle.tangents is not None
+    run = kernel.module.tapes.compiled(target=target)
+    run |= bundle.tangents.module.tapes.compiled(target=target)
+    whole = np.concatenate([group.work for group in bundle.groups], axis=1)
+    count = target.lanes
+    parts = [np.ascontiguousarray(whole[:, i : i + count]) for i in range(0, BUNDLE, count)]
+    for name in (*OF_LANES, "tangent_step", "tangent_gaps"):
+        for part in parts:
+            run[name](part)
+        yield name, np.concatenate(parts, axis=1).view(np.int64)
+    for name in WITHIN:
+        spare = aligned_zeros(kernel.layout.size, INSTANTS)
+        spare[kernel.layout["theta"]] = np.linspace(0.0, 1.0, INSTANTS)
+        run[name](parts[0], spare, 0)
+        yield name, spare.view(np.int64)
+
+
+@pytest.mark.parametrize("target", TARGETS, ids=lambda t: f"{t.processor}, {t.lanes} lanes")
+def test_every_function_has_the_bits_of_this_processors_own(bundle: Bundle, target: Target) -> None:
+    for (name, expected), (_, found) in zip(
+        results(bundle, OWN), results(bundle, target), strict=True
+    ):
+        differing = np.argwhere(expected != found)
+        assert not len(differing), (name, differing[:5])
