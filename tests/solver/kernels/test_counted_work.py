@@ -1,7 +1,8 @@
 """The loop's work beside attempting steps is bounded, in numbers of calls: a loss is noticed.
 
 A run that seeks nothing looks after single lanes only where contacts begin or end, samples or
-sections are due, or a step is rejected. Bounds are a quarter above what was counted, and 0.01.
+sections are due, or a step is rejected. Bounds are a quarter above what was counted, and 0.01; the
+slider-crank's motion is chaotic, and counts are the largest of six starts.
 """
 
 import pytest
@@ -18,7 +19,7 @@ ten thousand attempts, the pace is checked as rarely."""
 ATTENDED = {
     "press, steady": {"bare": 0.0001, "extremes": 0.0366},  # a lane swings in one step of thirty
     "press, in flight": {"bare": 0.1834, "extremes": 0.2169},  # onsets, rejections
-    "slider-crank, impacting": {"bare": 0.0966, "extremes": 0.1235},
+    "slider-crank, impacting": {"bare": 0.1157, "extremes": 0.1417},
     "driven pendulum": {"bare": 0.01, "extremes": 0.01},  # the end of a period
     "journal, bouncing": {"bare": 0.2121, "extremes": 0.2476},
 }
@@ -46,7 +47,7 @@ CALLS = {
         "crossings": {"scan_some": 0.646, "channels_within": 0.24},
     },
     "slider-crank, impacting": {
-        "bare": {"gaps_within": 0.293, "weigh": 0.066},
+        "bare": {"gaps_within": 0.552, "weigh": 0.078},
         "extremes": {"scan_some": 0.656, "channels_within": 0.244, "channels_around": 0.672},
         "crossings": {"scan_some": 0.628, "channels_within": 0.291},
     },
@@ -92,9 +93,7 @@ def test_work_beside_the_attempts_is_bounded(case: str, way: str) -> None:
     groups = 8 / LANES
     once = dict.fromkeys(EVERY[way], groups)
     expected = {name: bound(calls) for name, calls in (bare | CALLS[case].get(way, {})).items()}
-    expected["scan_some"] = groups * expected.get(
-        "scan_some", 0.0
-    )  # one lane sends its group there
+    expected["scan_some"] = groups * expected.get("scan_some", 0.0)  # one lane sends its group
     expected |= {"tangent_gaps": bound(bare.get("weigh", 0.0))} if way == "tangents" else {}
     for function, calls in work.calls.items():
         assert calls <= (expected | once).get(function, 0.0) + 1e-12, function
