@@ -3,7 +3,7 @@
 # make test       everything that continuous integration checks
 # make test-long  the tests that take longer
 # make bench      measure speed on this machine
-# make install    only .venv with the dependencies
+# make install    only .venv with the dependencies, and the integration loop compiled
 # make docs       the documentation as a site: build/site/index.html
 # make clean      remove what the others made
 .DEFAULT_GOAL := help
@@ -35,6 +35,8 @@ $(STAMP): pyproject.toml setup.py
 	touch $(STAMP)
 
 install: $(STAMP)
+	@echo "compiling the integration loop (most of a minute, once)"
+	@$(BIN)/python -m jointplay.solver.kernels.compile_loop
 
 demo: $(STAMP)
 	@$(BIN)/jointplay demo seven-bar-press

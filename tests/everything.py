@@ -1,5 +1,7 @@
 """Everything that `make test` checks, six steps side by side, with the time of each.
 
+The integration loop is compiled first, by one step for all tests: each would compile it for itself.
+
 Run as ``python -m tests.everything [STEP ...]``; without a step, all of them. A third of the tests
 wait (for leases, restarts, shutdowns) while the others compute. Processor seconds are those of the
 processes that ended before the step did.
@@ -13,8 +15,9 @@ import tempfile
 import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from threading import Event
 
 from tests.wheel_layout import ROOT, lay_out
 
@@ -50,9 +53,14 @@ class Step:
     processor: float = 0.0
     failed: bool = False
     output: str = ""
+    after: Event | None = None
+    """Happens before the command is run."""
+    ended: Event = field(default_factory=Event)
 
     def run(self) -> "Step":
         """Run the command; remember its output, time, outcome and pytest's counts."""
+        if self.after is not None:
+            self.after.wait()
         print(f"{self.name} ...", flush=True)
         start = time.monotonic()
         with tempfile.TemporaryFile("w+", errors="replace") as output:
@@ -71,6 +79,7 @@ class Step:
             self.counts["failed" if outcome.startswith("error") else outcome] += int(number)
         if self.failed and not self.counts["failed"]:
             self.counts["failed"] = 1  # a check, or a pytest that broke off
+        self.ended.set()
         return self
 
 
@@ -84,16 +93,19 @@ def steps() -> list[Step]:
     without = {"solver": ["--ignore", str(tests / "solver/runs")]}  # half of it
     files = {path.relative_to(tests).parts[0] for path in tests.rglob("test_*.py")}
     others = [str(tests / name) for name in sorted(files.difference(*GROUPS))]
+    loop = Step("loop", [sys.executable, "-m", "jointplay.solver.kernels.compile_loop"])
     return [
+        loop,
         Step("format", [str(bin_folder / "ruff"), "format", "--check", "."]),
         Step("lint", [str(bin_folder / "ruff"), "check", "."]),
         Step("types", [str(bin_folder / "mypy"), *settings, f"--cache-dir={cache}"], tree),
         Step("imports", [str(bin_folder / "lint-imports"), "--config", str(configuration)], tree),
-        Step("tests", [*pytest, *others]),
+        Step("tests", [*pytest, *others], after=loop.ended),
         *(
             Step(
                 f"tests/{'+'.join(group)}",
                 [*pytest, *(str(tests / name) for name in group), *without.get(group[0], [])],
+                after=loop.ended,
             )
             for group in GROUPS
         ),
@@ -104,6 +116,8 @@ def main() -> int:
     """Run the steps and close with one line of counts."""
     chosen = sys.argv[1:]
     run = [step for step in steps() if not chosen or step.name in chosen]
+    if not any(step.name == "loop" for step in run):
+        run = [replace(step, after=None) for step in run]
     if not run:
         print("there are these steps: " + ", ".join(step.name for step in steps()))
         return 2
