@@ -24,7 +24,7 @@ LONGEST_FIRST = (
 )
 """The kernels that Python calls; what they call is compiled with them."""
 APART = 1
-"""How many of them have a process of their own; the rest take a fifth of the time, together."""
+"""Number of them that have a process of their own; the rest take a fifth of the time, together."""
 
 
 def main(names: Sequence[str]) -> int:
@@ -39,7 +39,7 @@ def main(names: Sequence[str]) -> int:
         return 0
     every = list(kernels)
     parts = [*([name] for name in every[:APART]), every[APART:]]
-    command = [sys.executable, "-m", "jointplay.solver.kernels.compile_loop"]
+    command = [sys.executable, "-P", "-m", "jointplay.solver.kernels.compile_loop"]
     begun = [subprocess.Popen([*command, *part]) for part in parts]  # noqa: S603  (our own)
     codes = [one.wait() for one in begun]
     if any(codes):
