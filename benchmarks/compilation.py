@@ -22,8 +22,9 @@ from typing import Any
 from benchmarks.four_bars import four_bars
 from benchmarks.hostile_bodies import chain, free
 from jointplay.records.failure import LimitExceeded
+from jointplay.solver.kernels.compile_loop import RUNS, compile_part
 from jointplay.solver.kernels.emit.tangents import compile_tangents
-from jointplay.solver.kernels.kernel_cache import compile_loop, ready_kernel
+from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.record.equations import record
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
@@ -101,7 +102,7 @@ def main() -> None:
     arguments = parser.parse_args()
     if arguments.one:
         name, count, formulation = arguments.one
-        compile_loop()
+        compile_part(RUNS)
         print(json.dumps(compiled(name, int(count), formulation, arguments.tangents)))
         return
     print(

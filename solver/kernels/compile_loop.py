@@ -1,51 +1,69 @@
-"""`python -m jointplay.solver.kernels.compile_loop [KERNEL ...]`: compile the loop, once for all.
+"""`python -m jointplay.solver.kernels.compile_loop [PART ...]`: compile the loop into the cache.
 
-The equations of a mechanism are compiled when it is first run, in seconds; the loop around them is
-the same for all, and takes most of a minute of processor time. Where it is in the cache already,
-nothing is done. Kernels that are named are compiled in this process, else each in its own.
+It is the same for every scene, whose own equations take seconds: on a machine that has never
+computed, a second process compiles it while the first compiles the scene's own kernel. Parts that
+are named are compiled in this process; without any, those that are not in the cache yet, each in a
+process of its own.
 """
 
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
-from jointplay.solver.kernels.cache import cache_folder
+from filelock import FileLock
+
+from jointplay.solver.kernels.cache import cache_folder, without_collection
 from jointplay.solver.kernels.jit import Deferred
-from jointplay.solver.kernels.loop import advance, dense_rows, extremes_in_steps, replay
-
-LONGEST_FIRST = (
-    advance.advance,
-    extremes_in_steps.extremes_in_steps,
-    replay.states_in_steps,
-    dense_rows.observe_rows,
-    replay.works_in_steps,
-    replay.step_ends,
-    replay.find_steps,
+from jointplay.solver.kernels.loop.advance import advance
+from jointplay.solver.kernels.loop.dense_rows import observe_rows
+from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
+from jointplay.solver.kernels.loop.replay import (
+    find_steps,
+    states_in_steps,
+    step_ends,
+    works_in_steps,
 )
-"""The kernels that Python calls; what they call is compiled with them."""
-APART = 1
-"""Number of them that have a process of their own; the rest take a fifth of the time, together."""
+
+RUNS, WINDOWS = "runs", "windows"
+PARTS: Mapping[str, Sequence[Deferred]] = {
+    RUNS: (advance, observe_rows),
+    WINDOWS: (extremes_in_steps, states_in_steps, works_in_steps, step_ends, find_steps),
+}
+"""Kernels that Python calls: what every run needs, and what makes stored steps again."""
 
 
-def main(names: Sequence[str]) -> int:
-    """Compile the named kernels, or all of them; 0 if that went well."""
-    kernels: dict[str, Deferred] = {one.function.__name__: one for one in LONGEST_FIRST}
-    if names:
-        for name in names:
-            kernels[name].compile()
-        return 0
-    mark = cache_folder() / "loop.compiled"
-    if mark.exists():
-        return 0
-    every = list(kernels)
-    parts = [*([name] for name in every[:APART]), every[APART:]]
-    command = [sys.executable, "-P", "-m", "jointplay.solver.kernels.compile_loop"]
-    begun = [subprocess.Popen([*command, *part]) for part in parts]  # noqa: S603  (our own)
-    codes = [one.wait() for one in begun]
-    if any(codes):
-        return 1
-    mark.touch()
-    return 0
+def compile_part(part: str) -> None:
+    """Compile a part, or load it from the cache; only one process compiles."""
+    with FileLock(_marker(part).with_suffix(".lock")), without_collection():
+        for one in PARTS[part]:
+            one.compile()
+    _marker(part).touch()
+
+
+def begin(part: str) -> subprocess.Popen[bytes] | None:
+    """Start compiling a part in a process of its own; None when it is in the cache."""
+    if _marker(part).exists():
+        return None
+    return subprocess.Popen(  # noqa: S603 - our own program
+        [sys.executable, "-P", "-m", "jointplay.solver.kernels.compile_loop", part],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+
+
+def main(parts: Sequence[str]) -> int:
+    """Compile the parts that are named, or all; 1 if one does not compile."""
+    for part in parts:
+        compile_part(part)
+    begun = [] if parts else [begin(part) for part in PARTS]
+    codes = [one.wait() for one in begun if one is not None]
+    return int(any(codes))
+
+
+def _marker(part: str) -> Path:
+    return cache_folder() / f"{part}-compiled"
 
 
 if __name__ == "__main__":

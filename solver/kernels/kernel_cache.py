@@ -1,20 +1,8 @@
-"""`python -m jointplay.solver.kernels.kernel_cache`: compile the driving loop into the cache.
-
-It is the same for every scene; on a machine that has never computed, a second process compiles it
-while the first compiles the scene's own kernel.
-"""
-
-import subprocess
-import sys
-from pathlib import Path
-
-from filelock import FileLock
+"""Kernels that a process keeps, each ready to run, with the loop around it."""
 
 from jointplay.solver.integrators import AUTO, METHODS
-from jointplay.solver.kernels.cache import cache_folder, without_collection
+from jointplay.solver.kernels import compile_loop
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
-from jointplay.solver.kernels.loop.advance import advance
-from jointplay.solver.kernels.loop.dense_rows import observe_rows
 from jointplay.solver.kernels.watched import attend
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.mechanics.view import form
@@ -23,26 +11,6 @@ from jointplay.solver.scene.document import Scene
 _kernels: dict[tuple[str, Tree, str, str], Kernel] = {}
 MOST_KEPT = 16
 """Kernels that a process keeps for the next job: recording the equations takes 20 ms and more."""
-
-
-def compile_loop() -> None:
-    """Compile what every run shares, or load it from the cache; only one process compiles."""
-    with FileLock(_marker().with_suffix(".lock")), without_collection():
-        advance.compile()
-        observe_rows.compile()
-    _marker().touch()
-
-
-def compile_loop_aside() -> subprocess.Popen[bytes] | None:
-    """Start compiling the loop in a process of its own; None when it is in the cache."""
-    if _marker().exists():
-        return None
-    return subprocess.Popen(
-        [sys.executable, "-P", "-m", "jointplay.solver.kernels.kernel_cache"],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
 
 
 def ready_kernel(scene: Scene, formulation: str, method: str = AUTO.name) -> Kernel:
@@ -61,18 +29,10 @@ def ready_kernel(scene: Scene, formulation: str, method: str = AUTO.name) -> Ker
     key = (form(scene), tree, formulation, method)
     if key in _kernels:
         return _kernels[key]
-    aside = compile_loop_aside()
+    aside = compile_loop.begin(compile_loop.RUNS)
     while len(_kernels) >= MOST_KEPT:
         _kernels.pop(next(iter(_kernels)))
     kernel = _kernels[key] = compile_kernel(scene, tree, formulation, METHODS[method])
     if aside is not None:
         attend(aside)
     return kernel
-
-
-def _marker() -> Path:
-    return cache_folder() / "loop-compiled"
-
-
-if __name__ == "__main__":
-    compile_loop()

@@ -16,16 +16,15 @@ def test_every_kernel_that_python_calls_is_compiled() -> None:
     for module in pkgutil.walk_packages(kernels.__path__, f"{kernels.__name__}."):
         members = vars(importlib.import_module(module.name)).values()
         found |= {one for one in members if isinstance(one, Deferred)}
-    assert found == set(compile_loop.LONGEST_FIRST)
+    assert found == {one for part in compile_loop.PARTS.values() for one in part}
 
 
 def test_what_is_compiled_already_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(compile_loop, "cache_folder", lambda: tmp_path)
-    monkeypatch.setattr(compile_loop, "APART", 0)
-    monkeypatch.setattr(compile_loop, "LONGEST_FIRST", compile_loop.LONGEST_FIRST[-1:])
+    compile_loop.compile_part(compile_loop.WINDOWS)
+    (tmp_path / "runs-compiled").touch()
+    monkeypatch.setattr(compile_loop, "subprocess", None)  # nothing can be started any more
     assert compile_loop.main([]) == 0
-    (mark,) = tmp_path.iterdir()
-    first = mark.stat().st_mtime_ns
-    monkeypatch.setattr(compile_loop, "subprocess", None)  # nothing is started any more
-    assert compile_loop.main([]) == 0
-    assert mark.stat().st_mtime_ns == first
+    (tmp_path / "windows-compiled").unlink()
+    with pytest.raises(AttributeError):
+        compile_loop.main([])

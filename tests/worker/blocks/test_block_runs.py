@@ -240,7 +240,7 @@ def compiling(catalogue: Catalogue, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(kernel_cache, "_kernels", {})
     folder = tmp_path / "kernels"
     folder.mkdir()
-    (folder / "loop-compiled").touch()
+    (folder / "runs-compiled").touch()
     for module in (cache, kernel_cache):
         monkeypatch.setattr(module, "cache_folder", lambda: folder)
     admitted = admit(SEVERAL_BODIES)
