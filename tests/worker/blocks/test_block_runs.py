@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from one_block import run
 
-from jointplay.solver.kernels import cache, kernel_cache
+from jointplay.solver.kernels import cache, compile_loop, kernel_cache
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -241,7 +241,7 @@ def compiling(catalogue: Catalogue, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     folder = tmp_path / "kernels"
     folder.mkdir()
     (folder / "runs-compiled").touch()
-    for module in (cache, kernel_cache):
+    for module in (cache, compile_loop):
         monkeypatch.setattr(module, "cache_folder", lambda: folder)
     admitted = admit(SEVERAL_BODIES)
     new = NewJob("simulate", admitted.job, admitted.digest, SOLVER_VERSION)
