@@ -1,8 +1,9 @@
 """Queueing: what a request asks for is checked and stored, and those who compute it are woken."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 from fastapi import Depends, Request
 
@@ -15,10 +16,18 @@ from jointplay.service.idempotency import Repeatable, SentKey
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.bell import Bell
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Batch, Job, Submitted, SubmittedBatch
+from jointplay.storage.catalogue.records import (
+    Batch,
+    Job,
+    SubmissionKey,
+    Submitted,
+    SubmittedBatch,
+)
 from jointplay.storage.catalogue.retries import RETRIABLE
 from jointplay.storage.settings import Settings
 from jointplay.worker.wake_up import wake_relay
+
+Found = TypeVar("Found", Submitted, SubmittedBatch)
 
 
 class Queueing:
@@ -41,6 +50,9 @@ class Queueing:
     def submit(self, body: bytes, repeatable: Repeatable, caller: Caller) -> Submitted:
         """Queue the job of a document, or find the one that computes the same."""
         with repeatable.in_flight():
+            earlier = self._earlier(repeatable.sent_key, body, self._catalogue.submitted_job)
+            if earlier is not None:
+                return earlier
             found = self._checker.check(CheckJob(repeatable.sent_key), body)
             own = replace(found.job, owner=caller.owner)
             quota = quota_of(caller, self._settings)
@@ -53,7 +65,7 @@ class Queueing:
         """Queue all jobs of a document, or none; or find the batch of an earlier request."""
         with repeatable.in_flight():
             key = repeatable.sent_key or SentKey.made_here(caller.owner)
-            submitted = self._earlier(key, body)
+            submitted = self._earlier(key, body, self._catalogue.submitted_batch)
             if submitted is None:
                 what = QueueBatch(key, caller.owner, quota_of(caller, self._settings))
                 submitted = self._checker.check(what, body)
@@ -99,14 +111,16 @@ class Queueing:
         what = QueueBatch(key, batch.owner, quota, retries)
         return self._woken_for(self._checker.check(what, json.dumps(document).encode()))
 
-    def _earlier(self, key: SentKey, body: bytes) -> SubmittedBatch | None:
-        """Return the batch that a key was answered with: to find it takes milliseconds.
+    def _earlier(
+        self, key: SentKey | None, body: bytes, find: Callable[[SubmissionKey], Found | None]
+    ) -> Found | None:
+        """Return what a key was answered with: to find it takes milliseconds, a check may not.
 
         Only a body whose key is known is parsed here.
         """
-        if not self._catalogue.is_remembered(key.with_document(None)):
+        if key is None or not self._catalogue.is_remembered(key.with_document(None)):
             return None
-        return self._catalogue.submitted_batch(key.with_document(parse(body)))
+        return find(key.with_document(parse(body)))
 
     def _woken_for(self, submitted: SubmittedBatch) -> SubmittedBatch:
         if submitted.created:

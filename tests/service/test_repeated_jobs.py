@@ -1,5 +1,6 @@
 """Jobs that are asked for again: identical ones, repeated requests, expired and deleted ones."""
 
+import math
 import threading
 from datetime import UTC, datetime, timedelta
 
@@ -7,7 +8,9 @@ import httpx
 import pytest
 
 from jointplay.records.job import JobError
+from jointplay.service import checking
 from jointplay.service.app import create_app
+from jointplay.service.jobs.submission import checked
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.settings import Settings
@@ -83,6 +86,34 @@ def test_a_repeated_request_finds_what_the_first_one_made(own):
     assert len(http.get("/v1/jobs").json()["jobs"]) == 1
     batch = http.post("/v1/batches", json={"jobs": [job]}, headers=key)
     assert batch.json()["type"] == "/problems/key-reused"
+
+
+@pytest.mark.parametrize("points", [2, 2000])
+def test_a_job_that_is_sent_again_is_found_before_it_is_checked(tmp_path, monkeypatch, points):
+    counted = []
+    values = [4.0 + 1e-4 * math.pi * i for i in range(points)]
+    study = {"kind": "bifurcation", "scene": {"preset": "driven-pendulum"}, "parameter": "speed"}
+    study |= {"values": values, "settle": 1, "record": 1}
+    headers = {"Idempotency-Key": "a-study"}
+    app = create_app(Settings(data=tmp_path / "data"))
+    with serving(app) as url, httpx.Client(base_url=url, trust_env=False, timeout=300) as http:
+        first = http.post("/v1/jobs", json=study, headers=headers)
+        assert first.status_code == 202
+        process = app.state.checker._jobs
+        process.close()
+        monkeypatch.setattr(checking, "checked", lambda *of: counted.append(of) or checked(*of))
+        again = http.post("/v1/jobs", json=study, headers=headers)
+        assert (again.status_code, again.json()) == (202, first.json())
+        assert not counted
+        assert process._process is None, "no other process was asked"
+        other = http.post("/v1/jobs", json=study | {"record": 2}, headers=headers)
+        assert (other.status_code, other.json()["type"]) == (422, "/problems/key-reused")
+        headers = {"Idempotency-Key": "another"}
+        cached = http.post("/v1/jobs", json=study, headers=headers).json()
+        assert (cached["id"], cached["cached"]) == (first.json()["id"], True)
+        again = http.post("/v1/jobs", json=study, headers=headers).json()
+        assert (again["id"], again["cached"]) == (first.json()["id"], True)
+        assert len(counted) == (1 if points == 2 else 0)
 
 
 def test_a_repeated_batch_finds_the_first_one(own):
