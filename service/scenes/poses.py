@@ -38,8 +38,8 @@ class Poses(BaseModel):
     residual: float = Field(description="What loops miss by as they are put together, m or rad.")
     drivers_time: float | None = in_unit(
         "s",
-        "Time in which the slowest driver turns once or repeats, or else shows its motion; null if"
-        " nothing is driven.",
+        "Time in which the drivers come round together, or else the slowest turns once or shows its"
+        " motion, at most 20 times that of the quickest; null if nothing is driven.",
     )
     repeats: bool = Field(description="Whether all drivers are back after it.")
     stopped: Stop | None = Field(description="Null if they go on through all times.")

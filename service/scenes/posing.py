@@ -23,6 +23,8 @@ from jointplay.solver.scene.sentences import schema_problems
 from jointplay.worker.answering import answer_questions
 
 _IDLE = 300.0  # s; it is small, and a page that is open soon asks again
+MOST_TURNS = 20.0
+"""Times of the quickest driver after which a slower one is not waited for, to be looked at."""
 _KEPT = 16  # scenes; somebody who drags a point asks about one again and again
 _log = logging.getLogger(__name__)
 _GIVEN = Field(description="A preset with parameters, or a scene document, as a job has it.")
@@ -69,14 +71,15 @@ def poses(document: Any) -> dict[str, Any]:
             raise InvalidInput.at(f"/times/{i + 1}", sentence)
     scene = _scene(question.scene)
     found = follow(scene, question.times)
-    shown, lost = drivers_time(scene, shortest_link(scene)), found.lost
+    own, lost = drivers_time(scene, shortest_link(scene)), found.lost
+    latest = 0.0 if own is None else MOST_TURNS * own.quickest
     return {
         "scene": scene.name,
         "times": question.times[: len(found.poses)],
         "poses": [_by_body(scene, pose) for pose in found.poses],
         "residual": assemble(scene).residual,
-        "drivers_time": None if shown is None else shown.seconds,
-        "repeats": shown is not None and shown.repeats,
+        "drivers_time": None if own is None else min(own.seconds, latest),
+        "repeats": own is not None and own.repeats and own.seconds <= latest,
         "stopped": None if lost is None else {"time": lost.time, "detail": lost.detail},
     }
 

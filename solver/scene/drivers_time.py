@@ -9,10 +9,8 @@ from jointplay.solver.laws.function import Function
 from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import MovingDriver
-from jointplay.solver.scene.periods import SLOWEST
+from jointplay.solver.scene.periods import SLOWEST, period_of
 
-MOST_TURNS = 20.0
-"""Times of the quickest driver after which a slower one is not waited for."""
 LOOKED_AT = np.geomspace(1e-4, 1e4, 801)
 """Instants at which a motion that never repeats is looked at, s."""
 RESTING = 1e-6
@@ -20,36 +18,40 @@ RESTING = 1e-6
 
 
 class DriversTime(NamedTuple):
-    """The time in which the slowest driver shows its motion, s; whether all are back then."""
+    """The time in which all drivers show their motion, s; whether all are back then.
+
+    `quickest` is the time of the one that is first through, s.
+    """
 
     seconds: float
     repeats: bool
+    quickest: float
 
 
 def drivers_time(scene: Scene, length: float) -> DriversTime | None:
     """Return how long the drivers take; None where nothing is driven.
 
-    That is one turn or period, else until the driver has turned once, or gone a `length` (m) as
-    the shortest link is, or come to rest.
+    That is their common period; where there is none, the time of the slowest: its own turn or
+    period, else until it has turned once, or gone a `length` (m) as the shortest link is, or come
+    to rest.
     """
-    found = []
+    periods, others = [], []
     for driver in scene.drivers.values():
         turning = turns(scene, driver)
         far = 2.0 * math.pi if turning else length
         if isinstance(driver, MovingDriver):
             period = driver.motion.period
             if math.isinf(period):
-                found.append(DriversTime(_until(driver.motion, far), repeats=False))
+                others.append(_until(driver.motion, far))
             elif period > 0.0:
-                found.append(DriversTime(period, repeats=True))
+                periods.append(period)
         elif abs(driver.clock_rate) > SLOWEST:
-            found.append(DriversTime(far / abs(float(driver.clock_rate)), turning))
-    if not found:
+            (periods if turning else others).append(far / abs(float(driver.clock_rate)))
+    if not periods and not others:
         return None
-    slowest, latest = max(one.seconds for one in found), MOST_TURNS * min(found).seconds
-    return DriversTime(
-        min(slowest, latest), slowest <= latest and all(one.repeats for one in found)
-    )
+    own = [*periods, *others]
+    common = None if others else period_of([2.0 * math.pi / one for one in periods]).seconds
+    return DriversTime(common or max(own), common is not None, min(own))
 
 
 def _until(motion: Function, far: float) -> float:

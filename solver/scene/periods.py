@@ -20,9 +20,6 @@ SLOWEST = 1e-9
 RATIO_TOLERANCE = 1e-12
 """Relative mismatch within which a ratio of speeds is taken as exact: rounding of the input."""
 
-MOST_DOUBLINGS = 12
-"""Times that the span in which a drive bends is doubled to find its first whole turn."""
-
 
 @dataclass(frozen=True)
 class Period:
@@ -163,39 +160,6 @@ def quickest_driver(scene: Scene, length: float) -> float:
         paces += [speed / (lever if straight else 1.0) for speed in _speeds(scene, driver)]
     fastest = max(paces, default=0.0)
     return 2.0 * math.pi / fastest if fastest else math.inf
-
-
-def drivers_turn(scene: Scene) -> float | None:
-    """Return how long the drivers take to come round together, else the slowest alone, s.
-
-    One whose motion never repeats takes until it has turned once, if it does, else while it bends.
-    None of a scene in which none turns, bends or repeats.
-    """
-    spans = [span for driver in scene.drivers.values() if (span := _turn(scene, driver))]
-    if not spans:
-        return None
-    common = period_of([2.0 * math.pi / span for span in spans]).seconds
-    return common or max(spans)
-
-
-def _turn(scene: Scene, driver: Driver) -> float:
-    if not isinstance(driver, MovingDriver):
-        turning = turns(scene, driver) and driver.clock_rate
-        return 2.0 * math.pi / abs(driver.clock_rate) if turning else 0.0
-    motion = driver.motion
-    if math.isfinite(motion.period):
-        return float(motion.period)
-    last = math.inf if motion.domain is None else motion.domain[1]
-    first = motion.at(0.0)
-    pace = abs(float(first.slope))
-    straight = 2.0 * math.pi / pace if pace and turns(scene, driver) else math.inf
-    bends = min(motion.bend if math.isfinite(motion.bend) else straight, last)
-    if not math.isfinite(bends):
-        return 0.0
-    ends = [min(bends * 2.0**k, last) for k in range(MOST_DOUBLINGS)]
-    turned = (abs(float(motion.at(end).value) - float(first.value)) for end in ends)
-    whole = (end for end, angle in zip(ends, turned, strict=True) if angle >= 2.0 * math.pi)
-    return next(whole if turns(scene, driver) else iter(()), min(4.0 * bends, last))
 
 
 def _speeds(scene: Scene, driver: Driver) -> list[float]:

@@ -34,6 +34,35 @@ def test_bodies_move_as_drivers_prescribe(http):
     assert (found["drivers_time"], found["repeats"]) == (pytest.approx(math.pi / 2), True)
 
 
+@pytest.mark.parametrize(
+    ("speed", "seconds", "repeats"),
+    [(4.0, math.pi, True), (math.sqrt(10.0), 2.0 * math.pi / math.sqrt(10.0), False)],
+)
+def test_drivers_that_turn_at_two_speeds_are_shown_until_both_are_back(
+    http, speed, seconds, repeats
+):
+    scene = two_arms(10.0, speed)
+    found = posed(http, scene).json()
+    assert (found["drivers_time"], found["repeats"]) == (pytest.approx(seconds), repeats)
+    turn = http.post("/v1/scenes/check", json=scene).json()["turn"]
+    assert turn["span"] == pytest.approx(seconds), "what is checked is what is shown"
+    assert ("come round" in turn["detail"]) == repeats
+
+
+def test_of_drivers_some_of_which_are_slow_no_more_is_shown_than_can_be_seen(http):
+    found = posed(http, two_arms(10.0, 0.01)).json()
+    assert (found["drivers_time"], found["repeats"]) == (pytest.approx(4.0 * math.pi), False)
+
+
+def two_arms(first, second):
+    """Return two arms on one pin of the ground that turn at these speeds."""
+    scene, other = arm(speed=first), arm(speed=second)
+    scene["bodies"]["other"] = other["bodies"]["arm"]
+    scene["joints"]["P"] = other["joints"]["O"] | {"journal": "other.O"}
+    scene["drivers"]["second"] = other["drivers"]["motor"] | {"joint": "P"}
+    return scene
+
+
 def test_it_is_said_where_drivers_stop(http):
     motion = {"type": "table", "knots": [0, 1, 3], "values": [0, 1, 2], "outside": "refused"}
     found = posed(http, arm(motion=motion), times=[0.0, 1.0, 4.0]).json()

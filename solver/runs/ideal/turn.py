@@ -1,6 +1,5 @@
 """Whether a driven mechanism turns through: where it jams in a turn of its drivers, or nearly."""
 
-import math
 from typing import NamedTuple
 
 from jointplay.records.failure import SimulationFailed
@@ -11,8 +10,9 @@ from jointplay.solver.runs.ideal.dead_point import driven_to, locks, lost_at
 from jointplay.solver.runs.ideal.margin import Margin, lacking, nearest
 from jointplay.solver.runs.ideal.path import Path
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.drivers_time import drivers_time
 from jointplay.solver.scene.latest import once_per_scene
-from jointplay.solver.scene.periods import drivers_turn, quickest_driver
+from jointplay.solver.scene.periods import quickest_driver
 
 MOST_WORK = 40_000
 """Coordinates of all poses after which a check leaves off: seconds."""
@@ -22,7 +22,9 @@ class Turn(NamedTuple):
     """A driven mechanism, its play closed, over a turn of its drivers."""
 
     span: float
-    """Time that the turn takes, s; of a slider that never comes back, that for 2 pi links."""
+    """Time that the turn takes, s."""
+    repeats: bool
+    """Whether the drivers are back after it."""
     reached: float
     """Time up to which it was followed, s: less if it jams, or if that takes too many poses."""
     lost: SimulationFailed | None
@@ -37,24 +39,22 @@ class Turn(NamedTuple):
 def turn(scene: Scene) -> Turn | None:
     """Return how far a mechanism turns; None where it moves freely, or its drivers stand."""
     found, length = assemble(scene), shortest_link(scene)
-    if found.freedom or found.residual > ASSEMBLED * length:
+    shown = drivers_time(scene, length)
+    if found.freedom or found.residual > ASSEMBLED * length or shown is None:
         return None
-    quickest = quickest_driver(scene, length)
-    span = drivers_turn(scene) or quickest
-    if math.isinf(span):
-        return None
-    path = Path(Constraints(scene), found.pose, min(quickest, span))
+    span, repeats = shown.seconds, shown.repeats
+    path = Path(Constraints(scene), found.pose, min(quickest_driver(scene, length), span))
     most = MOST_WORK // max(len(found.pose), 20)
     whole = path.follow(span, most)
     if not path.end.consistent:
-        return Turn(span, path.end.time, lost_at(path, scene), None, agrees=False)
+        return Turn(span, repeats, path.end.time, lost_at(path, scene), None, agrees=False)
     closing = spanning_tree(scene).closing
     if whole:
-        return Turn(span, path.end.time, None, nearest(path, closing), agrees=True)
+        return Turn(span, repeats, path.end.time, None, nearest(path, closing), agrees=True)
     if len(path.times) >= most:
-        return Turn(span, path.end.time, None, None, agrees=True)
+        return Turn(span, repeats, path.end.time, None, None, agrees=True)
     lack = lacking(path, span, closing) if locks(path.end) else None
-    return Turn(span, path.end.time, lost_at(path, scene), lack, agrees=True)
+    return Turn(span, repeats, path.end.time, lost_at(path, scene), lack, agrees=True)
 
 
 def in_words(scene: Scene, found: Turn) -> str:
@@ -70,8 +70,8 @@ def in_words(scene: Scene, found: Turn) -> str:
         return found.lost.detail + short
     if found.reached < found.span:
         return f"It is followed up to t = {found.reached:.6g} s, and goes through so far."
-    way = "its drivers come round" if drivers_turn(scene) else "a driver moves 2 pi shortest links"
-    told = f"It goes through the {found.span:.6g} s in which {way}."
+    way = "come round" if found.repeats else "show their motion"
+    told = f"It goes through the {found.span:.6g} s in which its drivers {way}."
     if near is None:
         return told
     return (

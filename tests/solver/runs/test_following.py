@@ -151,7 +151,7 @@ def test_drivers_take_a_turn_a_period_or_until_they_rest(
     assert (found.seconds, found.repeats) == (pytest.approx(seconds, rel=0.03), repeats)
 
 
-def test_a_driven_slider_goes_as_far_as_a_link_and_slow_drivers_are_not_waited_for() -> None:
+def test_a_driven_slider_goes_as_far_as_a_link_and_drivers_come_round_together() -> None:
     scene = arm(speed=1.0)
     scene["joints"]["O"] = {
         "type": "prismatic",
@@ -168,7 +168,16 @@ def test_a_driven_slider_goes_as_far_as_a_link_and_slow_drivers_are_not_waited_f
         pair["drivers"][name] = {"joint": f"P{name[1]}", "position": 1.5, "speed": speed}
     found = drivers_time(resolved_scene(pair), 0.25)
     assert found is not None
-    assert (found.seconds, found.repeats) == (pytest.approx(4 * math.pi), False)
+    assert (found.seconds, found.repeats) == (pytest.approx(200 * math.pi), True)
+    assert found.quickest == pytest.approx(math.pi / 5)
+    pair["drivers"]["m2"]["speed"] = 4.0
+    found = drivers_time(resolved_scene(pair), 0.25)
+    assert found is not None
+    assert (found.seconds, found.repeats) == (pytest.approx(math.pi), True), "both are back"
+    pair["drivers"]["m2"]["speed"] = math.sqrt(10.0)
+    found = drivers_time(resolved_scene(pair), 0.25)
+    assert found is not None
+    assert (found.seconds, found.repeats) == (pytest.approx(2 * math.pi / 10**0.5), False)
 
 
 @pytest.mark.parametrize("place", [(0.0, 0.1), (-3.0, -4.0), (0.02, -0.08)])
