@@ -22,7 +22,7 @@ VAGUE = 0.5
 """Error of K from which on it has none."""
 LOOSE = 0.01
 """Error of a rotation number, in turns, from which on the curve is not traversed steadily."""
-SMALLER, MORE = "choose a smaller tolerance", "record more sections"
+LONGER, SMALLER, MORE = "settle for longer", "choose a smaller tolerance", "record more sections"
 TEST = f"record {FEWEST_TELLING} sections with the indicator 'zero_one'"
 """Remedies where nothing is decided."""
 
@@ -93,9 +93,9 @@ def decide(
     if lyapunov.falls_below(0.0):
         return _undecided(
             f"neighbours converge, {exponent}, but no short period is seen: the motion may not have"
-            f" settled, or have a longer period; settle for longer, {SMALLER} or {MORE}"
+            f" settled, or have a longer period; {LONGER}, {SMALLER} or {MORE}"
         )
-    return _neutral(exponent, zero_one, rotation)
+    return _neutral(exponent, zero_one, period, rotation)
 
 
 def _told(lyapunov: Estimate, finer: Estimate | None) -> str:
@@ -113,7 +113,7 @@ def _recurrent(
     if lyapunov is not None and lyapunov.exceeds(0.0):
         return _undecided(
             f"{recurs}, yet neighbours part, {exponent}: chaos in bands narrower than what counts"
-            f" as the same, or an unstable orbit not yet left; settle for longer, or {SMALLER}"
+            f" as the same, or an unstable orbit not yet left; {LONGER}, or {SMALLER}"
         )
     if lyapunov is not None and lyapunov.falls_below(0.0):
         return Verdict(PERIODIC, period, f"{recurs} and {exponent}")
@@ -139,8 +139,8 @@ def _diverging(lyapunov: Estimate, zero_one: Estimate | None, finer: Estimate | 
         parts += " smaller steps"
     if zero_one is None and lyapunov.drifting:
         return _undecided(
-            f"{parts}, but it still drifts, and there is no 0-1 test to confirm it: settle for"
-            f" longer, or {TEST}"
+            f"{parts}, but it still drifts, and there is no 0-1 test to confirm it: {LONGER},"
+            f" or {TEST}"
         )
     if zero_one is None:
         return Verdict(CHAOTIC, 0, f"{parts}; there is no 0-1 test to confirm it")
@@ -149,7 +149,9 @@ def _diverging(lyapunov: Estimate, zero_one: Estimate | None, finer: Estimate | 
     return _undecided(f"{parts}, but the 0-1 test does not agree, K is {zero_one}: {MORE}")
 
 
-def _neutral(exponent: str, zero_one: Estimate | None, rotation: Estimate | None) -> Verdict:
+def _neutral(
+    exponent: str, zero_one: Estimate | None, period: int | None, rotation: Estimate | None
+) -> Verdict:
     neutral = f"{exponent}, not different from zero"
     if zero_one is None:
         return _undecided(f"{neutral}, and there is no telling 0-1 test: {SMALLER}, or {TEST}")
@@ -159,9 +161,10 @@ def _neutral(exponent: str, zero_one: Estimate | None, rotation: Estimate | None
             f" {MORE}"
         )
     if rotation is None:
+        missing = "'rotation'" if period == 0 else "'rotation' or 'recurrence'"
         return _undecided(
-            f"{neutral}, K is {zero_one}, but the section is no closed curve: {SMALLER}, or add"
-            " the indicators 'rotation' and 'recurrence'"
+            f"{neutral}, K is {zero_one}, but the section is no closed curve: {LONGER}, {SMALLER},"
+            f" or add the indicator {missing}"
         )
     if not rotation.error < LOOSE:
         return _undecided(

@@ -1,8 +1,10 @@
 """The tutorial, followed word by word: its scene, its commands, and the numbers that they print."""
 
+import csv
 import json
 import re
 import shlex
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -78,3 +80,10 @@ def test_all_of_its_commands_print_its_numbers_and_draw_its_figures(tmp_path, mo
     assert followed(PAGE, capsys) == 6
     figures = {path.name for path in Path("figures").iterdir()}
     assert {"contact-force.png", "orbit.png", "swing.pdf", "bifurcation.png"} <= figures
+    assert Path("kinds/bifurcation.png").read_bytes().startswith(b"\x89PNG")
+    rows = list(csv.DictReader(Path("KINDS/points.csv").read_text().splitlines()))
+    told = Counter(row["verdict"] for row in rows)
+    assert told["periodic"] >= 22
+    assert told["chaotic"] >= 4
+    undecided = [row["reason"] for row in rows if row["verdict"] == "undecided"]
+    assert all(re.search("settle for longer|record more|smaller tolerance", r) for r in undecided)

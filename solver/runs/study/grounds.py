@@ -35,7 +35,7 @@ def limits(scene: Scene, found: Mapping[str, float], sections: int, periods: int
         scale = "finest clearance" if contact_pairs(scene) else "shortest link"
         yield (
             f"periods up to {min(LONGEST, sections // 2)} are looked for, and what differs by less"
-            f" than {RECURS:g} of the {scale} counts as the same"
+            f" than {RECURS:g} of the {scale}, or of its own range, counts as the same"
         )
     if math.isnan(found.get("rotation", 0.0)):
         yield "there is no rotation number: the sections lie on no closed curve"

@@ -18,7 +18,8 @@ from jointplay.solver.nonlinear.verdict import Verdict, decide
 from jointplay.solver.nonlinear.zero_one import zero_one_test
 
 RECURS = 1e-3
-"""Sections closer than this share of the clearance are the same: far above the solver's error."""
+"""Sections closer than this share are the same: of what counts as one in a state, or of its range
+in the record if that is more, as rates have that impacts make. Far above the solver's error."""
 MOST_SECTIONS = 5000
 """That indicators look at: the first ones of the record."""
 FEWEST_FOR_SPECTRUM, FEWEST_FOR_RECURRENCE = 16, 4
@@ -60,7 +61,8 @@ def indicators_of(
         found |= {"zero_one": zero_one.value, "zero_one_error": zero_one.error}
     if "recurrence" in chosen:
         if len(states) >= FEWEST_FOR_RECURRENCE:
-            recurrence = recurrence_period(states, np.ones(len(scales)), RECURS)
+            widths = np.maximum(np.ptp(states, axis=0), 1.0)
+            recurrence = recurrence_period(states, widths, RECURS)
         found["period"] = math.nan if recurrence is None else float(recurrence)
     if "rotation" in chosen:
         rotation = rotation_number(principal_plane(states)) if len(states) > 2 else None
