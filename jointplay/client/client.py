@@ -212,6 +212,71 @@ class Client:
         chosen = with_parameters(scene_document(scene), parameters)
         return self._connection.post("/v1/scenes/check", chosen)
 
+    def poses(
+        self, /, scene: Scene, *, times: Iterable[float] = (0.0,), **parameters: Any
+    ) -> dict[str, Any]:
+        """Return how a scene stands at t = 0 and as its drivers go on, its clearances closed.
+
+        Parameters
+        ----------
+        scene
+            Name of a preset, a scene document, or the path of one.
+        times
+            Instants, s, the earliest first; at most 512.
+        parameters
+            Parameters of the scene, in SI units.
+
+        Returns
+        -------
+        dict
+            ``poses``: for each of ``times``, by body, x, y (m) and theta (rad). Both end where the
+            drivers cannot go on; ``stopped`` says when and why, and is None otherwise.
+            ``drivers_time``: in which the drivers come round, s.
+        """
+        asked = {"times": [float(time) for time in times]}
+        return self._about("poses", scene, parameters, asked)
+
+    def drag(
+        self,
+        /,
+        scene: Scene,
+        point: str,
+        place: Sequence[float],
+        *,
+        pose: Mapping[str, Sequence[float]] | None = None,
+        **parameters: Any,
+    ) -> dict[str, list[float]]:
+        """Return the pose in which a point is as near to a place as the joints let it come.
+
+        Drivers let go, and clearances are closed.
+
+        Parameters
+        ----------
+        scene
+            Name of a preset, a scene document, or the path of one.
+        point
+            What is pulled, such as ``"crank.pin"``.
+        place
+            To where, x and y, m.
+        pose
+            From where: x, y (m) and theta (rad) of every body, as a pose of `poses` or of this
+            method; that at t = 0 if it is not given.
+        parameters
+            Parameters of the scene, in SI units.
+        """
+        asked: dict[str, Any] = {"point": point, "place": [float(value) for value in place]}
+        if pose is not None:
+            asked["pose"] = {body: [float(value) for value in at] for body, at in pose.items()}
+        found: dict[str, list[float]] = self._about("drag", scene, parameters, asked)["pose"]
+        return found
+
+    def _about(
+        self, what: str, scene: Scene, parameters: Mapping[str, Any], asked: Mapping[str, Any]
+    ) -> dict[str, Any]:
+        """Return what the service answers to a question about a scene."""
+        chosen = with_parameters(scene_document(scene), parameters)
+        return self._connection.post(f"/v1/scenes/{what}", {"scene": chosen, **asked})
+
     def scenes(self) -> list[dict[str, Any]]:
         """Return the presets: name, description, source and parameters of each."""
         scenes: list[dict[str, Any]] = self._connection.get("/v1/scenes")["scenes"]

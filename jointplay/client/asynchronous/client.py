@@ -75,6 +75,8 @@ class AsyncClient:
     batches = iterated(Client.batches, AsyncBatch)
 
     check_scene = awaited(Client.check_scene)
+    poses = awaited(Client.poses)
+    drag = awaited(Client.drag)
     scenes = awaited(Client.scenes)
     scene = awaited(Client.scene)
     laws = awaited(Client.laws)
