@@ -16,6 +16,7 @@ from jointplay.solver.kinds.studies import PlacedPoints
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.ideal.reach import motion_reach
+from jointplay.solver.scene.channels import BODY
 from jointplay.solver.scene.joints import Revolute
 from jointplay.solver.scene.pairs import has_play, pairs_of
 
@@ -110,10 +111,10 @@ def crossing_problems(
         return
     owner, _, quantity = seen.source.rpartition(".")
     joint = owner.partition(".")[0]
-    if joint in checked.declared.joints:
-        yield from _play(seen, joint, quantity, checked)
-    elif owner in checked.declared.bodies:
+    if owner in checked.declared.bodies and quantity in {name for name, _, _ in BODY}:
         yield from _motion(seen, owner, quantity, checked)
+    elif joint in checked.declared.joints:
+        yield from _play(seen, joint, quantity, checked)
     elif seen.source == "energy.kinetic" and seen.at_source <= 0.0:
         yield Problem(PLACE, "The kinetic energy is never below zero; give a value above.")
 

@@ -175,22 +175,22 @@ def _parameters(scene: Scene) -> Iterator[Problem]:
 
 def _names(scene: Scene) -> Iterator[Problem]:
     sections: dict[str, Collection[str]] = {
-        "bodies": scene.bodies,
         "joints": scene.joints,
         "gears": scene.gears,
         "drivers": scene.drivers,
         "forces": scene.forces,
     }
     used = Counter(name for names in sections.values() for name in names)
-    for section, names in sections.items():
+    # a body may share a name: it shares no quantity with the others, nor therefore a channel
+    for section, names in {"bodies": scene.bodies, **sections}.items():
         for name in names:
             if name in RESERVED:
                 yield Problem(f"/{section}/{name}", f"The name '{name}' is reserved; take another.")
-            elif used[name] > 1:
+            elif section != "bodies" and used[name] > 1:
                 yield Problem(
                     f"/{section}/{name}",
-                    f"The name '{name}' is used twice; bodies, joints, gears, drivers and forces"
-                    " have names of their own.",
+                    f"The name '{name}' is used twice; joints, gears, drivers and forces have names"
+                    " of their own.",
                 )
     outputs = Counter(output.name for output in scene.outputs)
     for index, output in enumerate(scene.outputs):
