@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from jointplay.figures import between_samples, colours, page, sampling, scene_facts
+from jointplay.figures import between_samples, colours, log_axis, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_history import declared
@@ -17,6 +17,8 @@ _MOST_SAMPLES: Final = 2**20
 """Most samples: of a longer window its end is taken, where transients are over."""
 _INSTANTS: Final = 2**15
 """Instants of a trajectory that is known between samples."""
+_THIN: Final = 0.01
+"""Share of the highest bar that most others are below where they are drawn over a logarithm."""
 _PANEL_HEIGHT: Final = 34.0  # mm
 _NOTHING: Final = "fewer than 32 samples, or no change"
 
@@ -36,7 +38,13 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
             continue
         density, edges = np.histogram(values / shown.factor, _BINS, density=True)
         axes.stairs(density, edges, fill=True, color=colours.COMPUTED)
-        axes.set_ylim(bottom=0.0)
+        filled = density[density > 0.0]
+        if np.median(filled) < _THIN * filled.max():
+            axes.set_yscale("log")
+            axes.set_ylim(bottom=0.5 * filled.min())
+            log_axis.number(axes.yaxis)
+        else:
+            axes.set_ylim(bottom=0.0)
     figure.align_ylabels()
     return figure
 

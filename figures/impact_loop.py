@@ -126,7 +126,7 @@ def _loop(axes: page.Axes, pair: str, contact: Any, depth: Floats, force: Floats
     energy = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(depth)))
     joules = scale("J", np.array([energy]))
     lost = f"{energy / joules.factor:.3g} {joules.unit} dissipated"
-    page.corner_text(axes, f"{pair} at {contact['onset']:.6g} s\n{lost}")
+    page.corner_text(axes, f"{pair}\nat {contact['onset']:.6g} s\n{lost}")
 
 
 IMPACT_LOOP = RunFigure(

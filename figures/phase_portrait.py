@@ -2,9 +2,12 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from jointplay.figures import colours, page, sampling, scene_facts
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
 from jointplay.figures.quantity import scale
+from jointplay.records.arrays import Flags, Floats
 from jointplay.records.run import Source, inside
 
 _PANEL_HEIGHT = 38.0  # mm
@@ -77,6 +80,15 @@ def _portrait(axes: page.Axes, source: Source, panel: _Panel, selection: Selecti
         rasterized=len(time) > page.MOST_VECTOR_POINTS,
         label=f"trajectory{sampling.beginning(source, time, selection)}",
     )
+    if panel.joint and (touching := _touching(source, panel.joint, time)).any():
+        axes.plot(
+            path[position] / across.factor,
+            np.where(touching, path[rate], np.nan) / up.factor,
+            color=colours.COMPUTED,
+            linewidth=1.1,
+            rasterized=len(time) > page.MOST_VECTOR_POINTS,
+            label="in contact",
+        )
     if len(points[rate]):
         axes.plot(
             points[position] / across.factor,
@@ -90,6 +102,15 @@ def _portrait(axes: page.Axes, source: Source, panel: _Panel, selection: Selecti
     axes.set_xlabel(across.label(panel.labels[0]))
     axes.set_ylabel(up.label(panel.labels[1]))
     page.corner_text(axes, f"joint {panel.joint}" if panel.joint else "")
+
+
+def _touching(source: Source, joint: str, time: Floats) -> Flags:
+    """Return at which times [s] the journal is in contact, by the list of contacts."""
+    contacts = sampling.impacts_of(source, joint)
+    order = np.argsort(contacts["onset"])
+    before = np.searchsorted(contacts["onset"][order], time, side="right") - 1
+    ends = np.append(contacts["release"][order], -np.inf)[before]
+    return np.asarray(~(ends < time) & (before >= 0), np.bool_)
 
 
 PHASE_PORTRAIT = RunFigure(
