@@ -17,6 +17,7 @@ import { get, pause, post } from "../requests/service.js";
 
 const KEPT = "jointplay-scene"; // in the tab's storage
 const QUIET = 500; // ms without typing before the service checks
+const ROUNDING = 1e-7; // share of the largest number beside it below which one is told as zero
 
 export async function show(room, { query, signal }) {
   const [schema, { scenes }, text] = await Promise.all([
@@ -46,9 +47,12 @@ function factsOf({ freedom, ideal_freedom: ideal, joints_with_clearance: loose, 
 
 /** Tells what a scene asks for that a run of it does not do, sentence by sentence. */
 function notesOf({ given, turn, overshoots }) {
-  const values = (numbers, unit) => `${numbers.map((number) => short(number, 6)).join(", ")} ${unit}`;
-  const missed = given.filter(({ kept }) => !kept).map(({ pointer, unit, given: asked, taken }) =>
-    `${pointer} asks for ${values(asked, unit)}; the start has ${values(taken, unit)}.`);
+  const missed = given.filter(({ kept }) => !kept).map(({ pointer, unit, given: asked, taken }) => {
+    const rounding = ROUNDING * Math.max(...asked.map(Math.abs), ...taken.map(Math.abs));
+    const told = (numbers) => numbers.map((number) =>
+      short(Math.abs(number) > rounding ? number : 0, 6)).join(", ");
+    return `${pointer} asks for ${told(asked)} ${unit}; the start has ${told(taken)} ${unit}.`;
+  });
   return [...missed, ...(turn?.jams ? [turn.detail] : []), ...overshoots.map(({ detail }) => detail)];
 }
 
@@ -101,6 +105,10 @@ class Editing {
     try {
       this.document = JSON.parse(text);
     } catch (error) {
+      this.checking.abort();
+      fill(this.facts);
+      fill(this.notes);
+      this.estimate.refresh(); // which says that there is none
       const at = Number(/position (\d+)/.exec(error.message)?.[1] ?? 0);
       this.tell([{ from: Math.min(at, text.length), to: Math.min(at + 1, text.length), detail: error.message }]);
       return;
@@ -114,9 +122,11 @@ class Editing {
   /** Says at once if a scene does not close, and proposes a duration where none is given. */
   posed(found) {
     if (found.stopped && !this.checked) this.tell([{ pointer: "/start", detail: found.stopped.detail }]);
-    if (this.duration.value) return;
-    this.duration.value = String(someDuration(this.document, found));
-    this.estimate.later();
+    if (this.duration.value && this.duration.value !== this.proposed) return; // it was typed
+    this.proposed = String(someDuration(this.document, found));
+    if (this.duration.value === this.proposed) return;
+    this.duration.value = this.proposed;
+    if (this.checked) this.estimate.later(); // else it is asked for when the check has ended
   }
 
   /** Asks the service whether the scene can be run, and then what a run costs. */
@@ -137,6 +147,7 @@ class Editing {
       fill(this.facts);
       fill(this.notes);
       this.tell(error.errors?.length ? error.errors : [{ pointer: "", detail: error.message }]);
+      this.estimate.refresh();
     }
   }
 

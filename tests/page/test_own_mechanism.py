@@ -2,9 +2,9 @@
 
 import json
 
-from tests.page.browsing import barriers
+from tests.page.browsing import barriers, expect
 from tests.page.test_watching import MOVED
-from tests.two_assemblies import toggle
+from tests.two_assemblies import arm, toggle
 
 PASTED = """(editor, text) => {
   const clipboardData = new DataTransfer();
@@ -81,3 +81,23 @@ def test_what_a_run_does_not_keep_is_said_in_the_editor_and_of_the_run(browsing,
         page.get_by_role("button", name="Run", exact=True).click()
         page.get_by_text("for -0.06, 0.21 at /start/points/rod.K.").wait_for()
         page.screenshot(path=artifacts / "run_notes.png")
+
+
+def test_what_is_told_of_a_scene_is_told_of_the_one_that_is_there(browsing, service_url):
+    with browsing.page(f"{service_url}/#/editor") as page:
+        page.get_by_label("Scene document").wait_for()
+        duration, estimate = page.get_by_label("Duration"), page.get_by_text("of one core")
+        for speed, proposed in ((4.0, "6.3"), (40.0, "0.63")):
+            paste(page, json.dumps(arm(speed=speed)))
+            expect(duration).to_have_value(proposed)
+        estimate.wait_for()
+        page.get_by_text("Degrees of freedom: 0.").wait_for()
+        paste(page, '{"name": ')
+        page.get_by_text("No estimate: ").wait_for()
+        expect(page.get_by_text("Degrees of freedom")).to_have_count(0)
+        expect(page.get_by_role("button", name="Run", exact=True)).to_be_disabled()
+        duration.fill("0.5")
+        swung = arm() | {"drivers": {}, "start": {"points": {"arm.E": [0.0, 0.2]}}}
+        paste(page, json.dumps(swung))
+        page.get_by_text("asks for 0, 0.2 m; the start has 0, 0.1 m.").wait_for()
+        expect(duration).to_have_value("0.5")

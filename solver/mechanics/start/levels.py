@@ -57,18 +57,41 @@ def approach(
     for _ in range(iterations):
         step = step_of(found, scale)
         step *= min(1.0, LARGEST_TURN / max(float(np.abs(step[angles]).max()), 1e-300))
-        before = _size(found[:judged])
-        for _ in range(HALVINGS):
-            found = levels(pose + step)
-            if _size(found[:judged]) <= before:
-                break
-            step *= 0.5
-        else:
+        went = _along(pose, step, levels, judged, _size(found[:judged]))
+        if went is None:
             break
+        step, found = went
         pose = pose + step
         if float(np.abs(step / scale).max()) < max(1e-15, ROUNDING * len(pose)):
             break
     return pose
+
+
+def _along(
+    pose: Floats,
+    step: Floats,
+    levels: Callable[[Floats], list[Rows]],
+    judged: int,
+    before: float,
+) -> tuple[Floats, list[Rows]] | None:
+    """Return that part of a step that comes nearest, and the rows there; None: none comes nearer.
+
+    A whole step goes as far beyond what is out of reach as it was before it: half of it is tried,
+    too, where the whole one gains little.
+    """
+    found: tuple[Floats, list[Rows]] | None = None
+    least = before
+    for _ in range(HALVINGS):
+        rows = levels(pose + step)
+        size = _size(rows[:judged])
+        if found is not None and size >= least:
+            break
+        if size <= least:
+            found, least = (step, rows), size
+            if size <= 0.5 * before:
+                break
+        step = 0.5 * step
+    return found
 
 
 def _size(levels: list[Rows]) -> float:

@@ -114,7 +114,21 @@ def nearest(places: Places, poses: Iterable[Floats]) -> Floats:
     near = [_nearest_here(places, pose, MOST_ITERATIONS) for pose in found]
     least = min(map(apart, near)) * (1.0 + ALIKE) + KEPT * places.length
     alike = [pose for pose in near if apart(pose) <= least]
-    return min(alike, key=lambda pose: _from_zero(places, pose))
+    return _unwound(places, min(alike, key=lambda pose: _from_zero(places, pose)))
+
+
+def _unwound(places: Places, pose: Floats) -> Floats:
+    """Return a closed pose without whole turns of bodies whose angle nothing says."""
+    for i, body in enumerate(places.closed.bodies):
+        group = _turning_with(places, body)
+        turns = round(float(pose[3 * i + 2]) / (2.0 * math.pi))
+        if not turns or places.scene.start.angles.keys() & set(group):
+            continue
+        back = pose.copy()
+        back[[3 * places.closed.bodies.index(one) + 2 for one in group]] -= 2.0 * math.pi * turns
+        if places.is_closed(places.closed, back):
+            pose = back
+    return pose
 
 
 def in_given_turns(places: Places, pose: Floats) -> Floats:

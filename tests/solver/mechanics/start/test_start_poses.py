@@ -20,6 +20,7 @@ from tests.solver.mechanics.start.mechanisms import (
     slider_crank,
     toggle,
 )
+from tests.two_assemblies import arm
 
 
 def test_the_assembly_nearest_to_a_drawn_point_is_taken() -> None:
@@ -175,3 +176,12 @@ def test_a_rough_angle_chooses_its_assembly_in_any_turn(turns: int, coupler: flo
     }
     document["drivers"] = {"hold": {"joint": "O", "position": 1.0, "speed": 0.0}}
     assert put_together(document)[1]["rod"][2] == pytest.approx(wanted, abs=1e-4)
+
+
+@pytest.mark.parametrize("place", [(0.0, 0.2), (0.05, -0.3), (-0.31, 0.02), (-0.5, 0.5)])
+def test_a_body_points_to_what_it_cannot_reach_and_is_not_wound_up(
+    place: tuple[float, float],
+) -> None:
+    scene = arm() | {"drivers": {}, "start": {"points": {"arm.E": list(place)}}}
+    _, pose, _ = put_together(scene)
+    assert pose["arm"][2] == pytest.approx(math.atan2(place[1], place[0]), abs=1e-7)
