@@ -6,8 +6,9 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.assembly import assemble, shortest_link
+from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.mechanics.closing import arrays, rank
+from jointplay.solver.mechanics.constraints_at_start import constraints_at_start
 from jointplay.solver.mechanics.start.drawing import drawn_places
 from jointplay.solver.mechanics.start.guess import first_angles, first_clocks, first_pose
 from jointplay.solver.mechanics.tree import spanning_tree
@@ -69,12 +70,7 @@ def fighting_drivers(scene: Scene) -> list[str]:
 
     None where the joints alone are redundant: then they may be to blame.
     """
-    ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
-    pose, length = assemble(scene).pose, shortest_link(scene)
-    scale = np.tile([length, length, 1.0], len(ideal.bodies))
-    rows = ideal.rows(pose, np.zeros_like(pose), first_clocks(scene))
-    _, jacobian = arrays(rows, len(pose))
-    jacobian = jacobian * scale
+    ideal, rows, jacobian, _ = constraints_at_start(scene)
     motions = {"revolute": "angle", "prismatic": "along"}
     driving = {(name, "angle"): name for name in ideal.turned.values()}
     for joint, name in ideal.drivers.items():

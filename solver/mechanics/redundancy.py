@@ -5,12 +5,13 @@ from typing import NamedTuple
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.assembly import assemble, shortest_link
-from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, rank
-from jointplay.solver.mechanics.rows import Row
+from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.mechanics.closing import RANK_TOLERANCE, rank
+from jointplay.solver.mechanics.constraints_at_start import (
+    ConstraintsAtStart,
+    constraints_at_start,
+)
 from jointplay.solver.mechanics.start.guess import first_clocks
-from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import ends
 
@@ -40,13 +41,10 @@ class SelfStress(NamedTuple):
 
 def self_stresses(scene: Scene) -> list[SelfStress]:
     """Return the states of self-stress of the ideal mechanism at its start."""
-    ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
-    pose, length = assemble(scene).pose, shortest_link(scene)
-    scale = np.tile([length, length, 1.0], len(ideal.bodies))
-    rows = ideal.rows(pose, np.zeros_like(pose), first_clocks(scene))
-    _, jacobian = arrays(rows, len(pose))
-    jacobian = jacobian * scale
-    jacobian /= np.maximum(np.linalg.norm(jacobian, axis=1, keepdims=True), 1e-300)
+    start = constraints_at_start(scene)
+    norms = np.linalg.norm(start.jacobian, axis=1, keepdims=True)
+    start = start._replace(jacobian=start.jacobian / np.maximum(norms, 1e-300))
+    rows, jacobian = start.rows, start.jacobian
     found: list[SelfStress] = []
     independent: list[int] = []
     for i in range(len(rows)):
@@ -56,13 +54,12 @@ def self_stresses(scene: Scene) -> list[SelfStress]:
         shares, *_ = np.linalg.lstsq(jacobian[independent].T, jacobian[i], rcond=RANK_TOLERANCE)
         stress = np.zeros(len(rows))
         stress[independent], stress[i] = -shares, 1.0
-        found.append(_described(scene, ideal, rows, stress, jacobian))
+        found.append(_described(scene, start, stress))
     return found
 
 
-def _described(
-    scene: Scene, ideal: AbsoluteMechanism, rows: list[Row], stress: Floats, jacobian: Floats
-) -> SelfStress:
+def _described(scene: Scene, start: ConstraintsAtStart, stress: Floats) -> SelfStress:
+    rows = start.rows
     weights: dict[str, float] = {}
     for row, share in zip(rows, stress, strict=True):
         weights[row.joint] = max(weights.get(row.joint, 0.0), abs(float(share)))
@@ -70,7 +67,7 @@ def _described(
     joints = [name for name, weight in weights.items() if weight > least]
     turned = {row.joint for row, share in zip(rows, stress, strict=True) if row.part == "angle"}
     member, pins = _member(scene, joints, turned)
-    return SelfStress(joints, member, pins, _one_sided(ideal, rows, stress, jacobian))
+    return SelfStress(joints, member, pins, _one_sided(scene, start, stress))
 
 
 def _member(scene: Scene, joints: list[str], turned: set[str]) -> tuple[str, list[str]]:
@@ -98,11 +95,10 @@ def _member(scene: Scene, joints: list[str], turned: set[str]) -> tuple[str, lis
     return farthest[0], touching[farthest[0]]
 
 
-def _one_sided(ideal: AbsoluteMechanism, rows: list[Row], stress: Floats, jacobian: Floats) -> bool:
+def _one_sided(scene: Scene, start: ConstraintsAtStart, stress: Floats) -> bool:
     """Return whether the quadratic form of wᵀ Φ has one sign where first derivatives are free."""
-    scene = ideal.scene
+    ideal, rows, jacobian, scale = start
     pose, driven = assemble(scene).pose, first_clocks(scene)
-    scale = np.tile([shortest_link(scene)] * 2 + [1.0], len(ideal.bodies))
     _, values, directions = np.linalg.svd(jacobian)
     free = directions[int((values > RANK_TOLERANCE * values[0]).sum()) :]
     norms = np.array([np.linalg.norm([e * scale[k] for k, e in r.jacobian.items()]) for r in rows])

@@ -206,7 +206,7 @@ class Catalogue:
     request_cancel = durably(submission.request_cancel)
     cancel_batch = durably(batches.cancel_batch)
     delete_batch = durably(batches.delete_batch)
-    submitted_job = reading(submission.submitted_by)
+    submitted_job = reading(idempotency.job_submitted_by)
     submitted_batch = reading(batches.submitted_by)
     is_remembered = reading(idempotency.is_remembered)
     unsuccessful = reading(retries.unsuccessful)

@@ -5,10 +5,10 @@ from typing import Any, Final
 
 from sqlalchemy import bindparam, delete, insert, select
 
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import labels, tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import KeyReused
-from jointplay.storage.catalogue.records import SubmissionKey
+from jointplay.storage.catalogue.records import SubmissionKey, Submitted
 
 _table = tables.idempotency
 _OF_KEYS: Final = select(_table).where(_table.c.key.in_(bindparam("keys", expanding=True)))
@@ -46,6 +46,25 @@ def remembered(unit: Unit, key: SubmissionKey) -> Any | None:
     """Return what `earlier_answer` does, and write nothing."""
     row = answers(unit, [key.stored]).get(key.stored)
     return None if row is None or not _counts(unit, row) else still_counting(unit, key, row)
+
+
+def job_submitted_by(unit: Unit, key: SubmissionKey) -> Submitted | None:
+    """Return what an earlier request with a key was answered with, if it was a job.
+
+    Raises
+    ------
+    KeyReused
+        The key was used for another request.
+    """
+    row = remembered(unit, key)
+    return None if row is None or row.job is None else submitted_before(unit, row)
+
+
+def submitted_before(unit: Unit, row: Any) -> Submitted:
+    """Return the job of a key's row."""
+    job = labels.labelled_job(unit, row.job)
+    # a key is stored with the job that it made, and later than one that it found
+    return Submitted(job, created=False, cached=row.created > job.created)
 
 
 def is_remembered(unit: Unit, key: SubmissionKey) -> bool:

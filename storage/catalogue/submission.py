@@ -133,7 +133,7 @@ def _earlier(unit: Unit, request: Request, found: Mapping[Hashable, Any]) -> Sub
     if key is not None:
         earlier = idempotency.still_counting(unit, key, found[key.stored])
         if earlier is not None and earlier.job is not None:
-            return _answered_before(unit, earlier)
+            return idempotency.submitted_before(unit, earlier)
     same = found[_computed(new)] if request.reuse else None
     if same is None:
         return None
@@ -153,25 +153,6 @@ def _earlier(unit: Unit, request: Request, found: Mapping[Hashable, Any]) -> Sub
         retries.tell_once(unit, new.retry_of, same)
     (job,) = labels.labelled(unit, [job])
     return Submitted(job, created=False, cached=True)
-
-
-def submitted_by(unit: Unit, key: SubmissionKey) -> Submitted | None:
-    """Return what an earlier request with a key was answered with, if it was a job.
-
-    Raises
-    ------
-    KeyReused
-        The key was used for another request.
-    """
-    row = idempotency.remembered(unit, key)
-    return None if row is None or row.job is None else _answered_before(unit, row)
-
-
-def _answered_before(unit: Unit, row: Any) -> Submitted:
-    """Return the job of a key's row."""
-    job = labels.labelled_job(unit, row.job)
-    # a key is stored with the job that it made, and later than one that it found
-    return Submitted(job, created=False, cached=row.created > job.created)
 
 
 def _store(unit: Unit, fresh: Sequence[tuple[Row, Request]]) -> None:
