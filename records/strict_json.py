@@ -8,12 +8,14 @@ every document through `parse`, so that a job means the same wherever it is give
 import codecs
 import json
 import math
+from types import NoneType
 from typing import NamedTuple, NoReturn
 
 DEEPEST = 64  # a scene document nests 6 levels; nothing legitimate comes near
 MOST_FLAWS = 20  # enough to correct a document by, few enough to read
 _INTEGER_DIGITS = 18  # up to here an integer surely fits 64 bits
 _LONGEST_SHOWN = 60
+_SOUND = (int, float, NoneType)  # nothing can be wrong with these: lists of a million are common
 
 
 class Flaw(NamedTuple):
@@ -131,8 +133,6 @@ def _flaws_in(document: object) -> list[Flaw]:
     pending: list[tuple[str, object, int]] = [("", document, 0)]
     while pending and len(flaws) < MOST_FLAWS:
         pointer, value, depth = pending.pop()
-        if depth > DEEPEST:
-            return [Flaw("", _too_deep())]
         children: list[tuple[str, object]] = []
         if isinstance(value, _Refused):
             flaws.append(Flaw(pointer, value.detail))
@@ -141,9 +141,19 @@ def _flaws_in(document: object) -> list[Flaw]:
                 flaws.append(Flaw(pointer, _unstorable(value)))
         elif isinstance(value, dict):
             flaws += [Flaw(pointer, _unstorable(key)) for key in value if not _storable(key)]
-            children = [(f"{pointer}/{escaped(key)}", child) for key, child in value.items()]
+            children = [
+                (f"{pointer}/{escaped(key)}", child)
+                for key, child in value.items()
+                if not isinstance(child, _SOUND)
+            ]
         elif isinstance(value, list):
-            children = [(f"{pointer}/{index}", child) for index, child in enumerate(value)]
+            children = [
+                (f"{pointer}/{index}", child)
+                for index, child in enumerate(value)
+                if not isinstance(child, _SOUND)
+            ]
+        if depth == DEEPEST and isinstance(value, dict | list) and value:
+            return [Flaw("", _too_deep())]
         pending += [(*child, depth + 1) for child in reversed(children)]
     return flaws[:MOST_FLAWS]
 
