@@ -8,6 +8,7 @@ from jointplay.figures import page
 from jointplay.records.channel_choice import choose
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
+from jointplay.records.suggestions import did_you_mean
 
 if TYPE_CHECKING:
     from typing_extensions import TypeIs
@@ -23,9 +24,9 @@ class UnknownFigure(FigureError):
     """There is no figure of that name."""
 
     def __init__(self, name: str, known: Sequence[str]) -> None:
+        there = f"there are {', '.join((*known, 'every stored channel'))}."
         super().__init__(
-            f"There is no figure {name!r} of these results; there are "
-            f"{', '.join((*known, 'every stored channel'))}."
+            f"There is no figure {name!r} of these results; {did_you_mean(name, known) or there}"
         )
 
 

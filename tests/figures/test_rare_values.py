@@ -3,11 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from closed_form_motion import closed_form_motion
 from drawn import drawn_with, visible_texts
 
 from jointplay import figures
-from jointplay.figures import Selection, page
+from jointplay.figures import Selection, UnknownFigure, page
 
 MOTION = closed_form_motion()
 
@@ -55,3 +56,10 @@ def test_titles_of_loops_stay_on_the_page_however_long_the_name():
     assert any(long in text.get_text() for text in titles)
     width = figure.get_window_extent().x1
     assert all(text.get_window_extent().x1 <= width for text in titles)
+
+
+@pytest.mark.parametrize(("name", "said"), [("orbt", "did you mean 'orbit'?"), ("x", "there are")])
+def test_a_figure_that_there_is_not_is_answered_with_the_nearest(name, said):
+    with pytest.raises(UnknownFigure) as caught:
+        figures.draw(MOTION, name)
+    assert said in str(caught.value)
