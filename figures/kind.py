@@ -24,9 +24,10 @@ class UnknownFigure(FigureError):
     """There is no figure of that name."""
 
     def __init__(self, name: str, known: Sequence[str]) -> None:
-        there = f"there are {', '.join((*known, 'every stored channel'))}."
+        meant = did_you_mean(name, known)
         super().__init__(
-            f"There is no figure {name!r} of these results; {did_you_mean(name, known) or there}"
+            f"There is no figure {name!r} of these results; {meant}{' ' if meant else ''}there are "
+            f"{', '.join((*known, 'every stored channel'))}."
         )
 
 
