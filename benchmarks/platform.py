@@ -37,7 +37,7 @@ from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.store import create
 from jointplay.worker.app import RUN_BLOCK, make_app
 from jointplay.worker.block_run import BlockRun
-from jointplay.worker.study_block import layout_of
+from jointplay.worker.layouts import layout_of_study
 
 SECONDS = 3.0
 """For which each capacity is driven."""
@@ -186,7 +186,7 @@ def begin_and_end(barrier: Any, results: Any, index: int, url: str, blocks: list
 
 def store_blocks(barrier: Any, results: Any, index: int, folder: Path) -> None:
     """Store finished blocks of 32 points, durable on return."""
-    layout = layout_of(the_study())
+    layout = layout_of_study(the_study())
     count = layout.blocks[0][1]
     noise = np.random.default_rng(index).normal(size=(count, RECORD, len(layout.observables)))
     time_of = np.arange(float(RECORD))

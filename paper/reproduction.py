@@ -21,13 +21,13 @@ from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.metadata import FILE
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, execute
+from jointplay.worker.layouts import layout_of_study
 from jointplay.worker.local.computing import Report
 from jointplay.worker.local.folder import RUNNING
 from jointplay.worker.local.interruption import interruption
 from jointplay.worker.local.keeping import Keeping
 from jointplay.worker.local.study import Try, compute_block, open_store, tries_in
 from jointplay.worker.local.tries import next_try
-from jointplay.worker.study_block import layout_of
 
 RUNS = "runs"
 PAGE = "report.html"
@@ -104,7 +104,7 @@ def _compute(
             continue
         study = admitted
         run = replace(run, job=study.job)
-        open_store(running, layout_of(study))
+        open_store(running, layout_of_study(study))
         tries = tries_in(running)
         seals.append(Call(_seal, (run, running, target)))
         for block, (_, count) in enumerate(study.blocks):
@@ -159,4 +159,4 @@ def _block(run: Run, block: int, running: Path, begin: Try, advance: Advance) ->
 
 
 def _seal(run: Run, running: Path, target: StoredObject, advance: Advance) -> None:
-    seal(running, layout_of(cast("Study", parse(run.job))), target)
+    seal(running, layout_of_study(cast("Study", parse(run.job))), target)

@@ -25,7 +25,7 @@ from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.store import create, seal
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.execute import Answer, Progress, execute
-from jointplay.worker.study_block import layout_of
+from jointplay.worker.layouts import layout_of_study
 
 LEDGER = (
     "driver_work",
@@ -184,7 +184,7 @@ class Worker:
         study = admit(claim.job.spec)
         assert isinstance(study, Study)
         folder = self._settings.running_study(claim.job.id).folder
-        layout = layout_of(study)
+        layout = layout_of_study(study)
         create(folder, layout)
         first, count = study.blocks[claim.block.index]
         last = first + (count if points is None else points)
@@ -234,7 +234,7 @@ class Worker:
             self.finish(claim, BlockState.done)
         claim = self.start(job_id, len(study.blocks))
         running, target = self._settings.running_study(job_id), self._settings.sealed_study(job_id)
-        seal(running.folder, layout_of(study), target)
+        seal(running.folder, layout_of_study(study), target)
         self.finish(claim, BlockState.done)
         return job_id
 

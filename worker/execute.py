@@ -18,20 +18,14 @@ from jointplay.solver.kernels.watched import (
     CompilationUnwanted,
 )
 from jointplay.solver.kinds import Admission
-from jointplay.solver.runs.dense_output.columns import (
-    methods,
-    needs_no_steps,
-    period_of_steps,
-    step_columns,
-)
 from jointplay.solver.runs.simulate import Simulation
-from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from jointplay.worker.certificates import record_of
 from jointplay.worker.checkpoints import RestartPoint
+from jointplay.worker.layouts import layout_of_run
 from jointplay.worker.spent import publishing
 
 _log = logging.getLogger(__name__)
@@ -115,7 +109,7 @@ def execute(
     OSError
         The store cannot be written, for example because the disk is full.
     """
-    writer, restart = _begin(folder, layout_of(admission), resume_from)
+    writer, restart = _begin(folder, layout_of_run(admission), resume_from)
     begin = (restart.time, restart.fraction) if restart else (0.0, 0.0)
     try:
         simulation = Simulation(admission, restart.simulation if restart else None)
@@ -221,26 +215,3 @@ def uncompiled(ended: CompilationEnded, time: float, fraction: float) -> Outcome
         return Outcome("failed", time, fraction, JobError("limit", ended.code, str(ended)))
     left = isinstance(ended, CompilationUnwanted) and ended.answer is Answer.leave
     return Outcome("left" if left else "cancelled", time, fraction)
-
-
-def layout_of(admission: Admission) -> ResultLayout:
-    """Return what a run's store holds."""
-    return ResultLayout(
-        channels=admission.channels,
-        samples=admission.samples,
-        sections=admission.sections,
-        joints=admission.joints,
-        attributes={
-            "job": admission.job,
-            "scene": admission.scene_document(),
-            "digest": admission.digest,
-            "solver_version": SOLVER_VERSION,
-            "period": admission.period,
-            "section_note": admission.section_note,
-            "notes": list(admission.notes),
-            **({"exact": "motion"} if needs_no_steps(admission) else {"methods": methods()}),
-        },
-        steps=step_columns(admission),
-        steps_period=period_of_steps(admission),
-        intervals=not needs_no_steps(admission),
-    )

@@ -6,55 +6,24 @@ import time
 from functools import partial
 from pathlib import Path
 
-from jointplay.records.channel import Channel
 from jointplay.records.job import JobError
 from jointplay.records.point import StudySlice
 from jointplay.solver.calibration.calibrate import NothingFits
 from jointplay.solver.calibration.plan import CalibrationStudy
 from jointplay.solver.calibration.run import CalibrationRun
 from jointplay.solver.kernels.watched import CompilationEnded
-from jointplay.solver.nonlinear.settling import SETTLINGS
-from jointplay.solver.nonlinear.verdict import VERDICTS
-from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.plan import WorkPrecisionStudy
 from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
-from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.errors import ResultsError
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.store import create
 from jointplay.worker.execute import Answer, Outcome, Progress, Report, uncompiled
+from jointplay.worker.layouts import layout_of_study
 
 _log = logging.getLogger(__name__)
-
-
-def layout_of(study: Study) -> StudyLayout:
-    """Return what a study's store holds."""
-    declared, own = study.point_scene(0).parameters, study.own_outputs()
-    return StudyLayout(
-        parameters=tuple(
-            Channel(name, unit, declared[name].help)
-            for name, unit in zip(study.parameters, study.parameter_units, strict=True)
-        ),
-        values=study.values,
-        observables=study.observables,
-        record=study.record,
-        channels=study.channels,
-        blocks=study.blocks,
-        attributes={
-            "job": study.job,
-            "scene": study.scene_document(),
-            "digest": study.digest,
-            "solver_version": SOLVER_VERSION,
-            "verdicts": sorted(VERDICTS, key=VERDICTS.__getitem__),
-            "settlings": sorted(SETTLINGS, key=SETTLINGS.__getitem__),
-            **({"meanings": own} if own else {}),
-            **study.attributes(),
-        },
-        outputs={name: Channel(name, *output) for name, output in (OUTPUTS | own).items()},
-    )
 
 
 def computation_of(
@@ -116,7 +85,7 @@ def run_block(
     OSError
         The store cannot be written.
     """
-    layout = layout or layout_of(study)
+    layout = layout or layout_of_study(study)
     create(folder, layout)
     if StudyBlock.done(folder, layout, index):
         return Outcome("succeeded", 0.0, 1.0)

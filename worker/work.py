@@ -16,8 +16,9 @@ from jointplay.storage.settings import Settings
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.store import discard_others, seal
 from jointplay.worker.execute import Outcome, Report, execute
+from jointplay.worker.layouts import layout_of_study
 from jointplay.worker.spent import publishing
-from jointplay.worker.study_block import layout_of, run_block
+from jointplay.worker.study_block import run_block
 
 _log = logging.getLogger(__name__)
 
@@ -170,7 +171,7 @@ def work_of(claim: Claim, settings: Settings) -> Work:
         admitted = parse(job.spec)
         if isinstance(admitted, Admission):
             return SimulationWork(admitted, claim, settings)
-        _last_study = job.id, admitted, layout_of(admitted)
+        _last_study = job.id, admitted, layout_of_study(admitted)
     _, study, layout = _last_study
     if claim.block.count == 0:
         return SealWork(study, layout, job.id, settings)

@@ -18,7 +18,8 @@ from jointplay.storage.packed.reading import Packed
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import seal
-from jointplay.worker.study_block import layout_of, run_block
+from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.study_block import run_block
 from tests.stores import files_of, packed, target
 from tests.waiting import until
 
@@ -46,7 +47,7 @@ def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> dict[
     folder = tmp_path_factory.mktemp("undisturbed") / "study"
     for index in range(len(study.blocks)):
         assert run_block(study, index, folder).state == "succeeded"
-    seal(folder, layout_of(study), target(folder))
+    seal(folder, layout_of_study(study), target(folder))
     return files_of(packed(folder))
 
 

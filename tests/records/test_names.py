@@ -17,7 +17,7 @@ from jointplay.solver.scene import presets
 from jointplay.storage.results import pyramid
 from jointplay.storage.results.layout import Partition
 from jointplay.storage.results.writer import ResultWriter
-from jointplay.worker.execute import layout_of
+from jointplay.worker.layouts import layout_of_run
 from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
 from tests.stores import target
 
@@ -52,7 +52,7 @@ def test_a_name_that_is_admitted_can_be_stored(name):
         admission = admitted(name)
     except InvalidInput:
         reject()
-    layout = layout_of(admission)
+    layout = layout_of_run(admission)
     assert name in [channel.name for channel in layout.channels]
 
 

@@ -13,7 +13,8 @@ from jointplay.storage.packed.zarr_store import FilesStore
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, Progress
-from jointplay.worker.study_block import layout_of, run_block
+from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.study_block import run_block
 from tests.stores import packed, target
 
 JOB = {
@@ -37,7 +38,7 @@ def study() -> Study:
 def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> StudyReader:
     folder = tmp_path_factory.mktemp("undisturbed") / "store"
     assert run_block(study, 0, folder).state == "succeeded"
-    seal(folder, layout_of(study), target(folder))
+    seal(folder, layout_of_study(study), target(folder))
     return StudyReader(packed(folder))
 
 
@@ -81,7 +82,7 @@ def test_a_block_that_is_left_and_resumed_keeps_what_was_measured(
     assert np.isfinite(seconds).tolist() == [True] * 5 + [False] * 6
     resume_from = (names[0], first.fraction)
     assert run_block(study, 0, tmp_path, attempt=2, resume_from=resume_from).state == "succeeded"
-    seal(tmp_path, layout_of(study), target(tmp_path))
+    seal(tmp_path, layout_of_study(study), target(tmp_path))
     resumed = StudyReader(packed(tmp_path))
     np.testing.assert_array_equal(resumed.statistics["seconds"][:5], seconds[:5])
     assert repeatable(resumed) == repeatable(undisturbed)

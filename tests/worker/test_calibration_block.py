@@ -12,7 +12,8 @@ from jointplay.solver.kinds import Study, admit
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, Progress
-from jointplay.worker.study_block import layout_of, run_block
+from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.study_block import run_block
 from tests.solver.calibration.calibrations import bounce, computed
 from tests.stores import packed, target
 
@@ -27,7 +28,7 @@ def study() -> CalibrationStudy:
 
 
 def sealed(study: Study, folder: Path) -> StudyReader:
-    seal(folder, layout_of(study), target(folder))
+    seal(folder, layout_of_study(study), target(folder))
     return StudyReader(packed(folder))
 
 

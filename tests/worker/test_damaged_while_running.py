@@ -16,7 +16,8 @@ from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.store import create, seal
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.execute import execute
-from jointplay.worker.study_block import layout_of, run_block
+from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.study_block import run_block
 from jointplay.worker.work import SimulationWork
 from tests.stores import files_of, target
 
@@ -114,7 +115,7 @@ def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> dict[
     folder = tmp_path_factory.mktemp("undisturbed") / "study"
     for index in range(len(study.blocks)):
         run_block(study, index, folder)
-    seal(folder, layout_of(study), target(folder))
+    seal(folder, layout_of_study(study), target(folder))
     return files_of(target(folder))
 
 
@@ -154,8 +155,8 @@ def test_what_is_exchanged_with_another_jobs_is_computed_again(
 ) -> None:
     other = admit(STUDY | {"periods": 2})
     assert isinstance(other, Study)
-    create(tmp_path, layout_of(other))
-    part = StudyBlock(tmp_path, layout_of(other), 0).flush(b"")
+    create(tmp_path, layout_of_study(other))
+    part = StudyBlock(tmp_path, layout_of_study(other), 0).flush(b"")
     (tmp_path / "parts" / part).rename(tmp_path / "parts/00000")
     job = submitted(catalogue, study)
     run(catalogue, settings, f"{job}-0")

@@ -13,7 +13,8 @@ from jointplay.storage.errors import IncompleteStudy, StoreExists
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import create, seal
 from jointplay.worker.execute import Answer, Outcome, Progress
-from jointplay.worker.study_block import layout_of, run_block
+from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.study_block import run_block
 from tests.stores import packed, target
 
 PARAMETERS = {"clearance": 5e-4, "friction": 0.1, "stiffness": 5e9}
@@ -46,7 +47,7 @@ def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def write(study: Study, folder: Path) -> Path:
     for index in range(len(study.blocks)):
         assert run_block(study, index, folder).state == "succeeded"
-    seal(folder, layout_of(study), target(folder))
+    seal(folder, layout_of_study(study), target(folder))
     return packed(folder)
 
 
@@ -98,14 +99,14 @@ def test_a_study_is_readable_and_repeats_itself_from_its_job_file(
 def test_the_bits_do_not_depend_on_processes_or_the_order_of_blocks(
     study: Study, undisturbed: Path, tmp_path: Path
 ) -> None:
-    create(tmp_path / "store", layout_of(study))
+    create(tmp_path / "store", layout_of_study(study))
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         running = [
             pool.submit(run_block, study, index, tmp_path / "store")
             for index in reversed(range(len(study.blocks)))
         ]
         assert {run.result().state for run in running} == {"succeeded"}
-    seal(tmp_path / "store", layout_of(study), target(tmp_path / "store"))
+    seal(tmp_path / "store", layout_of_study(study), target(tmp_path / "store"))
     assert packed(tmp_path / "store").read_bytes() == undisturbed.read_bytes()
 
 
@@ -129,7 +130,7 @@ def test_however_often_a_block_is_left_and_resumed_the_bytes_are_the_same(
         assert run_block(study, index, folder, attempt=4, resume_from=resume_from) == Outcome(
             "succeeded", 0.0, 1.0
         )
-    seal(folder, layout_of(study), target(folder))
+    seal(folder, layout_of_study(study), target(folder))
     assert packed(folder).read_bytes() == undisturbed.read_bytes()
 
 
@@ -162,7 +163,7 @@ def test_a_restart_point_that_is_no_good_costs_time_only(
     assert (
         run_block(study, 1, folder, attempt=2, resume_from=("00001-a1", 0.1)).state == "succeeded"
     )
-    seal(folder, layout_of(study), target(folder))
+    seal(folder, layout_of_study(study), target(folder))
     assert packed(folder).read_bytes() == undisturbed.read_bytes()
 
 
@@ -189,7 +190,7 @@ def test_a_cancelled_block_keeps_what_it_computed(study: Study, tmp_path: Path) 
     found = reader.sections("slider7.x")
     assert np.isfinite(found).sum() == reader.counts.sum()
     with pytest.raises(IncompleteStudy):
-        seal(tmp_path, layout_of(study), target(tmp_path))
+        seal(tmp_path, layout_of_study(study), target(tmp_path))
 
 
 def test_a_block_that_computes_too_long_fails_with_what_it_has(
@@ -231,6 +232,6 @@ def test_a_point_that_fails_leaves_the_others_standing(tmp_path: Path) -> None:
 
 def test_results_of_something_else_are_never_written_over(study: Study, tmp_path: Path) -> None:
     other = admitted(JOB | {"record": 31})
-    create(tmp_path, layout_of(other))
+    create(tmp_path, layout_of_study(other))
     with pytest.raises(StoreExists):
         run_block(study, 0, tmp_path)

@@ -58,7 +58,7 @@ def compute_study(
     from jointplay.records.job import JobError
     from jointplay.storage.studies.store import seal
     from jointplay.worker.execute import Outcome
-    from jointplay.worker.study_block import layout_of
+    from jointplay.worker.layouts import layout_of_study
 
     done = 0.0
 
@@ -69,7 +69,7 @@ def compute_study(
 
     wanted = min(processes or cores(), len(study.blocks))
     report(0.0, "preparing the kernels")
-    layout, folder = layout_of(study), running / STORE
+    layout, folder = layout_of_study(study), running / STORE
     open_store(folder, layout)
     tries = tries_in(folder)
     try:

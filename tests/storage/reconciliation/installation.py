@@ -23,7 +23,8 @@ from jointplay.storage.running_files import RunningFiles
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, Progress, execute
-from jointplay.worker.study_block import layout_of, run_block
+from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.study_block import run_block
 from tests.postgresql_server import Server
 
 RUN = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.1}
@@ -110,7 +111,7 @@ class Installed:
         self.catalogue.finish(claim.block.id, 1, BlockState.done)
         if sealed:
             claim = self.claim(job, 1)
-            seal(folder, layout_of(study), self.settings.sealed_study(job))
+            seal(folder, layout_of_study(study), self.settings.sealed_study(job))
             self.catalogue.finish(claim.block.id, 1, BlockState.done)
             self.remove_running(job)
         return job
