@@ -46,6 +46,7 @@ from jointplay.service.scenes.looks import scene_looker
 from jointplay.service.scenes.poses import scene_poser
 from jointplay.service.windows import WindowProcess
 from jointplay.service.workers.bell import Bell
+from jointplay.service.workers.uploads import Uploads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore
 from jointplay.storage.places.fitness import require_fit
@@ -118,6 +119,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.watcher = Watcher(catalogue)
         app.state.in_flight = {}
         app.state.bell = bell = Bell()
+        app.state.uploads = Uploads()
         app.state.prober = prober = Prober()
         app.state.checker = checker = Checker(settings, catalogue)
         app.state.queueing = Queueing(settings, catalogue, checker, bell)

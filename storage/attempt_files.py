@@ -6,8 +6,9 @@ attempt, or ``sealed/study``.
 """
 
 import re
-from collections.abc import Iterable, Iterator
-from contextlib import suppress
+import secrets
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from hashlib import sha256
 from typing import Final
 
@@ -20,8 +21,10 @@ from jointplay.storage.running_files.objects import InPlace
 from jointplay.storage.settings import Settings
 
 _NAME: Final = re.compile(r"(?:(?!\.{1,2}/)[A-Za-z0-9._-]{1,80}/){0,2}(?!\.)[A-Za-z0-9._-]{1,120}")
-_SEALED: Final = "sealed/"
-_STUDY: Final = "study"
+SEALED: Final = "sealed/"
+STUDY: Final = "study"
+"""Folder of a study, whose blocks leave files that are not sealed yet; name of its sealed results.
+"""
 _PIECE: Final = 2**20
 _PART: Final = 2**23
 """Bytes that are read from a place at once, where each reading is a request."""
@@ -31,7 +34,7 @@ _DROPS: Final = "drops"
 
 def is_written_once(name: str) -> bool:
     """Whether a file is never replaced: sealed results, and rows."""
-    return name.startswith(_SEALED) or f"/{ROWS}/" in name
+    return name.startswith(SEALED) or f"/{ROWS}/" in name
 
 
 class AttemptFiles:
@@ -52,7 +55,7 @@ class AttemptFiles:
 
     def checked(self, name: str) -> str:
         """Return the name of a file of the running job; ValueError if it is none of one."""
-        if not _NAME.fullmatch(name) or name.startswith(_SEALED) or name.endswith(durable.PARTIAL):
+        if not _NAME.fullmatch(name) or name.startswith(SEALED) or name.endswith(durable.PARTIAL):
             raise ValueError(f"{name!r} is no file of a running job")
         return name
 
@@ -64,10 +67,10 @@ class AttemptFiles:
         ValueError
             Its attempt is none that there can be.
         """
-        if not name.startswith(_SEALED):
+        if not name.startswith(SEALED):
             return None
-        which = name.removeprefix(_SEALED)
-        if which == _STUDY:
+        which = name.removeprefix(SEALED)
+        if which == STUDY:
             return self._settings.sealed_study(self._block.job)
         if not re.fullmatch(r"[1-9]\d{0,8}", which) or int(which) > self._block.attempt:
             raise ValueError(f"{name!r} is no result of this attempt or of one before")
@@ -75,7 +78,7 @@ class AttemptFiles:
 
     def own_sealed(self) -> Iterator[str]:
         """Name the sealed results of this attempt that are there."""
-        for name in (f"{_SEALED}{self._block.attempt}", f"{_SEALED}{_STUDY}"):
+        for name in (f"{SEALED}{self._block.attempt}", f"{SEALED}{STUDY}"):
             found = self.sealed(name)
             if found is not None and found.exists():
                 yield name
@@ -88,9 +91,9 @@ class AttemptFiles:
         """
         block = self._block
         for attempt in range(1, block.attempt):
-            lost = self.sealed(f"{_SEALED}{attempt}")
+            lost = self.sealed(f"{SEALED}{attempt}")
             if lost is not None and lost.exists():
-                yield f"{_SEALED}{attempt}", lost.size()
+                yield f"{SEALED}{attempt}", lost.size()
         if (block.attempt, block.index, block.count) == (1, 0, 1):
             return  # a run that begins, or a study of one point
         for name in self.running.names():
@@ -109,11 +112,11 @@ class AttemptFiles:
             yield sealed.read(start, min(start + _PIECE, size))
 
     def _is_needed(self, name: str) -> bool:
-        if self._block.count == 0 or name == f"{_STUDY}/documents.zip":
+        if self._block.count == 0 or name == f"{STUDY}/documents.zip":
             return True
         if self._block.attempt == 1:
             return False
-        part = name.removeprefix(f"{_STUDY}/parts/")
+        part = name.removeprefix(f"{STUDY}/parts/")
         return part == name or part.partition("-")[0] == f"{self._block.index:05d}"
 
     def put(self, name: str, pieces: Iterable[bytes]) -> None:
@@ -143,8 +146,50 @@ class AttemptFiles:
         """
         if not isinstance(self.running, InPlace) or self._target(name) is None:
             return None
-        key = f"{self.running.prefix}/{_DROPS}/{self._block.index}-a{self._block.attempt}-{digest}"
-        return StoredObject(self.running.place, key)
+        return StoredObject(self.running.place, f"{self._drops()}{digest}")
+
+    def stored(self, is_own: Callable[[str], bool]) -> int:
+        """Return the bytes of files of the attempt, by their names, and of what it dropped."""
+        found = 0
+        for name in [*filter(is_own, self.running.names()), *self.own_sealed()]:
+            with suppress(FileNotFoundError):
+                sealed = self.sealed(name)
+                found += self.running.size(name) if sealed is None else sealed.size()
+        if isinstance(self.running, InPlace):
+            for key in self.running.place.list(self._drops()):
+                with suppress(FileNotFoundError):
+                    found += self.running.place.size(key)
+        return found
+
+    def _drops(self) -> str:
+        """Begin the keys of what was dropped; of files in a folder nothing can be."""
+        prefix = self.running.prefix if isinstance(self.running, InPlace) else ""
+        return f"{prefix}/{_DROPS}/{self._block.index}-a{self._block.attempt}-"
+
+    @contextmanager
+    def copied(self, name: str, digest: str, size: int) -> Iterator[StoredObject]:
+        """Give a copy of what was dropped for a file, which the worker cannot put again.
+
+        What was dropped is removed once the copy was made use of without an error.
+
+        Raises
+        ------
+        FileNotFoundError
+            Nothing was dropped.
+        ValueError
+            It has another size, or can be no such file.
+        """
+        dropped = self.drop(name, digest)
+        if dropped is None or dropped.size() != size:
+            raise ValueError(f"{name!r} has other bytes than were told")
+        key = f"{self._drops()}copy-{secrets.token_hex(8)}"
+        copy = StoredObject(dropped.place, key)
+        dropped.place.adopt(key, dropped.key)
+        try:
+            yield copy
+            dropped.place.remove(dropped.key)
+        finally:
+            copy.place.remove(key)
 
     def take(self, name: str, digest: str, size: int, md5: str) -> None:
         """Make a file of what was dropped for it, once its bytes were found right, and remove that.

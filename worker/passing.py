@@ -12,10 +12,17 @@ PASSING: Final = (OSError, Unavailable)
 _FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 
+def is_full(fault: Exception) -> bool:
+    """Whether a fault is that a disk is full."""
+    if isinstance(fault, Unavailable):
+        return fault.full
+    return getattr(fault, "errno", None) in _FULL
+
+
 def waits_for(fault: Exception) -> str:
     """Return what a job says that it does until a fault has passed; at most 32 characters."""
-    if isinstance(fault, Unavailable) and not fault.full:
-        return "waiting for the catalogue"
-    if isinstance(fault, Unavailable) or getattr(fault, "errno", None) in _FULL:
+    if is_full(fault):
         return "waiting for room on the disk"
+    if isinstance(fault, Unavailable):
+        return "waiting for the catalogue"
     return "waiting for the results' place"

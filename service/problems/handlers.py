@@ -29,6 +29,7 @@ from jointplay.storage.catalogue.errors import (
     QuotaExceeded,
     Unavailable,
 )
+from jointplay.worker.handed_in.results import NotTheJobs
 
 _log = logging.getLogger(__name__)
 _MOST_ERRORS = 100  # in one document; their count is in its detail
@@ -148,6 +149,11 @@ def _(error: ConnectionError) -> RequestRefused:
 @refusal.register
 def _(error: Fenced) -> RequestRefused:
     return RequestRefused(kinds.NOT_HELD, f"A{str(error)[1:]}.")
+
+
+@refusal.register
+def _(error: NotTheJobs) -> RequestRefused:
+    return RequestRefused(kinds.RESULTS_REFUSED, f"The block was taken back: {error}.")
 
 
 @refusal.register

@@ -178,6 +178,13 @@ NOT_HELD = _kind(
     "The attempt does not hold the block",
     "Another worker has it by now, or the job has ended: drop what was computed, and claim again.",
 )
+RESULTS_REFUSED = _kind(
+    "results-refused",
+    422,
+    "The results are not those of the block",
+    "The block was taken back and is computed anew: drop what was computed, and claim again. The "
+    "problem's `detail` says what is wrong.",
+)
 OTHER_VERSION = _kind(
     "other-version",
     409,

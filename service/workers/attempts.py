@@ -7,7 +7,8 @@ from fastapi import APIRouter
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused
 from jointplay.service.workers.bell import BellDependency
-from jointplay.service.workers.words import HELD, Attempt, BlockId, HeldBlock, said
+from jointplay.service.workers.handed_in import HandedIn
+from jointplay.service.workers.words import HELD, Attempt, BlockId, HeldBlock, JobOfBlock, said
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.protocol import Answered, Finished
 from jointplay.worker.removal import tidy
@@ -89,9 +90,11 @@ def finish(
     settings: SettingsDependency,
     bell: BellDependency,
     held: HeldBlock,
+    job: JobOfBlock,
     told: Annotated[protocol.Finish, said(protocol.Finish)],
 ) -> Finished:
-    """End the block and, with its last block, the job."""
+    """End the block, if its results are there, and, with its last block, the job."""
+    HandedIn(catalogue, settings, job, held).require_end(told.outcome, told.steps)
     end = catalogue.finish_repeatable if told.repeatable else catalogue.finish
     try:
         state = end(

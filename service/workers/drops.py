@@ -6,8 +6,9 @@ from fastapi import APIRouter, Response
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused
-from jointplay.service.workers.files import require_still_held
-from jointplay.service.workers.words import HeldBlock, said
+from jointplay.service.workers.handed_in import HandedIn
+from jointplay.service.workers.uploads import UploadsDependency
+from jointplay.service.workers.words import HeldBlock, JobOfBlock, said
 from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.worker.joined.protocol import Drop, DropAt
 
@@ -17,34 +18,45 @@ Told = Annotated[Drop, said(Drop)]
 
 
 @router.post("", response_model=None)
-def offer(settings: SettingsDependency, held: HeldBlock, told: Told) -> DropAt | Response:
-    """Return where a file may be put, or 204 if it is to be sent here.
+def offer(
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    uploads: UploadsDependency,
+    held: HeldBlock,
+    job: JobOfBlock,
+    told: Told,
+) -> DropAt | Response:
+    """Return where a file of so many bytes may be put, or 204 if it is to be sent here.
 
     What is put there is no file of the job: an attempt that is late changes nothing.
     """
     address = None
     if settings.results_redirect:
         try:
-            dropped = AttemptFiles(settings, held).drop(told.name, told.sha256)
+            with HandedIn(catalogue, settings, job, held).sending(uploads, told.name, told.size):
+                dropped = AttemptFiles(settings, held).drop(told.name, told.sha256)
         except ValueError as error:
             raise _refused(error) from error
         if dropped is not None:
-            address = dropped.place.link(
-                dropped.key, settings.results_redirect, _SIGNED_FOR, method="PUT"
+            address = dropped.place.link_to_put(
+                dropped.key, settings.results_redirect, _SIGNED_FOR, told.size
             )
     return Response(status_code=204) if address is None else DropAt(address=address)
 
 
 @router.post("/taken", status_code=204)
 def take(
-    catalogue: CatalogueDependency, settings: SettingsDependency, held: HeldBlock, told: Told
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    held: HeldBlock,
+    job: JobOfBlock,
+    told: Told,
 ) -> None:
-    """Make a file of the job of what was put, once its size and digest were found right."""
+    """Make a file of the job of what was put, once its bytes were found right."""
     try:
-        AttemptFiles(settings, held).take(told.name, told.sha256, told.size, told.md5)
+        HandedIn(catalogue, settings, job, held).take(told.name, told.sha256, told.size, told.md5)
     except (ValueError, FileNotFoundError) as error:
         raise _refused(error) from error
-    require_still_held(catalogue, settings, held)
 
 
 def _refused(error: Exception) -> RequestRefused:

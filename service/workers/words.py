@@ -11,7 +11,7 @@ from jointplay.service.access import Caller, CallerDependency
 from jointplay.service.body import WordBody
 from jointplay.service.dependencies import CatalogueDependency
 from jointplay.storage.catalogue.errors import Fenced
-from jointplay.storage.catalogue.records import Block
+from jointplay.storage.catalogue.records import Block, Job
 from jointplay.worker.joined.protocol import Document
 
 Said = TypeVar("Said", bound=Document)
@@ -50,3 +50,12 @@ async def _held(
 HELD = Depends(_held)
 HeldBlock = Annotated[Block, HELD]
 """Block of the path; refused with 409 if its attempt, claimed with this key, does not hold it."""
+
+
+async def _job(catalogue: CatalogueDependency, held: HeldBlock) -> Job:
+    found: Job = await run_in_threadpool(catalogue.get, held.job)
+    return found
+
+
+JobOfBlock = Annotated[Job, Depends(_job)]
+"""Job of that block."""

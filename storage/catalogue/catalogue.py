@@ -252,6 +252,7 @@ class Catalogue:
     record_checkpoint = writing(holding.record_checkpoint)
     release = writing(ending.release)
     put_off = writing(ending.put_off)
+    refuse = durably(ending.refuse)
 
     finish = durably(ending.finish)
     finish_repeatable = writing(ending.finish)  # for what is quickly found again

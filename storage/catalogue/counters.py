@@ -2,7 +2,7 @@
 
 from typing import Final
 
-OUTCOMES: Final = ("done", "failed", "cancelled", "released", "put-off", "lost")
+OUTCOMES: Final = ("done", "failed", "cancelled", "released", "put-off", "lost", "refused")
 """Ends of attempts."""
 PUBLISHED: Final = "published"
 PUBLISHING: Final = "seconds of publishing"

@@ -4,6 +4,8 @@ With its last block a job ends; what is given back is queued again.
 """
 
 from collections import Counter
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, Final
 
 from sqlalchemy import bindparam, func, insert, select, update
@@ -20,6 +22,7 @@ from jointplay.storage.catalogue.submission import drop_blocks
 
 _PUT_OFF: Final = "put-off"
 _LOST: Final = "lost"
+_REFUSED: Final = "refused"
 _LONGEST_RETREAT: Final = 60.0  # s
 _FIRST_PAUSE = 2.0  # s
 LONGEST_PAUSE: Final = 5.0
@@ -155,45 +158,89 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
     """
     job = _take_back(unit, block_id, attempt, _LOST, losses=_block.c.losses + 1)
     losses = unit.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
-    lost = _lost_by(unit, block_id, losses)
-    present = {machine_of(name) for name in workers(unit)} or lost.keys()
-    hopeless = len(lost) >= max_attempts or all(lost[one] >= max_attempts for one in present)
-    if not hopeless and not job.state.terminal:
-        again = losses - len(lost)  # a machine may lose it in vain: give another one time
-        queue_again(unit, block_id, min(2.0**again, _LONGEST_RETREAT) if again else 0.0)
-        return BlockState.queued
-    given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
-    unit.execute(update(_block).where(_block.c.id == block_id).values(state=given_up))
     error = JobError(
         "platform",
         "worker-lost",
         f"{losses} workers in a row disappeared while computing this; their logs say why, or"
         " those of their machines where memory ran out. Submit it again once that is solved.",
     )
+    return _again(
+        unit, job, block_id, _ended_by(unit, block_id, _LOST, losses), max_attempts, error
+    )
+
+
+def refuse(unit: Unit, block_id: str, attempt: int, max_attempts: int, reason: str) -> BlockState:
+    """Take a block from a worker whose results are not the job's; or Fenced.
+
+    It begins anew, or is given up, as one that was lost; nothing that the attempt left counts.
+    `reason` : a sentence without its end, for the block's history.
+    """
+    nothing = {"checkpoint": None, "watermark": 0}
+    job = _take_back(unit, block_id, attempt, _REFUSED, {"reason": reason}, **nothing)
+    refused = _ended_by(unit, block_id, _REFUSED, None)
+    error = JobError(
+        "platform",
+        "results-refused",
+        f"Results of {refused.total()} attempts are not this job's, of the last one since"
+        f" {reason}. Look at the workers that sent them, then submit it again.",
+    )
+    return _again(unit, job, block_id, refused, max_attempts, error)
+
+
+def _again(
+    unit: Unit,
+    job: Job,
+    block_id: str,
+    lost: Counter[str],
+    max_attempts: int,
+    error: JobError,
+) -> BlockState:
+    """Queue a block again that was taken back, or give it up: see `lose`.
+
+    `lost` : attempts in vain, by machine.
+    """
+    present = {machine_of(name) for name in workers(unit)} or lost.keys()
+    hopeless = len(lost) >= max_attempts or all(lost[one] >= max_attempts for one in present)
+    if not hopeless and not job.state.terminal:
+        again = lost.total() - len(lost)  # a machine may lose it in vain: give another one time
+        queue_again(unit, block_id, min(2.0**again, _LONGEST_RETREAT) if again else 0.0)
+        return BlockState.queued
+    given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
+    unit.execute(update(_block).where(_block.c.id == block_id).values(state=given_up))
     settle(unit, job.id, error if given_up is BlockState.failed else None)
     return given_up
 
 
-def _lost_by(unit: Unit, block_id: str, losses: int) -> Counter[str]:
-    """Count the last losses of a block by machine."""
+def _ended_by(unit: Unit, block_id: str, outcome: str, last: int | None) -> Counter[str]:
+    """Count attempts at a block that ended so, the last ones or all, by machine."""
     table = tables.attempt
     rows = unit.execute(
         select(table.c.worker)
-        .where(table.c.block == block_id, table.c.outcome == _LOST)
+        .where(table.c.block == block_id, table.c.outcome == outcome)
         .order_by(table.c.number.desc())
-        .limit(losses)
+        .limit(last)
     )
     return Counter(machine_of(name) for name in rows.scalars())
 
 
-def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes: Any) -> Job:
-    """End an attempt without a result and return its job; Fenced if it does not hold the block."""
+def _take_back(
+    unit: Unit,
+    block_id: str,
+    attempt: int,
+    outcome: str,
+    about: Mapping[str, Any] = MappingProxyType({}),
+    **changes: Any,
+) -> Job:
+    """End an attempt without a result and return its job; Fenced if it does not hold the block.
+
+    `about` : facts for the event of it.
+    """
     free = {"state": BlockState.queued, "lease_until": None, "worker": None}
     job = lock_held(unit, block_id, attempt)
     change_held(unit, block_id, attempt, **free, **changes)
     worker = _end_attempt(unit, job, block_id, attempt, outcome)
     sum_progress(unit, job.id)
-    facts = {"block": block_id, "attempt": attempt, "worker": worker}
+    facts = {"block": block_id, "attempt": attempt, "worker": worker, **about}
     record_event(unit, job.id, outcome, facts)
     return job
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from math import inf
 from typing import NamedTuple, Protocol
 from zlib import crc32
 
@@ -82,6 +83,8 @@ class Packed:
     source: Ranges
     owner: bytes = b""
     """Whose it must be, for files that do not say so themselves; see `pack`."""
+    most: float = inf
+    """Bytes of a directory that is read."""
     entries: dict[str, Entry] = field(init=False)
     _checked: set[str] = field(init=False, default_factory=set)
 
@@ -102,6 +105,8 @@ class Packed:
             records += END_64.size + LOCATOR.size
         if first + length + records != size:  # before so many bytes are asked for
             raise CorruptStore(f"the directory of {self.source} is not where it was")
+        if length > self.most:
+            raise CorruptStore(f"the directory of {self.source} has more than {self.most:g} bytes")
         behind = size - first
         end = tail[-behind:] if behind <= len(tail) else self.source.read(first, size)
         if comment(end[: -COMMENT.size], self.owner) != end[-COMMENT.size :]:

@@ -9,7 +9,7 @@ job needs is replaced; see `storage.running_files`.
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Final, Literal, Protocol
+from typing import Final, Protocol
 
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.places.s3 import Bucket
@@ -93,12 +93,17 @@ class Place(Protocol):
         """
         ...
 
-    def link(
-        self, key: str, endpoint: str, seconds: float, *, method: Literal["GET", "PUT"] = "GET"
-    ) -> str | None:
-        """Sign an address below `endpoint` at which anyone may GET or PUT an object, for some time.
+    def link(self, key: str, endpoint: str, seconds: float) -> str | None:
+        """Sign an address below `endpoint` at which anyone may GET an object, for some time.
 
         None: the place answers no requests.
+        """
+        ...
+
+    def link_to_put(self, key: str, endpoint: str, seconds: float, size: int) -> str | None:
+        """Sign an address at which anyone may PUT an object of so many bytes, and of no others.
+
+        None: the place answers no requests, or cannot sign that.
         """
         ...
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from glob import escape
 from math import inf
 from pathlib import Path
-from typing import Final, Literal
+from typing import Final
 
 from jointplay.storage import durable
 
@@ -106,9 +106,11 @@ class Folder:
         durable.sync(path.parent)
         return True
 
-    def link(
-        self, key: str, endpoint: str, seconds: float, *, method: Literal["GET", "PUT"] = "GET"
-    ) -> str | None:
+    def link(self, key: str, endpoint: str, seconds: float) -> str | None:
+        """Return nothing: no server answers for a folder."""
+        return None
+
+    def link_to_put(self, key: str, endpoint: str, seconds: float, size: int) -> str | None:
         """Return nothing: no server answers for a folder."""
         return None
 

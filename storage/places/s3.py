@@ -8,7 +8,7 @@ The store must refuse a PUT of a key that there is (If-None-Match), and list wha
 import mmap
 import os
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from datetime import timedelta
@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Final, Literal
 from urllib.parse import parse_qsl, urlsplit
 
 from jointplay.storage.errors import TooLarge
+from jointplay.storage.places.signing import address_to_put
 
 if TYPE_CHECKING:
     from obstore.store import RetryConfig, S3Store
@@ -149,16 +150,20 @@ class Bucket:
                 obstore.copy(self._store, lost, key)
         return True
 
-    def link(
-        self, key: str, endpoint: str, seconds: float, *, method: Literal["GET", "PUT"] = "GET"
-    ) -> str | None:
+    def link(self, key: str, endpoint: str, seconds: float) -> str | None:
         """Sign with the place's own credentials; the store is not asked."""
         import obstore
 
         bucket, prefix, options = self._parts
         there = tuple(sorted((dict(options) | {"endpoint": endpoint}).items()))
         store = _opened((bucket, prefix, there), os.getpid())
-        return str(obstore.sign(store, method, key, timedelta(seconds=seconds)))
+        return str(obstore.sign(store, "GET", key, timedelta(seconds=seconds)))
+
+    def link_to_put(self, key: str, endpoint: str, seconds: float, size: int) -> str | None:
+        """Sign with the credentials in the environment, if they are there."""
+        bucket, prefix, options = self._parts
+        path = "/".join(filter(None, (bucket, prefix, key)))
+        return address_to_put(endpoint, path, _region(dict(options)), seconds, size)
 
     def _send(
         self, key: str, pieces: Iterable[bytes], mode: Literal["create", "overwrite"]
@@ -198,11 +203,15 @@ def _opened(parts: tuple[str, str, tuple[tuple[str, str], ...]], _process: int) 
         bucket,
         prefix=prefix or None,
         endpoint=given.get("endpoint", os.environ.get("AWS_ENDPOINT_URL")),
-        region=given.get("region", os.environ.get("AWS_REGION", "us-east-1")),
+        region=_region(given),
         virtual_hosted_style_request=False,
         client_options={"allow_http": True, "connect_timeout": "5s", "timeout": _LIMIT},
         retry_config=_RETRIES,
     )
+
+
+def _region(given: Mapping[str, str]) -> str:
+    return given.get("region", os.environ.get("AWS_REGION", "us-east-1"))
 
 
 def _gathered(pieces: Iterable[bytes]) -> bytes | mmap.mmap:

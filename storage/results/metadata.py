@@ -50,6 +50,15 @@ def groups_among(documents: Mapping[str, Document]) -> dict[str, Document]:
     return {key: one for key, one in documents.items() if one["node_type"] == "group"}
 
 
+def arrays_among(documents: Mapping[str, Document]) -> dict[str, Document]:
+    """Choose the arrays' documents, by the path of each."""
+    return {
+        key.removesuffix(f"/{FILE}"): one
+        for key, one in documents.items()
+        if one["node_type"] == "array"
+    }
+
+
 def serialise(document: Mapping[str, Any]) -> bytes:
     """Give the bytes of a document: the same for the same document, everywhere.
 

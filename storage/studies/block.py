@@ -232,7 +232,7 @@ def chunk_files(
 
     `chunk` is (observables + 1, points, sections), times last, by (row, column) in the grid.
     """
-    for path, values in zip(_paths(layout, key), chunk, strict=True):
+    for path, values in zip(paths_at(layout, key), chunk, strict=True):
         yield path, shards.compress(values)
 
 
@@ -267,7 +267,8 @@ def place_of(key: tuple[int, int]) -> str:
     return f"sections/{TIME}/c/{key[0]}/{key[1]}"
 
 
-def _paths(layout: StudyLayout, key: tuple[int, int]) -> list[str]:
+def paths_at(layout: StudyLayout, key: tuple[int, int]) -> list[str]:
+    """Return the keys of the chunks of all arrays at a place of the grid."""
     names = [*(spec.name for spec in layout.observables), TIME]
     return [f"sections/{name}/c/{key[0]}/{key[1]}" for name in names]
 

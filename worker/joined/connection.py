@@ -8,7 +8,7 @@ from urllib.parse import quote
 
 import httpx
 
-from jointplay.storage.catalogue.errors import Fenced, Unavailable
+from jointplay.storage.catalogue.errors import CatalogueError, Fenced, Unavailable
 from jointplay.storage.catalogue.records import Block
 from jointplay.worker.holding import Refused
 from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Document, Drop, DropAt
@@ -21,7 +21,16 @@ _PATIENCE: Final = 15.0  # s, beyond what a service may take to find a block
 _LONGEST_TAKING: Final = 120.0  # s, in which a service reads and copies the largest file
 _MAY_PASS: Final = frozenset({408, 422, 425, 429})  # 422: bytes that were changed on their way
 _FULL: Final = 507
+_REFUSED: Final = "/results-refused"
 _LARGEST_KEY: Final = 4096
+
+
+class ResultsRefused(Fenced):
+    """The service found results that are not the block's, which it took back; see its sentence."""
+
+    def __init__(self, block: Block, detail: str) -> None:
+        sentence = f"attempt {block.attempt} at block {block.id} is refused: {detail}"
+        CatalogueError.__init__(self, sentence)
 
 
 class Connection:
@@ -135,7 +144,8 @@ class Connection:
             response = self._http.post(
                 f"{_path(block)}/drops/taken", **_json(drop), timeout=patient
             )
-        if response.status_code == httpx.codes.UNPROCESSABLE_ENTITY:
+        refused = response.status_code == httpx.codes.UNPROCESSABLE_ENTITY
+        if refused and not _problem_of(response)[0].endswith(_REFUSED):
             return False
         _require_success(response, block)
         return True
@@ -189,6 +199,8 @@ def _require_success(response: httpx.Response, block: Block | None) -> None:
     kind, detail = _problem_of(response)
     if block is not None and kind.endswith("/not-held"):
         raise Fenced(block.id, block.attempt)
+    if block is not None and kind.endswith(_REFUSED):
+        raise ResultsRefused(block, detail)
     if response.status_code == _FULL:
         raise Unavailable("has no room for results", full=True)
     # while a block is held, what is no problem of a service is of a proxy that has lost its service

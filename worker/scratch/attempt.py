@@ -8,10 +8,11 @@ from threading import Lock
 from typing import Any, NamedTuple
 
 from jointplay.records.job import JobError
+from jointplay.storage.attempt_files import STUDY
 from jointplay.storage.catalogue.errors import CatalogueError, Unavailable
 from jointplay.storage.catalogue.records import BlockState, JobState
 from jointplay.worker.holding import Holding
-from jointplay.worker.scratch.files import STUDY, Scratch, Taken
+from jointplay.worker.scratch.files import Scratch, Taken
 
 _log = logging.getLogger(__name__)
 

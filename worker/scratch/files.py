@@ -16,8 +16,6 @@ from jointplay.storage.packed.running import DOCUMENTS, PARTS, ROWS
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.settings import Settings
 
-STUDY: Final = "study"
-"""Folder of a study, whose blocks leave files that are not sealed yet."""
 _PIECE: Final = 2**20
 _LOOK: Final = 0.1
 """Seconds after which it is looked for rows that are whole ..."""
@@ -80,6 +78,8 @@ class Scratch:
         self._elsewhere = elsewhere
         self._files = AttemptFiles(settings, block)
         self._folder = settings.running_folder(block.job)
+        self._sends = block.count > 0
+        """What seals a study sends nothing else: files of the study are those of its blocks."""
         self._sent: dict[str, _Version] = {}
         self._sending = threading.Lock()
 
@@ -118,6 +118,8 @@ class Scratch:
 
         Those last that build on others.
         """
+        if not self._sends:
+            return Taken((), (), ExitStack())
         there = {*self._files.running.names(folder)}
         gone = (one for one in [*self._sent] if one.startswith(folder) and one not in there)
         with ExitStack() as opened:
@@ -140,6 +142,9 @@ class Scratch:
     @contextmanager
     def sending_rows(self) -> Iterator[None]:
         """Send many rows as soon as they are whole, so that restart points need not wait."""
+        if not self._sends:
+            yield
+            return
         ended = threading.Event()
 
         def look() -> None:

@@ -1,0 +1,83 @@
+"""The body of a file that a worker sends: it arrives in a file without a name, and in time."""
+
+import asyncio
+import tempfile
+from base64 import b64encode
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from hashlib import sha256
+from pathlib import Path
+from typing import IO, Final
+
+from fastapi import Request
+
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.workers.uploads import Kept
+from jointplay.worker.passing import is_full
+
+LARGEST_FILE: Final = 2**34
+PATIENCE: Final = 30.0
+"""Seconds that any file may take."""
+SLOWEST: Final = 20_000.0
+"""Bytes a second that it must arrive with beyond them."""
+
+
+def length_of(request: Request) -> int:
+    """Return the bytes that a request says its body has; refused if it does not."""
+    length = request.headers.get("content-length", "")
+    if not length.isdecimal() or int(length) > LARGEST_FILE:
+        sentence = f"Content-Length is missing, or more than {LARGEST_FILE} bytes."
+        raise RequestRefused.of_parameter("Content-Length", sentence)
+    return int(length)
+
+
+@asynccontextmanager
+async def arrived(request: Request, folder: Path, kept: Kept) -> AsyncIterator[IO[bytes]]:
+    """Give the body, once its digest was found right, in a file at its beginning.
+
+    Parameters
+    ----------
+    folder
+        On whose disk it is.
+    kept
+        Room that was kept for it.
+    """
+    length = length_of(request)
+    patience = PATIENCE + length / SLOWEST
+    with tempfile.TemporaryFile(dir=folder) as content:
+        try:
+            async with asyncio.timeout(patience):
+                digest = await _received(request, content, length, kept)
+            content.flush()
+        except TimeoutError:
+            raise RequestRefused(
+                kinds.BODY_TOO_SLOW,
+                f"The file did not arrive within {patience:.0f} s.",
+                headers={"Connection": "close"},
+            ) from None
+        except OSError as fault:
+            if not is_full(fault):
+                raise
+            sentence = "The disk of the service is full."
+            raise RequestRefused(
+                kinds.DISK_FULL, sentence, headers={"Retry-After": "30", "Connection": "close"}
+            ) from fault
+        expected = f"sha-256=:{b64encode(digest).decode()}:"
+        if request.headers.get("content-digest") != expected:
+            sentence = "Content-Digest, sha-256, is missing, or not that of the bytes that arrived."
+            raise RequestRefused.of_parameter("Content-Digest", sentence)
+        content.seek(0)
+        yield content
+
+
+async def _received(request: Request, content: IO[bytes], length: int, kept: Kept) -> bytes:
+    digest, left = sha256(), length
+    async for piece in request.stream():
+        left -= len(piece)
+        if left < 0:  # sent in chunks, for which Content-Length says nothing
+            sentence = f"The file has more than the {length} bytes of Content-Length."
+            raise RequestRefused.of_parameter("Content-Length", sentence)
+        digest.update(piece)
+        content.write(piece)
+        kept.wrote(len(piece))
+    return digest.digest()
