@@ -3,7 +3,13 @@
 from collections.abc import Iterator
 
 import pytest
-from joined_by_hand import (
+
+from jointplay.storage.packed import pack
+from jointplay.storage.packed.in_memory import InMemory
+from jointplay.storage.packed.reading import Packed
+from jointplay.storage.results.layout import MANIFEST
+from jointplay.storage.results.manifest import listed
+from tests.joined_by_hand import (
     NOT_HELD,
     REFUSED,
     SWEEP,
@@ -16,12 +22,6 @@ from joined_by_hand import (
     study_files,
     without,
 )
-
-from jointplay.storage.packed import pack
-from jointplay.storage.packed.in_memory import InMemory
-from jointplay.storage.packed.reading import Packed
-from jointplay.storage.results.layout import MANIFEST
-from jointplay.storage.results.manifest import listed
 
 PLACES = ["folder", pytest.param("bucket", marks=pytest.mark.long)]
 

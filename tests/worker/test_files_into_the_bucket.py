@@ -16,9 +16,10 @@ from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block
 from jointplay.storage.settings import Settings
 from jointplay.worker.joined.bucket import BucketOfService
-from jointplay.worker.joined.connection import Connection
+from jointplay.worker.joined.connection import Connection, ResultsRefused
 from jointplay.worker.joined.files import FilesOfService
 from jointplay.worker.joined.protocol import Drop
+from tests.joined_by_hand import sealed
 from tests.seaweedfs_server import BUCKET, running_store
 from tests.service_in_thread import client_of, serving
 from tests.worker_by_hand import Worker
@@ -47,7 +48,8 @@ class Attempt:
     def __init__(self, url: str, catalogue: Catalogue, settings: Settings) -> None:
         with client_of(url) as http:
             worker = Worker(http, catalogue, settings)
-            self.block = worker.start(worker.submit()).block
+            claim = worker.start(worker.submit())
+        self.block, self.document = claim.block, claim.job.spec
         self.settings = settings
         self.connection = Counting(url, None)
         self.files = FilesOfService(self.connection, BucketOfService(self.connection), self.block)
@@ -100,10 +102,10 @@ def drop(name: str = ROWS, content: bytes = CONTENT) -> Drop:
 def test_they_arrive_whether_or_not_the_bucket_is_in_reach(
     attempt: Attempt, elsewhere: str
 ) -> None:
-    for name in (ROWS, "sealed/1"):
-        attempt.files.put(name, pieces())
-        attempt.files.put(name, pieces())  # as if the first answer had been lost
-        assert attempt.stored(name) == CONTENT
+    for name, content in ((ROWS, CONTENT), ("sealed/1", sealed(attempt.document))):
+        attempt.files.put(name, [content[: 2**20], content[2**20 :]])
+        attempt.files.put(name, [content])  # as if the first answer had been lost
+        assert attempt.stored(name) == content
     assert attempt.connection.written == (4 if elsewhere else 0)
     (only,) = attempt.objects()
     assert only.endswith("/a1/rows/history-0.zip+000000000000")
@@ -115,7 +117,9 @@ def test_only_what_is_whole_and_right_becomes_a_file(attempt: Attempt) -> None:
     assert not connection.taken(block, drop())  # nothing was put
     address = connection.offered(block, drop())
     assert address is not None
-    for wrong in (CONTENT[:-1], CONTENT[:-1] + bytes([CONTENT[-1] ^ 1])):
+    for wrong in (CONTENT[:-1], CONTENT + b"x"):  # the address is for so many bytes
+        assert httpx.put(address, content=wrong, trust_env=False).status_code == 403
+    for wrong in (bytes(len(CONTENT)), CONTENT[:-1] + bytes([CONTENT[-1] ^ 1])):
         httpx.put(address, content=wrong, trust_env=False).raise_for_status()
         assert not connection.taken(block, drop())
         with pytest.raises(FileNotFoundError):
@@ -125,10 +129,17 @@ def test_only_what_is_whole_and_right_becomes_a_file(attempt: Attempt) -> None:
     httpx.put(address, content=CONTENT, trust_env=False).raise_for_status()
     assert connection.taken(block, drop())
     assert attempt.stored(ROWS) == CONTENT
-    encrypted = drop("sealed/1").model_copy(update={"md5": "0" * 32})  # the store has another
+    other = "a1/rows/history-1.zip"
+    encrypted = drop(other).model_copy(update={"md5": "0" * 32})  # the store has another
     httpx.put(address, content=CONTENT, trust_env=False).raise_for_status()
     assert connection.taken(block, encrypted)
-    assert attempt.stored("sealed/1") == CONTENT
+    assert attempt.stored(other) == CONTENT
+    garbage = drop("sealed/1")
+    httpx.put(address, content=CONTENT, trust_env=False).raise_for_status()
+    with pytest.raises(ResultsRefused, match="sealed/1 is cut off"):
+        connection.taken(block, garbage)
+    with pytest.raises(FileNotFoundError):
+        attempt.stored("sealed/1")
 
 
 @pytest.mark.parametrize("elsewhere", [""], indirect=True)

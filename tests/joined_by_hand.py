@@ -148,13 +148,18 @@ def installation(kind: str, data: Path, *, redirect: bool = False) -> Iterator[I
 @cache
 def sealed_run(duration: float, *, half: bool = False) -> bytes:
     """Bytes of the store of a pendulum's run, or of one that was cancelled."""
+    return sealed(SWING | {"duration": duration}, half=half)
+
+
+def sealed(document: dict[str, Any], *, half: bool = False) -> bytes:
+    """Bytes of the store of a run, or of one that was cancelled."""
 
     def report(progress: Progress) -> Answer:
         return Answer.cancel if half else Answer.go_on
 
     with TemporaryDirectory() as folder:
         target = StoredObject(Folder(folder), "sealed")
-        admission = admit(SWING | {"duration": duration})
+        admission = admit(document)
         assert not isinstance(admission, Study)
         execute(admission, Path(folder) / "a1", target, report=report)
         return target.read(0, target.size())
