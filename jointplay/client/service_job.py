@@ -32,6 +32,10 @@ class ServiceJob(Job):
         """Queue it once more, as `Job.retry` says."""
         return type(self)(self._connection.post(f"{self._path}/retry"), self._connection)
 
+    def contradict(self) -> None:
+        """Note that a repetition gave other results; it is the answer to no submission any more."""
+        self._connection.post(f"{self._path}/contradict")
+
     def delete(self) -> None:
         """Delete the finished job with its results; there is no way back."""
         self._connection.delete(self._path)

@@ -12,6 +12,7 @@ from jointplay.command_line.options import AS_JSON, DEFAULT_URL, PROCESSES, URL,
 from jointplay.command_line.output import aligned, tell
 
 if TYPE_CHECKING:
+    from jointplay.client.job import Job
     from jointplay.local.verification import Verification
     from jointplay.storage.results.comparison import Compared
 
@@ -34,7 +35,8 @@ def verify(
 
     The stored job is not touched.  Equal bits are promised where the same version of the solver
     computed it; of another version a simulation is compared within its certificate's bars.  Exit
-    code 0: that holds; 1: it does not, and the table says where.
+    code 0: that holds; 1: it does not, and the table says where.  A service that the job is of then
+    computes it anew when its document is submitted again.
 
     Example: `jointplay verify 01M7YCD368E9VM5RM0B9JY3SGA`
     """
@@ -55,13 +57,32 @@ def _job(results: str, url: str, processes: int | None) -> "Verification":
     from jointplay.storage.errors import CorruptStore
 
     try:
-        with job_of(results, url) as job, progress("verifying") as report:
-            return repeat(job, processes, report)
+        with job_of(results, url) as job:
+            with progress("verifying") as report:
+                found = repeat(job, processes, report)
+            if found.promised and not found.holds:
+                _contradict(job)
+            return found
     except NotRepeatable as error:
         raise Stopped(str(error)) from None
     except (CorruptStore, Damaged) as error:
         line = f"damaged, there is nothing to compare: {error}"
         raise Stopped(line, Exit.CHECK_FAILED) from None
+
+
+def _contradict(job: "Job") -> None:
+    """Have the service answer no more submissions with a job whose repetition gave other bits."""
+    from jointplay.client.errors import ClientError
+    from jointplay.client.service_job import ServiceJob
+
+    if not isinstance(job, ServiceJob):
+        return
+    try:
+        job.contradict()
+        line = "the service computes it anew when its document is submitted again"
+    except ClientError as error:
+        line = f"the service does not note it: {error}; `jointplay submit --anew` computes it again"
+    typer.echo(f"jointplay: {line}", err=True)
 
 
 def _calibration(path: Path, processes: int | None) -> "Verification":

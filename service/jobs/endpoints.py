@@ -106,6 +106,16 @@ def retry_job(
     return SubmittedJob.of(submitted.job, cached=submitted.cached)
 
 
+@router.post("/{job_id}/contradict", responses=problems(*kinds.OF_A_JOB, kinds.NOT_FINISHED))
+def contradict_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource:
+    """Note that a repetition of a finished job, as by `jointplay verify`, gave other results.
+
+    They can still be read. The job is marked as `damaged`, so that posting its document computes
+    it anew.  Asking again changes nothing.
+    """
+    return JobResource.of(catalogue.mark_contradicted(job.id))
+
+
 @router.delete("/{job_id}", responses=problems(*kinds.OF_A_JOB, kinds.NOT_FINISHED))
 def delete_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource:
     """Delete a finished job and its results; from then on its addresses answer 410."""

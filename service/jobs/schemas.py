@@ -72,8 +72,8 @@ class JobResource(BaseModel):
     )
     error: JobError | None
     damaged: str | None = Field(
-        description="Which file of its results is not what was stored, as far as was noticed: "
-        "posting the document computes the job anew."
+        description="Which file of its results is not what was stored, as far as was noticed, or "
+        "that a repetition gave others: posting the document computes the job anew."
     )
     links: dict[str, str] = Field(description="Addresses of the job and of what it computed.")
     job: dict[str, Any] = Field(

@@ -212,6 +212,7 @@ class Catalogue:
     unsuccessful = reading(retries.unsuccessful)
     delete = durably(upkeep.expire)
     mark_damaged = writing(upkeep.mark_damaged)
+    mark_contradicted = durably(upkeep.mark_contradicted)
     use_of = reading(use_of)
 
     def every_job(self) -> Iterator[Job]:

@@ -16,7 +16,7 @@ from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.ending import LONGEST_PAUSE, lose
 from jointplay.storage.catalogue.errors import JobNotFinished
 from jointplay.storage.catalogue.labels import labelled_job
-from jointplay.storage.catalogue.records import QUEUES, TERMINAL, BlockState, Job
+from jointplay.storage.catalogue.records import CONTRADICTED, QUEUES, TERMINAL, BlockState, Job
 from jointplay.storage.catalogue.rows import lock_job
 
 _job = tables.job
@@ -194,6 +194,23 @@ def mark_damaged(unit: Unit, job: str, damage: str | None) -> None:
     """Remember which file of a finished job's results is damaged; none: they are whole again."""
     finished = (_job.c.id == job) & _job.c.state.in_(TERMINAL)
     unit.execute(update(_job).where(finished).values(damaged=damage))
+
+
+def mark_contradicted(unit: Unit, job_id: str) -> Job:
+    """Remember that a repetition of a finished job gave other results: it is found no more.
+
+    Raises
+    ------
+    JobNotFound
+    JobNotFinished
+        It is queued, running or cancelling.
+    """
+    job = lock_job(unit, job_id)
+    if not job.state.terminal:
+        raise JobNotFinished(job_id, job.state.value)
+    if job.damaged is None:
+        unit.execute(update(_job).where(_job.c.id == job_id).values(damaged=CONTRADICTED))
+    return labelled_job(unit, job_id)
 
 
 def take_lead(unit: Unit, name: str, holder: str, seconds: float) -> bool:

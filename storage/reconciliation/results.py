@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, Job, JobState
+from jointplay.storage.catalogue.records import CONTRADICTED, BlockState, Job, JobState
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.identity import growing_study, require_results_of
 from jointplay.storage.packed import Packed
@@ -42,7 +42,9 @@ def damage(settings: Settings, catalogue: Catalogue, look: Look | None = None) -
 
     def compared(job_id: str) -> tuple[Job, str | None]:
         job = catalogue.get(job_id)
-        return job, damage_of(settings, job) or _unsealed_damage(settings, catalogue, job)
+        found = damage_of(settings, job) or _unsealed_damage(settings, catalogue, job)
+        whole = found is None and job.damaged == CONTRADICTED  # which no look at bytes can tell
+        return job, CONTRADICTED if whole else found
 
     for done, (_, (job, found)) in enumerate(several_at_once(compared, chosen)):
         look.report(done / len(chosen), f"read {done} of {len(chosen)} results")

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import chain
 from pathlib import Path
 from typing import Any, Final
@@ -21,6 +21,7 @@ from jointplay.storage.errors import (
     StoreExists,
 )
 from jointplay.storage.packed import Running, pack
+from jointplay.storage.packed.in_parts import InParts
 from jointplay.storage.packed.running import DOCUMENTS
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata, shards
@@ -109,15 +110,33 @@ def seal(
         A block is not done.
     CorruptStore
         What a block left is damaged or missing.
+    StoreExists
+        Something else is at the target: of two seals that differ none can be relied upon.
     """
-    if target.exists():
-        return
+    pieces = pack(manifest.listed(_files(folder, layout, advanced)))
     try:
-        target.put(pack(manifest.listed(_files(folder, layout, advanced))))
-    except (FileNotFoundError, LostObject, FileExistsError, IncompleteStudy):
+        if target.exists():
+            _require_same(target, pieces)
+        else:
+            target.put(pieces)
+    except FileExistsError:  # by another process in the meantime
+        seal(folder, layout, target, advanced)
+    except (FileNotFoundError, LostObject, IncompleteStudy):
         if not target.exists():
-            raise
-        # by another process in the meantime
+            raise  # else the job ended with it, and what it needed went
+
+
+def _require_same(target: StoredObject, pieces: Iterable[bytes]) -> None:
+    """Raise `StoreExists` if what is sealed already has other bytes."""
+    at, stored = 0, InParts(str(target), target)
+    for piece in pieces:
+        if stored.read(at, at + len(piece)) != piece:
+            break
+        at += len(piece)
+    else:
+        if at == stored.size():
+            return
+    raise StoreExists(f"{target} was sealed before, with other bytes; submit the study again")
 
 
 def _files(

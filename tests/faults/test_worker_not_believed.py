@@ -4,9 +4,12 @@ from collections.abc import Iterator
 
 import pytest
 
+from jointplay.command_line.application import run as command
+from jointplay.storage.catalogue.records import CONTRADICTED
 from jointplay.storage.packed import pack
 from jointplay.storage.packed.in_memory import InMemory
 from jointplay.storage.packed.reading import Packed
+from jointplay.storage.reconciliation import findings
 from jointplay.storage.results.layout import MANIFEST
 from jointplay.storage.results.manifest import listed
 from tests.joined_by_hand import (
@@ -227,3 +230,27 @@ def test_of_two_seals_that_differ_none_is_a_success(service: Installation) -> No
     target = service.settings.sealed_study(first.job.id)
     assert Packed(target).read(chunks[0]) == store.read(chunks[0])
     service.require_right(first.job, "sweep")
+
+
+def test_a_job_whose_repetition_gives_other_results_can_be_sent_again(
+    service: Installation,
+) -> None:
+    """Numbers that are wrong, in a store that is whole, only a repetition tells."""
+    job = service.submit(SWING)
+    held, content = service.claim(), sealed_run(2.0)
+    files = Packed(InMemory("store", content))
+    chunk, other = [key for key in files if key.startswith("rod.") and "/c/" in key][:2]
+    lie = repacked(content, **{chunk: files.read(other)})
+    assert held.put("sealed/1", lie).status_code == 204
+    assert held.finish().status_code == 200
+    answer = service.http.post("/v1/jobs", json=SWING)
+    assert (answer.status_code, answer.json()["id"]) == (200, job.id)
+    assert command(["verify", job.id, "--processes", "1", "--url", service.url]) == 1
+    (found,) = findings(service.settings, service.catalogue)  # which stays
+    assert (found.found, found.mend) == (CONTRADICTED, None)
+    answer = service.http.post("/v1/jobs", json=SWING)
+    assert answer.status_code == 202
+    assert answer.json()["id"] != job.id
+    service.work()
+    service.require_right(service.catalogue.get(answer.json()["id"]))
+    assert service.http.post("/v1/jobs", json=SWING).json()["id"] == answer.json()["id"]

@@ -195,3 +195,14 @@ def test_a_block_is_not_finished_before_its_points_are(tmp_path):
     assert not StudyBlock.done(tmp_path, study.layout, 0)
     study.write_block(tmp_path, 0)
     assert StudyBlock.done(tmp_path, study.layout, 0)
+
+
+def test_of_two_seals_that_differ_the_second_is_refused(tmp_path):
+    study = MadeUpStudy(made_up_layout(points=8))
+    first = study.write(tmp_path / "store").read_bytes()
+    seal(tmp_path / "store", study.layout, target(tmp_path / "store"))  # the same
+    study.steps = study.steps + 1.0
+    study.write_block(tmp_path / "store", 0)
+    with pytest.raises(StoreExists, match="sealed before, with other bytes"):
+        seal(tmp_path / "store", study.layout, target(tmp_path / "store"))
+    assert packed(tmp_path / "store").read_bytes() == first
