@@ -102,8 +102,9 @@ def examine(files: Packed, expected: Expected | None) -> None:
 
 def _entries(files: Packed, expected: Expected | None) -> Iterator[tuple[str, bytes]]:
     """Give key and content of every file but the manifest, once it was found right."""
-    arrays = expected and {path: ChunkFiles(path, one) for path, one in expected.arrays.items()}
-    if expected is not None and arrays is not None:
+    arrays: dict[str, ChunkFiles] = {}
+    if expected is not None:
+        arrays = {path: ChunkFiles(path, one) for path, one in expected.arrays.items()}
         _require_all(files, expected, arrays)
     for key, entry in files.entries.items():
         if key == MANIFEST:
@@ -111,7 +112,7 @@ def _entries(files: Packed, expected: Expected | None) -> Iterator[tuple[str, by
                 raise CorruptStore(f"{MANIFEST} of {files.source} is too large")
             continue
         path, _, place = key.rpartition("/c/")
-        of_array = arrays.get(path) if arrays else None
+        of_array = arrays.get(path)
         if entry.size > (of_array.largest if of_array else LARGEST_DOCUMENT):
             raise CorruptStore(f"{key} of {files.source} is too large")
         content = files.read(key)

@@ -81,12 +81,10 @@ def examined_run(source: Ranges, layout: ResultLayout, *, same: bool) -> Documen
 
 def _require_counts(layout: ResultLayout, root: Mapping[str, Any]) -> None:
     """Raise `CorruptStore` if a store has other numbers of rows than the job may give."""
-    counts = [root.get(name) for name in _COUNTS]
     complete, summary = root.get("complete"), root.get("summary")
-    sound = all(type(one) is int and one >= 0 for one in counts)
-    if not (sound and isinstance(complete, bool) and isinstance(summary, dict)):
-        raise CorruptStore("the root does not say how many rows there are")
-    samples, sections, _ = counts
+    if not (isinstance(complete, bool) and isinstance(summary, dict)):
+        raise CorruptStore("the root does not say how the run ended")
+    samples, sections, _ = (_count(root.get(name)) for name in _COUNTS)
     most = layout.samples, layout.sections
     if (samples, sections) != most if complete else samples > most[0] or sections > most[1]:
         raise CorruptStore(
@@ -131,7 +129,7 @@ def _certificate(files: Packed) -> dict[str, Document]:
     begin, end = f"{CERTIFICATE}/", f"/{FILE}"
     if f"{CERTIFICATE}{end}" not in files.entries:
         return {}
-    arrays = {}
+    arrays: dict[str, Document] = {}
     for key in files:
         name = key.removeprefix(begin).removesuffix(end)
         if key != f"{begin}{name}{end}":
