@@ -48,7 +48,7 @@ class JobEvent(BaseModel):
 
     seq: int = Field(description="Counts from 1 without gaps.")
     type: str = Field(
-        description="A state of the job, or claimed, compiling, released, lost, retried."
+        description="A state of the job, or claimed, compiling, released, lost, refused, retried."
     )
     time: str = Field(description="When it happened, RFC 3339 in UTC.")
     data: dict[str, Any] = Field(
