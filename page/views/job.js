@@ -176,6 +176,7 @@ class Head {
   /** Shows an event of the job's history that readers want to see. */
   happened({ type, data }) {
     if (type === "lost") this.lost = `The worker ${data.worker} was lost; another goes on.`;
+    if (type === "refused") this.lost = `Results of the worker ${data.worker} were refused (${data.reason}); they are computed anew.`;
   }
 
   showButtons(over) {

@@ -79,7 +79,7 @@ class Scratch:
         self._files = AttemptFiles(settings, block)
         self._folder = settings.running_folder(block.job)
         self._sends = block.count > 0
-        """A block that seals a study sends nothing else: other files are those of the other blocks."""
+        """A block that seals a study sends nothing else: other files are those of its blocks."""
         self._sent: dict[str, _Version] = {}
         self._sending = threading.Lock()
 
