@@ -67,7 +67,15 @@ def changed(document, **values):
     return json.dumps(json.loads(document) | values, separators=(",", ":")).encode()
 
 
+def lying() -> bytes:
+    """A shard whose chunks say that they have 2 GB of values."""
+    chunk = shards.compress(np.zeros(64))
+    lie = chunk[:4] + (2**31 - 1).to_bytes(4, "little") + chunk[8:]
+    return shards.pack([lie] * 2)
+
+
 ATTACKS = {
+    "a header that lies": lambda files: {"slider7.q0/c/0": lying()},
     "a bomb": lambda files: {"slider7.q0/c/0": shards.pack([shards.compress(BOMB)] * 2)},
     "no chunk in a file": lambda files: {"slider7.q0/c/0": shards.pack([b"", b""])},
     "a shard without an index": lambda files: {"slider7.q0/c/0": b"\0" * 36},
