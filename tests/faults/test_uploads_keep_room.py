@@ -11,6 +11,7 @@ from pathlib import Path
 import httpx
 import pytest
 
+from jointplay.service.workers import arriving
 from jointplay.storage.settings import Settings
 from jointplay.worker.joined.protocol import DropAt
 from tests.joined_by_hand import REFUSED, SWING, Held, Installation, installation, said
@@ -37,6 +38,13 @@ def begun(stack: ExitStack, held: Held, name: str, size: int) -> socket.socket:
     return one
 
 
+def answer_of(one: socket.socket) -> bytes:
+    answer = b""
+    while not answer.endswith(b"}"):
+        answer += one.recv(65536)
+    return answer
+
+
 def test_room_is_kept_for_files_that_are_on_their_way(
     service: Installation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -47,15 +55,25 @@ def test_room_is_kept_for_files_that_are_on_their_way(
         sockets = [begun(stack, held, f"a1/rows/{n}", 20 * MEGABYTE) for n in range(3)]
         answered, _, _ = select.select(sockets, [], [], 60.0)  # two have room, and wait for more
         assert len(answered) == 1
-        refused = b""
-        while not refused.endswith(b"}"):
-            refused += answered[0].recv(65536)
+        refused = answer_of(answered[0])
         assert refused.startswith(b"HTTP/1.1 507")
         assert b"/problems/disk-full" in refused
     with ExitStack() as stack:  # what is not sent to its end keeps none
         begun(stack, held, "a1/rows/4", 20 * MEGABYTE)
         small = b"x" * MEGABYTE
         assert held.put("a1/rows/5", small).status_code == 204
+
+
+def test_a_file_that_does_not_arrive_is_given_up(
+    service: Installation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(arriving, "PATIENCE", 0.2)
+    monkeypatch.setattr(arriving, "SLOWEST", 1e9)
+    service.submit(SWING)
+    with ExitStack() as stack:
+        answer = answer_of(begun(stack, service.claim(), "a1/rows/0", MEGABYTE))
+        assert answer.startswith(b"HTTP/1.1 408")
+        assert b"/problems/body-too-slow" in answer
 
 
 def test_an_attempt_has_no_more_bytes_than_its_job_may_need(service: Installation) -> None:
