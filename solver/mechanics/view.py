@@ -29,8 +29,10 @@ def view(scene: Scene, number: NumberOf = plain_number) -> Scene:
 
     Values that decide the form of the equations (an exactly zero coordinate, friction switched
     off, the exponent 1.5) stay plain floats, so that they are folded away. The start, the period,
-    parameters and reported values are left out.
+    parameters and reported values are left out. Plain numbers are those of the scene itself.
     """
+    if number is plain_number:
+        return scene
     seen = _View(number, targeted_paths(scene)).of_model(scene, "", LEFT_OUT)
     return cast(Scene, seen)
 

@@ -1,6 +1,5 @@
 """A kernel: a scene's compiled equations, one method's step, and the layout they share."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
@@ -8,7 +7,6 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.arrays import Floats
 from jointplay.solver.integrators import Method
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.cache import load
@@ -24,11 +22,9 @@ from jointplay.solver.kernels.record.equations import (
     right_hand_side,
     slopes,
 )
-from jointplay.solver.kernels.record.operations import OPERATIONS
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.record.fixed_numbers import FixedNumbers
 from jointplay.solver.kernels.record.rows import Rows, arrange
 from jointplay.solver.mechanics.tree import Tree
-from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 
 
@@ -48,8 +44,8 @@ class Kernel:
     pairs: tuple[str, ...]
     rows: Rows
     """Channels of the ``channel`` block."""
-    fixed: tuple[tuple[int, Expression], ...]
-    """Slot and expression of what depends on the scene's numbers alone."""
+    fixed: FixedNumbers
+    """What depends on the scene's numbers alone."""
     equations: Equations
     tableau: Method
 
@@ -67,13 +63,6 @@ class Kernel:
     def addresses(self) -> NDArray[np.void]:
         """The compiled functions, by name; see `solver.kernels.emit.functions`."""
         return addresses_of(self.module)
-
-    def fixed_values(self, scene: Scene) -> Floats:
-        """Evaluate what depends on a scene's numbers alone, in the order of `fixed`.
-
-        The scene must have the structure that this kernel was compiled for.
-        """
-        return values_of([node for _, node in self.fixed], scene)
 
 
 def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) -> Kernel:
@@ -154,7 +143,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         equations.clocks,
         equations.pairs,
         rows,
-        tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
+        FixedNumbers({layout[f"fixed{index}"]: node for index, node in fixed.nodes.items()}),
         equations,
         tableau,
     )
@@ -171,30 +160,3 @@ def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> 
     named = [(name.rstrip("0123456789"), name, value) for name, value in slopes(equations)]
     tape.store_rows([(name.replace(block, kept[block]), value) for block, name, value in named])
     return tape.function("slopes", "row")
-
-
-def values_of(nodes: Sequence[Expression], scene: Scene) -> Floats:
-    """Evaluate expressions of a scene's numbers alone."""
-    numbers: dict[str, float] = {}
-    view(scene, lambda path, value: numbers.setdefault(path, value))
-    found: dict[int, float] = {}
-    return np.array([_evaluate(node, numbers, found) for node in nodes])
-
-
-def _evaluate(node: Expression, numbers: dict[str, float], found: dict[int, float]) -> float:
-    waiting = [node]
-    while waiting:  # a table's coefficients follow from one another, deeper than Python's stack
-        top = waiting[-1]
-        unknown = [a for a in top.arguments if a.index not in found]
-        if top.operation == "constant":
-            found[top.index] = top.value
-        elif top.operation == "number":
-            found[top.index] = numbers[str(top.data)]
-        elif unknown and top.index not in found:
-            waiting.extend(unknown)
-            continue
-        elif top.index not in found:
-            values = [found[a.index] for a in top.arguments]
-            found[top.index] = OPERATIONS[top.operation].on_floats(*values)
-        waiting.pop()
-    return found[node.index]

@@ -16,7 +16,6 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import kinks, tangent_step
 from jointplay.solver.kernels.emit.emit import (
@@ -27,15 +26,14 @@ from jointplay.solver.kernels.emit.emit import (
     nothing,
 )
 from jointplay.solver.kernels.emit.functions import addresses_of
-from jointplay.solver.kernels.emit.kernel import Kernel, values_of
+from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.kinks import Kinks
 from jointplay.solver.kernels.emit.places import OF_TANGENTS
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.record.fixed_numbers import FixedNumbers
 from jointplay.solver.quantities.scalars import select_positive
-from jointplay.solver.scene.document import Scene
 
 
 @dataclass(frozen=True)
@@ -46,14 +44,10 @@ class Tangents:
     layout: Layout
     places: NDArray[np.void]
     """The kernel's, with those of tangents filled in."""
-    fixed: tuple[tuple[int, Expression], ...]
-    """Slot and expression of what depends on the scene's numbers alone, beyond `Kernel.fixed`."""
+    fixed: FixedNumbers
+    """What depends on the scene's numbers alone, beyond `Kernel.fixed`."""
     addresses: NDArray[np.void]
     """The kernel's functions and those of tangents."""
-
-    def fixed_values(self, scene: Scene) -> Floats:
-        """Evaluate what depends on a scene's numbers alone, in the order of `fixed`."""
-        return values_of([node for _, node in self.fixed], scene)
 
 
 @lru_cache(maxsize=16)
@@ -86,7 +80,7 @@ def compile_tangents(kernel: Kernel) -> Tangents:
         module,
         layout,
         places,
-        tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
+        FixedNumbers({layout[f"fixed{index}"]: node for index, node in fixed.nodes.items()}),
         addresses_of(kernel.module, module),
     )
 

@@ -81,8 +81,7 @@ def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
 
 def number(lane: Lane, compiled: Kernel | Tangents, scene: Scene) -> None:
     """Evaluate what compiled functions need that depends on the scene's numbers alone."""
-    slots = [slot for slot, _ in compiled.fixed]
-    lane.work[slots, lane.index] = compiled.fixed_values(scene)
+    lane.work[compiled.fixed.slots, lane.index] = compiled.fixed.values(scene)
 
 
 def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None:

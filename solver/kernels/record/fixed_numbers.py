@@ -1,0 +1,69 @@
+"""Expressions of a scene's numbers alone, evaluated for one scene after the other."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.kernels.record.operations import OPERATIONS
+from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.scene.document import Scene
+
+
+class FixedNumbers:
+    """Slots, and how the number in each follows from those of a scene: listed once a kernel."""
+
+    def __init__(self, nodes: dict[int, Expression]) -> None:
+        """List what is to be evaluated, by slot."""
+        self.slots = list(nodes)
+        self._nodes = _in_order(nodes.values())
+        places = {node.index: i for i, node in enumerate(self._nodes)}
+        self._wanted = [places[node.index] for node in nodes.values()]
+        self._pointers = [
+            str(node.data).split("/")[1:] if node.operation == "number" else []
+            for node in self._nodes
+        ]
+        self._arguments = [[places[a.index] for a in node.arguments] for node in self._nodes]
+
+    def values(self, scene: Scene) -> Floats:
+        """Return the numbers of a scene in the order of `slots`.
+
+        The scene must have the structure that the kernel was compiled for.
+        """
+        found: list[float] = []
+        for node, pointer, arguments in zip(
+            self._nodes, self._pointers, self._arguments, strict=True
+        ):
+            if pointer:
+                found.append(_number_at(scene, pointer))
+            elif node.operation == "constant":
+                found.append(node.value)
+            else:
+                operands = [found[i] for i in arguments]
+                found.append(OPERATIONS[node.operation].on_floats(*operands))
+        return np.array([found[i] for i in self._wanted], np.float64)
+
+
+def _in_order(nodes: Iterable[Expression]) -> list[Expression]:
+    """Return nodes and all that they need, each behind its arguments."""
+    found: dict[int, Expression] = {}
+    waiting = list(nodes)
+    while waiting:
+        node = waiting.pop()
+        if node.index not in found:
+            found[node.index] = node
+            waiting.extend(node.arguments)
+    return [found[index] for index in sorted(found)]  # nodes are recorded behind their arguments
+
+
+def _number_at(scene: Scene, pointer: Sequence[str]) -> float:
+    """Return the number at the parts of a JSON pointer."""
+    place: Any = scene
+    for part in pointer:
+        if isinstance(place, BaseModel):
+            place = getattr(place, part)
+        else:
+            place = place[int(part) if isinstance(place, list) else part]
+    return float(place)
