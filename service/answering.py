@@ -1,14 +1,17 @@
-"""A process of our own that answers questions, one at a time, kept while somebody asks."""
+"""Processes of our own that answer questions, kept while somebody asks; owners ask in turn."""
 
 import subprocess
 import sys
-import threading
 from contextlib import suppress
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from typing import Any
 
-_MOST_WAITING = 8
+from jointplay.service.fair_queue import FairQueue, Full
+from jointplay.service.owners import OWNER
+
+_AT_ONCE = 2
+"""Processes: the second one is started where another owner asks while the first one is busy."""
 
 
 class Busy(Exception):
@@ -24,7 +27,7 @@ class NoAnswer(Exception):
 
 
 class AnsweringProcess:
-    """Starts a process when there is none, and asks it.
+    """Starts a process when there is none, and asks it: one question of an owner at a time.
 
     Parameters
     ----------
@@ -38,11 +41,8 @@ class AnsweringProcess:
 
     def __init__(self, module: str, patience: float) -> None:
         self.patience = patience
-        self._module = module
-        self._turn = threading.Lock()
-        self._waiting = threading.BoundedSemaphore(_MOST_WAITING)
-        self._process: subprocess.Popen[bytes] | None = None
-        self._connection: Connection | None = None
+        self.queue = FairQueue(_AT_ONCE)
+        self._processes = [_Process(module) for _ in range(_AT_ONCE)]
 
     def answer(self, question: object) -> Any:
         """Return the answer to a question.
@@ -52,13 +52,38 @@ class AnsweringProcess:
         Busy, TooSlow, NoAnswer
             See there.
         """
-        if not self._waiting.acquire(blocking=False):
-            raise Busy
         try:
-            with self._turn:
-                return self._asked(question)
-        finally:
-            self._waiting.release()
+            with self.queue.place(OWNER.get()) as place:
+                return self._processes[place].answer(question, self.patience)
+        except Full:
+            raise Busy from None
+
+    def close(self) -> None:
+        """End the processes."""
+        for process in self._processes:
+            process.close()
+
+
+class _Process:
+    """One of them, or none yet."""
+
+    def __init__(self, module: str) -> None:
+        self._module = module
+        self._process: subprocess.Popen[bytes] | None = None
+        self._connection: Connection | None = None
+
+    def answer(self, question: object, patience: float) -> Any:
+        """Return the answer, or raise as above."""
+        for _ in range(2):  # it ends by itself when idle for a while
+            connection = self._connected()
+            with suppress(EOFError, OSError):
+                connection.send(question)
+                if connection.poll(patience):
+                    return connection.recv()
+                self.close()
+                raise TooSlow
+            self.close()
+        raise NoAnswer
 
     def close(self) -> None:
         """End the process."""
@@ -67,18 +92,6 @@ class AnsweringProcess:
             self._process.kill()
             self._process.wait()
         self._process = self._connection = None
-
-    def _asked(self, question: object) -> Any:
-        for _ in range(2):  # it ends by itself when idle for a while
-            connection = self._connected()
-            with suppress(EOFError, OSError):
-                connection.send(question)
-                if connection.poll(self.patience):
-                    return connection.recv()
-                self.close()
-                raise TooSlow
-            self.close()
-        raise NoAnswer
 
     def _connected(self) -> Connection:
         """Return the way to the process, which is started if it does not run."""

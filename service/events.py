@@ -13,6 +13,7 @@ from jointplay.service.access import CallerDependency
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
 from jointplay.service.jobs.schemas import Progress, moment
 from jointplay.service.jobs.waiting import Watcher, WatcherDependency
+from jointplay.service.owners import SHARES
 from jointplay.service.problems import kinds, problems
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Event, Job, JobState
@@ -97,6 +98,7 @@ async def show_events(
         left = await run_in_threadpool(catalogue.events, job.id, after=last_event_id, limit=1)
         if last_event_id and not left:
             return Response(status_code=204)  # which tells a browser not to come back
+    SHARES.must_wait(request.scope)
     is_open = partial(request.app.state.door.still_open_to, caller)
     return EventSourceResponse(
         _stream(job, catalogue, watcher, last_event_id, is_open),

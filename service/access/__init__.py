@@ -11,6 +11,7 @@ from typing import Annotated, Any, Final
 from fastapi import Depends, Request
 
 from jointplay.records.log_lines import note
+from jointplay.service.owners import OWNER, SHARES
 from jointplay.service.problems import RequestRefused, kinds
 
 _READING: Final = frozenset({"GET", "HEAD"})
@@ -45,6 +46,9 @@ async def _caller(request: Request) -> Caller:
     found: Caller = await request.app.state.door.caller(request)
     if found.key:
         note(key=found.key)  # its id: nobody learns its secret from a log
+    if found.owner:
+        OWNER.set(found.owner)
+        SHARES.enter(request.scope, found.owner)
     return found
 
 

@@ -4,9 +4,9 @@ Callers without a key cannot have all: a key counts only where it is looked at. 
 room that a request's body took is given back.
 """
 
-import re
 from collections import Counter
 from collections.abc import Sequence
+from contextlib import ExitStack
 from typing import Final
 
 from starlette.requests import Request
@@ -14,10 +14,11 @@ from starlette.routing import BaseRoute, Match
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from jointplay.service.body import TOGETHER
+from jointplay.service.owners import UNTIL_ANSWERED, VITAL
 from jointplay.service.problems import unavailable
 from jointplay.service.problems.handlers import answer
 
-MOST: Final = 256
+MOST: Final = 512
 """Requests at once, those that wait or stream included."""
 RESERVE: Final = 32
 """Requests of these that only those below may be."""
@@ -26,9 +27,6 @@ WITHOUT_KEY: Final = 208
 sends one that is wrong is refused before anything is read of his body, and holds nothing."""
 RETRY: Final = 5
 """Seconds after which a refused client may ask again."""
-_VITAL: Final = re.compile(
-    r"/(healthz|readyz|v1/worker/blocks/[^/]+/[^/]+/(heartbeat|progress|finish))"
-)
 
 
 class Turns:
@@ -57,7 +55,9 @@ class Turns:
             return
         self._running[has_key] += 1
         try:
-            await self._app(scope, receive, send)
+            with ExitStack() as held:
+                scope[UNTIL_ANSWERED] = held
+                await self._app(scope, receive, send)
         finally:
             TOGETHER.release(scope)
             self._running[has_key] -= 1
@@ -72,6 +72,6 @@ class Turns:
 
     def _has_room(self, path: str, *, has_key: bool) -> bool:
         running = self._running.total()
-        if _VITAL.fullmatch(path):
+        if VITAL.fullmatch(path):
             return running < MOST
         return running < MOST - RESERVE and (has_key or self._running[False] < WITHOUT_KEY)

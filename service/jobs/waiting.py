@@ -17,6 +17,7 @@ from pydantic import BaseModel, ConfigDict
 
 from jointplay.service.dependencies import of_the_application
 from jointplay.service.fields import in_unit
+from jointplay.service.owners import SHARES
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import Job, JobStatus
@@ -139,23 +140,30 @@ class WaitQuery(BaseModel):
 class Patience:
     """Time for which this request may be held back, and the means to do so."""
 
-    def __init__(
-        self, watcher: Watcher, catalogue: Catalogue, response: Response, prefer: str | None
-    ) -> None:
-        self._watcher, self._catalogue = watcher, catalogue
-        self._response = response
+    def __init__(self, request: Request, response: Response, prefer: str | None) -> None:
+        self._request, self._response = request, response
         wanted = _PREFERRED.search(prefer or "")
         self._preferred = None if wanted is None else min(int(wanted[1]), LONGEST_WAIT)
 
     async def finished(self, job: Job, wait: float = 0.0) -> Job:
-        """Return the job as soon as it is finished, or as it is when the time is over."""
+        """Return the job as soon as it is finished, or as it is when the time is over.
+
+        Where too many of an owner wait, a preference is not honoured, and `wait` refused with 429.
+        """
+        seconds = max(wait, self._preferred or 0)
+        waits = bool(seconds) and not job.state.terminal
+        if waits and wait:
+            SHARES.must_wait(self._request.scope)
+        elif waits and not SHARES.wait(self._request.scope):
+            return job
         if self._preferred is not None:  # RFC 7240: tell that the preference was honoured
             self._response.headers["Preference-Applied"] = f"wait={self._preferred}"
-        seconds = max(wait, self._preferred or 0)
-        if job.state.terminal or not seconds:
+        if not waits:
             return job
-        await self._watcher.finished(job.id, seconds)
-        return await run_in_threadpool(self._catalogue.get, job.id)
+        application = self._request.app.state
+        await application.watcher.finished(job.id, seconds)
+        found: Job = await run_in_threadpool(application.catalogue.get, job.id)
+        return found
 
 
 WatcherDependency = Annotated[Watcher, of_the_application("watcher")]
@@ -172,8 +180,7 @@ async def _patience(
         ),
     ] = None,
 ) -> Patience:
-    application = request.app.state
-    return Patience(application.watcher, application.catalogue, response, prefer)
+    return Patience(request, response, prefer)
 
 
 PatienceDependency = Annotated[Patience, Depends(_patience)]

@@ -77,7 +77,7 @@ def test_one_too_many_is_not_kept_waiting(process):
     askers = [threading.Thread(target=ask) for _ in range(8)]
     for asker in askers:
         asker.start()
-    until(lambda: process._waiting._value == 0)
+    until(lambda: process.queue.waiting() == 7)
     with pytest.raises(Busy):
         process.answer(("answer", ""))
     Path("go").touch()
