@@ -12,6 +12,7 @@ import struct
 import time
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 FOLDER_VARIABLE = "JOINTPLAY_CHAOS"
 """Names the installation's folder; all processes of the installation have it."""
@@ -25,7 +26,7 @@ _FULL = 2  # of PRAGMA synchronous: commits wait for the disk
 
 
 def change(folder: Path) -> None:
-    """Add the seconds of the file to `time.time`; note what is synced, and when."""
+    """Add the seconds of the file to the time; note what is synced, and when."""
     _change_the_clock(folder)
     _note_files(folder)
     _note_transactions(folder)
@@ -41,6 +42,14 @@ def _change_the_clock(folder: Path) -> None:
         return true_time() + seconds
 
     time.time = shifted_time
+    true_stamp = os.utime
+
+    def shifted_stamp(file: Any, times: Any = None, **named: Any) -> None:
+        """Stamp a file as the file system of a machine with this clock does."""
+        now = shifted_time()
+        true_stamp(file, (now, now) if times is None and not named else times, **named)
+
+    os.utime = shifted_stamp
 
 
 def _note_files(folder: Path) -> None:

@@ -11,7 +11,7 @@ _MOST = 3600.0  # s; idempotency keys live longer
 
 
 class ClockSet(Fault):
-    """`time.time` of every Python process of the service, and no other clock, jumps."""
+    """`time.time` of every Python process of the service jumps, and so do its stamps of files."""
 
     lasts = (5.0, 20.0)
 

@@ -140,7 +140,7 @@ def former_content(results: ResultsOfJob, key: str, content: Content) -> Content
     A client that read the index of the growing shard asks for bytes behind the finished one.
     """
     finished = results.job.finished
-    lately = finished is None or time.time() - finished < _GRACE
+    lately = finished is None or results.catalogue.clock() - finished < _GRACE
     if results.is_study or not lately or key.endswith(FILE):
         return None
     whole = results.whole()

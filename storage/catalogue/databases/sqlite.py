@@ -17,6 +17,7 @@ from urllib.parse import quote
 from sqlalchemy import URL, Connection, Engine, create_engine, event
 from sqlalchemy.exc import DBAPIError, InterfaceError, OperationalError
 
+from jointplay.storage.catalogue.databases.file_clock import FileClock
 from jointplay.storage.catalogue.errors import BUSY, SILENT, Unavailable
 
 _NEW_DATABASE_PATIENCE = 30.0
@@ -44,6 +45,7 @@ class SQLite:
         if not url.database or url.database == ":memory:":
             raise ValueError(f"the catalogue needs a file, such as sqlite:///jobs.sqlite: {url}")
         self._file = Path(url.database)
+        self._clock = FileClock(self._file.parent)
         # not made by a connection: an empty file would stand in for one that is gone
         existing = {"mode": "rw", "uri": "true"}
         url = url.set(database=f"file:{quote(url.database)}", query=existing)
@@ -113,8 +115,8 @@ class SQLite:
             self._turn.release()
 
     def now(self) -> float:
-        """Return the time of this machine, which is everybody's."""
-        return time.time()
+        """Return the time of the file system, which is everybody's."""
+        return self._clock.now()
 
     def fault(self, error: DBAPIError) -> Unavailable | None:
         """Recognise a full disk, a database that others hold, and a file out of reach."""
@@ -130,6 +132,7 @@ class SQLite:
 
     def close(self) -> None:
         """Close every connection."""
+        self._clock.close()
         for engine in (self._readers, self._writer, self._durable_writer):
             engine.dispose()
 
