@@ -35,6 +35,7 @@ from jointplay.service.description import describe
 from jointplay.service.jobs.queueing import Queueing
 from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.metrics import registry_of
+from jointplay.service.migration import migrated
 from jointplay.service.pieces import Pieces
 from jointplay.service.prober import Prober
 from jointplay.service.problems.handlers import install
@@ -94,7 +95,7 @@ _OPEN = (
 )
 
 
-def create_app(settings: Settings | None = None) -> FastAPI:
+def create_app(settings: Settings | None = None, *, patient: bool = False) -> FastAPI:
     """Return the application.
 
     Parameters
@@ -102,6 +103,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     settings
         Where the catalogue and the results are; by default from the environment
         (``JOINTPLAY_...``).
+    patient
+        Whether it also starts while the catalogue is out of reach, and refuses requests.
     """
     settings = settings or Settings()
 
@@ -111,7 +114,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         if not isinstance(settings.place, Folder):
             require_fit(settings.place)
         catalogue = Catalogue(settings.catalogue_url)
-        catalogue.migrate()
+        migrating = await migrated(catalogue, patient=patient)
         app.state.catalogue = catalogue
         app.state.door = Door(catalogue, settings)
         app.state.readiness = Readiness(catalogue, settings)
@@ -134,6 +137,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             windows.close()
             looker.close()
             poser.close()
+            migrating.cancel()
             catalogue.close()
 
     app = FastAPI(

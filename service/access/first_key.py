@@ -8,16 +8,18 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 
 
-def require_key_beyond_this_machine(host: str) -> None:
+def require_key_beyond_this_machine(host: str, *, again: bool = False) -> None:
     """Decide whether keys are asked for, for all of this process; end it if there is none then.
 
     `JOINTPLAY_KEYS` decides if it is set. A host that names no address of this machine alone may be
-    reached by anybody.
+    reached by anybody. With `again` nobody's key is looked for: there was one before.
     """
     settings = Settings()
     if settings.keys == "none" or (is_loopback(host) and not settings.keys):
         return
     os.environ["JOINTPLAY_KEYS"] = "required"
+    if again:
+        return
     with closing(Catalogue(settings.catalogue_url)) as catalogue:
         catalogue.migrate()
         now = catalogue.clock()

@@ -3,6 +3,7 @@
 import argparse
 import gc
 import socket
+from functools import partial
 
 import uvicorn
 from fastapi import FastAPI
@@ -25,14 +26,17 @@ def main() -> None:
     parser.add_argument("--fd", type=int, help="an inherited listening socket instead")
     parser.add_argument("--ssl-certfile", help="certificate with its chain: HTTPS only")
     parser.add_argument("--ssl-keyfile", help="its private key, if it is in another file")
+    parser.add_argument(
+        "--again", action="store_true", help="start also while the catalogue is out of reach"
+    )
     arguments = parser.parse_args()
     keep_no_free_memory()
     begin(Settings().log_format)
     inherited = None if arguments.fd is None else [socket.socket(fileno=arguments.fd)]
     host = inherited[0].getsockname()[0] if inherited else arguments.host
-    require_key_beyond_this_machine(host)
+    require_key_beyond_this_machine(host, again=arguments.again)
     configuration = uvicorn.Config(
-        _application,
+        partial(_application, patient=arguments.again),
         factory=True,
         host=arguments.host,
         port=arguments.port,
@@ -49,7 +53,7 @@ def main() -> None:
     uvicorn.Server(configuration).run(sockets=inherited)
 
 
-def _application() -> FastAPI:
+def _application(*, patient: bool) -> FastAPI:
     """Return the application; looking through what is loaded for garbage would halt all requests.
 
     That takes a tenth of a second, and finds nothing.
@@ -57,7 +61,7 @@ def _application() -> FastAPI:
     gc.disable()  # what is imported stays: looks through it are a sixth of the start
     from jointplay.service.app import create_app
 
-    application = create_app()
+    application = create_app(patient=patient)
     gc.enable()
     gc.collect()
     gc.freeze()

@@ -70,6 +70,10 @@ class Child:
             )
         self._started = time.monotonic()
 
+    def add(self, *arguments: str) -> None:
+        """Give the process further arguments from its next start on."""
+        self._command += arguments
+
     @property
     def alive(self) -> bool:
         """Whether the process runs."""

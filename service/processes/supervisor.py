@@ -154,6 +154,7 @@ class Supervisor:
             _START_PATIENCE,
             partial(self._pause, wake),
         )
+        api.add("--again")
 
     def _pause(self, wake: int, seconds: float = _LOOK_AGAIN) -> None:
         """Wait for a signal, for the end of our parent, or until the time is over."""

@@ -4,6 +4,7 @@ One write-ahead log, every writing unit starts with BEGIN IMMEDIATE. A deferred 
 first and writes later fails at once under contention, whatever the busy timeout.
 """
 
+import os
 import random
 import sqlite3
 import threading
@@ -45,6 +46,7 @@ class SQLite:
         if not url.database or url.database == ":memory:":
             raise ValueError(f"the catalogue needs a file, such as sqlite:///jobs.sqlite: {url}")
         self._file = Path(url.database)
+        self._index = f"{url.database}-shm"
         self._clock = FileClock(self._file.parent)
         # not made by a connection: an empty file would stand in for one that is gone
         existing = {"mode": "rw", "uri": "true"}
@@ -94,17 +96,20 @@ class SQLite:
     def make(self) -> None:
         """Make the file and its folder, where there are none yet."""
         self._file.parent.mkdir(parents=True, exist_ok=True)
-        self._file.touch()
+        if not self._file.exists():
+            self._file.touch()
 
     @contextmanager
     def reading(self) -> Iterator[Connection]:
         """Open a view of the database as it is; writers go on."""
+        self._require_index()
         with self._readers.begin() as connection:
             yield connection
 
     @contextmanager
     def writing(self, *, durable: bool) -> Iterator[Connection]:
         """Begin a unit that no other process can enter; `durable` waits for the disk."""
+        self._require_index()
         engine = self._durable_writer if durable else self._writer
         if not self._turn.acquire(timeout=self._patience):
             raise Unavailable(BUSY)
@@ -113,6 +118,15 @@ class SQLite:
                 yield connection
         finally:
             self._turn.release()
+
+    def _require_index(self) -> None:
+        """Refuse while the log's index, which every unit writes in memory, can be no more.
+
+        The system ends a process that writes there. The file is asked for and not opened: to close
+        it would give up the locks that SQLite has on it.
+        """
+        if not os.access(self._index, os.W_OK) and os.access(self._index, os.F_OK):
+            raise Unavailable(SILENT)
 
     def now(self) -> float:
         """Return the time of the file system, which is everybody's."""
