@@ -31,6 +31,7 @@ from jointplay.service.access.signed import SignedLinks
 from jointplay.service.access.turns import Turns
 from jointplay.service.checking import Checker
 from jointplay.service.compression import Compression
+from jointplay.service.content_policy import ContentPolicy
 from jointplay.service.description import describe
 from jointplay.service.jobs.queueing import Queueing
 from jointplay.service.jobs.waiting import Watcher
@@ -156,6 +157,7 @@ def create_app(settings: Settings | None = None, *, patient: bool = False) -> Fa
     app.add_middleware(SignedLinks)
     app.add_middleware(Pieces)
     app.add_middleware(Turns, unlocked=[one for part in _OPEN for one in part.router.routes])
+    app.add_middleware(ContentPolicy)
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)
     for resource, key in _BEHIND_THE_DOOR:

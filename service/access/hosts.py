@@ -6,14 +6,18 @@ A page of another program on this machine has another port in Origin than in Hos
 """
 
 import ipaddress
+import re
 from collections.abc import Collection
 from contextlib import suppress
-from urllib.parse import urlsplit
+from typing import Final
 
 from fastapi import Request
 
 from jointplay.service.loopback import is_loopback
 from jointplay.service.problems import RequestRefused, clipped, kinds
+
+_HOST: Final = re.compile(r"(?:\[([0-9a-f:.]+)\]|([^][:/?#@\s]+))(?::\d{0,5})?")
+"""Name or address, and port, of a Host header and of an Origin behind its scheme (RFC 9110)."""
 
 
 def require_own_host(request: Request, names: Collection[str]) -> None:
@@ -28,7 +32,7 @@ def require_own_host(request: Request, names: Collection[str]) -> None:
         raise _foreign("Host", host)
     if origin is not None:
         page = origin.partition("://")[2]  # a browser writes both with a port, or both without
-        if not (page.lower() == host.lower() or _name_in(origin) in names):
+        if not (page.lower() == host.lower() or _name_in(page) in names):
             raise _foreign("Origin", origin)
 
 
@@ -38,9 +42,9 @@ def _foreign(header: str, given: str) -> RequestRefused:
 
 
 def _name_in(given: str) -> str:
-    with suppress(ValueError):
-        return urlsplit(given if "//" in given else f"//{given}").hostname or ""
-    return ""
+    """Return the name or address of a whole host, in small letters; empty if it is none."""
+    found = _HOST.fullmatch(given.lower())
+    return "" if found is None else found[1] or found[2]
 
 
 def _is_address(name: str) -> bool:

@@ -8,15 +8,13 @@ from typing import Final
 from fastapi.concurrency import run_in_threadpool
 from limits import RateLimitItem, RateLimitItemPerSecond
 from limits.storage import MemoryStorage, RedisStorage
-from limits.strategies import FixedWindowRateLimiter
+from limits.strategies import MovingWindowRateLimiter
 from redis.exceptions import RedisError
 
 from jointplay.service.problems import RequestRefused, kinds
 
 _WINDOW: Final = 10
-"""Seconds in which requests are counted together: who was silent may send some at once."""
-
-
+"""Seconds, of which the last ones are counted: who was silent may send some at once."""
 _PATIENCE: Final = 0.5  # s a request waits for Redis
 _ASK_AGAIN: Final = 5.0  # s after which a Redis that did not answer is asked again
 _log = logging.getLogger(__name__)
@@ -34,8 +32,8 @@ class Rates:
     """
 
     def __init__(self, a_second: float, redis_url: str | None) -> None:
-        self._own = FixedWindowRateLimiter(MemoryStorage())
-        self._shared: FixedWindowRateLimiter | None = None
+        self._own = MovingWindowRateLimiter(MemoryStorage())
+        self._shared: MovingWindowRateLimiter | None = None
         self._ask_at = 0.0
         self._most: RateLimitItem | None = None
         if a_second:
@@ -43,11 +41,11 @@ class Rates:
             if redis_url is not None:
                 storage = RedisStorage(
                     redis_url,
-                    key_prefix="jointplay:rate",
+                    key_prefix="jointplay:rates",
                     socket_timeout=_PATIENCE,
                     socket_connect_timeout=_PATIENCE,
                 )
-                self._shared = FixedWindowRateLimiter(storage)
+                self._shared = MovingWindowRateLimiter(storage)
 
     async def count(self, owner: str) -> None:
         """Count a request; refuse it with 429 if there were too many."""
@@ -63,7 +61,7 @@ class Rates:
         _count(self._own, self._most, owner)
 
 
-def _count(limiter: FixedWindowRateLimiter, most: RateLimitItem, owner: str) -> None:
+def _count(limiter: MovingWindowRateLimiter, most: RateLimitItem, owner: str) -> None:
     if not limiter.hit(most, owner):
         window = limiter.get_window_stats(most, owner)
         seconds = max(math.ceil(window.reset_time - time.time()), 1)

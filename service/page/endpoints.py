@@ -47,7 +47,6 @@ REPORT_POLICY: Final = "; ".join(
 )
 """A document with its own style and pictures, in which nothing is carried out or loaded."""
 _HEADERS: Final = {
-    "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Vary": "Accept-Encoding",  # as compressed ones say, and 304 must say what they do
     "Cache-Control": "no-cache",  # asks again after an upgrade, and is told 304 otherwise

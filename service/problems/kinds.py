@@ -27,6 +27,12 @@ MALFORMED_JSON = _kind(
     "Send JSON as RFC 8259 defines it: UTF-8, finite numbers (no NaN, nothing beyond 1.7e308), "
     "no key twice in one object, at most 64 levels. `errors` points at each place.",
 )
+NO_REQUEST = _kind(
+    "no-request",
+    400,
+    "That is no HTTP request",
+    "Send HTTP/1.1 as RFC 9112 defines it, with a head of at most 256 KiB.",
+)
 INVALID_JOB = _kind(
     "invalid-job",
     422,

@@ -13,12 +13,15 @@ import resource
 import socket
 import struct
 from collections import Counter, OrderedDict
+from http import HTTPStatus
 from typing import Any
 
+import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
+from jointplay.service.content_policy import DEFAULTS
 from jointplay.service.problems import MEDIA_TYPE, ProblemDocument
-from jointplay.service.problems.kinds import UNAVAILABLE
+from jointplay.service.problems.kinds import NO_REQUEST, UNAVAILABLE, ProblemKind
 
 MOST = 1024
 """Connections at once, if the system allows twice as many open files."""
@@ -160,6 +163,12 @@ class Connection(H11Protocol):
         self.handle_events()
         self._look()
 
+    def send_400_response(self, msg: str) -> None:
+        """Tell a client that it sent no request, unless its answer has begun."""
+        if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):
+            self.transport.write(NOT_HTTP)
+        self.transport.close()
+
     def end(self) -> None:
         """Close a connection that waits for a request."""
         self.room.leave(self)
@@ -211,17 +220,20 @@ def _cancel(timer: Timer) -> Timer:
     return None
 
 
-def _refusal() -> bytes:
-    detail = "There are too many connections; close those that are idle, and ask again."
-    document = ProblemDocument(
-        type=UNAVAILABLE.type, title=UNAVAILABLE.title, status=UNAVAILABLE.status, detail=detail
-    )
+def _refusal(kind: ProblemKind, detail: str, **headers: str) -> bytes:
+    """Return an answer of which no application knows."""
+    document = ProblemDocument(type=kind.type, title=kind.title, status=kind.status, detail=detail)
     body = document.model_dump_json(exclude_defaults=True).encode()
-    head = (
-        f"HTTP/1.1 {UNAVAILABLE.status} Service Unavailable\r\nContent-Type: {MEDIA_TYPE}\r\n"
-        f"Retry-After: {RETRY}\r\nConnection: close\r\nContent-Length: {len(body)}\r\n\r\n"
-    )
-    return head.encode() + body
+    told = {"Content-Type": MEDIA_TYPE, **DEFAULTS, **headers}
+    told |= {"Connection": "close", "Content-Length": str(len(body))}
+    head = f"HTTP/1.1 {kind.status} {HTTPStatus(kind.status).phrase}\r\n"
+    head += "".join(f"{name}: {value}\r\n" for name, value in told.items())
+    return f"{head}\r\n".encode() + body
 
 
-REFUSAL = _refusal()
+REFUSAL = _refusal(
+    UNAVAILABLE,
+    "There are too many connections; close those that are idle, and ask again.",
+    **{"Retry-After": str(RETRY)},
+)
+NOT_HTTP = _refusal(NO_REQUEST, "What was sent is no HTTP/1.1 request, or its head is too long.")

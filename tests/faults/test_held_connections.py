@@ -1,5 +1,6 @@
 """Connections that are held for nothing keep nobody out."""
 
+import json
 import select
 import socket
 import time
@@ -171,3 +172,13 @@ def test_a_key_counts_only_where_it_is_looked_at(keyed: tuple[tuple[str, int], s
             f"http://{host}:{port}/v1/jobs", headers={"Authorization": key}, timeout=60
         )
         assert jobs.status_code == 403  # the key is for sending
+
+
+def test_what_is_no_request_is_answered_with_a_problem(address: tuple[str, int]) -> None:
+    with socket.create_connection(address, timeout=60.0) as one:
+        one.sendall(b"GET / HTTP/1.1\r\nno header\r\n\r\n")
+        answer = b"".join(iter(lambda: one.recv(65536), b"")).decode()
+    head, _, body = answer.partition("\r\n\r\n")
+    assert head.startswith("HTTP/1.1 400 Bad Request")
+    assert "X-Content-Type-Options: nosniff" in head
+    assert json.loads(body)["type"] == "/problems/no-request"

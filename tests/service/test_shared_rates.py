@@ -1,6 +1,7 @@
 """Requests of one owner to several APIs, which count them together in Redis."""
 
 import asyncio
+import time
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,21 @@ def accepted(apis: list[Rates], owner: str, requests: int) -> int:
         return requests - refused
 
     return asyncio.run(sent())
+
+
+def test_no_window_of_any_begin_has_more_than_the_rate_allows(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now, begun = 0.0, time.time()
+    monkeypatch.setattr(time, "time", lambda: begun + now)
+    rates = Rates(1.0, None)
+    assert accepted([rates], "ada", 1) == 1
+    now = 9.0
+    assert accepted([rates], "ada", 20) == 9
+    now = 10.5
+    assert accepted([rates], "ada", 20) == 1  # in place of the first one
+    now = 19.5
+    assert accepted([rates], "ada", 20) == 9
 
 
 def test_three_apis_share_a_rate_and_do_without_redis(
