@@ -14,6 +14,7 @@ from jointplay.service.fields import BINARY
 from jointplay.service.problems import RequestRefused, header, kinds, problems
 from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
 from jointplay.service.zarr import ranges
+from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 
 router = APIRouter(prefix="/v1/jobs/{job_id}", tags=["results"])
@@ -60,7 +61,10 @@ _SERVED: dict[int | str, dict[str, Any]] = {
 def show_whole(
     request: Request, results: ResultsOfThePath, settings: SettingsDependency
 ) -> Response:
-    """Return the job's sealed Zarr v3 store in one file, an uncompressed zip, or a range of it."""
+    """Return the job's sealed Zarr v3 store in one file, an uncompressed zip, or a range of it.
+
+    All of it that is sent is compared with its checksums before; 410 if it is damaged.
+    """
     sealed, version = results.sealed, _sealed_version(results)
     size = sealed.size()
     if settings.results_redirect and size >= _LARGE and request.method == "GET":
@@ -88,6 +92,7 @@ def show_whole(
     status = 206 if part else 200
     if request.method == "HEAD":
         return Response(b"", status, headers, _TYPE)
+    Packed(sealed).check(start, stop)  # whose directory is checked, too
     return StreamingResponse(_pieces(sealed, start, stop), status, headers, _TYPE)
 
 

@@ -22,6 +22,9 @@ from jointplay.storage.packed.writing import (
 _TAIL = 2**16
 """Bytes read first: the whole directory of a store of some hundred arrays."""
 
+_TOGETHER = 2**20
+"""Bytes that are checked in one read, if no file has more."""
+
 
 class Entry(NamedTuple):
     """Where a file's bytes begin in a packed one, how many there are, and their CRC-32."""
@@ -142,13 +145,42 @@ class Packed:
 
     def _first(self, key: str, entry: Entry) -> bytes:
         """Read a file whole, with the header before it, and compare it with its checksum."""
+        found = self._bytes(_begin(key, entry), entry.offset + entry.size)
+        content = self._compared(key, entry, found)
+        self._checked.add(key)
+        return content
+
+    def check(self, start: int, stop: int) -> None:
+        """Compare all files with bytes in [start, stop) with their checksums, as they are now.
+
+        Raises
+        ------
+        CorruptStore
+            One has other bytes than were packed, or all are gone.
+        """
+        asked = [
+            (key, entry)
+            for key, entry in self.entries.items()
+            if _begin(key, entry) < stop and entry.offset + entry.size > start
+        ]
+        while asked:  # some in one read
+            begin = _begin(*asked[0])
+            near = [one for one in asked if one[1].offset + one[1].size <= begin + _TOGETHER]
+            near = near or asked[:1]
+            end = near[-1][1].offset + near[-1][1].size
+            found = memoryview(self._bytes(begin, end))
+            for key, entry in near:
+                within = slice(_begin(key, entry) - begin, entry.offset + entry.size - begin)
+                self._compared(key, entry, bytes(found[within]))
+            asked = asked[len(near) :]
+
+    def _compared(self, key: str, entry: Entry, found: bytes) -> bytes:
+        """Return the content of a file that was read with the header before it."""
         header = local_header(key.encode(), entry.crc, entry.size)
-        found = self._bytes(entry.offset - len(header), entry.offset + entry.size)
         content = found[len(header) :]
         expected = entry.size, entry.crc
         if not found.startswith(header) or (len(content), crc32(content)) != expected:
             raise CorruptStore(f"{key} of {self.source} has other bytes than were stored")
-        self._checked.add(key)
         return content
 
     def _bytes(self, start: int, stop: int) -> bytes:
@@ -156,6 +188,11 @@ class Packed:
             return self.source.read(start, stop)
         except FileNotFoundError as error:
             raise LostObject(f"{self.source} was removed") from error
+
+
+def _begin(key: str, entry: Entry) -> int:
+    """Return where the header before a file begins."""
+    return entry.offset - LOCAL.size - len(key.encode())
 
 
 def _entries(directory: bytes, count: int) -> Iterator[tuple[str, Entry]]:
