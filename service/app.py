@@ -51,6 +51,7 @@ from jointplay.service.workers.bell import Bell
 from jointplay.service.workers.uploads import Uploads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore
+from jointplay.storage.installation import require_own_files
 from jointplay.storage.places.fitness import require_fit
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.settings import Settings
@@ -116,6 +117,8 @@ def create_app(settings: Settings | None = None, *, patient: bool = False) -> Fa
             require_fit(settings.place)
         catalogue = Catalogue(settings.catalogue_url)
         migrating = await migrated(catalogue, patient=patient)
+        if not patient:
+            require_own_files(settings, catalogue)
         app.state.catalogue = catalogue
         app.state.door = Door(catalogue, settings)
         app.state.readiness = Readiness(catalogue, settings)

@@ -13,7 +13,7 @@ from jointplay.service.problems import RequestRefused, kinds
 OWNER: ContextVar[str] = ContextVar("owner", default="")
 """Owner of the key of the request that is answered; empty where none is asked for."""
 VITAL: Final = re.compile(
-    r"/(healthz|readyz|v1/worker/blocks/[^/]+/[^/]+/(heartbeat|progress|finish))"
+    r"/(healthz|readyz|v1/worker/blocks/[^/]+/[^/]+/(heartbeat|progress|finish|cut-off))"
 )
 """Paths that keep the service and its workers going."""
 UNTIL_ANSWERED: Final = "jointplay.until-answered"

@@ -16,6 +16,7 @@ from jointplay.records.log_lines import about, begin
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import QUEUES
+from jointplay.storage.installation import OtherFiles, require_own_files
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import KEY_PREFIX, RUN_BLOCK, make_app
 from jointplay.worker.measuring import measure_results
@@ -181,6 +182,10 @@ def main() -> None:
         raise SystemExit("set JOINTPLAY_REDIS_URL, such as redis://localhost:6379/0")
     catalogue = Catalogue(settings.catalogue_url)
     catalogue.migrate()
+    try:
+        require_own_files(settings, catalogue)
+    except OtherFiles as error:
+        raise SystemExit(f"the relay does not start: {error}") from None
     relay = Relay(catalogue, settings)
     with WakeUpListener(settings.redis_url) as listener:
         while not stop.is_set():

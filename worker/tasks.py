@@ -14,6 +14,7 @@ from celery.signals import setup_logging, worker_init, worker_process_init, work
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.installation import OtherFiles, require_own_files
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, app
 from jointplay.worker.own_solver import own_solver
@@ -72,9 +73,14 @@ def _set_up_no_other_logs(**_: Any) -> None:
 @worker_init.connect  # type: ignore[untyped-decorator]
 def _prepare(**_: Any) -> None:
     """Before the fork: wait until an API or a relay has brought the schema up to date."""
-    with closing(Catalogue(Settings().catalogue_url)) as catalogue:
+    settings = Settings()
+    with closing(Catalogue(settings.catalogue_url)) as catalogue:
         while not _is_migrated(catalogue):
             time.sleep(_LOOK_AGAIN)
+        try:
+            require_own_files(settings, catalogue)
+        except (OtherFiles, Unavailable) as error:
+            raise SystemExit(f"the worker does not start: {error}") from None
 
 
 def _is_migrated(catalogue: Catalogue) -> bool:

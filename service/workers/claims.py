@@ -1,4 +1,4 @@
-"""``/v1/worker/claims``: a block for a worker that has nothing to do."""
+"""``/v1/worker/claims``: a block for a worker that has nothing to do, or comes back."""
 
 import time
 from dataclasses import replace
@@ -12,7 +12,7 @@ from jointplay.service.access import CallerDependency
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.bell import BellDependency
-from jointplay.service.workers.words import own_name, said
+from jointplay.service.workers.words import Attempt, BlockId, own_name, said
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Customs
 
@@ -55,6 +55,14 @@ async def claim_block(
         rung = await bell.wait(pause)
         pause = _FIRST_PAUSE if rung else min(1.5 * pause, _LONGEST_PAUSE)
     return Response(status_code=204)
+
+
+@router.post("/blocks/{block}/{attempt}/cut-off", status_code=204)
+def note_cut_off(
+    catalogue: CatalogueDependency, caller: CallerDependency, block: BlockId, attempt: Attempt
+) -> None:
+    """Count the loss of an attempt no more: its worker lives, and could not reach the service."""
+    catalogue.note_cut_off(block, attempt, own_name(caller, ""))
 
 
 def _begin(catalogue: Catalogue, worker: str, asked: ClaimRequest) -> None:

@@ -18,6 +18,7 @@ from jointplay.storage.catalogue import (
     ending,
     holding,
     idempotency,
+    installation,
     keys,
     labels,
     listing,
@@ -254,9 +255,13 @@ class Catalogue:
     release = writing(ending.release)
     put_off = writing(ending.put_off)
     refuse = durably(ending.refuse)
+    note_cut_off = writing(ending.note_cut_off)
 
     finish = durably(ending.finish)
     finish_repeatable = writing(ending.finish)  # for what is quickly found again
+
+    mark_of = reading(installation.mark_of)
+    note_mark = durably(installation.note_mark)
 
     # What relay and reaper do, and whoever reconciles the catalogue with the rest
 

@@ -14,15 +14,16 @@ from jointplay.records.job import JobError
 from jointplay.storage.catalogue import calls, tables, tally, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.counters import of_outcome
-from jointplay.storage.catalogue.holding import change_held, lock_held, sum_progress
+from jointplay.storage.catalogue.holding import change_held, job_of, lock_held, sum_progress
 from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockState, Job, JobState
 from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
-from jointplay.storage.catalogue.solvers import machine_of, workers
+from jointplay.storage.catalogue.solvers import last_heard_of, machine_of, workers
 from jointplay.storage.catalogue.submission import drop_blocks
 
 _PUT_OFF: Final = "put-off"
 _LOST: Final = "lost"
 _REFUSED: Final = "refused"
+_CUT_OFF: Final = "cut-off"
 _LONGEST_RETREAT: Final = 60.0  # s
 _FIRST_PAUSE = 2.0  # s
 LONGEST_PAUSE: Final = 5.0
@@ -149,7 +150,8 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
     """Take a block from a worker whose lease ran out; queue it again or give it up.
 
     It is given up when `max_attempts` machines have lost it, or each that is present has so often:
-    one that loses it again and again counts once, as long as another one could compute it.
+    one that loses it again and again counts once, as long as another one could compute it. Those
+    that may be cut off, as they were not heard of since, do not count.
 
     Returns
     -------
@@ -158,15 +160,21 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
     """
     job = _take_back(unit, block_id, attempt, _LOST, losses=_block.c.losses + 1)
     losses = unit.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
+    rows = _ended_by(unit, block_id, _LOST, losses)
+    heard = last_heard_of(unit)
+    lost = Counter(
+        machine
+        for machine, ended in rows
+        if ended == unit.now or heard.get(machine, ended) >= ended
+    )
     error = JobError(
         "platform",
         "worker-lost",
         f"{losses} workers in a row disappeared while computing this; their logs say why, or"
         " those of their machines where memory ran out. Submit it again once that is solved.",
     )
-    return _again(
-        unit, job, block_id, _ended_by(unit, block_id, _LOST, losses), max_attempts, error
-    )
+    in_vain = losses - len(dict(rows))  # a machine may lose it in vain: give another one time
+    return _again(unit, job, block_id, lost, in_vain, max_attempts, error)
 
 
 def refuse(unit: Unit, block_id: str, attempt: int, max_attempts: int, reason: str) -> BlockState:
@@ -177,14 +185,15 @@ def refuse(unit: Unit, block_id: str, attempt: int, max_attempts: int, reason: s
     """
     nothing = {"checkpoint": None, "watermark": 0}
     job = _take_back(unit, block_id, attempt, _REFUSED, {"reason": reason}, **nothing)
-    refused = _ended_by(unit, block_id, _REFUSED, None)
+    refused = Counter(machine for machine, _ in _ended_by(unit, block_id, _REFUSED, None))
     error = JobError(
         "platform",
         "results-refused",
         f"Results of {refused.total()} attempts are not this job's, of the last one since"
         f" {reason}. Look at the workers that sent them, then submit it again.",
     )
-    return _again(unit, job, block_id, refused, max_attempts, error)
+    in_vain = refused.total() - len(refused)
+    return _again(unit, job, block_id, refused, in_vain, max_attempts, error)
 
 
 def _again(
@@ -192,18 +201,18 @@ def _again(
     job: Job,
     block_id: str,
     lost: Counter[str],
+    in_vain: int,
     max_attempts: int,
     error: JobError,
 ) -> BlockState:
     """Queue a block again that was taken back, or give it up: see `lose`.
 
-    `lost` : attempts in vain, by machine.
+    `lost` : attempts that count, by machine; `in_vain` : those of machines that had one before.
     """
     present = {machine_of(name) for name in workers(unit)} or lost.keys()
     hopeless = len(lost) >= max_attempts or all(lost[one] >= max_attempts for one in present)
     if not hopeless and not job.state.terminal:
-        again = lost.total() - len(lost)  # a machine may lose it in vain: give another one time
-        queue_again(unit, block_id, min(2.0**again, _LONGEST_RETREAT) if again else 0.0)
+        queue_again(unit, block_id, min(2.0**in_vain, _LONGEST_RETREAT) if in_vain else 0.0)
         return BlockState.queued
     given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
     unit.execute(update(_block).where(_block.c.id == block_id).values(state=given_up))
@@ -211,16 +220,31 @@ def _again(
     return given_up
 
 
-def _ended_by(unit: Unit, block_id: str, outcome: str, last: int | None) -> Counter[str]:
-    """Count attempts at a block that ended so, the last ones or all, by machine."""
+def note_cut_off(unit: Unit, block_id: str, attempt: int, owner: str) -> None:
+    """Count a loss no more whose worker, of a name that begins with `owner`, is back.
+
+    It lived, and could not reach whoever keeps the catalogue.
+    """
+    table = tables.attempt
+    if job_of(unit, block_id) is None:
+        return
+    lost = (table.c.block == block_id) & (table.c.number == attempt) & (table.c.outcome == _LOST)
+    back = update(table).where(lost, table.c.worker.startswith(owner, autoescape=True))
+    if unit.execute(back.values(outcome=_CUT_OFF)).rowcount:
+        counted = (_block.c.id == block_id) & (_block.c.losses > 0)
+        unit.execute(update(_block).where(counted).values(losses=_block.c.losses - 1))
+
+
+def _ended_by(unit: Unit, block_id: str, outcome: str, last: int | None) -> list[tuple[str, float]]:
+    """Return machine and end of attempts at a block that ended so, the last ones or all."""
     table = tables.attempt
     rows = unit.execute(
-        select(table.c.worker)
+        select(table.c.worker, table.c.ended)
         .where(table.c.block == block_id, table.c.outcome == outcome)
         .order_by(table.c.number.desc())
         .limit(last)
     )
-    return Counter(machine_of(name) for name in rows.scalars())
+    return [(machine_of(row.worker), row.ended) for row in rows]
 
 
 def _take_back(

@@ -177,6 +177,15 @@ def workers(unit: Unit) -> dict[str, Solver]:
     return {row.name: Solver(row.version, row.processor) for row in unit.execute(lately)}
 
 
+def last_heard_of(unit: Unit) -> dict[str, float]:
+    """Return when each known machine was heard of last [epoch s]."""
+    heard: dict[str, float] = {}
+    for row in unit.execute(select(_worker.c.name, _worker.c.seen)):
+        machine = machine_of(row.name)
+        heard[machine] = max(heard.get(machine, row.seen), row.seen)
+    return heard
+
+
 def unserved(unit: Unit) -> dict[str, Solver]:
     """Return live jobs that have waited for long for a solver that no worker has."""
     queued = (_block.c.job == _job.c.id) & (_block.c.state == BlockState.queued)

@@ -290,3 +290,11 @@ leader = Table(
     Column("holder", String(200), nullable=False),
     Column("until", Float(53), nullable=False),
 )
+
+# Marks of the places whose files belong to the catalogue; see `storage.installation`.
+installation = Table(
+    "installation",
+    metadata,
+    Column("place", String(16), primary_key=True),
+    Column("mark", String(64), nullable=False),
+)

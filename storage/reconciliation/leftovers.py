@@ -10,6 +10,7 @@ from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import Job, NewJob
 from jointplay.storage.durable import PARTIAL
 from jointplay.storage.errors import CorruptStore, NotAStore
+from jointplay.storage.installation import MARK
 from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.look import Look
@@ -21,6 +22,7 @@ _DATA: Final = {
     "catalogue.sqlite",
     "catalogue.sqlite-shm",
     "catalogue.sqlite-wal",
+    MARK,
     "logs",
     "results",
     RUNNING,
@@ -69,6 +71,8 @@ def _of_the_place(
         if done % _TOLD == 0:
             look.report(done / len(keys), f"looking at object {done} of {len(keys)}")
         if settings.sends and key.startswith(f"{RUNNING}/") and key.count("/") >= OF_A_JOB:
+            continue
+        if key == MARK:
             continue
         named = _SEALED.fullmatch(key)
         if named is None:

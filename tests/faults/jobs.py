@@ -1,5 +1,6 @@
 """Jobs put straight into the catalogue, and what tests of faults wait for."""
 
+from pathlib import Path
 from typing import NamedTuple
 
 from jointplay.solver.kinds import Admission
@@ -58,3 +59,18 @@ def in_mid_block(catalogue: Catalogue, job: str, index: int = 0, after: float = 
 def pid_of(block: Block) -> int:
     assert block.worker is not None
     return int(block.worker.split(":")[1])
+
+
+def api_of(data: Path) -> list[int]:
+    """Return the process id of the API of a service."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            command = (entry / "cmdline").read_bytes().decode().split("\0")
+            variables = (entry / "environ").read_bytes().decode()
+        except OSError:
+            continue
+        is_api = "jointplay.service.processes.api" in command and "-P" in command
+        if is_api and f"JOINTPLAY_DATA={data}\0" in f"{variables}\0":
+            found.append(int(entry.name))
+    return found

@@ -9,7 +9,7 @@ from shutil import which
 import httpx
 import pytest
 from conftest import catalogue_of
-from jobs import IMPATIENT, ended
+from jobs import IMPATIENT, api_of, ended
 
 from jointplay.service.processes import running_service
 from jointplay.storage.catalogue.records import JobState
@@ -82,18 +82,3 @@ def test_an_api_that_starts_meanwhile_answers_too(tmp_path: Path) -> None:
             refused(http)
         until(lambda: http.get("/readyz").status_code == 200)
         assert http.post("/v1/jobs", json=SWING).status_code == 202
-
-
-def api_of(data: Path) -> list[int]:
-    """Return the process id of the API of a service."""
-    found = []
-    for entry in Path("/proc").glob("[0-9]*"):
-        try:
-            command = (entry / "cmdline").read_bytes().decode().split("\0")
-            variables = (entry / "environ").read_bytes().decode()
-        except OSError:
-            continue
-        is_api = "jointplay.service.processes.api" in command and "-P" in command
-        if is_api and f"JOINTPLAY_DATA={data}\0" in f"{variables}\0":
-            found.append(int(entry.name))
-    return found

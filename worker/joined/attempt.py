@@ -1,9 +1,10 @@
 """One attempt at a block, of which the service keeps the books: see `worker.holding`."""
 
+from contextlib import suppress
 from typing import Final
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue.errors import Fenced
+from jointplay.storage.catalogue.errors import CatalogueError, Fenced, Unavailable
 from jointplay.storage.catalogue.records import BlockState, Claim, Job, JobState, Verdict
 from jointplay.worker.holding import Refused
 from jointplay.worker.joined import protocol
@@ -31,6 +32,9 @@ class JoinedAttempt:
         """Reached, and not told yet."""
         self._verdict = Verdict.go_on
         self._end: Fenced | Refused | None = None
+        self._cut_off = True
+        """Whether the service was not reached when it was last told something; at first it has
+        only answered a claim, maybe late."""
 
     def get(self, job: str, /) -> Job:
         """Return the job as it was claimed; the service itself removes what a late attempt left."""
@@ -76,15 +80,15 @@ class JoinedAttempt:
 
     def note_activity(self, block_id: str, attempt: int, activity: str, /) -> None:
         """Tell what takes long."""
-        self._connection.tell(self._claim.block, "activity", protocol.Activity(activity=activity))
+        self._tell("activity", protocol.Activity(activity=activity))
 
     def release(self, block_id: str, attempt: int, /) -> None:
         """Give the block back."""
-        self._connection.tell(self._claim.block, "release")
+        self._tell("release")
 
     def put_off(self, block_id: str, attempt: int, activity: str, /) -> None:
         """Give the block back until a fault has passed."""
-        self._connection.tell(self._claim.block, "put-off", protocol.Activity(activity=activity))
+        self._tell("put-off", protocol.Activity(activity=activity))
 
     def finish(
         self,
@@ -110,7 +114,7 @@ class JoinedAttempt:
             steps=steps,
             repeatable=repeatable,
         )
-        answer = self._connection.tell(self._claim.block, "finish", told)
+        answer = self._tell("finish", told)
         return protocol.Finished.model_validate_json(answer).state
 
     def finish_repeatable(
@@ -140,9 +144,26 @@ class JoinedAttempt:
     ) -> Verdict:
         """Tell something from whatever thread, and note the answer for the one that computes."""
         try:
-            content = self._connection.tell(self._claim.block, what, document, within=within)
+            content = self._tell(what, document, within=within)
         except (Fenced, Refused) as end:
             self._end = end
             raise
         self._verdict = protocol.Answered.model_validate_json(content).verdict
         return self._verdict
+
+    def _tell(
+        self, what: str, document: protocol.Document | None = None, *, within: float | None = None
+    ) -> bytes:
+        """Tell something; of a block that was lost while the service was out of reach also that."""
+        try:
+            content = self._connection.tell(self._claim.block, what, document, within=within)
+        except Unavailable:
+            self._cut_off = True
+            raise
+        except Fenced:
+            if self._cut_off:
+                with suppress(CatalogueError):
+                    self._connection.tell(self._claim.block, "cut-off")
+            raise
+        self._cut_off = False
+        return content

@@ -15,6 +15,7 @@ from jointplay.storage.catalogue.records import NewJob
 from tests.postgresql_server import Server
 
 LATER = (
+    "DROP TABLE installation",
     "DROP TABLE label",
     "DROP TABLE tally",
     "DROP INDEX ix_job_unserved",

@@ -1,0 +1,71 @@
+"""Which files belong to a catalogue: it and they have the same mark since they first met.
+
+Services with other files would answer that results are gone which are whole elsewhere, and remove
+what they take for left over.
+"""
+
+import logging
+import secrets
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import Final
+
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.places import Place
+from jointplay.storage.places.folder import Folder
+from jointplay.storage.settings import Settings
+
+MARK: Final = "installation"
+"""Name of the file, or object, that holds the mark."""
+_LONGEST: Final = 64  # characters
+_log = logging.getLogger(__name__)
+
+
+class OtherFiles(Exception):
+    """The files are those of another catalogue, or the catalogue is that of other files."""
+
+
+def require_own_files(settings: Settings, catalogue: Catalogue) -> None:
+    """Compare the marks of data folder and bucket, as far as all processes share them.
+
+    Raises
+    ------
+    OtherFiles
+        One has another mark than the catalogue wants.
+    """
+    for name, place, where in _shared(settings):
+        known = catalogue.mark_of(name)
+        try:
+            found = _mark_in(place) or ("" if known else _marked(place))
+        except OSError as error:  # readiness tells; the next start looks again
+            _log.warning("%s is not compared with the catalogue: %s", where, error)
+            continue
+        known = known or catalogue.note_mark(name, found)
+        if found != known:
+            raise OtherFiles(
+                f"{where} {'is of another catalogue' if found else 'is new to this catalogue'},"
+                f" whose jobs have their files elsewhere; give the same place to all that share a"
+                f" catalogue. If its files were moved or restored here, write {known} into"
+                f" {where}/{MARK}"
+            )
+
+
+def _shared(settings: Settings) -> Iterator[tuple[str, Place, str]]:
+    if not settings.sends:
+        yield "data", Folder(str(settings.data)), str(settings.data)
+    if not isinstance(settings.place, Folder):
+        yield "results", settings.place, settings.results_url.partition("?")[0]
+
+
+def _mark_in(place: Place) -> str:
+    """Return the mark of a place; empty if it has none."""
+    with suppress(FileNotFoundError):
+        return place.read(MARK, 0, _LONGEST).decode(errors="replace").strip()
+    return ""
+
+
+def _marked(place: Place) -> str:
+    """Mark a place, and return the mark that it has then."""
+    with suppress(FileExistsError):
+        place.put(MARK, [secrets.token_hex(16).encode()])
+    return _mark_in(place)

@@ -1,0 +1,74 @@
+"""Two data folders, or buckets, on one catalogue: the second one is refused."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from jointplay.service.processes import StartFailed, running_service
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.installation import MARK, OtherFiles, require_own_files
+from jointplay.storage.settings import Settings
+from tests.postgresql_server import running_server
+from tests.seaweedfs_server import BUCKET, running_store
+
+
+def test_a_service_with_another_data_folder_does_not_start(tmp_path: Path) -> None:
+    first, second = tmp_path / "first", tmp_path / "second"
+    with running_service(first, workers=0):
+        pass
+    shared = {"JOINTPLAY_CATALOGUE_URL": Settings(data=first).catalogue_url}
+    with (
+        pytest.raises(StartFailed, match="new to this catalogue"),
+        running_service(second, workers=0, environment=shared),
+    ):
+        pass
+    own = {"JOINTPLAY_DATA": str(second), "JOINTPLAY_REDIS_URL": "redis://127.0.0.1:9/0"}
+    for program in ("relay", ""):
+        command = [sys.executable, "-P", "-m", f"jointplay.worker.{program}".rstrip(".")]
+        found = subprocess.run(
+            command, env=os.environ | shared | own, capture_output=True, text=True, check=False
+        )
+        assert found.returncode != 0
+        assert "does not start" in found.stderr
+    with running_service(second, workers=0):  # on a catalogue of its own
+        pass
+    with (
+        pytest.raises(StartFailed, match="of another catalogue"),
+        running_service(second, workers=0, environment=shared),
+    ):
+        pass
+    shutil.move(first, tmp_path / "moved")
+    with running_service(tmp_path / "moved", workers=0):  # with the catalogue in it
+        pass
+
+
+def test_another_bucket_is_refused_and_another_machine_is_not(tmp_path: Path) -> None:
+    with running_server() as server, running_store() as endpoint:
+        url = server.new("template0")
+
+        def checked(data: str, prefix: str, running: str = "") -> None:
+            settings = Settings(
+                data=tmp_path / data,
+                catalogue_url=url,
+                results_url=f"s3://{BUCKET}/{prefix}?endpoint={endpoint}",
+                running=running,
+            )
+            settings.data.mkdir(exist_ok=True)
+            catalogue = Catalogue(url)
+            catalogue.migrate()
+            try:
+                require_own_files(settings, catalogue)
+            finally:
+                catalogue.close()
+
+        checked("one", "first")
+        checked("two", "first")  # another machine: what jobs need is in the bucket
+        with pytest.raises(OtherFiles, match="new to this catalogue"):
+            checked("two", "second")
+        checked("one", "first", "data")  # from now on data folders are shared, too
+        with pytest.raises(OtherFiles, match=MARK):
+            checked("two", "first", "data")
