@@ -49,7 +49,7 @@ def _change_the_clock(folder: Path) -> None:
         now = shifted_time()
         true_stamp(file, (now, now) if times is None and not named else times, **named)
 
-    os.utime = shifted_stamp
+    os.utime = shifted_stamp  # type: ignore[assignment]
 
 
 def _note_files(folder: Path) -> None:

@@ -1,10 +1,12 @@
 """``/v1/jobs/{id}/history`` and its siblings: numbers that a run has computed."""
 
+from collections.abc import Iterator
 from typing import Annotated
 
 import numpy as np
 from fastapi import APIRouter, Query, Response
 
+from jointplay.records.arrays import Floats
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel import TIME, by_name
 from jointplay.records.resolution import of_samples
@@ -26,6 +28,7 @@ from jointplay.service.results.queries import (
 )
 from jointplay.service.results.schemas import as_json
 from jointplay.service.results.stores import ResultsOfThePath, RunOfThePath
+from jointplay.service.results.streaming import LEAST, as_stream
 from jointplay.service.results.windows import ExactRunOfThePath, bins, extremes, resolution, series
 from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
@@ -76,6 +79,8 @@ def show_history(
     if last > first:
         begin, end = (run.history([], at, at + 1)[0][0] for at in (first, last - 1))
         check_size(last - first, len(names) + 1, "samples", float(end - begin))
+    if form == JSON and (last - first) * (len(names) + 1) > LEAST:
+        return _streamed(run, names, first, last, note)
     time, columns = run.history(names, first, last)
     history = schemas.History.model_construct(
         complete=run.complete,
@@ -85,6 +90,27 @@ def show_history(
         resolution=resolution(of_samples(run.attributes["job"])),
     )
     return _shown_as(form, file, history)
+
+
+def _streamed(run: ResultReader, names: list[str], first: int, last: int, note: str) -> Response:
+    """Return channels as JSON; all is read once before, so that no damage is met on the way."""
+    for _ in run.blocks(names, first, last):
+        pass
+    history = schemas.History.model_construct(
+        complete=run.complete,
+        time=schemas.Series.of(TIME, values=[]),
+        channels=series(run, dict.fromkeys(names, np.empty(0))),
+        note=note,
+        resolution=resolution(of_samples(run.attributes["job"])),
+    )
+    columns = [_column(run, name, first, last) for name in (None, *names)]
+    return as_stream(history, columns, VARY)
+
+
+def _column(run: ResultReader, name: str | None, first: int, last: int) -> Iterator[Floats]:
+    """Yield the parts of a channel, or of the time."""
+    for time, columns in run.blocks([] if name is None else [name], first, last):
+        yield time if name is None else columns[name]
 
 
 def show_sections(job_id: str, run: ResultReader, selection: Selection, form: str) -> Response:

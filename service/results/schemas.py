@@ -210,4 +210,5 @@ class Figures(BaseModel):
 
 def as_json(document: BaseModel, headers: Mapping[str, str] | None = None) -> Response:
     """Serialise once, without validating a million numbers of our own; NaN becomes null."""
-    return Response(document.model_dump_json(), media_type="application/json", headers=headers)
+    content = document.__pydantic_serializer__.to_json(document)  # bytes, without a text before
+    return Response(content, media_type="application/json", headers=headers)
