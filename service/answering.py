@@ -58,6 +58,10 @@ class AnsweringProcess:
         except Full:
             raise Busy from None
 
+    def running(self) -> "list[subprocess.Popen[bytes]]":
+        """Return the processes that were started, and not ended by this one."""
+        return [one.process for one in self._processes if one.process is not None]
+
     def close(self) -> None:
         """End the processes."""
         for process in self._processes:
@@ -69,7 +73,7 @@ class _Process:
 
     def __init__(self, module: str) -> None:
         self._module = module
-        self._process: subprocess.Popen[bytes] | None = None
+        self.process: subprocess.Popen[bytes] | None = None
         self._connection: Connection | None = None
 
     def answer(self, question: object, patience: float) -> Any:
@@ -87,19 +91,19 @@ class _Process:
 
     def close(self) -> None:
         """End the process."""
-        if self._process is not None and self._connection is not None:
+        if self.process is not None and self._connection is not None:
             self._connection.close()
-            self._process.kill()
-            self._process.wait()
-        self._process = self._connection = None
+            self.process.kill()
+            self.process.wait()
+        self.process = self._connection = None
 
     def _connected(self) -> Connection:
         """Return the way to the process, which is started if it does not run."""
-        if self._process is None or self._process.poll() is not None or self._connection is None:
+        if self.process is None or self.process.poll() is not None or self._connection is None:
             self.close()
             self._connection, theirs = Pipe()
             with theirs:
-                self._process = subprocess.Popen(  # noqa: S603 - our own program
+                self.process = subprocess.Popen(  # noqa: S603 - our own program
                     [sys.executable, "-P", "-m", self._module, str(theirs.fileno())],
                     stdin=subprocess.DEVNULL,
                     pass_fds=[theirs.fileno()],

@@ -19,8 +19,8 @@ DEFAULTS: Final = {
         )
     ),
 }
-"""Of an answer that has no such headers of its own, as the page has; nothing in it is carried out,
-and nothing loaded from elsewhere."""
+"""Those of an answer that has no such headers of its own, as the page has; nothing in it is carried
+out, and nothing loaded from elsewhere."""
 
 
 class ContentPolicy:

@@ -61,7 +61,7 @@ def answered(one: socket.socket) -> int:
 
 
 def test_slow_batches_of_one_owner_wait_for_their_turn(keyed: Keyed) -> None:
-    slow = {"jobs": [SLOW | {"duration": 1.0 + number} for number in range(100)]}
+    slow = {"jobs": [SLOW | {"duration": 1.0 + number} for number in range(40)]}
     simple = json.dumps({"jobs": [SWING]}).ljust(SHORT + 1)  # checked where the slow ones are
     with keyed.as_("ada") as ada, keyed.as_("bob") as bob, ThreadPoolExecutor(12) as threads:
         sent = [threads.submit(ada.post, "/v1/batches", json=slow) for _ in range(12)]

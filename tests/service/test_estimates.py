@@ -115,8 +115,7 @@ def test_a_probe_that_ended_is_started_again():
     spec = admit(job).job
     try:
         first = prober.cost_of(spec)
-        process = prober._process._process
-        assert process is not None
+        (process,) = prober._process.running()
         process.kill()
         process.wait()
         assert prober.cost_of(spec)["steps"] == first["steps"]

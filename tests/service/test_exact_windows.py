@@ -35,7 +35,7 @@ def test_a_list_of_figures_computes_nothing(application, http, job):
     process.close()
     listed = [one["name"] for one in ask(http, job, "figures")["figures"]]
     assert {"impact-loop", "orbit", "certificate", "energy"} - set(listed) == {"certificate"}
-    assert process._process is None, "no kernel was asked for"
+    assert not process.running(), "no kernel was asked for"
     for name in listed:
         assert http.get(f"/v1/jobs/{job}/figures/{name}.png").status_code == 200, name
     assert [one["name"] for one in ask(http, job, "figures")["figures"]] == listed
