@@ -1,21 +1,12 @@
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from jobs import IMPATIENT, Service
+from jobs import IMPATIENT, Service, catalogue_of
 
 from jointplay.service.processes import running_service
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
-
-
-@contextmanager
-def catalogue_of(settings: Settings) -> Iterator[Catalogue]:
-    catalogue = Catalogue(settings.catalogue_url)
-    catalogue.migrate()
-    yield catalogue
-    catalogue.close()
 
 
 @pytest.fixture

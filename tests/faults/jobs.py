@@ -1,5 +1,7 @@
 """Jobs put straight into the catalogue, and what tests of faults wait for."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -74,3 +76,11 @@ def api_of(data: Path) -> list[int]:
         if is_api and f"JOINTPLAY_DATA={data}\0" in f"{variables}\0":
             found.append(int(entry.name))
     return found
+
+
+@contextmanager
+def catalogue_of(settings: Settings) -> Iterator[Catalogue]:
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    yield catalogue
+    catalogue.close()

@@ -6,8 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from conftest import catalogue_of
-from jobs import IMPATIENT, api_of, ended, in_mid_block, standing, submit
+from jobs import IMPATIENT, api_of, catalogue_of, ended, in_mid_block, standing, submit
 
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import admit

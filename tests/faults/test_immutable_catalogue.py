@@ -8,8 +8,7 @@ from shutil import which
 
 import httpx
 import pytest
-from conftest import catalogue_of
-from jobs import IMPATIENT, api_of, ended
+from jobs import IMPATIENT, api_of, catalogue_of, ended
 
 from jointplay.service.processes import running_service
 from jointplay.storage.catalogue.records import JobState

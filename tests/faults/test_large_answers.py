@@ -5,8 +5,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import httpx
-from conftest import catalogue_of
-from jobs import IMPATIENT, api_of, ended
+from jobs import IMPATIENT, api_of, catalogue_of, ended
 
 from jointplay.service.processes import running_service
 from jointplay.storage.catalogue.records import JobState

@@ -6,8 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import catalogue_of
-from jobs import IMPATIENT, ended, in_mid_block, submit
+from jobs import IMPATIENT, catalogue_of, ended, in_mid_block, submit
 
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import admit

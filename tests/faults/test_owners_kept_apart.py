@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import httpx
 import pytest
-from conftest import catalogue_of
+from jobs import catalogue_of
 
 from jointplay.service.checking import SHORT
 from jointplay.service.processes import running_service
