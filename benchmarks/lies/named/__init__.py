@@ -1,6 +1,7 @@
 """Claims that were wrong once, by name, each held to the truth since."""
 
 from benchmarks.lies.named import (
+    bristles,
     chatter,
     companions,
     exponents,
@@ -15,6 +16,7 @@ from benchmarks.lies.tables import table
 LIES: tuple[Lie, ...] = (
     *(*flight.LIES, *friction.LIES, *ramps.LIES),
     *(*companions.LIES, *exponents.LIES, *chatter.LIES, *kinks_beside.LIES),
+    *bristles.LIES,
 )
 
 

@@ -90,6 +90,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     layout.add_block("slip_row", pairs)
     layout.add_block("penetration_row", pairs)
     layout.add_block("normal_row", pairs)
+    inner = states - 2 * len(equations.coordinates)
+    layout.add_block("inner_row", inner)
     layout.add_block("bend", BENDS * pairs)
     for name in ("clock_start", "clock_travel", "clock_turn"):
         layout.add_block(name, clocks)
@@ -126,6 +128,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     step_row = StepRow.of(len(equations.coordinates), states, pairs)
     counts = {
         "states": states,
+        "inner_states": inner,
         "ledger": ledger,
         "pairs": pairs,
         "clocks": clocks,

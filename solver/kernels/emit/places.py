@@ -82,14 +82,14 @@ class StepRow:
         return rows[..., PERIOD] * period + rows[..., TIME]
 
 
-COUNTS = ("states", "ledger", "pairs", "clocks", "rows", "watched_closely")
-"""Numbers of states, terms of the ledger, contact pairs, clocks, and scanned channels; whether
-steps of contacts are looked at inside."""
+COUNTS = ("states", "inner_states", "ledger", "pairs", "clocks", "rows", "watched_closely")
+"""Numbers of states, states of friction's own, terms of the ledger, contact pairs, clocks, and
+scanned channels; whether steps of contacts are looked at inside."""
 _SLOTS = """
 numbers time step tried arrival stage_time theta active accept flag next_step end next_due marked
 stage total gap gap_rate gap_start gap_rate_start mode impact_rate before_time phase wound
 slip slip_rate slip_start slip_rate_start eccentricity eccentricity_start before_step change inner
-slip_row penetration_row normal_row bend y k1_ slope largest_step known_range
+slip_row penetration_row normal_row inner_row bend y k1_ slope largest_step known_range
 clock_start clock_travel clock_turn channel previous highest lowest highest_time lowest_time
 impact_floor restart onset_time approach onset_total opened abrupt weight steps pace_at look_at
 look_beyond swing seeks_extremes stored stored_start kledger1_

@@ -28,6 +28,10 @@ from jointplay.solver.kernels.loop.events import (
     record_crossings,
 )
 from jointplay.solver.kernels.loop.inner_peaks import look_at_passages, look_inside
+from jointplay.solver.kernels.loop.inner_states import (
+    any_may_surpass,
+    look_at_inner_states,
+)
 from jointplay.solver.kernels.loop.peaks import refine_peaks
 from jointplay.solver.kernels.loop.roughness import any_due, is_due
 from jointplay.solver.kernels.loop.runs import BUFFERS, NO_PAIR, RUNS, Buffers
@@ -83,6 +87,7 @@ def look_closer(
     spare: np.ndarray,
     runs: np.ndarray,
     table: np.ndarray,
+    states_within: LaneFunction,
     channels_around: LaneFunction,
     channels_within: LaneFunction,
     gaps_within: LaneFunction,
@@ -97,6 +102,18 @@ def look_closer(
             look_at_passages(lane, run, at, work, spare, table, channels_around, channels_within)
         if closely or flag & DUE or run.landing != NO_PAIR:
             look_inside(lane, run, at, work, spare, table, channels_around, channels_within)
+        if at.inner_states > 0:
+            look_at_inner_states(
+                lane,
+                run,
+                at,
+                work,
+                spare,
+                table,
+                states_within,
+                channels_around,
+                channels_within,
+            )
         if may_pass_bend(lane, at, work):
             rows = np.empty(at.rows, np.int64)
             count = find_in_reach(lane, at, work, rows)
@@ -183,7 +200,11 @@ def advance(
                     quiet = False
                     full |= record_crossings(lane, run, at, work, spare, rows, call.channels_within)
         if watch and (
-            at.watched_closely or not quiet or any_due(runs, at, work) or any_bend(at, work)
+            at.watched_closely
+            or not quiet
+            or any_due(runs, at, work)
+            or any_bend(at, work)
+            or any_may_surpass(at, work)
         ):
             look_closer(
                 at,
@@ -191,6 +212,7 @@ def advance(
                 spare,
                 runs,
                 table,
+                call.states_within,
                 call.channels_around,
                 call.channels_within,
                 call.gaps_within,

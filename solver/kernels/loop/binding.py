@@ -138,6 +138,8 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
             lane["bend"][BENDS * j : BENDS * (j + 1)] = law.bends
         for quantity, slot in ROWS.items():
             lane[slot][j] = lane.kernel.rows.watched_row(f"{name}.{quantity}")
+    inner = [f"{pair}.{one.name}" for pair, own in inner_states(scene).items() for one in own]
+    lane["inner_row"] = np.array([lane.kernel.rows.watched_row(name) for name in inner])
 
 
 def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> None:

@@ -1,11 +1,11 @@
-"""Error bars that were lies once, and extremes at ramps of friction and in chatter."""
+"""Error bars that were lies once, and extremes at ramps, in chatter and of bristles."""
 
 import pytest
 
-from benchmarks.lies.named import chatter, companions, friction, ramps
+from benchmarks.lies.named import bristles, chatter, companions, friction, ramps
 from benchmarks.lies.named.lie import Lie
 
-BARS = (*friction.BARS, *ramps.LIES, *companions.LIES, *chatter.LIES)
+BARS = (*friction.BARS, *ramps.LIES, *companions.LIES, *chatter.LIES, *bristles.LIES)
 AT_LENGTH = (
     "press as a draft, its bars",
     "press, an unlucky step",
