@@ -12,7 +12,7 @@ from benchmarks.lies.covered import coverage_of
 from benchmarks.lies.extremes import extremes_of
 from benchmarks.lies.journal import Journal
 from benchmarks.lies.measures import MEASURES
-from benchmarks.lies.scenes import OTHERS, SCENES
+from benchmarks.lies.scenes import EVERY, LOOSE, OTHERS, SCENES
 from benchmarks.lies.search import Judged, Measure, report, search
 
 PARTS = (*MEASURES, "named")
@@ -23,13 +23,20 @@ def main() -> None:
     options = argparse.ArgumentParser(prog="python -m benchmarks lies", description=__doc__)
     options.add_argument("--only", choices=PARTS, nargs="+", default=list(PARTS))
     scenes = options.add_mutually_exclusive_group()
-    scenes.add_argument("--scenes", choices=SCENES | OTHERS, nargs="+", default=list(SCENES))
+    scenes.add_argument("--scenes", choices=EVERY, nargs="+", default=list(SCENES))
     scenes.add_argument(
         "--others",
         action="store_const",
         dest="scenes",
         const=list(OTHERS),
         help="scenes whose truth far finer runs tell",
+    )
+    scenes.add_argument(
+        "--loose",
+        action="store_const",
+        dest="scenes",
+        const=list(LOOSE),
+        help="guides, slots and cams with play, bristles and motors, at draft, standard and fine",
     )
     options.add_argument("--runs", type=int, default=100, help="of each search")
     options.add_argument("--seed", type=int, default=1)

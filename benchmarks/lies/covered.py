@@ -2,12 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.lies.run import Finished, finish
+from benchmarks.lies.contacts import contacts_hold
+from benchmarks.lies.run import Finished, Onsets, finish
 from benchmarks.lies.scenes import OTHERS
 from benchmarks.lies.sizes import sizes
 from benchmarks.lies.truth import true_channels
@@ -17,8 +18,15 @@ from jointplay.worker.certificates import record_of
 
 Floats = NDArray[np.float64]
 
-Truths = tuple[Floats, Floats]
-"""Values at some instants, (instants, channels), and by coarser steps."""
+
+class Truths(NamedTuple):
+    """Values at some instants, (instants, channels), and by coarser steps."""
+
+    fine: Floats
+    coarse: Floats
+    onsets: tuple[Onsets, Onsets]
+
+
 Tell = Callable[[dict[str, Any], NDArray[np.int64]], Truths | None]
 """Takes a job and indices of its samples."""
 
@@ -32,6 +40,8 @@ DOUBT = 0.1
 """Where the two truths are apart by this share of what is judged, none is known."""
 ROUNDING = 1e-12
 """Share of a channel's size that rounding alone makes an error of."""
+FINER_STEPS = 200_000
+"""Steps after which finer runs give up."""
 MOST_ATTEMPTS = 60_000
 """Steps after which the independent program gives up: friction held by steep ramps is stiff."""
 SMALLEST = 1e-300
@@ -56,6 +66,10 @@ class Verdict:
     where : str
         Channel and time of that.
     ratios : (count,) bars by errors, of some errors.
+    contacts : int
+        Certified contacts, where the truth knows contacts.
+    untrue : int
+        1 where they are not those of the motion, else 0.
     """
 
     ended: str
@@ -64,6 +78,8 @@ class Verdict:
     worst: float = 0.0
     where: str = ""
     ratios: Floats = field(default_factory=lambda: np.zeros(0))
+    contacts: int = 0
+    untrue: int = 0
 
     @property
     def covered(self) -> float:
@@ -96,7 +112,8 @@ def coverage_of(job: dict[str, Any], tell: Tell | None = None) -> Verdict:
     truths = by_program(finished, index) if tell is None else tell(sampled, index)
     if truths is None:
         return Verdict("no truth")
-    values, bar, (fine, coarse) = finished.samples[index], certificate.error[within], truths
+    values, bar = finished.samples[index], certificate.error[within]
+    fine, coarse, onsets = truths
     rounding = ROUNDING * sizes(finished.scene, finished.units, fine) + SMALLEST
     error, doubt = np.abs(values - fine), np.abs(fine - coarse)
     known = doubt <= DOUBT * np.maximum(bar, error) + rounding
@@ -107,6 +124,8 @@ def coverage_of(job: dict[str, Any], tell: Tell | None = None) -> Verdict:
     instant, column = np.unravel_index(int(bars.argmax()), bars.shape)
     usable = known & (error > rounding)
     ratios = bar[usable] / error[usable]
+    impacts = certificate.facts["impacts"]
+    hold = contacts_hold(impacts, certified.onsets, onsets, job["duration"])
     return Verdict(
         "judged",
         int(known.sum()),
@@ -114,27 +133,35 @@ def coverage_of(job: dict[str, Any], tell: Tell | None = None) -> Verdict:
         float(bars.max()),
         f"{finished.names[column]} at {time[within][instant]:.6g} s",
         ratios[:: max(1, len(ratios) // MOST_RATIOS)],
+        0 if hold is None else impacts["certified"],
+        int(hold is False),
     )
 
 
 def by_program(finished: Finished, index: NDArray[np.int64]) -> Truths | None:
     """Return what the independent program says, at two tolerances, at some of a run's samples."""
     first = dict(zip(finished.names, finished.samples[0], strict=True))
-    truths = []
+    truths, onsets = [], []
     for tolerance, share in PROGRAMS:
         found = true_channels(
             finished.scene, first, finished.time[index], tolerance, share, MOST_ATTEMPTS
         )
         if found is None:
             return None
-        truths.append(np.stack([found[name] for name in finished.names], axis=1))
-    return truths[0], truths[1]
+        truths.append(np.stack([found.values[name] for name in finished.names], axis=1))
+        onsets.append(found.onsets)
+    return Truths(truths[0], truths[1], (onsets[0], onsets[1]))
 
 
 def knows(scene: dict[str, Any]) -> bool:
     """Tell whether the independent program knows all that is in a scene of a search."""
-    laws = (one.get("clearance", {}).get("contact", {}) for one in scene.get("joints", {}).values())
-    return scene.get("preset") not in OTHERS and not any("dissipation" in law for law in laws)
+    clearances = [one.get("clearance", {}) for one in scene.get("joints", {}).values()]
+    return (
+        scene.get("preset") not in OTHERS
+        and not any(j["type"] == "roller-follower" for j in scene.get("joints", {}).values())
+        and not any("dissipation" in each.get("contact", {}) for each in clearances)
+        and not any("bristle_stiffness" in each.get("friction", {}) for each in clearances)
+    )
 
 
 def by_implicit_method(job: dict[str, Any], index: NDArray[np.int64]) -> Truths | None:
@@ -155,6 +182,9 @@ def _by_runs(
     job: dict[str, Any], index: NDArray[np.int64], method: str, tolerances: tuple[float, float]
 ) -> Truths | None:
     same = {name: value for name, value in job.items() if name != "step"}
-    runs = [finish(same | {"method": method, "tolerance": t}) for t in tolerances]
-    fine, coarse = (run.samples[index] if isinstance(run, Finished) else None for run in runs)
-    return None if fine is None or coarse is None else (fine, coarse)
+    same["duration"] = min((index[-1] + 0.5) * job["output_step"], job["duration"])
+    runs = [finish(same | {"method": method, "tolerance": t}, FINER_STEPS) for t in tolerances]
+    fine, coarse = (run if isinstance(run, Finished) else None for run in runs)
+    if fine is None or coarse is None:
+        return None
+    return Truths(fine.samples[index], coarse.samples[index], (fine.onsets, coarse.onsets))

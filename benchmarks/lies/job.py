@@ -3,8 +3,9 @@
 from typing import Any, NamedTuple
 
 from benchmarks.lies.draw import Draw
-from benchmarks.lies.scenes import OTHERS, SCENES
+from benchmarks.lies.scenes import EVERY, LOOSE, OTHERS
 from jointplay.solver.integrators import METHODS
+from jointplay.solver.kinds.job import ACCURACIES
 
 SMALLEST = 1e-10
 """Tolerance."""
@@ -26,8 +27,12 @@ def random_job(point: list[float], kinds: list[str]) -> Chosen:
     kind = draw.one_of(*kinds)
     method = draw.one_of("auto", "auto", *METHODS)
     fineness, length = draw.even(0.0, 1.0), draw.size(0.3, 20.0)
-    scene, unit = (SCENES | OTHERS)[kind](draw)
+    scene, unit = EVERY[kind](draw)
     job = {"kind": "simulate", "scene": scene, "duration": unit * length, "method": method}
+    if kind in LOOSE:
+        asked = draw.one_of("draft", "standard", "standard", "fine")
+        job["method"], job["tolerance"] = ACCURACIES[asked]
+        return Chosen(kind, job, draw.count)
     if kind in OTHERS:
         job["formulation"] = draw.one_of("reduced", "reduced", "lagrange")
     if method in METHODS and METHODS[method].fixed_step:

@@ -13,7 +13,7 @@ FEW = 0.95
 
 def _badness_of_bars(found: Verdict) -> float:
     """Return what is not covered, then how many bars the worst error has."""
-    return 1.0 - found.covered + 1e-3 * float(np.log10(found.worst + 1e-12))
+    return found.untrue + 1.0 - found.covered + 1e-3 * float(np.log10(found.worst + 1e-12))
 
 
 def _row_of_bars(group: list[Verdict]) -> tuple[str, ...]:
@@ -26,6 +26,7 @@ def _row_of_bars(group: list[Verdict]) -> tuple[str, ...]:
         str(sum(share < FEW for share in covered)),
         f"{max(v.worst for v in group):.3g}",
         f"{np.median(ratios):.3g}" if len(ratios) else "",
+        f"{sum(v.contacts for v in group)}, {sum(v.untrue for v in group)}",
     )
 
 
@@ -50,9 +51,13 @@ MEASURES = {
             f"runs below {percent(FEW)}",
             "worst error in bars",
             "median bar / error",
+            "certified contacts, runs where they are not true",
         ),
         _row_of_bars,
-        lambda v: f"{percent(v.covered)} inside, {v.worst:.3g} bars: {v.where}",
+        lambda v: (
+            f"{percent(v.covered)} inside, {v.worst:.3g} bars: {v.where}; of {v.contacts} certified"
+            f" contacts {'not all' if v.untrue else 'none un'}true"
+        ),
     ),
     "extremes": Measure(
         Extremes,

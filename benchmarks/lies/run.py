@@ -13,6 +13,8 @@ from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.simulate import Simulation
 
 Floats = NDArray[np.float64]
+Onsets = dict[int, Floats]
+"""Ascending times, s, at which contacts begin, by index of their pair."""
 
 MOST_STEPS = 400_000
 """A run that takes more is not judged."""
@@ -31,6 +33,7 @@ class Finished:
     time: Floats
     samples: Floats
     peaks: dict[str, Peak]
+    onsets: Onsets
     certificate: Certificate | None
 
 
@@ -42,11 +45,12 @@ def finish(job: dict[str, Any], most_steps: float = MOST_STEPS) -> Finished | st
         return f"refused: {refused}"
     assert isinstance(admission, Admission)
     simulation = Simulation(admission)
-    times, samples = [], []
+    times, samples, impacts = [], [], []
     try:
         for piece in simulation.slices():
             times.append(piece.sample_time)
             samples.append(piece.samples)
+            impacts.append(piece.impacts)
             if simulation.summary().statistics["steps"] > most_steps:
                 return "too many steps"
     except SimulationFailed as failure:
@@ -61,5 +65,11 @@ def finish(job: dict[str, Any], most_steps: float = MOST_STEPS) -> Finished | st
         np.concatenate(times),
         np.concatenate(samples),
         summary.peaks,
+        _onsets(np.concatenate(impacts)),
         simulation.certificate(),
     )
+
+
+def _onsets(impacts: NDArray[np.void]) -> Onsets:
+    joint, onset = impacts["joint"], impacts["onset"]
+    return {int(pair): np.sort(onset[joint == pair]) for pair in np.unique(joint)}

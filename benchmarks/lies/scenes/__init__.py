@@ -5,13 +5,18 @@ from typing import Any
 
 from benchmarks.lies.draw import Draw
 from benchmarks.lies.scenes import (
+    bristles,
+    cams,
+    guides,
     mechanisms,
+    motors,
     other_laws,
     other_presets,
     pendulums,
     pits,
     presets,
     rotors,
+    slots,
 )
 
 Random = Callable[[Draw], tuple[dict[str, Any], float]]
@@ -42,3 +47,17 @@ OTHERS: dict[str, Random] = {
     "other laws": other_laws.loose_slider_crank,
 }
 """Scenes whose truth far finer runs tell."""
+LOOSE: dict[str, Random] = {
+    "swung guide": guides.swung,
+    "swung guide, bristles": guides.bristled,
+    "slot of a rocker, bristles": slots.rocker,
+    "slot of a yoke, motor": slots.yoke,
+    "flat cam": cams.flat,
+    "roller cam, bristles, motor": cams.roller,
+    "journal, lugre": bristles.of_lugre,
+    "journal, dahl": bristles.of_dahl,
+    "slider-crank, guide, motor": motors.slider_crank,
+}
+"""Scenes with play in guides, slots, cams and bearings, with bristles and motors, at the accuracies
+that a user asks for; truth as of `OTHERS`."""
+EVERY = SCENES | OTHERS | LOOSE

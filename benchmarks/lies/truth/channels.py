@@ -2,24 +2,29 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from benchmarks.lies.truth import integration
-from benchmarks.lies.truth.equations import (
+from benchmarks.lies.truth.contacts import (
     EX,
     EY,
     FRICTION,
     GAP,
+    GAP_RATE,
     NORMAL_FORCE,
+    RX,
+    RY,
     SLIP,
     TOLD,
     VX,
     VY,
-    stretch,
 )
-from benchmarks.lies.truth.mechanism import ANGLE, Floats, Named, has_play, read
+from benchmarks.lies.truth.equations import driven, stretch, turn
+from benchmarks.lies.truth.mechanism import ANGLE, KIND, Floats, Named, has_play, read
+from benchmarks.lies.truth.pairs import CIRCLE
+from benchmarks.lies.truth.points import point
 
 POSE = ("x", "y", "theta")
 RATE = ("vx", "vy", "omega")
@@ -34,8 +39,31 @@ CONTACT = {
     "friction_force": FRICTION,
     "slip_velocity": SLIP,
 }
+AT_WALL = {
+    "penetration": GAP,
+    "penetration_rate": GAP_RATE,
+    "normal_force": NORMAL_FORCE,
+    "friction_force": FRICTION,
+    "slip_velocity": SLIP,
+}
 STILL = 1e-3
 """Smallest scale of speed, m/s."""
+
+
+MOST_CONTACTS = 4096
+
+
+class Told(NamedTuple):
+    """A motion that the program computed.
+
+    Attributes
+    ----------
+    values : (count,) values of each channel, by name
+    onsets : times, s, at which contacts of each pair begin
+    """
+
+    values: dict[str, Floats]
+    onsets: dict[int, Floats]
 
 
 def true_channels(
@@ -45,7 +73,7 @@ def true_channels(
     tolerance: float,
     share: float,
     most_attempts: int,
-) -> dict[str, Floats] | None:
+) -> Told | None:
     """Integrate a scene's filled-in document from the channels at its start.
 
     Parameters
@@ -63,7 +91,7 @@ def true_channels(
 
     Returns
     -------
-    (count,) values of each channel; None where it takes too long, or constraints are redundant.
+    None where it takes too long, has too many contacts, or constraints are redundant.
     """
     named = read(scene)
     m, bodies = named.mechanism, list(scene["bodies"])
@@ -73,6 +101,7 @@ def true_channels(
     states = np.full((len(times), 2 * len(start)), np.nan)
     tolds = np.full((len(times), len(named.play), TOLD), np.nan)
     forces = np.full((len(times), len(m.row)), np.nan)
+    began = np.full((MOST_CONTACTS, 2), np.nan)
     status = integration.integrate(
         m,
         start,
@@ -83,10 +112,12 @@ def true_channels(
         states,
         tolds,
         forces,
+        began,
     )
-    if status != integration.DONE:
+    if status != integration.DONE or not np.isnan(began[-1, 0]):
         return None
-    return _values(scene, named, states, tolds, forces)
+    onsets = {j: began[began[:, 0] == j, 1] for j in range(len(named.play))}
+    return Told(_values(scene, named, times, states, tolds, forces), onsets)
 
 
 def _scales(scene: Mapping[str, Any], named: Named, start: Floats) -> Floats:
@@ -107,7 +138,12 @@ def _scales(scene: Mapping[str, Any], named: Named, start: Floats) -> Floats:
 
 
 def _values(
-    scene: Mapping[str, Any], named: Named, states: Floats, tolds: Floats, forces: Floats
+    scene: Mapping[str, Any],
+    named: Named,
+    times: Floats,
+    states: Floats,
+    tolds: Floats,
+    forces: Floats,
 ) -> dict[str, Floats]:
     values: dict[str, Floats] = {}
     bodies, half = list(scene["bodies"]), states.shape[1] // 4
@@ -116,13 +152,18 @@ def _values(
             for q, name in enumerate(names):
                 values[f"{body}.{name}"] = states[:, level * half + 3 * b + q]
     _contacts(named, tolds, values)
+    _walls(named, states[:, : 2 * half], tolds, values)
     for name, joint in scene["joints"].items():
         if not has_play(joint):
             _reactions(name, joint, scene, named, forces, values)
     for name, row in named.drivers.items():
         values[f"{name}.torque"] = forces[:, row]
-        values[f"{name}.power"] = forces[:, row] * scene["drivers"][name]["speed"]
-    for s, name in enumerate(scene["forces"]):
+        speed = np.array([driven(named.mechanism, row, t)[1] for t in times])
+        values[f"{name}.power"] = forces[:, row] * speed
+    for s, name in enumerate(named.motors):
+        found = np.array([turn(named.mechanism, s, y[: 2 * half]) for y in states])
+        values[f"{name}.moment"], values[f"{name}.speed"] = found.T
+    for s, name in enumerate(named.springs):
         found = np.array([stretch(named.mechanism, s, y[: 2 * half])[:3] for y in states])
         for column, channel in enumerate(("length", "rate", "force")):
             values[f"{name}.{channel}"] = found[:, column]
@@ -133,14 +174,47 @@ def _values(
 
 
 def _contacts(named: Named, tolds: Floats, values: dict[str, Floats]) -> None:
-    """Add what is told of joints with play."""
+    """Add what is told of journals with play."""
     for j, name in enumerate(named.play):
+        if named.mechanism.wall[j, KIND] != CIRCLE:
+            continue
         values |= {f"{name}.{channel}": tolds[:, j, at] for channel, at in CONTACT.items()}
         distance = np.hypot(tolds[:, j, EX], tolds[:, j, EY])[:, None]
         normal = tolds[:, j, EX : EY + 1] / np.where(distance > 0.0, distance, 1.0)
         push, rub = tolds[:, j, NORMAL_FORCE], tolds[:, j, FRICTION]
         values[f"{name}.force_x"] = -push * normal[:, 0] - rub * normal[:, 1]
         values[f"{name}.force_y"] = -push * normal[:, 1] + rub * normal[:, 0]
+
+
+def _walls(named: Named, states: Floats, tolds: Floats, values: dict[str, Floats]) -> None:
+    """Add what is told of guides, slots and cams with play, and what they do to the second body."""
+    m = named.mechanism
+    for j, name in enumerate(named.play):
+        if m.wall[j, KIND] == CIRCLE:
+            continue
+        values |= {f"{name}.{channel}": tolds[:, j, at] for channel, at in AT_WALL.items()}
+        normal, push, rub = (
+            tolds[:, j, EX : EY + 1],
+            tolds[:, j, NORMAL_FORCE],
+            tolds[:, j, FRICTION],
+        )
+        force = np.stack(
+            [-push * normal[:, 0] - rub * normal[:, 1], -push * normal[:, 1] + rub * normal[:, 0]],
+            1,
+        )
+        centre = [
+            np.subtract(*(point(m, at, y)[2:4] for at in (m.play[j, 1], named.sliders[j])))
+            for y in states
+        ]
+        arm = np.array(centre) + tolds[:, j, RX : RY + 1]
+        joint = name.rpartition(".")[0] or name
+        moment = arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
+        for channel, value in (
+            ("force_x", force[:, 0]),
+            ("force_y", force[:, 1]),
+            ("moment", moment),
+        ):
+            values[f"{joint}.{channel}"] = values.get(f"{joint}.{channel}", 0.0) + value
 
 
 def _reactions(
@@ -164,7 +238,7 @@ def _reactions(
         return
     guide = joint["guide"].split(".")[0]
     angle = values[f"{guide}.theta"] if guide != "ground" else np.zeros(len(forces))
-    ux, uy = named.mechanism.motion[rows[0], 2:]
+    ux, uy = named.mechanism.motion[rows[0], 2:4]
     ux, uy = np.cos(angle) * ux - np.sin(angle) * uy, np.sin(angle) * ux + np.cos(angle) * uy
     across = forces[:, rows[0]]
     along = forces[:, rows[2]] if len(rows) > 2 else np.zeros(len(forces))

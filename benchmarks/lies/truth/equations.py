@@ -8,89 +8,9 @@ import math
 import numpy as np
 from numba import njit
 
+from benchmarks.lies.truth.contacts import load_play, touch
 from benchmarks.lies.truth.mechanism import ACROSS_X, ACROSS_Y, ANGLE, NORMAL, Floats, Mechanism
-
-GAP, GAP_RATE, NORMAL_FORCE, FRICTION, SLIP, EX, EY, VX, VY, SEEN, DAMPING = range(11)
-"""Channels of a joint with play: penetration (m) and its rate, forces (N), slip velocity,
-eccentricity and its rate, the slip that friction sees, the factor of damping on the force."""
-TOLD = 11
-
-
-@njit(cache=True)
-def point(m: Mechanism, p: int, y: Floats) -> tuple[float, ...]:
-    """Return arm, position and velocity of a point, world components, and its body's spin."""
-    body = m.body[p]
-    if body < 0:
-        return 0.0, 0.0, m.arm[p, 0], m.arm[p, 1], 0.0, 0.0, 0.0
-    half = len(y) // 2
-    angle, spin = y[3 * body + 2], y[half + 3 * body + 2]
-    cosine, sine = math.cos(angle), math.sin(angle)
-    ax = cosine * m.arm[p, 0] - sine * m.arm[p, 1]
-    ay = sine * m.arm[p, 0] + cosine * m.arm[p, 1]
-    vx = y[half + 3 * body] - spin * ay
-    vy = y[half + 3 * body + 1] + spin * ax
-    return ax, ay, y[3 * body] + ax, y[3 * body + 1] + ay, vx, vy, spin
-
-
-@njit(cache=True)
-def push(m: Mechanism, p: int, y: Floats, fx: float, fy: float, load: Floats) -> None:
-    """Add a force on a point to the generalised forces."""
-    body = m.body[p]
-    if body < 0:
-        return
-    ax, ay, _, _, _, _, _ = point(m, p, y)
-    load[3 * body] += fx
-    load[3 * body + 1] += fy
-    load[3 * body + 2] += ax * fy - ay * fx
-
-
-@njit(cache=True)
-def touch(m: Mechanism, j: int, y: Floats, closed: bool, impact: float, told: Floats) -> None:
-    """Evaluate the contact of a joint with play: eqs 2 to 17 of the press paper."""
-    _, _, bx, by, bvx, bvy, bearing_spin = point(m, m.play[j, 0], y)
-    _, _, jx, jy, jvx, jvy, journal_spin = point(m, m.play[j, 1], y)
-    clearance, radius = m.law[j, 0], m.law[j, 1]
-    ex, ey, vx, vy = jx - bx, jy - by, jvx - bvx, jvy - bvy
-    distance = math.hypot(ex, ey)
-    nx = ex / distance if distance > 0.0 else 0.0
-    ny = ey / distance if distance > 0.0 else 0.0
-    gap, rate = distance - clearance, vx * nx + vy * ny
-    around = vy * nx - vx * ny
-    slip = around + (radius - clearance) * journal_spin - radius * bearing_spin
-    seen = slip
-    if m.law[j, 9] > 0.0:
-        seen = around - clearance * (around / distance if distance > 0.0 else 0.0)
-    normal, friction, damping = 0.0, 0.0, 1.0
-    if closed:
-        damping = 1.0 + m.law[j, 4] * rate / impact
-        if gap > 0.0 and damping > 0.0:
-            normal = m.law[j, 2] * gap ** m.law[j, 3] * damping
-        low, high = m.law[j, 7], m.law[j, 8]
-        share = 1.0 if abs(seen) > low else 0.0
-        if high > low:
-            share = min(max((abs(seen) - low) / (high - low), 0.0), 1.0)
-        friction = -math.copysign(m.law[j, 6] * share * normal, seen)
-    told[GAP], told[GAP_RATE], told[NORMAL_FORCE], told[FRICTION] = gap, rate, normal, friction
-    told[SLIP], told[SEEN], told[DAMPING] = slip, seen, damping
-    told[EX], told[EY], told[VX], told[VY] = ex, ey, vx, vy
-
-
-@njit(cache=True)
-def load_play(m: Mechanism, j: int, y: Floats, told: Floats, load: Floats) -> None:
-    """Add the forces of a contact; they act at the surfaces of bearing and journal."""
-    distance = math.hypot(told[EX], told[EY])
-    if distance == 0.0:
-        return
-    nx, ny = told[EX] / distance, told[EY] / distance
-    fx = -told[NORMAL_FORCE] * nx - told[FRICTION] * ny
-    fy = -told[NORMAL_FORCE] * ny + told[FRICTION] * nx
-    first, second = m.play[j, 0], m.play[j, 1]
-    push(m, second, y, fx, fy, load)
-    push(m, first, y, -fx, -fy, load)
-    if m.body[second] >= 0:
-        load[3 * m.body[second] + 2] += (m.law[j, 1] - m.law[j, 0]) * told[FRICTION]
-    if m.body[first] >= 0:
-        load[3 * m.body[first] + 2] -= m.law[j, 1] * told[FRICTION]
+from benchmarks.lies.truth.points import point, push
 
 
 @njit(cache=True)
@@ -108,6 +28,27 @@ def stretch(m: Mechanism, s: int, y: Floats) -> tuple[float, float, float, float
 
 
 @njit(cache=True)
+def driven(m: Mechanism, r: int, t: float) -> tuple[float, float, float]:
+    """Return what a driver prescribes at a time: position, speed and acceleration."""
+    amplitude, frequency = m.motion[r, 4], m.motion[r, 5]
+    at = frequency * t + m.motion[r, 6]
+    return (
+        m.motion[r, 0] + m.motion[r, 1] * t + amplitude * math.sin(at),
+        m.motion[r, 1] + amplitude * frequency * math.cos(at),
+        -amplitude * frequency * frequency * math.sin(at),
+    )
+
+
+@njit(cache=True)
+def turn(m: Mechanism, s: int, y: Floats) -> tuple[float, float]:
+    """Return a motor's moment on its rotor, and the speed of that against the stator."""
+    _, _, _, _, _, _, stator = point(m, m.motor[s, 0], y)
+    _, _, _, _, _, _, rotor = point(m, m.motor[s, 1], y)
+    speed = rotor - stator
+    return m.motor_law[s, 0] * (1.0 - speed / m.motor_law[s, 1]), speed
+
+
+@njit(cache=True)
 def constrain(
     m: Mechanism, t: float, y: Floats, jacobian: Floats, off: Floats, drift: Floats, gamma: Floats
 ) -> None:
@@ -115,7 +56,7 @@ def constrain(
     jacobian[:] = 0.0
     for r in range(len(m.row)):
         kind, first, second = m.row[r]
-        position, speed = m.motion[r, 0] + m.motion[r, 1] * t, m.motion[r, 1]
+        position, speed, acceleration = driven(m, r, t)
         fax, fay, fx, fy, fvx, fvy, first_spin = point(m, first, y)
         sax, say, sx, sy, svx, svy, second_spin = point(m, second, y)
         here, there = m.body[first], m.body[second]
@@ -127,14 +68,14 @@ def constrain(
             if here >= 0:
                 jacobian[r, 3 * here + 2] -= 1.0
                 value, rate = value - y[3 * here + 2], rate - first_spin
-            off[r], drift[r], gamma[r] = value, rate, 0.0
+            off[r], drift[r], gamma[r] = value, rate, acceleration
             continue
         dx, dy, dvx, dvy = sx - fx, sy - fy, svx - fvx, svy - fvy
         carried = 0.0  # spin of the direction along which the distance is taken
         if kind == ACROSS_X:
-            wx, wy, position, speed = 1.0, 0.0, 0.0, 0.0
+            wx, wy, position, speed, acceleration = 1.0, 0.0, 0.0, 0.0, 0.0
         elif kind == ACROSS_Y:
-            wx, wy, position, speed = 0.0, 1.0, 0.0, 0.0
+            wx, wy, position, speed, acceleration = 0.0, 1.0, 0.0, 0.0, 0.0
         else:
             angle = y[3 * here + 2] if here >= 0 else 0.0
             carried = first_spin
@@ -148,7 +89,7 @@ def constrain(
         drift[r] = wx * dvx + wy * dvy + carried * (px * dx + py * dy) - speed
         bias_x = -second_spin * second_spin * sax + first_spin * first_spin * fax
         bias_y = -second_spin * second_spin * say + first_spin * first_spin * fay
-        gamma[r] = -(wx * bias_x + wy * bias_y)
+        gamma[r] = acceleration - (wx * bias_x + wy * bias_y)
         gamma[r] -= 2.0 * carried * (px * dvx + py * dvy)
         gamma[r] += carried * carried * (wx * dx + wy * dy)
         if there >= 0:
@@ -227,6 +168,11 @@ def accelerate(
         _, _, tension, ux, uy = stretch(m, s, y)
         push(m, m.spring[s, 0], y, tension * ux, tension * uy, load)
         push(m, m.spring[s, 1], y, -tension * ux, -tension * uy, load)
+    for s in range(len(m.motor)):
+        moment, _ = turn(m, s, y)
+        for end, sense in ((0, -1.0), (1, 1.0)):
+            if m.body[m.motor[s, end]] >= 0:
+                load[3 * m.body[m.motor[s, end]] + 2] += sense * moment
     jacobian, system = np.empty((rows, half)), np.empty((rows, rows))
     off, drift, gamma = np.empty(rows), np.empty(rows), np.empty(rows)
     constrain(m, t, y, jacobian, off, drift, gamma)

@@ -11,17 +11,8 @@ import numpy as np
 from numba import njit
 from scipy.integrate import DOP853
 
-from benchmarks.lies.truth.equations import (
-    DAMPING,
-    GAP,
-    GAP_RATE,
-    SEEN,
-    TOLD,
-    VX,
-    VY,
-    accelerate,
-    project,
-)
+from benchmarks.lies.truth.contacts import DAMPING, GAP, GAP_RATE, SEEN, TOLD, VX, VY
+from benchmarks.lies.truth.equations import accelerate, project
 from benchmarks.lies.truth.mechanism import Floats, Mechanism
 
 STAGES = 12
@@ -200,6 +191,14 @@ def keep(values: Floats, row: Floats) -> None:
 
 
 @njit(cache=True)
+def note(began: Floats, onsets: int, j: int, t: float) -> int:
+    """Write down an onset; how many there are now."""
+    if onsets < len(began):
+        began[onsets, 0], began[onsets, 1] = j, t
+    return onsets + 1
+
+
+@njit(cache=True)
 def integrate(
     m: Mechanism,
     start: Floats,
@@ -210,6 +209,7 @@ def integrate(
     states: Floats,
     tolds: Floats,
     forces: Floats,
+    began: Floats,
 ) -> int:
     """Fill in state, slopes, contacts and multipliers at each instant; return how it ended.
 
@@ -218,8 +218,9 @@ def integrate(
     scale : (states,) errors that a step may make
     share : of the longest steps that geometry allows
     states, tolds, forces : (instants, 2 states), (instants, joints, TOLD), (instants, rows)
+    began : (most, 2) joint and time of each onset, as many as there is room for
     """
-    count, joints, rows = len(start), len(m.play), len(m.row)
+    count, joints, rows, onsets = len(start), len(m.play), len(m.row), 0
     y, new = start.copy(), np.empty(count)
     added, k = np.empty(count), np.empty((STAGES + 1, count))
     before, after = np.zeros((joints, TOLD)), np.zeros((joints, TOLD))
@@ -233,6 +234,8 @@ def integrate(
     for j in range(joints):
         impact[j] = max(before[j, GAP_RATE], m.law[j, 10])
         closed[j] = before[j, GAP] > landed
+        if closed[j]:
+            onsets = note(began, onsets, j, 0.0)
     accelerate(m, 0.0, y, closed, impact, k[0], before, multipliers)
     t, natural = 0.0, 1e-6 * instants[-1]
     wanted, attempts = 0, 0
@@ -284,6 +287,7 @@ def integrate(
             if not closed[j] and gap > -landed and rate > 0.0:
                 closed[j], impact[j] = True, max(rate, m.law[j, 5])
                 natural = min(natural, FIRST * m.law[j, 0] / impact[j])
+                onsets = note(began, onsets, j, t)
                 switched = True
             elif closed[j] and gap < landed and rate < 0.0:
                 closed[j] = False

@@ -1,12 +1,13 @@
 """Numbers of a scene's document as arrays that compiled functions read."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.lies.truth.pairs import Pair, pairs_of
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.mechanics.impact_floors import impact_floor, resting_rate
 from jointplay.solver.scene.document import Scene
@@ -25,6 +26,13 @@ ENDS: Final = {
 }
 
 
+EDGE, ARM, KIND = 2, 3, 4
+"""Columns of `wall`."""
+
+
+PLAY = ("radial_clearance", "wall_clearance", "lash")
+
+
 class Mechanism(NamedTuple):
     """A scene; bodies and points by index, the ground is body -1.
 
@@ -34,11 +42,16 @@ class Mechanism(NamedTuple):
     gravity : (2,) m/s^2
     body, arm : (points,), (points, 2) body of each point, and its body coordinates, m
     row : (rows, 3) kind of each constraint, its first point, its second
-    motion : (rows, 4) position and speed of a driver, the axis in the guide's coordinates
-    play : (joints, 2) bearing's point and journal's
+    motion : (rows, 7) position and speed of a driver, the axis in the guide's coordinates,
+        amplitude, frequency and phase of a driver that swings
+    play : (joints, 2) bearing's point and journal's; of walls the guide's and the corner's or pin's
+    wall : (joints, 5) normal out of the guide in its coordinates, or into the cam in the
+        follower's, distance of the corner from the axis, radius of the pin, kind of the surface
+    cam : (joints, 4) mean and amplitude of a profile, its waves a turn, their phase
     law : (joints, 11) radial clearance, bearing radius, K, exponent, 3 (1 - c_e^2) / 4, floor of
         the impact rate, friction coefficient, v_0, v_1, whether the slip is as published, least
         impact rate of a contact that is there from the start on
+    motor, motor_law : (motors, 2), (motors, 2) points; stall torque, speed without load
     spring, spring_law : (springs, 2), (springs, 3) points; stiffness, damping, free length
     """
 
@@ -49,7 +62,11 @@ class Mechanism(NamedTuple):
     row: Integers
     motion: Floats
     play: Integers
+    wall: Floats
+    cam: Floats
     law: Floats
+    motor: Integers
+    motor_law: Floats
     spring: Integers
     spring_law: Floats
 
@@ -63,20 +80,16 @@ class Named(NamedTuple):
     play: list[str]
     drivers: dict[str, int]
     """The row whose multiplier is the effort of a driver."""
+    sliders: list[int]
+    """The slider's own point of each joint with play."""
+    motors: list[str]
+    springs: list[str]
 
 
 def has_play(joint: Mapping[str, Any]) -> bool:
-    """Whether a joint's journal moves in its bearing.
-
-    Raises
-    ------
-    ValueError
-        It has play between walls, which this program does not know.
-    """
+    """Whether a joint's journal moves in its bearing, its slider between walls, or a follower."""
     clearance = joint.get("clearance") or {}
-    if clearance.get("wall_clearance", 0.0) > 0.0:
-        raise ValueError("the independent program knows no play between walls")
-    return bool(clearance.get("radial_clearance", 0.0) > 0.0)
+    return any(clearance.get(name, 0.0) > 0.0 for name in PLAY)
 
 
 def read(scene: Mapping[str, Any]) -> Named:
@@ -104,7 +117,7 @@ def read(scene: Mapping[str, Any]) -> Named:
             continue
         first, second = (place[joint[end]] for end in ENDS[joint["type"]])
         driver, moved = driven.get(name, ("", {"position": 0.0, "speed": 0.0}))
-        given = (moved["position"], moved["speed"])
+        given = _motion(moved)
         ux, uy = joint.get("axis", (1.0, 0.0))
         axis = (ux / math.hypot(ux, uy), uy / math.hypot(ux, uy))
         still = (joint.get("angle", 0.0), 0.0)
@@ -116,13 +129,25 @@ def read(scene: Mapping[str, Any]) -> Named:
             wanted += [(ANGLE, still)] if joint["type"] == "fixed" else []
             wanted += [(ANGLE, given)] if driver else []
         rows[name] = list(range(len(row), len(row) + len(wanted)))
-        for kind, (position, speed) in wanted:
+        for kind, (position, speed, *swing) in wanted:
             row.append((kind, first, second))
-            motion.append((position, speed, *axis))
+            motion.append((position, speed, *axis, *(swing or (0.0, 0.0, 0.0))))
         if driver:
             drivers[driver] = len(row) - 1
-    loose = {name: joint for name, joint in scene["joints"].items() if has_play(joint)}
-    springs = list(scene["forces"].values())
+    play, joints = [], []
+    for name, joint in scene["joints"].items():
+        found = pairs_of(name, joint) if has_play(joint) else []
+        play += found
+        joints += [joint] * len(found)
+    seconds = []
+    for pair in play:  # a corner is a point of its own
+        second = place[pair.second]
+        seconds.append(len(body) if any(pair.arm) else second)
+        if any(pair.arm):
+            body.append(body[second])
+            arm.append((arm[second][0] + pair.arm[0], arm[second][1] + pair.arm[1]))
+    motors = {name: one for name, one in scene["forces"].items() if one["type"] == "motor"}
+    springs = {name: one for name, one in scene["forces"].items() if name not in motors}
     inverse_mass = [
         1.0 / value
         for each in scene["bodies"].values()
@@ -134,38 +159,62 @@ def read(scene: Mapping[str, Any]) -> Named:
         np.array(body, np.int64),
         np.array(arm, np.float64).reshape(-1, 2),
         np.array(row, np.int64).reshape(-1, 3),
-        np.array(motion, np.float64).reshape(-1, 4),
+        np.array(motion, np.float64).reshape(-1, 7),
         np.array(
-            [[place[j["bearing"]], place[j["journal"]]] for j in loose.values()], np.int64
+            [[place[p.first], second] for p, second in zip(play, seconds, strict=True)], np.int64
         ).reshape(-1, 2),
-        np.array(_laws(scene, loose), np.float64).reshape(-1, 11),
-        np.array([[place[s["first"]], place[s["second"]]] for s in springs], np.int64).reshape(
-            -1, 2
-        ),
-        np.array(
-            [[s["stiffness"], s["damping"], s["free_length"]] for s in springs], np.float64
-        ).reshape(-1, 3),
+        np.array([pair.wall for pair in play], np.float64).reshape(-1, 5),
+        np.array([pair.cam for pair in play], np.float64).reshape(-1, 4),
+        np.array(_laws(scene, play, joints), np.float64).reshape(-1, 11),
+        _ends(motors, place),
+        _numbers(motors, "stall_torque", "no_load_speed"),
+        _ends(springs, place),
+        _numbers(springs, "stiffness", "damping", "free_length"),
     )
-    return Named(mechanism, rows, list(loose), drivers)
+    sliders = [place[pair.second] for pair in play]
+    names = [pair.name for pair in play]
+    return Named(mechanism, rows, names, drivers, sliders, list(motors), list(springs))
 
 
-def _laws(scene: Mapping[str, Any], loose: Mapping[str, Any]) -> list[tuple[float, ...]]:
+def _motion(driver: Mapping[str, Any]) -> tuple[float, ...]:
+    """Return position and speed of a driver; of one that swings, how, too."""
+    swing = driver.get("motion")
+    if swing is None:
+        return driver["position"], driver["speed"]
+    fields = ("amplitude", "frequency", "phase")
+    return (driver["position"] + swing["offset"], 0.0, *(swing[field] for field in fields))
+
+
+def _ends(elements: Mapping[str, Any], place: Mapping[str, int]) -> Integers:
+    points = [[place[one["first"]], place[one["second"]]] for one in elements.values()]
+    return np.array(points, np.int64).reshape(-1, 2)
+
+
+def _numbers(elements: Mapping[str, Any], *fields: str) -> Floats:
+    values = [[one[field] for field in fields] for one in elements.values()]
+    return np.array(values, np.float64).reshape(-1, len(fields))
+
+
+def _laws(
+    scene: Mapping[str, Any], play: Sequence[Pair], joints: Sequence[Mapping[str, Any]]
+) -> list[tuple[float, ...]]:
     made = Scene.model_validate(dict(scene))
     pairs, length = contact_pairs(made), shortest_link(made)
     return [
         _law(
             joint["clearance"],
-            impact_floor(made, pairs[name], length),
-            resting_rate(made, pairs[name], length),
+            impact_floor(made, pairs[pair.name], length),
+            resting_rate(made, pairs[pair.name], length),
         )
-        for name, joint in loose.items()
+        for pair, joint in zip(play, joints, strict=True)
     ]
 
 
 def _law(fit: Mapping[str, Any], floor: float, resting: float) -> tuple[float, ...]:
     """Return the numbers of a joint's laws; eq. 9 of the press paper where K is not given."""
     contact, friction = fit["contact"], fit["friction"]
-    clearance, radius = fit["radial_clearance"], fit["bearing_radius"]
+    clearance = next(fit[name] for name in PLAY if name in fit)
+    radius = fit.get("bearing_radius", clearance)
     stiffness = contact["stiffness"]
     if stiffness is None:
         compliance = (1.0 - contact["poisson_ratio"] ** 2) / contact["youngs_modulus"]

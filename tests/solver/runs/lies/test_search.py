@@ -11,7 +11,7 @@ from benchmarks.lies.draw import DIMENSIONS, anywhere
 from benchmarks.lies.extremes import beyond
 from benchmarks.lies.job import random_job
 from benchmarks.lies.measures import MEASURES
-from benchmarks.lies.scenes import OTHERS, SCENES
+from benchmarks.lies.scenes import EVERY, LOOSE, SCENES
 from benchmarks.lies.search import report, search
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import Admission, admit
@@ -19,6 +19,8 @@ from jointplay.solver.kinds import Admission, admit
 TIME = np.linspace(0.0, 1.0, 1001)
 PRESETS = ["bouncing-journal", "slider-crank", "seven-bar-press"]
 """Whose kernels other tests compile, too."""
+SAMPLE = ["slot of a rocker, bristles", "slider-crank, guide, motor"]
+"""A slot and bristles; a guide, a journal and a motor."""
 
 
 def test_a_climb_repeats_itself_and_comes_closer_to_the_worst() -> None:
@@ -38,7 +40,7 @@ def test_a_climb_repeats_itself_and_comes_closer_to_the_worst() -> None:
     assert max(found[100:]) > max(found[:20])
 
 
-@pytest.mark.parametrize("kind", SCENES | OTHERS)
+@pytest.mark.parametrize("kind", EVERY)
 def test_every_random_job_is_admitted(kind: str) -> None:
     random = np.random.default_rng(3)
     seen = set()
@@ -48,7 +50,7 @@ def test_every_random_job_is_admitted(kind: str) -> None:
         assert 4 < chosen.drawn <= DIMENSIONS
         assert isinstance(admit(chosen.job), Admission)
         seen.add(chosen.job["method"])
-    assert len(seen) > len(METHODS) / 2
+    assert len(seen) > (1 if kind in LOOSE else len(METHODS) / 2)
 
 
 @pytest.mark.parametrize("shape", [np.sin(7.0 * TIME), -np.abs(TIME - 0.40033)])
@@ -75,18 +77,28 @@ def searched(measure: str, seed: int, runs: int, kinds: list[str]) -> list[Any]:
 
 @pytest.mark.parametrize(
     ("runs", "kinds"),
-    [(2, PRESETS), pytest.param(150, list(SCENES), marks=pytest.mark.long)],
+    [
+        (2, PRESETS),
+        (6, SAMPLE),
+        pytest.param(150, list(SCENES), marks=pytest.mark.long),
+        pytest.param(1000, list(LOOSE), marks=pytest.mark.long),
+    ],
 )
 def test_error_bars_of_a_search_hold(runs: int, kinds: list[str]) -> None:
     verdicts = searched("coverage", 8, runs, kinds)
     assert min(verdict.covered for verdict in verdicts) >= 0.95
     inside = sum(verdict.inside for verdict in verdicts)
     assert inside >= 0.999 * sum(verdict.errors for verdict in verdicts)
+    assert sum(verdict.untrue for verdict in verdicts) == 0
 
 
 @pytest.mark.parametrize(
     ("runs", "kinds"),
-    [(1, PRESETS), pytest.param(150, list(SCENES), marks=pytest.mark.long)],
+    [
+        (1, PRESETS),
+        pytest.param(150, list(SCENES), marks=pytest.mark.long),
+        pytest.param(150, list(LOOSE), marks=pytest.mark.long),
+    ],
 )
 def test_extremes_of_a_search_are_found(runs: int, kinds: list[str]) -> None:
     # the first job of this seed has extremes beside ends of steps

@@ -1,0 +1,66 @@
+"""A journal that spins and bounces in its bearing, rubbed by bristles."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from benchmarks.lies.draw import Draw
+from benchmarks.lies.scenes.surfaces import dahl, lugre
+
+
+def of_lugre(draw: Draw) -> tuple[dict[str, Any], float]:
+    """Return it with bristles that are damped."""
+    return _journal(draw, lugre)
+
+
+def of_dahl(draw: Draw) -> tuple[dict[str, Any], float]:
+    """Return it with bristles that are not."""
+    return _journal(draw, dahl)
+
+
+def _journal(
+    draw: Draw, friction: Callable[[Draw], dict[str, Any]]
+) -> tuple[dict[str, Any], float]:
+    clearance, mass = draw.size(2e-5, 1e-3), draw.size(0.02, 5.0)
+    radius = clearance * draw.size(5.0, 200.0)
+    at, aside = draw.even(0.0, 2.0 * math.pi), clearance * draw.even(0.0, 0.95)
+    heading, speed = draw.even(0.0, 2.0 * math.pi), draw.size(5e-3, 0.5)
+    scene = {
+        "name": "bristled-journal",
+        "gravity": [0.0, draw.one_of(-9.81, 0.0)],
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {
+            "rotor": {
+                "mass": mass,
+                "inertia": mass * radius**2 * draw.size(0.5, 20.0),
+                "points": {"pin": [radius * draw.even(0.0, 0.5), 0.0]},
+            }
+        },
+        "joints": {
+            "J": {
+                "type": "revolute",
+                "bearing": "ground.O",
+                "journal": "rotor.pin",
+                "clearance": {
+                    "radial_clearance": clearance,
+                    "bearing_radius": radius,
+                    "contact": {
+                        "law": "lankarani-nikravesh",
+                        "stiffness": draw.size(1e8, 1e11),
+                        "restitution": draw.even(0.2, 1.0),
+                    },
+                    "friction": friction(draw),
+                },
+            }
+        },
+        "start": {
+            "angular_velocities": {"rotor": draw.even(-300.0, 300.0)},
+            "joints": {
+                "J": {
+                    "eccentricity": [aside * math.cos(at), aside * math.sin(at)],
+                    "rate": [speed * math.cos(heading), speed * math.sin(heading)],
+                }
+            },
+        },
+    }
+    return scene, clearance / speed
