@@ -8,6 +8,7 @@ from benchmarks.lies.named import (
     flight,
     friction,
     kinks_beside,
+    meeting_again,
     ramps,
 )
 from benchmarks.lies.named.lie import Lie
@@ -16,7 +17,7 @@ from benchmarks.lies.tables import table
 LIES: tuple[Lie, ...] = (
     *(*flight.LIES, *friction.LIES, *ramps.LIES),
     *(*companions.LIES, *exponents.LIES, *chatter.LIES, *kinks_beside.LIES),
-    *bristles.LIES,
+    *(*bristles.LIES, *meeting_again.LIES),
 )
 
 

@@ -115,8 +115,11 @@ def certify(
     steep = steepness(companions, safety, columns, values[TWIN - 1], near)
     error = estimate.around(np.maximum(apart, steep))
     small = estimate.within(error, scales)
+    horizon = estimate.spans(small[:, count:], time)[0][1]
+    later = estimate.around(estimate.UNCONTROLLED * estimate.parted(values))
+    np.copyto(error, np.fmax(error, later), where=(time > horizon)[:, None])
+    small = estimate.within(error, scales)
     known = estimate.spans(small[:, count:], time)
-    horizon = known[0][1]
     edges, share, spread = estimate.histogram(values[:, :, :count], time)
     until = estimate.until(small[:, :count], time)
     kinds = kinds_of(channels, rows)

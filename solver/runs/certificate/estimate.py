@@ -28,7 +28,8 @@ from jointplay.solver.runs.certificate.companions import (
 
 SAFETY, UNCONTROLLED = 3.0, 6.0
 """Estimated errors by what companions are apart; the second where steps are fixed: there errors are
-as late as contacts are, by parts of a step that do not follow its length."""
+as late as contacts are, by parts of a step that do not follow its length; and beyond the horizon,
+where companions are draws of an outcome that none of them need have."""
 REACH = 2
 """Instants."""
 CONVERGED = 0.05
@@ -58,6 +59,18 @@ def apart(values: Floats) -> Floats:
     largest = np.where(np.isnan(largest), np.inf, largest)
     for lane in PERTURBED:
         largest = np.fmax(largest, np.abs(lanes[lane] - twin))
+    return largest
+
+
+def parted(values: Floats) -> Floats:
+    """Return the largest distance of any two companions, (instants, channels).
+
+    Beyond the horizon chance decides what becomes of each: the distance of a looser one does not
+    tell how much looser it is. values : as `apart` takes them.
+    """
+    with warnings.catch_warnings():  # of instants that no lane reached
+        warnings.simplefilter("ignore", RuntimeWarning)
+        largest: Floats = np.nanmax(values, axis=0) - np.nanmin(values, axis=0)
     return largest
 
 

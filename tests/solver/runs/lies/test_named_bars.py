@@ -2,10 +2,24 @@
 
 import pytest
 
-from benchmarks.lies.named import bristles, chatter, companions, friction, ramps
+from benchmarks.lies.named import (
+    bristles,
+    chatter,
+    companions,
+    friction,
+    meeting_again,
+    ramps,
+)
 from benchmarks.lies.named.lie import Lie
 
-BARS = (*friction.BARS, *ramps.LIES, *companions.LIES, *chatter.LIES, *bristles.LIES)
+BARS = (
+    *friction.BARS,
+    *ramps.LIES,
+    *companions.LIES,
+    *chatter.LIES,
+    *bristles.LIES,
+    *meeting_again.LIES,
+)
 AT_LENGTH = (
     "press as a draft, its bars",
     "press, an unlucky step",
