@@ -222,7 +222,7 @@ def test_a_second_process_compiles_nothing() -> None:
     first, second = cache_statistics(), cache_statistics()
     assert second["module"] == first["module"]
     assert second["code"] == first["code"]
-    assert len(second["code"]) == 1
+    assert first["code"]  # one for each target: others are compiled for, too
     assert second["misses"].keys() == {"advance", "observe_rows"}
     assert set(second["misses"].values()) == {0}
     assert set(second["hits"].values()) == {1}
