@@ -12,6 +12,7 @@ from jointplay.records.log_lines import begin
 from jointplay.service.access.first_key import require_key_beyond_this_machine
 from jointplay.service.memory import keep_no_free_memory
 from jointplay.service.processes.connections import protocol
+from jointplay.service.processes.handshakes import EncryptedConfig
 from jointplay.storage.settings import Settings
 
 LONGEST_HEAD = 256 * 1024
@@ -35,7 +36,8 @@ def main() -> None:
     inherited = None if arguments.fd is None else [socket.socket(fileno=arguments.fd)]
     host = inherited[0].getsockname()[0] if inherited else arguments.host
     require_key_beyond_this_machine(host, again=arguments.again)
-    configuration = uvicorn.Config(
+    encrypted = arguments.ssl_certfile or arguments.ssl_keyfile
+    configuration = (EncryptedConfig if encrypted else uvicorn.Config)(
         partial(_application, patient=arguments.again),
         factory=True,
         host=arguments.host,

@@ -14,7 +14,7 @@ import socket
 import struct
 from collections import Counter, OrderedDict
 from http import HTTPStatus
-from typing import Any
+from typing import Any, Protocol
 
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
@@ -39,20 +39,29 @@ Timer = asyncio.TimerHandle | None
 _log = logging.getLogger(__name__)
 
 
+class Guest(Protocol):
+    """A connection that has room."""
+
+    address: str
+
+    def end(self) -> None:
+        """Leave, and close the connection: it waits for a request."""
+
+
 class Room:
     """Room for connections: who has how many, and which of them wait for a request."""
 
     def __init__(self, most: int) -> None:
         self.most, self.of_one = most, max(1, int(SHARE * most))
         self._held: Counter[str] = Counter()
-        self._idle: dict[str, OrderedDict[Connection, None]] = {}
+        self._idle: dict[str, OrderedDict[Guest, None]] = {}
 
     @property
     def held(self) -> int:
         """Connections that are open."""
         return self._held.total()
 
-    def enter(self, connection: "Connection") -> bool:
+    def enter(self, connection: Guest) -> bool:
         """Take a connection in, if need be in place of an idle one; False: there is no room."""
         address = connection.address
         crowded = self._held[address] >= self.of_one
@@ -65,20 +74,20 @@ class Room:
         self.rest(connection)
         return True
 
-    def leave(self, connection: "Connection") -> None:
+    def leave(self, connection: Guest) -> None:
         """Forget a connection that was let in."""
         self.work(connection)
         self._held[connection.address] -= 1
         if not self._held[connection.address]:
             del self._held[connection.address]
 
-    def rest(self, connection: "Connection") -> None:
+    def rest(self, connection: Guest) -> None:
         """Note that a connection waits for a request."""
         idle = self._idle.setdefault(connection.address, OrderedDict())
         idle[connection] = None
         idle.move_to_end(connection)
 
-    def work(self, connection: "Connection") -> None:
+    def work(self, connection: Guest) -> None:
         """Note that a connection has a request, or is gone."""
         idle = self._idle.get(connection.address, OrderedDict())
         idle.pop(connection, None)
@@ -89,7 +98,7 @@ class Room:
         """Return the address with most connections, of those that have an idle one."""
         return max(self._idle, key=lambda address: self._held[address], default=None)
 
-    def _longest_idle(self, address: str | None) -> "Connection | None":
+    def _longest_idle(self, address: str | None) -> Guest | None:
         return next(iter(self._idle.get(address or "", {})), None)
 
 
@@ -110,7 +119,7 @@ class Connection(H11Protocol):
         transport.get_extra_info("socket").setsockopt(
             socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT
         )
-        self.address = self.client[0] if self.client else ""
+        self.address = address_of(transport)
         self._entered = self.room.enter(self)
         if not self._entered:
             _log.debug("no room for a connection of %s", self.address)
@@ -175,8 +184,8 @@ class Connection(H11Protocol):
         self._entered = False
         if self.flow.write_paused:
             self._cut_off()
-        else:
-            self.transport.close()
+        else:  # nothing is unsent; to end TLS in order would take what the client likes
+            self.transport.abort()
 
     def _look(self) -> None:
         """Tell a connection with a request from one that waits for its head, or for any."""
@@ -212,6 +221,12 @@ def protocol() -> type[Connection]:
     """Return the class of connections of one server, with room of its own."""
     files, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
     return type("RoomedConnection", (Connection,), {"room": Room(min(MOST, files // 2))})
+
+
+def address_of(transport: asyncio.Transport) -> str:
+    """Return the address of a client, without its port; empty if it is gone."""
+    peer = transport.get_extra_info("peername")
+    return str(peer[0]) if isinstance(peer, tuple) else ""
 
 
 def _cancel(timer: Timer) -> Timer:

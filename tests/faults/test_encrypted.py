@@ -8,7 +8,7 @@ import ssl
 import subprocess
 import sys
 from collections.abc import Callable, Coroutine, Iterator
-from contextlib import closing, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
 
 import httpx
@@ -30,6 +30,8 @@ from tests.waiting import until
 
 HOST = "127.0.0.2"
 """Address of this machine, and none of the names to which our clients speak unencrypted."""
+FILES = 256
+"""Files that the API may have open."""
 SWING = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.1}
 
 
@@ -57,7 +59,8 @@ def served(files: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[st
     command = [sys.executable, "-P", "-m", "jointplay.service.processes.api", "--host", HOST]
     command += ["--port", str(port), "--ssl-certfile", str(files / "own.pem")]
     data = {"JOINTPLAY_DATA": str(tmp_path_factory.mktemp("data"))}
-    with subprocess.Popen(command, env=os.environ | data) as api:
+    few = ["sh", "-c", f'ulimit -n {FILES}; exec "$@"', "sh"]
+    with subprocess.Popen(few + command, env=os.environ | data) as api:
         url = f"https://{HOST}:{port}"
         known = ssl.create_default_context(cafile=files / "known.pem")
 
@@ -90,6 +93,16 @@ def test_a_worker_computes_for_a_service_that_it_can_verify(
         pytest.raises(Unavailable, match="CERTIFICATE_VERIFY_FAILED"),
     ):
         worker.claim(request)
+
+
+def test_clients_that_never_agree_on_tls_keep_nobody_out(served: str, files: Path) -> None:
+    known = ssl.create_default_context(cafile=files / "known.pem")
+    address = httpx.URL(served)
+    with ExitStack() as stack:
+        for _ in range(FILES + 50):
+            stack.enter_context(socket.create_connection((HOST, address.port), timeout=60.0))
+        for _ in range(5):  # asyncio would wait a minute for them
+            assert httpx.get(f"{served}/healthz", verify=known, timeout=20.0).is_success
 
 
 Streams = tuple[asyncio.StreamReader, asyncio.StreamWriter]

@@ -1,0 +1,82 @@
+"""Connections of HTTPS, bounded from their first moment on: while TLS is agreed on, too.
+
+asyncio would have a server hear of a connection only afterwards, and wait for it for a minute.
+"""
+
+import asyncio
+import ssl
+from contextlib import suppress
+from typing import Any
+
+import uvicorn
+
+from jointplay.service.processes import connections
+from jointplay.service.processes.connections import Connection, address_of
+
+
+class EncryptedConfig(uvicorn.Config):
+    """Settings of a server whose connections agree on TLS by themselves, as the settings say."""
+
+    def load(self) -> None:
+        """Load the settings."""
+        super().load()
+        parts = {"made": self.http_protocol_class, "context": self.ssl}
+        self.http_protocol_class = type("RoomedHandshake", (Handshake,), parts)
+        self.ssl = None
+
+
+class Handshake(asyncio.Protocol):
+    """A connection until TLS is agreed on: it has room as an idle one."""
+
+    made: type[Connection]
+    """Class of what it is afterwards."""
+    context: ssl.SSLContext
+
+    def __init__(self, **named: Any) -> None:
+        self._connection = self.made(**named)
+        self._room = self.made.room
+        self._sent = bytearray()
+        self._agreeing: asyncio.Task[None] | None = None
+        self._entered = False
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """Let the connection in, or close it: nothing can be told to it yet."""
+        self._transport, self.address = transport, address_of(transport)
+        self._entered = self._room.enter(self)
+        if self._entered:
+            self._agreeing = asyncio.create_task(self._agree())
+        else:
+            transport.abort()
+
+    def data_received(self, data: bytes) -> None:
+        """Keep what came with the end of the handshake."""
+        self._sent += data
+
+    def end(self) -> None:
+        """Make room for others."""
+        self._leave()
+        self._transport.abort()
+
+    def _leave(self) -> None:
+        if self._entered:
+            self._entered = False
+            self._room.leave(self)
+
+    async def _agree(self) -> None:
+        encrypted: asyncio.Transport | None = None
+        with suppress(OSError):  # the client is silent, speaks no TLS, or has gone
+            encrypted = await asyncio.get_running_loop().start_tls(
+                self._transport,
+                self,
+                self.context,
+                server_side=True,
+                ssl_handshake_timeout=connections.HEAD_PATIENCE,
+                ssl_shutdown_timeout=connections.HEAD_PATIENCE,
+            )
+        self._leave()
+        if encrypted is None or encrypted.is_closing():
+            return
+        encrypted.set_protocol(self._connection)
+        self._connection.connection_made(encrypted)
+        if self._sent:
+            self._connection.data_received(bytes(self._sent))
