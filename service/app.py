@@ -159,7 +159,8 @@ def create_app(settings: Settings | None = None, *, patient: bool = False) -> Fa
         app.add_middleware(RequestLog)
     app.add_middleware(SignedLinks)
     app.add_middleware(Pieces)
-    app.add_middleware(Turns, unlocked=[one for part in _OPEN for one in part.router.routes])
+    unlocked = [one for part in _OPEN for one in part.router.routes]
+    app.add_middleware(Turns, unlocked=unlocked, keys=settings.keys == "required")
     app.add_middleware(ContentPolicy)
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)

@@ -4,6 +4,7 @@ Callers without a key cannot have all: a key counts only where it is looked at. 
 room that a request's body took is given back.
 """
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import ExitStack
@@ -20,13 +21,18 @@ from jointplay.service.problems.handlers import answer
 
 MOST: Final = 512
 """Requests at once, those that wait or stream included."""
-RESERVE: Final = 32
-"""Requests of these that only those below may be."""
+OF_WORKERS: Final = 32
+"""Requests of these that only workers with a block, and health, may have."""
+OF_HEALTH: Final = 16
+"""Further ones that only health and readiness may have: they read no bodies."""
 WITHOUT_KEY: Final = 208
-"""Requests without a key at once: where none is required, 200 workers that wait are as many. Who
-sends one that is wrong is refused before anything is read of his body, and holds nothing."""
+"""Requests without a key at once where none is required: 200 workers that wait, and some."""
+BESIDE_KEYS: Final = 64
+"""Requests without a key at once where one is required. Who sends one that is wrong is refused
+before anything is read of his body, and holds nothing."""
 RETRY: Final = 5
 """Seconds after which a refused client may ask again."""
+_HEALTH: Final = re.compile(r"/(healthz|readyz)")
 
 
 class Turns:
@@ -36,10 +42,13 @@ class Turns:
     ----------
     unlocked
         Routes of the API that nobody needs a key for.
+    keys
+        Whether all others need one.
     """
 
-    def __init__(self, app: ASGIApp, unlocked: Sequence[BaseRoute]) -> None:
+    def __init__(self, app: ASGIApp, unlocked: Sequence[BaseRoute], *, keys: bool) -> None:
         self._app, self._unlocked = app, unlocked
+        self._without_key = BESIDE_KEYS if keys else WITHOUT_KEY
         self._running: Counter[bool] = Counter()  # with a key, and without
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -72,6 +81,9 @@ class Turns:
 
     def _has_room(self, path: str, *, has_key: bool) -> bool:
         running = self._running.total()
-        if VITAL.fullmatch(path):
+        if _HEALTH.fullmatch(path):
             return running < MOST
-        return running < MOST - RESERVE and (has_key or self._running[False] < WITHOUT_KEY)
+        if VITAL.fullmatch(path):
+            return running < MOST - OF_HEALTH
+        others = MOST - OF_HEALTH - OF_WORKERS
+        return running < others and (has_key or self._running[False] < self._without_key)
