@@ -5,11 +5,13 @@ given up. Longer ones share `MOST_TOGETHER` bytes until their requests are answe
 """
 
 import asyncio
+import errno
 import tempfile
 from collections.abc import Awaitable, Callable
 from typing import Annotated, Final
 
 from fastapi import Depends, Request
+from fastapi.concurrency import run_in_threadpool
 from starlette.types import Scope
 
 from jointplay.service.problems import RequestRefused, kinds, unavailable
@@ -24,6 +26,8 @@ MOST_TOGETHER: Final = 128 * 1024 * 1024
 """Bytes of all longer bodies."""
 PATIENCE: Final = 15.0
 """Seconds that any body may take."""
+PATIENCE_OF_WORD: Final = 5.0
+"""Seconds that one of a worker may take: those that hold its block have few turns."""
 SLOWEST: Final = 100_000.0
 """Bytes a second that a longer one must arrive with: 1 Mbit/s."""
 RETRY: Final = 5
@@ -53,23 +57,35 @@ class Together:
 TOGETHER = Together()
 
 
-async def _bounded(request: Request, largest: int) -> bytes:
+async def _bounded(request: Request, largest: int, patience: float) -> bytes:
     """Read the body without ever holding more than the limit.
 
     What is beyond the limit is read and dropped, up to `MOST_DROPPED`: a client that is still
     sending when the connection closes never sees why.
     """
     told = request.headers.get("content-length", "")
-    length = min(int(told), MOST_DROPPED) if told.isdecimal() else largest
+    length = min(int(told), largest) if told.isdecimal() else largest
+    limit = patience + length / SLOWEST
     try:
-        async with asyncio.timeout(PATIENCE + length / SLOWEST):
+        async with asyncio.timeout(limit):
             return await _arrived(request, largest)
     except TimeoutError:
         raise RequestRefused(
             kinds.BODY_TOO_SLOW,
-            f"The body did not arrive within {PATIENCE + length / SLOWEST:.0f} s.",
+            f"The body did not arrive within {limit:.0f} s.",
             headers={"Connection": "close"},
         ) from None
+    except OSError as fault:
+        raise _not_kept(fault) from fault
+
+
+def _not_kept(fault: OSError) -> RequestRefused:
+    """Return the refusal of a body that could not be written to the disk for passing bodies."""
+    if fault.errno in {errno.ENOSPC, errno.EDQUOT}:
+        sentence = "The disk on which the service keeps bodies that arrive is full."
+        again = {"Retry-After": "30", "Connection": "close"}
+        return RequestRefused(kinds.DISK_FULL, sentence, headers=again)
+    return unavailable("The body could not be kept while it arrived.", RETRY)
 
 
 async def _arrived(request: Request, largest: int) -> bytes:
@@ -80,7 +96,9 @@ async def _arrived(request: Request, largest: int) -> bytes:
             if received <= largest:
                 if received > SHORT:
                     TOGETHER.take(request.scope, len(chunk))
-                body.write(chunk)
+                    await run_in_threadpool(body.write, chunk)
+                else:
+                    body.write(chunk)
             if received > MOST_DROPPED:
                 break
         if received > largest:
@@ -90,10 +108,10 @@ async def _arrived(request: Request, largest: int) -> bytes:
                 headers={"Connection": "close"},
             )
         body.seek(0)
-        return body.read()
+        return await run_in_threadpool(body.read) if received > SHORT else body.read()
 
 
-def _json_body(largest: int) -> Callable[[Request], Awaitable[bytes]]:
+def _json_body(largest: int, patience: float = PATIENCE) -> Callable[[Request], Awaitable[bytes]]:
     """Return a reader of bodies of at most `largest` bytes.
 
     The media type is insisted on: a browser sends a foreign page's ``text/plain`` here without
@@ -102,7 +120,7 @@ def _json_body(largest: int) -> Callable[[Request], Awaitable[bytes]]:
 
     async def read(request: Request) -> bytes:
         media_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-        body = await _bounded(request, largest)
+        body = await _bounded(request, largest, patience)
         if media_type != "application/json":
             raise RequestRefused(
                 kinds.NOT_JSON,
@@ -115,5 +133,5 @@ def _json_body(largest: int) -> Callable[[Request], Awaitable[bytes]]:
 
 
 JobBody = Annotated[bytes, Depends(_json_body(LARGEST_BODY))]
-WordBody = Annotated[bytes, Depends(_json_body(LARGEST_WORD))]
+WordBody = Annotated[bytes, Depends(_json_body(LARGEST_WORD, PATIENCE_OF_WORD))]
 BatchBody = Annotated[bytes, Depends(_json_body(LARGEST_BATCH))]

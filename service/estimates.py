@@ -51,7 +51,7 @@ class Estimate(BaseModel):
     "",
     dependencies=[NO_PARAMETERS],
     openapi_extra={"requestBody": REQUEST_BODY},
-    responses=problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST, kinds.UNAVAILABLE),
+    responses=problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST),
 )
 def estimate_job(
     body: JobBody,

@@ -24,7 +24,7 @@ _BODY: dict[str, Any] = {
 _DRAWN: dict[int | str, dict[str, Any]] = {
     200: {"description": "The drawing.", "content": dict.fromkeys(MEDIA_TYPES.values(), BINARY)}
 }
-_REFUSALS = problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST, kinds.UNAVAILABLE)
+_REFUSALS = problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST)
 
 
 class GivenStart(BaseModel):

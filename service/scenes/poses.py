@@ -14,7 +14,7 @@ from jointplay.service.scenes.process import SceneProcess
 
 router = APIRouter(prefix="/v1/scenes", tags=["scenes"])
 _PATIENCE = 20.0  # s; 512 poses of a chain of 30 bodies take half of them
-_REFUSALS = problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST, kinds.UNAVAILABLE)
+_REFUSALS = problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST)
 
 Pose = Annotated[
     dict[str, tuple[float, float, float]],

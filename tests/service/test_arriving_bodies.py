@@ -1,0 +1,83 @@
+"""Bodies of requests while they arrive: where they are, and for how long."""
+
+import asyncio
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+from typing import IO, Any
+
+import httpx
+import pytest
+from fastapi import Request
+from starlette.types import Message
+
+from jointplay.service import body
+from jointplay.service.problems import RequestRefused, kinds
+
+JSON = {"Content-Type": "application/json"}
+LONG = b" " * (4 * body.SHORT)
+
+
+def test_a_long_body_finds_the_disk_for_passing_bodies_full(
+    http: httpx.Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "TemporaryFile", lambda **_: Path("/dev/full").open("r+b"))  # noqa: SIM115
+    answer = http.post("/v1/jobs", content=LONG, headers=JSON)
+    assert (answer.status_code, answer.json()["type"]) == (507, "/problems/disk-full")
+    assert answer.headers["Retry-After"] == "30"
+
+
+def test_a_long_body_finds_no_folder_for_passing_bodies(
+    http: httpx.Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", "/nowhere")
+    answer = http.post("/v1/jobs", content=LONG, headers=JSON)
+    assert (answer.status_code, answer.headers["Retry-After"]) == (503, "5")
+
+
+def test_other_requests_go_on_while_a_body_is_written_to_disk(
+    http: httpx.Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def runs_a_loop() -> bool:
+        with suppress(RuntimeError):
+            return bool(asyncio.get_running_loop())
+        return False
+
+    written_by: list[bool] = []
+    make = tempfile.TemporaryFile
+
+    class Watched:
+        """A file that notes whether whoever writes it runs an event loop."""
+
+        def __init__(self, file: IO[bytes]) -> None:
+            self.file = file
+
+        def write(self, content: bytes) -> int:
+            written_by.append(runs_a_loop())
+            return self.file.write(content)
+
+        def __getattr__(self, name: str) -> Any:
+            return getattr(self.file, name)
+
+    monkeypatch.setattr(tempfile, "TemporaryFile", lambda **named: Watched(make(**named)))
+    assert http.post("/v1/jobs", content=LONG, headers=JSON).status_code == 400
+    assert written_by
+    assert not any(written_by)
+
+
+def test_a_word_of_a_worker_holds_its_turn_for_some_seconds_whatever_it_says_of_its_length(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(body, "SLOWEST", 1e6)
+    (word,) = [one.dependency for one in body.WordBody.__metadata__]  # type: ignore[attr-defined]
+
+    async def silent() -> Message:
+        await asyncio.Event().wait()
+        raise AssertionError
+
+    headers = [(b"content-type", b"application/json"), (b"content-length", b"60000000")]
+    request = Request({"type": "http", "method": "POST", "headers": headers}, silent)
+    with pytest.raises(RequestRefused) as refused:
+        asyncio.run(asyncio.wait_for(word(request), 3600.0))
+    assert refused.value.kind is kinds.BODY_TOO_SLOW
+    assert refused.value.detail == "The body did not arrive within 5 s."
