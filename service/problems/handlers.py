@@ -1,11 +1,12 @@
 """From the exceptions of every layer to problem documents: the only place that knows both."""
 
 import logging
-from functools import singledispatch
+from functools import cache, singledispatch
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
+from fastapi.routing import iter_route_contexts
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.routing import compile_path
@@ -33,6 +34,7 @@ from jointplay.worker.handed_in.results import NotTheJobs
 
 _log = logging.getLogger(__name__)
 _MOST_ERRORS = 100  # in one document; their count is in its detail
+_compiled = cache(compile_path)
 _BY_STATUS = {404: kinds.NOT_FOUND, 405: kinds.METHOD_NOT_ALLOWED}
 
 
@@ -72,10 +74,10 @@ async def answer(request: Request, error: Exception) -> Response:
 def _methods_at(request: Request) -> set[str]:
     """Return what all operations at an address know; its first route names only its own."""
     return {
-        method.upper()
-        for template, operations in request.app.openapi()["paths"].items()
-        if compile_path(template.replace("{key}", "{key:path}"))[0].match(request.url.path)
-        for method in operations
+        method
+        for route in iter_route_contexts(request.app.routes)
+        if _compiled(str(route.path))[0].match(request.url.path)
+        for method in route.methods or ()
     }
 
 

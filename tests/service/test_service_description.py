@@ -25,7 +25,7 @@ from jointplay.solver.scene import presets
 from jointplay.solver.scene.schema import scene_schema
 from jointplay.storage.settings import Settings
 from tests.presets_given import REQUIRED
-from tests.service_in_thread import serving
+from tests.service_in_thread import client_of, serving
 from tests.waiting import until
 
 
@@ -174,3 +174,15 @@ def test_the_documentation_lists_every_address(openapi):
         assert (
             f"{last}`" in documentation or f"{last}?" in documentation or shorter in documentation
         )
+
+
+def test_an_unknown_method_is_told_the_known_ones_without_the_description(
+    fresh_service: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The description takes a second, for which nobody else would be answered."""
+    monkeypatch.delattr("jointplay.service.description.get_openapi")
+    with client_of(fresh_service) as http:
+        answer = http.delete("/v1/jobs")
+        of_keys = http.post("/v1/jobs/x/zarr/values/zarr.json")
+    assert (answer.status_code, answer.headers["Allow"]) == (405, "GET, POST")
+    assert of_keys.headers["Allow"] == "GET, HEAD"
