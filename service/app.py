@@ -155,13 +155,13 @@ def create_app(settings: Settings | None = None, *, patient: bool = False) -> Fa
     )
     app.state.settings = settings
     app.add_middleware(Compression)
-    if settings.log_format == "json":
-        app.add_middleware(RequestLog)
     app.add_middleware(SignedLinks)
     app.add_middleware(Pieces)
     unlocked = [one for part in _OPEN for one in part.router.routes]
     app.add_middleware(Turns, unlocked=unlocked, keys=settings.keys == "required")
     app.add_middleware(ContentPolicy)
+    if settings.log_format == "json":
+        app.add_middleware(RequestLog)
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)
     for resource, key in _BEHIND_THE_DOOR:

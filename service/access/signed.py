@@ -79,5 +79,5 @@ class SignedLinks:
             link = Link.of(token)
             if link is not None and (behind == WHOLE or (behind + slash).startswith("zarr/")):
                 path = f"/v1/jobs/{link.job}/{behind}"
-                scope = {**scope, "path": path, "raw_path": path.encode(), SIGNED: link}
+                scope.update({"path": path, "raw_path": path.encode(), SIGNED: link})
         await self._app(scope, receive, send)

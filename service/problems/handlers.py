@@ -13,6 +13,7 @@ from starlette.routing import compile_path
 
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.records.strict_json import MalformedJson
+from jointplay.service.access.signed import PREFIX
 from jointplay.service.problems import (
     MEDIA_TYPE,
     ErrorDetail,
@@ -21,6 +22,7 @@ from jointplay.service.problems import (
     clipped,
     kinds,
 )
+from jointplay.service.problems.repeated import Repeated
 from jointplay.storage.catalogue.errors import (
     BatchNotFinished,
     BatchNotFound,
@@ -34,6 +36,7 @@ from jointplay.worker.handed_in.results import NotTheJobs
 
 _log = logging.getLogger(__name__)
 _MOST_ERRORS = 100  # in one document; their count is in its detail
+_REPEATED = Repeated()
 _compiled = cache(compile_path)
 _BY_STATUS = {404: kinds.NOT_FOUND, 405: kinds.METHOD_NOT_ALLOWED}
 
@@ -50,11 +53,8 @@ async def answer(request: Request, error: Exception) -> Response:
     if refused.kind is kinds.METHOD_NOT_ALLOWED:
         known = _methods_at(request).union(refused.headers.get("Allow", "").split(", "))
         refused.headers["Allow"] = ", ".join(sorted(known - {""}))
-    asked = f"{request.method} {request.url.path}"
-    if refused.kind is kinds.INTERNAL:
-        _log.error("%s failed", asked, exc_info=error)
-    elif refused.kind.status >= 500:
-        _log.warning("%s was answered with %d: %s", asked, refused.kind.status, refused.detail)
+    if refused.kind.status >= 500:
+        _tell(request, refused, error)
     document = ProblemDocument(
         type=refused.kind.type,
         title=refused.kind.title,
@@ -69,6 +69,21 @@ async def answer(request: Request, error: Exception) -> Response:
         headers=refused.headers,
         media_type=MEDIA_TYPE,
     )
+
+
+def _tell(request: Request, refused: RequestRefused, error: Exception) -> None:
+    path = request.url.path
+    if path.startswith(PREFIX):
+        path = f"{PREFIX}..."  # what is behind it opens a job's results
+    asked = f"{request.method} {path}"
+    if refused.kind is kinds.INTERNAL:
+        _log.error("%s failed", asked, exc_info=error)
+        return
+    left_out = _REPEATED.count(refused.detail)
+    if left_out is not None:
+        told = f" ({left_out} others before it)" if left_out else ""
+        status = refused.kind.status
+        _log.warning("%s was answered with %d: %s%s", asked, status, refused.detail, told)
 
 
 def _methods_at(request: Request) -> set[str]:

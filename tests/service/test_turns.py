@@ -1,6 +1,7 @@
 """Requests that are held, and those that are answered beside them."""
 
 import asyncio
+import logging
 from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -11,6 +12,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from jointplay.service.access.turns import BESIDE_KEYS, MOST, OF_HEALTH, WITHOUT_KEY, Turns
 from jointplay.service.app import create_app
+from jointplay.service.problems import handlers, repeated
 from jointplay.storage.settings import Settings
 
 PROGRESS = "/v1/worker/blocks/b/1/progress"
@@ -27,6 +29,7 @@ class Clients:
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
         self.tasks: list[asyncio.Task[None]] = []
+        self.headers: dict[bytes, bytes] = {}  # of the last answer
 
     async def ask(self, path: str, headers: Mapping[bytes, bytes] | None = None) -> int:
         """Return the status of an answer, of which nothing more is taken."""
@@ -34,6 +37,7 @@ class Clients:
 
         async def send(message: Message) -> None:
             if not status.done():
+                self.headers = dict(message["headers"])
                 status.set_result(message["status"])
             await asyncio.Event().wait()
 
@@ -107,3 +111,37 @@ def test_workers_hold_their_blocks_however_many_others_are_answered() -> None:
     held, progress = asyncio.run(asked())
     assert 503 in held
     assert progress == 200
+
+
+def test_many_refusals_are_one_warning_that_counts_them(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(handlers, "_REPEATED", repeated.Repeated())
+    monkeypatch.setattr(repeated, "_PERIOD", 3600.0)
+
+    async def asked() -> None:
+        async with clients_of(Turns(answers_at_once, [], keys=True)) as clients:
+            await clients.statuses(BESIDE_KEYS + 50, "/v1/shared/a-secret/zarr")
+            monkeypatch.setattr(repeated, "_PERIOD", 0.0)
+            await clients.ask("/v1/scenes")
+
+    asyncio.run(asked())
+    first, last = caplog.messages
+    assert "GET /v1/shared/... was answered with 503" in first
+    assert last.startswith("GET /v1/scenes was answered with 503")
+    assert last.endswith("(49 others before it)")
+
+
+def test_a_refusal_has_a_line_and_an_id_as_other_answers(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level(logging.INFO)
+
+    async def asked() -> bytes:
+        settings = Settings(data=tmp_path, keys="required", log_format="json")
+        async with clients_of(create_app(settings)) as clients:
+            await clients.statuses(BESIDE_KEYS + 1, "/openapi.json")
+            return clients.headers[b"x-request-id"]
+
+    assert asyncio.run(asked())
+    assert any(line.startswith("GET") and line.endswith(" 503") for line in caplog.messages)
