@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import CONTRADICTED, BlockState, Job, JobState
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.identity import growing_study, require_results_of
@@ -19,6 +20,7 @@ from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 
 WHERE = "results"
+_MENDED = ("marked as damaged", "no longer marked as damaged")
 _ANEW = "jointplay show {0} --job > job.json; jointplay submit job.json"
 
 
@@ -40,21 +42,22 @@ def damage(settings: Settings, catalogue: Catalogue, look: Look | None = None) -
     chosen = look.chosen(ended, besides)
     look.counted.read, look.counted.there = len(chosen), len(ended)
 
-    def compared(job_id: str) -> tuple[Job, str | None]:
-        job = catalogue.get(job_id)
-        found = damage_of(settings, job) or _unsealed_damage(settings, catalogue, job)
+    def compared(job_id: str) -> tuple[Job, str | None] | None:
+        try:
+            job = catalogue.get(job_id)
+            found = damage_of(settings, job) or _unsealed_damage(settings, catalogue, job)
+        except JobNotFound:  # its row has gone meanwhile
+            return None
         whole = found is None and job.damaged == CONTRADICTED  # which no look at bytes can tell
         return job, CONTRADICTED if whole else found
 
-    for done, (_, (job, found)) in enumerate(several_at_once(compared, chosen)):
+    for done, (_, one) in enumerate(several_at_once(compared, chosen)):
         look.report(done / len(chosen), f"read {done} of {len(chosen)} results")
-        if found == job.damaged:
-            mended = None
-        elif found is None:
-            mended = "no longer marked as damaged"
-        else:
-            mended = "marked as damaged"
-        if (found is None and mended is None) or catalogue.expired(catalogue.get(job.id)):
+        if one is None:
+            continue
+        job, found = one
+        mended = None if found == job.damaged else _MENDED[found is None]
+        if (found is None and mended is None) or _has_gone(catalogue, job):
             continue
         yield Finding(
             WHERE,
@@ -64,6 +67,14 @@ def damage(settings: Settings, catalogue: Catalogue, look: Look | None = None) -
             _ANEW.format(job.id) if found else None,
             partial(catalogue.mark_damaged, job.id, found) if mended else None,
         )
+
+
+def _has_gone(catalogue: Catalogue, job: Job) -> bool:
+    """Whether a job was removed while its results were read."""
+    try:
+        return catalogue.expired(catalogue.get(job.id))
+    except JobNotFound:
+        return True
 
 
 def job_in(key: str) -> str:

@@ -34,6 +34,12 @@ def leave_a_fenced_attempt(installed: Installed) -> None:
     sealed.place.put(sealed.key.replace("-a1", "-a2"), [content_of(sealed)])
 
 
+def leave_a_run_beside_a_study(installed: Installed) -> None:
+    job = installed.catalogue.get(installed.jobs["swept"])
+    late = installed.settings.sealed_run(job.id, job.attempt)
+    late.place.put(late.key, [content_of(installed.sealed("succeeded"))])
+
+
 def leave_a_partial_result(installed: Installed) -> None:
     key = f"{installed.sealed('succeeded').key}.0a1b2c3d.partial"
     (installed.settings.data / "results" / key).write_bytes(b"half")
@@ -83,6 +89,7 @@ def do_not_settle(installed: Installed) -> None:
 MENDED = {
     restore: ("results", "are whole", "no longer marked"),
     leave_a_fenced_attempt: ("results", "is left over", "removed"),
+    leave_a_run_beside_a_study: ("results", "is left over", "removed"),
     leave_a_partial_result: ("results", "is left over", "removed"),
     leave_a_running_folder: ("running", "is left over", "removed"),
     leave_a_partial_part: ("running", "is left over", "removed"),

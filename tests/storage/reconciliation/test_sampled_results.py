@@ -1,6 +1,7 @@
 """All results are looked for; where not all are read, a sample and what is in doubt are."""
 
 from collections import Counter
+from collections.abc import Iterable, Sequence
 
 import pytest
 
@@ -80,3 +81,31 @@ def test_what_is_in_its_place_is_not_asked_for_again(
     harmed = installed.jobs["succeeded"]
     assert looked(installed, Look(seed_without(installed, harmed))) == []
     assert harmed not in asked
+
+
+@pytest.mark.parametrize("moment", ["listed", "read"])
+def test_a_job_whose_rows_go_meanwhile_is_nothing_to_find(
+    installed: Installed, moment: str
+) -> None:
+    harmed = installed.jobs["succeeded"]
+    flip(installed.sealed("succeeded"))
+
+    def remove_rows() -> None:
+        installed.sql(
+            f"DELETE FROM block WHERE job = '{harmed}'", f"DELETE FROM job WHERE id = '{harmed}'"
+        )
+
+    class Late(Look):
+        """A look that begins some time after the list was made."""
+
+        def chosen(self, results: Sequence[str], besides: Iterable[str]) -> list[str]:
+            if moment == "listed":
+                remove_rows()
+            return super().chosen(results, besides)
+
+    def report(done: float, _: str) -> None:
+        if moment == "read" and not done:
+            remove_rows()
+
+    found = results.damage(installed.settings, installed.catalogue, Late(report=report))
+    assert [*found] == []
