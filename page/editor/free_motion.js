@@ -79,10 +79,11 @@ export class FreeMotion {
     fill(this.said, this.slider.disabled ? `Nothing is driven. ${hint}` : hint);
   }
 
-  /** Shows the drivers where the slider stands. */
+  /** Shows the drivers where the slider stands; what failed is asked for again next time. */
   async go() {
-    this.swept ??= this.sweep();
-    const { asked, answer } = await this.swept;
+    const swept = (this.swept ??= this.sweep());
+    const { asked, answer } = await swept;
+    if (!answer && this.swept === swept) this.swept = null;
     if (!answer || asked !== this.scene) return;
     const step = Math.min(Number(this.slider.value), answer.poses.length - 1);
     this.put(answer.poses[step], answer.times[step]);

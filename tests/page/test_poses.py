@@ -133,6 +133,22 @@ def test_a_driven_slider_shows_its_stroke_and_where_it_stops(page) -> None:
     page.get_by_text("The ideal mechanism comes to a dead point at t = 0.2 s").wait_for()
 
 
+def test_drivers_are_moved_again_after_their_motion_could_not_be_had(
+    browsing: Any, service_url: str
+) -> None:
+    address = "**/v1/scenes/poses"
+    with browsing.page(f"{service_url}/#/editor", expected=("500",)) as page:
+        page.locator(CANVAS).wait_for()
+        found = shown(page, toggle())
+        page.route(address, lambda route: route.fulfill(status=500, json={}))
+        with page.expect_response(address):
+            page.locator("#sweep").fill("30")
+        page.unroute(address)
+        with page.expect_response(posed):
+            page.locator("#sweep").fill("60")
+        assert slide(page, 90, found["poses"][0])
+
+
 def test_points_are_dragged_and_joints_stay_closed(page) -> None:
     start = shown(page, toggle())["poses"][0]
     asked: list[dict[str, Any]] = []
