@@ -121,7 +121,7 @@ def test_who_answers_no_more_is_closed_at_once_where_others_want_his_place(
 def test_a_request_right_behind_the_handshake_is_answered(
     served: Served, trusting: ssl.SSLContext
 ) -> None:
-    """What ends the handshake and what is asked arrive in one piece."""
+    """The end of the handshake and the request arrive in one piece."""
     _, address = served
     incoming, outgoing = ssl.MemoryBIO(), ssl.MemoryBIO()
     client = trusting.wrap_bio(incoming, outgoing, server_hostname="localhost")
