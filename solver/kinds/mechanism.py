@@ -17,7 +17,6 @@ from jointplay.solver.kinds.redundant import (
 )
 from jointplay.solver.mechanics.assembly import Assembly, assemble, directionless
 from jointplay.solver.mechanics.misfit import opening
-from jointplay.solver.mechanics.start.closings import MOST_BODIES
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.channels import channels, recording
@@ -26,6 +25,9 @@ from jointplay.solver.scene.domains import domain_problems
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import ends, part_problems, reference_problems
 from jointplay.solver.scene.sentences import schema_problems
+
+MOST_BODIES = 8
+"""Bodies up to which it is sought where a mechanism opens; of more the time would be felt."""
 
 Echo = dict[str, float | str | None]
 """The value of every declared parameter; none where the document's own values stand."""
@@ -177,7 +179,7 @@ def _open(scene: Scene) -> list[Problem]:
 
 
 def _left_open(scene: Scene) -> str:
-    if len(scene.bodies) > MOST_BODIES:  # where to open it would take seconds to find
+    if len(scene.bodies) > MOST_BODIES:
         return f"{assemble(scene).residual:.3g} (m or rad) remain after Newton's iteration"
     wide = opening(scene)
     return (

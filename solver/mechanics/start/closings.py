@@ -11,8 +11,8 @@ from jointplay.solver.mechanics.start.pose import Places
 
 DRAWN, SEED = 24, 11
 """Sets of start angles that are tried, and how they are drawn: the same each time."""
-MOST_BODIES = 8
-"""Bodies up to which closed poses are sought; of more the time would be felt."""
+MOST_BODIES = 16
+"""Bodies up to which closed poses are sought, within seconds; of more the time would be felt."""
 MOST_ITERATIONS = 40
 ALIKE = 1e-6
 """Distance of poses, in rad and lengths of the shortest link, below which they are one."""

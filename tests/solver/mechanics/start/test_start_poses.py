@@ -1,6 +1,7 @@
 """A given pose holds if the joints allow it; else the nearest one is taken."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -162,12 +163,9 @@ def test_whole_turns_of_a_given_angle_are_kept() -> None:
     assert put_together(document)[1]["lever"][2] == 7.0
 
 
-@pytest.mark.parametrize("turns", [-2, -1, 0, 1, 2])
-@pytest.mark.parametrize("coupler", [-0.9623, 0.4851])
-def test_a_rough_angle_chooses_its_assembly_in_any_turn(turns: int, coupler: float) -> None:
-    """The two angles of a coupler of 0.35 m are those that circles meet at, by hand."""
-    wanted = coupler + 2.0 * math.pi * turns
-    document = slider_crank({"angles": {"rod": wanted + 0.1}}, 0.05, 0.175)
+def held_four_bar(rod: float, hung: int = 0) -> dict[str, Any]:
+    """Return a four-bar with a coupler of 0.35 m, at -0.9623 or 0.4851 rad, and a chain on it."""
+    document = slider_crank({"angles": {"rod": rod}}, 0.05, 0.175)
     document["ground"]["points"]["D"] = [0.4, 0.0]
     document["bodies"]["slider"] = bar(0.125)
     document["joints"] |= {
@@ -175,6 +173,20 @@ def test_a_rough_angle_chooses_its_assembly_in_any_turn(turns: int, coupler: flo
         "guide": revolute("ground.D", "slider.a"),
     }
     document["drivers"] = {"hold": {"joint": "O", "position": 1.0, "speed": 0.0}}
+    above = "slider.b"
+    for k in range(hung):
+        document["bodies"][f"hung{k}"] = bar(0.1)
+        document["joints"][f"hung{k}"] = revolute(above, f"hung{k}.a")
+        above = f"hung{k}.b"
+    return document
+
+
+@pytest.mark.parametrize("turns", [-2, -1, 0, 1, 2])
+@pytest.mark.parametrize("coupler", [-0.9623, 0.4851])
+def test_a_rough_angle_chooses_its_assembly_in_any_turn(turns: int, coupler: float) -> None:
+    """The two angles of a coupler of 0.35 m are those that circles meet at, by hand."""
+    wanted = coupler + 2.0 * math.pi * turns
+    document = held_four_bar(wanted + 0.1)
     assert put_together(document)[1]["rod"][2] == pytest.approx(wanted, abs=1e-4)
 
 
@@ -185,3 +197,9 @@ def test_a_body_points_to_what_it_cannot_reach_and_is_not_wound_up(
     scene = arm() | {"drivers": {}, "start": {"points": {"arm.E": list(place)}}}
     _, pose, _ = put_together(scene)
     assert pose["arm"][2] == pytest.approx(math.atan2(place[1], place[0]), abs=1e-7)
+
+
+@pytest.mark.parametrize("bodies", [9, 16])
+def test_a_rough_angle_chooses_its_assembly_of_many_bodies(bodies: int) -> None:
+    document = held_four_bar(-0.88, bodies - 3)
+    assert put_together(document)[1]["rod"][2] == pytest.approx(-0.9623, abs=1e-4)
