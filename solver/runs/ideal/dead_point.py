@@ -50,13 +50,13 @@ def lost_at(path: Path, scene: Scene, time: float | None = None) -> SimulationFa
     return SimulationFailed("assembly-lost", sentence, at)
 
 
-def elsewhere(period: float) -> SimulationFailed:
-    """Return that a mechanism is in another assembly after a period than at its start."""
+def elsewhere(periods: int, time: float) -> SimulationFailed:
+    """Return that a mechanism is not back after some periods of its drivers, at a time in s."""
     sentence = (
-        f"After a period of its drivers, {period:.6g} s, the ideal mechanism is in another assembly"
-        " than at its start. Runs of it end there."
+        f"After {periods} periods of its drivers, {time:.6g} s, the ideal mechanism has not come"
+        " back to the assembly of its start. Runs of it end there."
     )
-    return SimulationFailed("assembly-lost", sentence, period)
+    return SimulationFailed("assembly-lost", sentence, time)
 
 
 def locks(end: Point) -> bool:

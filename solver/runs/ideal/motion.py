@@ -22,29 +22,45 @@ from jointplay.solver.scene.periods import characteristic_time, quickest_driver
 
 COMES_BACK = 1e-6
 """Distance of poses a period apart, in rad and lengths of the shortest link, that is rounding."""
+MOST_PERIODS = 4
+"""Periods of the drivers within which a mechanism may come back."""
 
 
 class IdealMotion:
     """A scene whose drivers leave no freedom, over `duration` s; `period` s, if they have one.
 
-    After it the mechanism repeats, unless gears turn bodies by other than whole turns.
-    `lost` is how the motion ends early: at a dead point, or where the links do not reach.
+    After it, or after a few of them, the mechanism repeats, unless gears turn bodies by other than
+    whole turns. `lost` is how the motion ends early: at a dead point, or where the links do not
+    reach.
     """
 
     def __init__(self, scene: Scene, period: float | None, duration: float) -> None:
         self.scene = scene
         self.period = None if scene.gears else period
+        """s, after which the mechanism repeats."""
+        self.periods = 1
+        """Periods of the drivers in that time."""
         self.constraints = Constraints(scene)
         self.numbers, self.mechanism = self.constraints.numbers, self.constraints.mechanism
         self.unit = period or characteristic_time(scene, self.constraints.length)
-        self.lost: SimulationFailed | None = None
         span = min(duration, self.unit) if self.period else duration
         scale = min(quickest_driver(scene, self.constraints.length), span)
         self.path = Path(self.constraints, assemble(scene).pose, scale)
-        if not self.path.follow(span):
-            self.lost = lost_at(self.path, scene)
-        elif span < duration and not self._comes_back():
-            self.lost = elsewhere(span)
+        self.lost = self._followed(duration)
+
+    def _followed(self, duration: float) -> SimulationFailed | None:
+        """Follow the path until the mechanism repeats; return how it is lost before, if it is."""
+        period = self.period
+        if period is None:
+            return None if self.path.follow(duration) else lost_at(self.path, self.scene)
+        for count in range(1, MOST_PERIODS + 1):
+            self.period, self.periods = count * period, count
+            if not self.path.follow(min(self.period, duration)):
+                return lost_at(self.path, self.scene)
+            if self.period > duration or self._comes_back():
+                return None
+        self.period = None
+        return elsewhere(MOST_PERIODS, self.path.end.time)
 
     def at(self, times: Floats, local: Floats) -> Motion:
         """Return the motion and all forces at times in s, `local` within the period.
@@ -131,7 +147,7 @@ class IdealMotion:
         return poses, turned
 
     def _comes_back(self) -> bool:
-        """Return whether the mechanism ends a period as it began: it may change its assembly."""
+        """Return whether the mechanism is as it began: a period may end in another assembly."""
         apart = self.path.turned / self.constraints.scale
         apart[2::3] = np.remainder(apart[2::3] + math.pi, 2.0 * math.pi) - math.pi
         return float(np.abs(apart).max()) <= COMES_BACK

@@ -41,11 +41,12 @@ class MotionReach:
     """The reach of all bodies of a scene whose drivers leave no freedom but the play."""
 
     def __init__(self, scene: Scene, period: float) -> None:
-        self.motion = IdealMotion(scene, period, period)
+        self.motion = IdealMotion(scene, period, math.inf)
         self.bodies = list(scene.bodies)
         play = {pair.joint: pair.loosened for pair in contact_pairs(scene).values()}
-        scales = math.ceil(period / self.motion.path.scale)
-        self.instants = np.linspace(0.0, period, INSTANTS_A_PERIOD * scales + 1)
+        end = self.motion.path.end.time
+        scales = math.ceil(end / self.motion.path.scale)
+        self.instants = np.linspace(0.0, end, INSTANTS_A_PERIOD * scales + 1)
         self.poses, self.strayed = np.empty(0), np.empty(0)
         if self.motion.lost is None:
             self.poses = self.motion.path.poses(self.instants)

@@ -65,8 +65,12 @@ class IdealRun:
             begun = time.perf_counter()
             last = min(self.sections_done + ROWS_A_SLICE, self.admission.sections)
             index = np.arange(self.sections_done, last, dtype=np.float64)
-            times = self.offset + index * (self.admission.period or 0.0)
-            local = times if self.motion.period is None else np.full(len(times), self.offset)
+            times, local = (
+                self.offset + count * (self.admission.period or 0.0)
+                for count in (index, np.remainder(index, self.motion.periods))
+            )
+            if self.motion.period is None:
+                local = times
             sections = self.channels(times, local)
             found = self._slice(np.empty(0), self.channels(np.empty(0)), times, sections)
             self.sections_done = last

@@ -9,6 +9,9 @@ import pytest
 from jointplay.records.failure import InvalidInput, LimitExceeded, SimulationFailed
 from jointplay.solver.kinds import admit
 from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.runs.ideal import motion
+from jointplay.solver.runs.ideal.following import follow
+from jointplay.solver.runs.ideal.reach import motion_reach
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
@@ -99,3 +102,57 @@ def test_drivers_that_hardly_ever_come_round_are_run_for_300_turns_at_most() -> 
     with pytest.raises(LimitExceeded, match="turns 301 times until all come round"):
         admit(job(scene, 301.0 * turn))
     assert admit(job(scene, 299.0 * turn)).period == pytest.approx(1000.0 * turn)
+
+
+def twice_round() -> dict[str, Any]:
+    """Return a platform on three bars that is in another assembly after one turn of its crank."""
+    bars = {"crank": 1.4, "bar1": 1.42, "bar2": 2.17, "bar3": 2.16}
+    bodies: dict[str, Any] = {
+        name: {"mass": 1.0, "inertia": 0.1, "points": {"a": [0.0, 0.0], "b": [length, 0.0]}}
+        for name, length in bars.items()
+    }
+    corners = {"b1": [-0.02, 0.64], "b2": [-0.68, -0.93], "b3": [1.0, -0.91]}
+    bodies["platform"] = {"mass": 1.0, "inertia": 0.1, "points": corners}
+    pins = {"O": "ground.O crank.a", "A1": "crank.b bar1.a"}
+    pins |= {f"A{k}": f"ground.A{k} bar{k}.a" for k in (2, 3)}
+    pins |= {f"B{k}": f"bar{k}.b platform.b{k}" for k in (1, 2, 3)}
+    return {
+        "name": "twice-round",
+        "ground": {"points": {"O": [0.0, 0.0], "A2": [-0.83, 0.51], "A3": [-0.29, -0.98]}},
+        "bodies": bodies,
+        "joints": {
+            name: dict(zip(("bearing", "journal"), pin.split(), strict=True), type="revolute")
+            for name, pin in pins.items()
+        },
+        "drivers": {"motor": {"joint": "O", "speed": 2.0 * math.pi}},
+        "start": {"angles": {"bar1": -2.02, "bar2": -1.23, "bar3": -0.12, "platform": -1.01}},
+    }
+
+
+def test_a_mechanism_that_comes_back_after_two_periods_goes_on() -> None:
+    channels = [f"platform.{axis}" for axis in ("x", "y", "theta")]
+    request = job(twice_round(), duration=4.3) | {"output_step": 0.05, "channels": channels}
+    pieces = list(Simulation(admit(request)).slices())
+    times = np.concatenate([piece.sample_time for piece in pieces])
+    samples = np.concatenate([piece.samples for piece in pieces])
+    scene = Scene.model_validate(twice_round())
+    # step by step, without any period
+    wanted = follow(scene, times.tolist()).poses[:, -3:]
+    np.testing.assert_allclose(samples, wanted, rtol=0, atol=1e-9)
+    sections = np.concatenate([piece.sections for piece in pieces])
+    assert len(sections) == 5
+    np.testing.assert_allclose(sections, wanted[:81:20], rtol=0, atol=1e-9)
+    assert abs(sections[1] - sections[0]).max() > 0.1
+    reach = motion_reach(scene)
+    assert reach is not None
+    found = reach.of("platform", "x")
+    assert found is not None
+    assert found.low <= samples[:, 0].min() < samples[:, 0].max() <= found.high
+
+
+def test_a_mechanism_that_does_not_come_back_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(motion, "MOST_PERIODS", 1)
+    simulation = Simulation(admit(job(twice_round(), duration=1.5) | {"output_step": 0.05}))
+    with pytest.raises(SimulationFailed, match="has not come back") as failed:
+        list(simulation.slices())
+    assert failed.value.time == 1.0
