@@ -14,7 +14,7 @@ from jointplay.records.failure import LimitExceeded, SimulationFailed
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble
 from jointplay.solver.runs.ideal.constraints import Constraints
 from jointplay.solver.runs.ideal.dead_point import lost_at
-from jointplay.solver.runs.ideal.path import FEWEST_A_SCALE, Path
+from jointplay.solver.runs.ideal.path import Path
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import MovingDriver
 from jointplay.solver.scene.periods import quickest_driver
@@ -53,14 +53,12 @@ def follow(scene: Scene, times: Sequence[float]) -> Followed:
     if math.isinf(scale):  # nothing is driven
         return Followed(np.tile(start.pose, (len(instants), 1)), None)
     path, last = Path(constraints, start.pose, scale), float(instants[-1])
-    soon = FEWEST_A_SCALE * last <= MOST_POSES * scale
-    whole = soon and path.follow(last, MOST_POSES)
+    whole = path.follow(last, MOST_POSES)  # also where that is too far: it may jam before
     reached = path.end.time
-    if not whole and (not soon or len(path.times) >= MOST_POSES):
-        latest = reached if soon else MOST_POSES * scale / FEWEST_A_SCALE
+    if not whole and len(path.times) >= MOST_POSES:
         raise LimitExceeded.at(
             "/times",
-            f"The mechanism is followed through {MOST_POSES} poses, to {latest:.3g} s at most; give"
+            f"The mechanism is followed through {MOST_POSES} poses, to {reached:.3g} s at most; give"
             " earlier times.",
         )
     lost = None if whole else _ended(scene, instants) or lost_at(path, scene)

@@ -82,10 +82,11 @@ def test_every_preset_is_followed_from_the_pose_in_which_it_is_run(name: str) ->
     assert moved == (time is not None)
 
 
-def test_a_mechanism_is_followed_to_where_its_links_do_not_reach() -> None:
+@pytest.mark.parametrize("last", [3.0, 1e9])
+def test_a_mechanism_is_followed_to_where_its_links_do_not_reach(last: float) -> None:
     crank, coupler, follower, ground = 0.3, 0.25, 0.3, 0.4
     scene = resolved_scene(four_bar(crank, coupler, follower, ground))
-    found = follow(scene, [0.0, 0.1, 3.0])
+    found = follow(scene, [0.0, 0.1, last])
     # coupler and follower are in one line: the law of cosines
     cosine = (crank**2 + ground**2 - (coupler + follower) ** 2) / (2 * crank * ground)
     assert found.lost is not None
