@@ -214,3 +214,10 @@ def test_a_toggle_is_dragged_closed_at_every_step() -> None:
         assert (x, theta) == (pytest.approx(0.0, abs=1e-9), pytest.approx(0.0, abs=1e-9))
         knee = pose[6:8] + 0.1 * np.array([math.cos(pose[8]), math.sin(pose[8])])
         assert np.linalg.norm(knee - (x, y + 0.05)) == pytest.approx(0.22, abs=1e-9)
+
+
+def test_an_open_mechanism_is_not_torn_further_apart() -> None:
+    scene = resolved_scene(four_bar(0.1, 0.1, 0.1, 0.9))
+    pose = assemble(scene).pose
+    one, other = (drag(scene, pose, "crank.B", place) for place in ((0.87, 0.77), (-0.9, 0.2)))
+    np.testing.assert_array_equal(one, other)
