@@ -24,12 +24,20 @@ def branches_of(scene: AssembledScene) -> Branches:
     return branches(Scene.model_validate(scene.document))
 
 
-def start_of(document: dict[str, Any], found: Branches, k: int) -> dict[str, Any]:
+def start_of(scene: AssembledScene, found: Branches, k: int) -> dict[str, Any]:
     """Return the `start` with which one of the assemblies is taken, to nine digits.
 
-    It has the angles of all bodies, and a point of each that only slides to another place.
+    It has the angles of all bodies, in the turns that are given or taken, and a point of each that
+    only slides to another place.
     """
-    angles, (first, places) = found.angles[k], (found.places[0], found.places[k])
+    document = scene.document
+    turns = {body: pose[2] for body, pose in scene.pose().items()}
+    turns |= document["start"].get("angles", {})
+    angles = {
+        body: turns[body] + math.remainder(angle - turns[body], 2.0 * math.pi)
+        for body, angle in found.angles[k].items()
+    }
+    first, places = found.places[0], found.places[k]
     largest = max((math.hypot(*at) for at in [*first.values(), *places.values()]), default=0.0)
     points = {}
     for body, (x, y) in places.items():
@@ -72,7 +80,7 @@ def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
         "assemblies": found.angles,
         "places": found.places,
         "held": found.held,
-        "starts": [start_of(scene.document, found, k) for k in range(len(found.angles))],
+        "starts": [start_of(scene, found, k) for k in range(len(found.angles))],
         "period": None if admission is None else admission.period,
         "channels": None if admission is None else len(admission.channels),
         "turn": turn_of(Scene.model_validate(scene.document)),

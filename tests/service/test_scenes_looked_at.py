@@ -32,6 +32,20 @@ def test_a_scene_is_checked(http, jointplay_check):
     assert found == jointplay_check("slider-crank", "--set", "clearance=1e-4")
 
 
+def test_starts_to_paste_keep_the_turns_that_are_given(http):
+    scene = four_bar()
+    del scene["drivers"]
+    wound = scene["start"]["angles"]["crank"] + 4.0 * math.pi
+    scene["start"]["angles"]["crank"] = wound
+    starts = check(http, scene).json()["starts"]
+    assert len(starts) > 1
+    for start in starts:
+        assert start["angles"]["crank"] == pytest.approx(wound, abs=1e-7)
+        pasted = check(http, scene | {"start": start}).json()
+        assert pasted["pose"]["crank"][2] == pytest.approx(wound, abs=1e-7)
+        assert all(given["kept"] for given in pasted["given"])
+
+
 def test_a_smooth_table_that_passes_its_values_is_told(http):
     scene = presets.document("seven-bar-press-punching")
     assert check(http, scene).json()["overshoots"] == []

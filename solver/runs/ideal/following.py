@@ -58,8 +58,8 @@ def follow(scene: Scene, times: Sequence[float]) -> Followed:
     if not whole and len(path.times) >= MOST_POSES:
         raise LimitExceeded.at(
             "/times",
-            f"The mechanism is followed through {MOST_POSES} poses, to {reached:.3g} s at most; give"
-            " earlier times.",
+            f"The mechanism is followed through {MOST_POSES} poses, to {reached:.3g} s at most;"
+            " give earlier times.",
         )
     lost = None if whole else _ended(scene, instants) or lost_at(path, scene)
     poses = path.poses(instants[instants <= reached])
