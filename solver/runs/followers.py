@@ -51,15 +51,16 @@ class Followers:
     def __init__(self, scene: Scene, rows: Rows) -> None:
         self.names = followers(scene)
         self.columns = np.array([rows.index(force_of(name)) for name in self.names], np.int64)
-        self.first: dict[str, float] = {}
-        """s, by joint."""
+        self.first: dict[str, list[list[float]]] = {}
+        """As `first_pulls` has it, by joint."""
 
     def look(self, bundle: Bundle, lane: int, times: Floats) -> None:
         """Look at the samples that a lane hands out, at their times, s."""
         if self.names and len(times):
             values = bundle.observe(lane, bundle.rows(SAMPLES, lane), self.columns)
             pushes = dict(zip(self.names, values.T, strict=True))
-            self.first = first_pulls(times, pushes) | self.first
+            for name, push in pushes.items():
+                self.first[name] = first_pulls(times, push, self.first.get(name, []))
 
     def pulled(self, bundle: Bundle, lane: int) -> list[Pulled]:
         """Return those that were pulled, by the extremes of a lane."""
@@ -67,21 +68,26 @@ class Followers:
         return pulled({name: peaks[force_of(name)] for name in self.names}, self.first)
 
 
-def first_pulls(times: Floats, pushes: Mapping[str, Floats]) -> dict[str, float]:
-    """Return when the followers are first pulled, s, of those that are; `pushes` in N."""
-    return {
-        name: float(times[int((push < 0.0).argmax())])
-        for name, push in pushes.items()
-        if (push < 0.0).any()
-    }
+def first_pulls(times: Floats, push: Floats, before: list[list[float]]) -> list[list[float]]:
+    """Return when a follower is first pulled ten times as hard as before, (time, push), s and N.
+
+    Which of these are rounding, its largest push tells in the end. `before` : of earlier times.
+    """
+    found = list(before)
+    while (harder := push < (10.0 * found[-1][1] if found else 0.0)).any():
+        k = int(harder.argmax())
+        found.append([float(times[k]), float(push[k])])
+    return found
 
 
-def pulled(peaks: Mapping[str, Peak], first: Mapping[str, float]) -> list[Pulled]:
-    """Return the followers that are pulled; `peaks` of their forces by joint."""
+def pulled(peaks: Mapping[str, Peak], first: Mapping[str, list[list[float]]]) -> list[Pulled]:
+    """Return the followers that are pulled; `peaks` of their forces by joint, see `first_pulls`."""
     found = []
     for name, peak in peaks.items():
-        if peak.minimum < -ROUNDING * max(peak.maximum, -peak.minimum):
-            since = min(first.get(name, peak.minimum_time), peak.minimum_time)
+        least = -ROUNDING * max(peak.maximum, -peak.minimum)
+        if peak.minimum < least:
+            begun = [time for time, push in first.get(name, []) if push < least]
+            since = min([*begun, peak.minimum_time])
             detail = (
                 f"The ideal follower '{name}' is pulled from {since:.6g} s on, by"
                 f" {-peak.minimum:.3g} N at most, at {peak.minimum_time:.6g} s, where a real one"

@@ -33,4 +33,5 @@ def pulls_of_motion(motion: IdealMotion, duration: float) -> list[Pulled]:
     times = np.linspace(0.0, span, count + 1)
     found = np.concatenate([forces(times[i : i + AT_ONCE]) for i in range(0, len(times), AT_ONCE)])
     peaks = refined_peaks(names, forces, times, found)
-    return pulled(peaks, first_pulls(times, dict(zip(names, found.T, strict=True))))
+    pushes = zip(names, found.T, strict=True)
+    return pulled(peaks, {name: first_pulls(times, push, []) for name, push in pushes})

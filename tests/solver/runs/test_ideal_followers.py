@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from jointplay.records.failure import SimulationFailed
+from jointplay.records.peak import Peak
 from jointplay.solver.kinds import admit
+from jointplay.solver.runs.followers import first_pulls, pulled
 from jointplay.solver.runs.simulate import Simulation
 from tests.solver.cams import CIRCLE, ECCENTRICITY, SPEED, follower, pitch_table, valve
 
@@ -96,3 +98,14 @@ def test_a_cam_that_nothing_drives_tells_it_too() -> None:
     assert pull["first"] == pytest.approx(first, abs=1.1e-4)
     assert pull["largest"] == pytest.approx(MASS * (ECCENTRICITY * 60.0**2 - GRAVITY), rel=1e-5)
     assert pull["detail"] in found["note"]
+
+
+def test_a_pull_that_is_rounding_is_not_the_first() -> None:
+    times, push = np.arange(6.0), np.array([-1e-15, 3.0, -1e-12, 5.0, -1.0, -2.0])
+    first: list[list[float]] = []
+    for k in range(0, len(times), 2):  # in slices
+        first = first_pulls(times[k : k + 2], push[k : k + 2], first)
+    assert first == first_pulls(times, push, [])
+    (found,) = pulled({"cam": Peak(-2.0, 5.0, 5.0, 3.0)}, {"cam": first})
+    assert (found.first, found.largest, found.time) == (4.0, 2.0, 5.0)
+    assert "from 4 s on" in found.detail
