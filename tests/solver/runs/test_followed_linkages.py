@@ -210,6 +210,17 @@ def test_poses_are_few_where_nothing_is_near() -> None:
         assert len(path.times) <= most
 
 
+@pytest.mark.parametrize(("turned", "sound"), [(0.05, True), (0.2, False)])
+def test_a_step_is_taken_only_from_near_its_pose(turned: float, sound: bool) -> None:
+    scene = Scene.model_validate(presets.document("slider-crank"))
+    pose = assemble(scene).pose
+    guess = pose.copy()
+    guess[2] += turned  # of the crank, which its driver holds
+    found, at_once, _ = Path(Constraints(scene), pose, 1.0).closed(guess, 0.0)
+    np.testing.assert_allclose(found, pose if sound else guess, rtol=0, atol=1e-12)
+    assert at_once == sound
+
+
 def test_a_fast_driver_is_not_skipped_by_a_slow_one() -> None:
     # two cranks of one period, one of which turns forty times in it
     slow, fast = Linkage(0.1, 0.0, 1.0), Linkage(0.1, 0.0, 40.0)
