@@ -83,3 +83,12 @@ def test_a_force_that_jumps_at_onset_is_followed_at_reference(
     assert contact["impulse"] == pytest.approx(impulse, rel=1e-7)
     peak = max(force(state) for state in np.transpose(solution.y))
     assert contact["peak_force"] == pytest.approx(peak, rel=1e-4)
+
+
+def test_a_force_that_jumps_far_is_not_approached_by_ever_shorter_steps() -> None:
+    """A damper stops a journal in 1e-9 s; the slopes before its onset ask for steps of 1e-19 s."""
+    mass, clearance, speed = 1e-3, 1e-5, 1.0
+    scene = thrown(mass, clearance, 1e8, speed, {"law": "kelvin-voigt", "damping": 1e6})
+    found = run(scene, 1e-4, accuracy="reference")
+    assert found.contacts("B")[0]["impulse"] == pytest.approx(mass * speed, rel=1e-9)
+    assert found.statistics["smallest_step"] > 1e-13
