@@ -199,6 +199,15 @@ def test_a_turn_that_goes_through_tells_how_near_a_dead_point_is(spare: float) -
     assert found.margin.time == pytest.approx((math.pi - 0.3) / 2.0, abs=1e-6)
 
 
+def test_a_dead_point_that_is_far_from_its_first_guess_is_not_told() -> None:
+    random = np.random.default_rng(8)
+    for k in range(228):
+        linkage = drawn(random, KINDS[k % len(KINDS)])
+    found = turn(Scene.model_validate(linkage.document()))
+    assert found is not None
+    assert (found.lost, found.margin) == (None, None)  # without the bound 1.1 m
+
+
 def test_poses_are_few_where_nothing_is_near() -> None:
     press = Scene.model_validate(presets.document("seven-bar-press"))
     for scene, most, span in (
