@@ -45,7 +45,7 @@ class Kernel:
     rows: Rows
     """Channels of the ``channel`` block."""
     fixed: FixedNumbers
-    """What depends on the scene's numbers alone."""
+    """Numbers that depend on those of the scene alone."""
     equations: Equations
     tableau: Method
 

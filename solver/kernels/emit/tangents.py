@@ -45,7 +45,7 @@ class Tangents:
     places: NDArray[np.void]
     """The kernel's, with those of tangents filled in."""
     fixed: FixedNumbers
-    """What depends on the scene's numbers alone, beyond `Kernel.fixed`."""
+    """Numbers that depend on those of the scene alone, beyond `Kernel.fixed`."""
     addresses: NDArray[np.void]
     """The kernel's functions and those of tangents."""
 
