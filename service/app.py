@@ -154,14 +154,7 @@ def create_app(settings: Settings | None = None, *, patient: bool = False) -> Fa
         redoc_url=None,
     )
     app.state.settings = settings
-    app.add_middleware(Compression)
-    app.add_middleware(SignedLinks)
-    app.add_middleware(Pieces)
-    unlocked = [one for part in _OPEN for one in part.router.routes]
-    app.add_middleware(Turns, unlocked=unlocked, keys=settings.keys == "required")
-    app.add_middleware(ContentPolicy)
-    if settings.log_format == "json":
-        app.add_middleware(RequestLog)
+    _add_middleware(app, settings)
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)
     for resource, key in _BEHIND_THE_DOOR:
@@ -171,3 +164,15 @@ def create_app(settings: Settings | None = None, *, patient: bool = False) -> Fa
         app.include_router(resource.router)
     describe(app)
     return app
+
+
+def _add_middleware(app: FastAPI, settings: Settings) -> None:
+    """Add what looks at all requests, or at all answers; the last one is the outermost."""
+    app.add_middleware(Compression)
+    app.add_middleware(SignedLinks)
+    app.add_middleware(Pieces)
+    unlocked = [one for part in _OPEN for one in part.router.routes]
+    app.add_middleware(Turns, unlocked=unlocked, keys=settings.keys == "required")
+    app.add_middleware(ContentPolicy)
+    if settings.log_format == "json":
+        app.add_middleware(RequestLog)

@@ -61,8 +61,10 @@ class Clients:
         self.tasks.append(asyncio.ensure_future(self.app(scope, receive, send)))  # type: ignore[arg-type]
         return await status
 
-    async def statuses(self, count: int, path: str) -> list[int]:
-        return [await self.ask(path) for _ in range(count)]
+    async def statuses(
+        self, count: int, path: str, headers: Mapping[bytes, bytes] | None = None
+    ) -> list[int]:
+        return [await self.ask(path, headers) for _ in range(count)]
 
 
 @asynccontextmanager
@@ -105,7 +107,7 @@ def test_health_is_told_however_many_workers_are_answered() -> None:
 def test_workers_hold_their_blocks_however_many_others_are_answered() -> None:
     async def asked() -> tuple[list[int], int]:
         async with clients_of(Turns(answers_at_once, [], keys=False)) as clients:
-            held = await clients.statuses(MOST, "/v1/jobs")
+            held = await clients.statuses(MOST, "/v1/jobs", {b"authorization": b"Bearer a"})
             return held, await clients.ask(PROGRESS)
 
     held, progress = asyncio.run(asked())
