@@ -69,7 +69,7 @@ def check_redundant(scene: Scene, assembly: Assembly) -> None:
 def _stay_redundant(scene: Scene, assembly: Assembly) -> bool:
     """Whether redundant constraints of a driven mechanism agree in a turn, and beside its start."""
     turned = turn(scene)
-    if turned is not None and not turned.agrees:  # None: they stand, and the joints close
+    if not scene.drivers or (turned is not None and not turned.agrees):  # None: drivers stand
         return False
     if not assembly.redundant_with_play:
         return not assembly.freedom_with_play
