@@ -43,7 +43,7 @@ SCOPE = {
     "/v1/scenes/poses": "jobs:read",
     "/v1/scenes/drag": "jobs:read",
 }
-OF_JOBS = re.compile(r"/v1/(jobs(/{job_id}(/cancel|/retry|/events)?)?|batches.*)")
+OF_JOBS = re.compile(r"/v1/(jobs(/{job_id}(/cancel|/retry|/contradict|/events)?)?|batches.*)")
 
 
 def scope_of(method: str, path: str) -> str:

@@ -105,7 +105,7 @@ def test_a_job_that_is_sent_again_is_found_before_it_is_checked(tmp_path, monkey
         again = http.post("/v1/jobs", json=study, headers=headers)
         assert (again.status_code, again.json()) == (202, first.json())
         assert not counted
-        assert process._process is None, "no other process was asked"
+        assert not process.running(), "no other process was asked"
         other = http.post("/v1/jobs", json=study | {"record": 2}, headers=headers)
         assert (other.status_code, other.json()["type"]) == (422, "/problems/key-reused")
         headers = {"Idempotency-Key": "another"}

@@ -1,5 +1,6 @@
 """One attempt at a block, of which the service keeps the books: see `worker.holding`."""
 
+import time
 from contextlib import suppress
 from typing import Final
 
@@ -15,6 +16,8 @@ from jointplay.worker.spent import publishing
 _PART_OF_LEASE: Final = 0.25
 """Part of the lease in which a block must be held longer: behind one address may be several APIs of
 which one is gone, and there must be time to reach another one."""
+_LATE: Final = 1.0
+"""Seconds after which an answer is late: the service was out of reach."""
 
 
 class JoinedAttempt:
@@ -155,15 +158,21 @@ class JoinedAttempt:
         self, what: str, document: protocol.Document | None = None, *, within: float | None = None
     ) -> bytes:
         """Tell something; of a block that was lost while the service was out of reach also that."""
+        begun = time.monotonic()
         try:
             content = self._connection.tell(self._claim.block, what, document, within=within)
         except Unavailable:
             self._cut_off = True
             raise
         except Fenced:
-            if self._cut_off:
-                with suppress(CatalogueError):
-                    self._connection.tell(self._claim.block, "cut-off")
+            self._cut_off |= time.monotonic() - begun > _LATE
+            self.tell_if_cut_off()
             raise
         self._cut_off = False
         return content
+
+    def tell_if_cut_off(self) -> None:
+        """Of a block that was lost: tell it if the service was out of reach meanwhile."""
+        if self._cut_off:
+            with suppress(CatalogueError):
+                self._connection.tell(self._claim.block, "cut-off")

@@ -105,7 +105,11 @@ def _compute_here(
                 attempt.heartbeat(claim.block.id, claim.block.attempt, settings.lease)
                 next_beat = time.monotonic() + settings.heartbeat
 
-        scratch.fetch(beat)
+        try:
+            scratch.fetch(beat)
+        except Fenced:  # lost before it began: the claim was answered late
+            attempt.tell_if_cut_off()
+            raise
         sent = SentAttempt(attempt, scratch)
         with scratch.sending_rows(), sent.sending():
             BlockRun(sent, settings, claim, draining).run()

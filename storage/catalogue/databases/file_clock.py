@@ -6,7 +6,7 @@ import threading
 import time
 from contextlib import suppress
 from pathlib import Path
-from typing import IO, Any, Final
+from typing import Any, Final
 
 _PERIOD: Final = 1.0
 """Seconds after which clocks are compared again."""
@@ -15,7 +15,7 @@ _APART: Final = 2.0
 
 
 class FileClock:
-    """A process's clock, set right by the stamps of a file in a folder.
+    """A process's clock, set right by the stamps of files in a folder.
 
     Leases that processes give, keep and take from each other all run by the same clock then,
     whatever their own show. While nothing can be stamped, own time goes on evenly.
@@ -23,7 +23,6 @@ class FileClock:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._file: IO[bytes] | None = None
         self._lock = threading.Lock()
         self._ahead = 0.0  # the file system's clock less this process's, s
         self._shown: float | None = None  # this process's less its steady one when compared, s
@@ -40,13 +39,6 @@ class FileClock:
                 self._compared = steady
             return own + self._ahead
 
-    def close(self) -> None:
-        """Close the file."""
-        with self._lock:
-            if self._file is not None:
-                self._file.close()
-            self._file = None
-
     def _compare(self, own: float, shown: float) -> None:
         before = shown if self._shown is None else self._shown
         self._ahead += before - shown
@@ -56,10 +48,9 @@ class FileClock:
             self._ahead = ahead if abs(ahead) > _APART else 0.0
 
     def _stamp(self) -> float:
-        if self._file is None:
-            self._file = tempfile.TemporaryFile(dir=self._folder)  # noqa: SIM115 - closed above
-        os.utime(self._file.fileno())
-        return os.fstat(self._file.fileno()).st_mtime
+        with tempfile.TemporaryFile(dir=self._folder) as file:
+            os.utime(file.fileno())
+            return os.fstat(file.fileno()).st_mtime
 
 
 def _steady() -> float:

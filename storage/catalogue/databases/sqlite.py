@@ -146,7 +146,6 @@ class SQLite:
 
     def close(self) -> None:
         """Close every connection."""
-        self._clock.close()
         for engine in (self._readers, self._writer, self._durable_writer):
             engine.dispose()
 
