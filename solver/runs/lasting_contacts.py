@@ -21,5 +21,6 @@ def lasting_contacts(bundle: Bundle, lane: int, scene: Scene, since: float) -> s
         return ""
     return (
         f"contact lasted throughout in {', '.join(lasting)}, with the impact rate that the law"
-        " latched at the last onset: the motion is the law's, another rate may give another kind"
+        " latched at the last onset (it stays the same until the next onset, and with another rate"
+        " the motion may be of another kind)"
     )
