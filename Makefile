@@ -3,7 +3,7 @@
 # make test       everything that continuous integration checks
 # make test-long  the tests that take longer
 # make bench      measure speed on this machine
-# make install    only .venv with the dependencies, and the integration loop compiled
+# make install    .venv with all packages (two minutes, 1.8 GB), and the integration loop compiled (most of a minute)
 # make docs       the documentation as a site: build/site/index.html
 # make clean      remove what the others made
 .DEFAULT_GOAL := help
@@ -29,7 +29,7 @@ $(STAMP): pyproject.toml setup.py
 	  fi; \
 	  echo "$$($$chosen --version) makes $(VENV)"; $$chosen -m venv --clear $(VENV); \
 	fi; \
-	echo "installing the dependencies into $(VENV) (a minute or two)"; \
+	echo "installing the packages into $(VENV) (two minutes, 1.8 GB; README says how to install less)"; \
 	$(BIN)/python -m pip install --quiet --no-compile --disable-pip-version-check --editable '.[dev,xarray]'; \
 	$(BIN)/python -W ignore -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true; \
 	touch $(STAMP)
