@@ -172,7 +172,7 @@ class JoinedAttempt:
         return content
 
     def tell_if_cut_off(self) -> None:
-        """Of a block that was lost: tell it if the service was out of reach meanwhile."""
+        """Tell of a block that was lost, if the service was out of reach meanwhile."""
         if self._cut_off:
             with suppress(CatalogueError):
                 self._connection.tell(self._claim.block, "cut-off")
