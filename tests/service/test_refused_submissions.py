@@ -32,6 +32,7 @@ def held_catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[
         closing(sqlite3.connect(tmp_path / "catalogue.sqlite", isolation_level=None)) as other,
         httpx.Client(base_url=url, trust_env=False, timeout=60) as client,
     ):
+        assert client.get("/healthz").is_success  # it has started, and written what it had to
         monkeypatch.setattr(connections, "_PATIENCE", 0.1)  # a start may take longer
         other.execute("BEGIN EXCLUSIVE")
         yield client
