@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 CORNERS = ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0))
-"""Of a slider, along its axis and to the left of it, as its pairs are numbered."""
+"""Corners of a slider, along its axis and to the left of it, in the order of its pairs."""
 
 CIRCLE, WALL, CAM = range(3)
 """Kinds of surfaces: a bearing, a straight wall, a cam under a flat face."""
