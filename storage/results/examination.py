@@ -78,7 +78,7 @@ def opened(source: Ranges, files: int = _MOST_FILES) -> tuple[Packed, Document]:
 
 
 def examine(files: Packed, expected: Expected | None) -> None:
-    """Read all of a store.
+    """Read all of a store; memory is bounded by its largest file.
 
     Parameters
     ----------
@@ -93,8 +93,10 @@ def examine(files: Packed, expected: Expected | None) -> None:
         With the first file that is not as it must be.
     """
     try:
-        *_, (_, manifest) = listed(_entries(files, expected))
-        if files.read(MANIFEST) != manifest:
+        content = b""
+        for _, content in listed(_entries(files, expected)):
+            pass  # one file at a time is in memory; the last one is the manifest
+        if files.read(MANIFEST) != content:
             raise CorruptStore(f"{MANIFEST} of {files.source} is not that of its files")
     except (*ODD, FileNotFoundError) as error:
         raise CorruptStore(f"{files.source} cannot be read: {error}") from error

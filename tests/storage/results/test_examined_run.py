@@ -1,6 +1,7 @@
 """Stores of runs that others sealed: all that the writer makes are taken, and no others."""
 
 import json
+import tracemalloc
 from itertools import product
 from zipfile import ZipFile
 
@@ -143,3 +144,17 @@ def test_numbers_of_the_document_may_differ_in_their_last_bits_alone(tmp_path):
     examined_run(store, layouts[1], same=True)
     with pytest.raises(CorruptStore, match="the attribute p"):
         examined_run(store, layouts[2], same=True)
+
+
+def test_memory_is_bounded_by_the_largest_file(tmp_path):
+    layout = made_up_layout(20_000, 3, channels=40, partition=Partition())
+    store = sealed(MadeUpRun(layout, made_up_impacts(4)), tmp_path / "store")
+    whole = store.size()
+    assert whole > 6e6
+    tracemalloc.start()
+    try:
+        examined_run(store, layout, same=True)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most < whole / 3
