@@ -174,6 +174,14 @@ class Packed:
                 self._compared(key, entry, bytes(found[within]))
             asked = asked[len(near) :]
 
+    def require_in_order(self) -> None:
+        """Raise `CorruptStore` if files do not lie one behind the other, as they are packed."""
+        end = 0
+        for key, entry in self.entries.items():
+            if _begin(key, entry) != end:
+                raise CorruptStore(f"{key} of {self.source} is not behind the file before it")
+            end = entry.offset + entry.size
+
     def _compared(self, key: str, entry: Entry, found: bytes) -> bytes:
         """Return the content of a file that was read with the header before it."""
         header = local_header(key.encode(), entry.crc, entry.size)

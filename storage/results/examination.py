@@ -67,8 +67,7 @@ def opened(source: Ranges, files: int = _MOST_FILES) -> tuple[Packed, Document]:
     """
     try:
         found = Packed(source, most=_ABOUT * (files + _FEW))
-        if sum(entry.size for entry in found.entries.values()) > source.size():
-            raise CorruptStore(f"{source} has files that lie over one another")
+        found.require_in_order()  # none over another, twice, or with other bytes between
         root = json.loads(_document(found, FILE))["attributes"]
         if not isinstance(root, dict):
             raise TypeError("attributes are no object")

@@ -119,6 +119,17 @@ def test_what_the_writer_does_not_make_is_refused(tmp_path, run, attack, manifes
         examined_run(store, run.layout, same=True)
 
 
+def test_no_file_is_there_twice(tmp_path, run):
+    """Programs that read zips take the first or the last one."""
+    store = sealed(run, tmp_path / "store")
+    path = tmp_path / target(tmp_path / "store").key
+    with ZipFile(path) as archive:
+        found = [(name, archive.read(name)) for name in archive.namelist()]
+    path.write_bytes(b"".join(pack([("slider7.q0/c/0", b"a lie"), *found])))
+    with pytest.raises(CorruptStore, match="is not behind the file before it"):
+        examined_run(store, run.layout, same=True)
+
+
 @pytest.mark.parametrize(
     "lost", ["slider7.q0/c/1", "time/zarr.json", "peaks/minimum/c/0", MANIFEST]
 )
