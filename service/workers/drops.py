@@ -9,7 +9,6 @@ from jointplay.service.problems import RequestRefused
 from jointplay.service.workers.handed_in import HandedIn
 from jointplay.service.workers.uploads import UploadsDependency
 from jointplay.service.workers.words import HeldBlock, JobOfBlock, said
-from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.worker.joined.protocol import Drop, DropAt
 
 router = APIRouter(prefix="/v1/worker/blocks/{block}/{attempt}/drops", include_in_schema=False)
@@ -33,8 +32,9 @@ def offer(
     address = None
     if settings.results_redirect:
         try:
-            with HandedIn(catalogue, settings, job, held).sending(uploads, told.name, told.size):
-                dropped = AttemptFiles(settings, held).drop(told.name, told.sha256)
+            dropped = HandedIn(catalogue, settings, job, held).offered(
+                uploads, told.name, told.sha256, told.size, _SIGNED_FOR
+            )
         except ValueError as error:
             raise _refused(error) from error
         if dropped is not None:

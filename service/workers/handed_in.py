@@ -13,6 +13,7 @@ from jointplay.storage.catalogue.records import Block, BlockState, Job
 from jointplay.storage.errors import CorruptStore
 from jointplay.storage.packed.in_file import InFile
 from jointplay.storage.packed.in_parts import InParts
+from jointplay.storage.places import StoredObject
 from jointplay.storage.settings import Settings
 from jointplay.worker.handed_in import names, results
 from jointplay.worker.handed_in.expected import expected_of
@@ -50,6 +51,21 @@ class HandedIn:
                     raise CorruptStore(f"{name} would have more than {largest} bytes")
                 counted.enter_context(uploads.of_attempt(self._held, size, expected.most, stored))
             yield
+
+    def offered(
+        self, uploads: Uploads, name: str, digest: str, size: int, seconds: float
+    ) -> StoredObject | None:
+        """Return the object that may be put for a file within some seconds.
+
+        None where it is to be sent here: see `AttemptFiles.drop`.
+        """
+        with self.sending(uploads, name, size):
+            dropped = self._files.drop(name, digest)
+        if dropped is not None:
+            most = expected_of(self._job).most
+            with self._taking_back():
+                uploads.offer(self._held, digest, size, most, seconds)
+        return dropped
 
     def store(self, name: str, offset: int | None, content: IO[bytes]) -> None:
         """Store a file, or what it has from an offset on; of sealed results once they are right."""

@@ -1,5 +1,6 @@
 """Room for files that workers send, kept for them before they are on their way."""
 
+import time
 from collections import Counter, OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -16,6 +17,8 @@ _COPIES: Final = 2
 """A file arrives beside its place, and is then stored there."""
 _REMEMBERED: Final = 4096
 """Attempts of which it is known how much they sent."""
+_SMALL: Final = 2**20
+"""Bytes that a file has at least which is put elsewhere; of smaller ones not many are offered."""
 _Attempt = tuple[str, int]
 
 
@@ -35,9 +38,13 @@ class Uploads:
 
     def __init__(self) -> None:
         self._turn = Lock()
+        """Held for moments, by the loop of the API, too."""
+        self._counting = Lock()
+        """Held by threads while they look at what is stored."""
         self._kept: set[Kept] = set()
         self._arriving: Counter[_Attempt] = Counter()
         self._sent: OrderedDict[_Attempt, int] = OrderedDict()
+        self._offered: OrderedDict[_Attempt, dict[str, tuple[float, int]]] = OrderedDict()
 
     @contextmanager
     def room(self, settings: Settings, size: int) -> Iterator[Kept]:
@@ -84,16 +91,18 @@ class Uploads:
         """
         attempt = held.id, held.attempt
         with self._turn:
-            sent = self._sent.pop(attempt, 0)
-            if sent + size > most:
-                sent = stored() + self._arriving[attempt]
-            self._sent[attempt] = sent
+            may_be_too_many = self._sent.get(attempt, 0) + size > most
+        if may_be_too_many:
+            with self._counting:
+                self._count(attempt, stored)
+        with self._turn:
+            sent = self._sent[attempt] = self._sent.pop(attempt, 0)
             if sent + size > most:
                 raise CorruptStore(
                     f"the attempt has {sent} bytes here, and with {size} more than the {most} that"
                     " its job may need"
                 )
-            self._sent[attempt] = sent + size
+            self._sent[attempt] += size
             self._arriving[attempt] += size
             if len(self._sent) > _REMEMBERED:
                 self._sent.popitem(last=False)
@@ -103,6 +112,40 @@ class Uploads:
             with self._turn:
                 self._arriving[attempt] -= size
                 self._arriving += Counter()  # forgets those without any
+
+    def _count(self, attempt: _Attempt, stored: Callable[[], int]) -> None:
+        """Note what is stored of an attempt, with what arrives meanwhile."""
+        with self._turn:
+            before, arriving = self._sent.get(attempt, 0), self._arriving[attempt]
+        found = stored()
+        with self._turn:
+            begun = max(self._sent.get(attempt, 0) - before, 0)
+            self._sent[attempt] = found + arriving + begun
+
+    def offer(self, held: Block, digest: str, size: int, most: int, seconds: float) -> None:
+        """Count a file that its attempt may put elsewhere within some seconds.
+
+        Before it puts any it may ask for many. The parameters are as for `of_attempt`.
+
+        Raises
+        ------
+        CorruptStore
+            These would be more bytes than it may have.
+        """
+        now, attempt = time.monotonic(), (held.id, held.attempt)
+        with self._turn:
+            known = self._offered.pop(attempt, {})
+            offers = {one: about for one, about in known.items() if about[0] > now}
+            offers[digest] = now + seconds, max(size, _SMALL)
+            self._offered[attempt] = offers
+            if len(self._offered) > _REMEMBERED:
+                self._offered.popitem(last=False)
+            asked = sum(of_one for _, of_one in offers.values())
+        if asked > most:
+            raise CorruptStore(
+                f"the attempt asks where to put {asked} bytes, more than the {most} that its job"
+                " may need"
+            )
 
 
 UploadsDependency = Annotated[Uploads, of_the_application("uploads")]

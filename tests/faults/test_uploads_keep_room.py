@@ -14,7 +14,7 @@ import pytest
 from jointplay.service.workers import arriving
 from jointplay.storage.settings import Settings
 from jointplay.worker.joined.protocol import DropAt
-from tests.joined_by_hand import REFUSED, SWING, Held, Installation, installation, said
+from tests.joined_by_hand import NOT_HELD, REFUSED, SWING, Held, Installation, installation, said
 
 MEGABYTE = 10**6
 PLACES = ["folder", pytest.param("bucket", marks=pytest.mark.long)]
@@ -115,3 +115,20 @@ def test_an_address_to_put_at_is_good_for_so_many_bytes(tmp_path: Path) -> None:
         assert [*service.settings.running_files(job.id).names()] == ["a1/rows/0"]
         many = told | {"size": 10**9}
         assert said(service.http.post(f"{held.path}/drops", json=many)) == REFUSED
+
+
+@pytest.mark.long
+def test_addresses_are_given_for_no_more_than_a_job_may_need(tmp_path: Path) -> None:
+    """Many may be asked for before anything is put."""
+    with installation("bucket", tmp_path / "data", redirect=True) as service:
+        service.submit(SWING)
+        held = service.claim()
+        told = {"name": "a1/rows/0", "size": 20 * MEGABYTE, "md5": "0" * 32}
+        for digest in [*map("{:064x}".format, range(20))]:
+            answer = service.http.post(f"{held.path}/drops", json=told | {"sha256": digest})
+            again = service.http.post(f"{held.path}/drops", json=told | {"sha256": digest})
+            if answer.is_error:
+                break
+            assert again.is_success
+        assert said(answer) == REFUSED
+        assert said(again) == NOT_HELD
