@@ -1,11 +1,13 @@
 """Workers that joined and lie: nothing that they hand in becomes results that are not there."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
 from jointplay.command_line.application import run as command
-from jointplay.storage.catalogue.records import CONTRADICTED
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import CONTRADICTED, BlockState
 from jointplay.storage.packed import pack
 from jointplay.storage.packed.in_memory import InMemory
 from jointplay.storage.packed.reading import Packed
@@ -120,6 +122,29 @@ def test_results_that_are_right_are_taken_and_no_others_beside_them(service: Ins
     swapped = {chunks[0]: other.read(chunks[1]), chunks[1]: other.read(chunks[0])}
     assert said(held.put("sealed/1", repacked(content, **swapped))) == REFUSED
     assert said(held.finish()) == NOT_HELD
+    service.work()
+    service.require_right(job)
+
+
+def test_what_the_next_attempt_has_stored_by_then_stays(
+    service: Installation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    refuse = Catalogue.refuse
+
+    def refused(catalogue: Catalogue, *asked: Any) -> BlockState:
+        """Have the block claimed again before what was refused is removed."""
+        state = refuse(catalogue, *asked)
+        assert service.claim().put("a2/rows/0", b"x").status_code == 204
+        return state
+
+    job = service.submit(SWING)
+    held = service.claim()
+    assert held.put("a1/rows/0", b"x").status_code == 204
+    with monkeypatch.context() as patched:
+        patched.setattr(Catalogue, "refuse", refused)
+        assert said(held.finish()) == REFUSED
+    assert [*service.settings.running_files(job.id).names()] == ["a2/rows/0"]
+    service.http.post(f"/v1/worker/blocks/{held.block}/2/release")
     service.work()
     service.require_right(job)
 

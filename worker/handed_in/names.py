@@ -14,7 +14,7 @@ from jointplay.storage.studies.part import final_name, name_of
 from jointplay.worker.handed_in.expected import Expected
 
 STUDY_DOCUMENTS: Final = f"{STUDY}/{DOCUMENTS}"
-_PART: Final = re.compile(rf"{STUDY}/{PARTS}/(\d{{5}})(-a[1-9]\d{{0,8}})?")
+_PART: Final = re.compile(rf"{STUDY}/{PARTS}/(\d{{5}})(?:-a([1-9]\d{{0,8}}))?")
 _ROWS: Final = re.compile(rf"{STUDY}/{ROWS}/sections-(\d{{1,9}})-(\d{{1,9}})\.zip")
 
 
@@ -47,7 +47,8 @@ def removes(name: str, job: Job, block: Block, expected: Expected) -> bool:
     """Whether it may remove one: of its block's parts those of attempts before, too."""
     part = _PART.fullmatch(name)
     if part is not None and not is_run(job):
-        return block.count > 0 and int(part[1]) == block.index
+        own = int(part[1]) == block.index and int(part[2] or 0) <= block.attempt
+        return block.count > 0 and own
     return name != STUDY_DOCUMENTS and writes(name, job, block, expected)
 
 

@@ -56,6 +56,7 @@ def taking_back(catalogue: Catalogue, settings: Settings, job: Job, block: Block
 
 
 def _remove(settings: Settings, job: Job, block: Block) -> None:
+    """Remove what is the attempt's own: another one may have begun."""
     files, expected = AttemptFiles(settings, block), expected_of(job)
     try:
         for name in [*files.own_sealed()]:
@@ -63,7 +64,7 @@ def _remove(settings: Settings, job: Job, block: Block) -> None:
             if sealed is not None and names.writes(name, job, block, expected):
                 sealed.place.remove(sealed.key)
         for name in [*files.running.names()]:
-            if names.is_run(job) or names.removes(name, job, block, expected):
+            if names.removes(name, job, block, expected):
                 files.running.remove(name)
     except OSError as error:
         _log.warning("what was refused stays for now: %s", error)
