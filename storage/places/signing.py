@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from hashlib import sha256
 from math import ceil
 from typing import Final
-from urllib.parse import quote, urlencode, urlsplit
+from urllib.parse import quote, urlencode
 
 _ALGORITHM: Final = "AWS4-HMAC-SHA256"
 _SIGNED: Final = "content-length;host"
@@ -49,6 +49,8 @@ def address_to_put(
     str or None
         None without credentials in the environment.
     """
+    from httpx import URL
+
     key, secret = os.environ.get("AWS_ACCESS_KEY_ID"), os.environ.get("AWS_SECRET_ACCESS_KEY")
     if not (key and secret):
         return None
@@ -65,7 +67,8 @@ def address_to_put(
         given["X-Amz-Security-Token"] = token
     query = urlencode(sorted(given.items()), quote_via=quote, safe="~")
     there = f"/{quote(path, safe='/~')}"
-    headers = f"content-length:{size}\nhost:{urlsplit(endpoint).netloc}\n"
+    host = URL(endpoint).netloc.decode()  # as clients send it: small, without the usual port
+    headers = f"content-length:{size}\nhost:{host}\n"
     request = "\n".join(("PUT", there, query, headers, _SIGNED, _UNSIGNED))
     digest = sha256(request.encode()).hexdigest()
     signed = "\n".join((_ALGORITHM, now, scope, digest))

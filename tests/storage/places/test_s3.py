@@ -3,7 +3,7 @@
 import os
 import tracemalloc
 from collections.abc import Callable, Iterable
-from datetime import timedelta
+from datetime import UTC, datetime, timedelta
 from urllib.parse import urlsplit
 
 import httpx
@@ -15,6 +15,7 @@ from jointplay.storage.errors import TooLarge
 from jointplay.storage.places import Place, place_at, s3, sending
 from jointplay.storage.places.fitness import Unfit, require_fit
 from jointplay.storage.places.s3 import Bucket
+from jointplay.storage.places.signing import address_to_put
 from tests.seaweedfs_server import BUCKET, store
 from tests.slow_link import slow_link
 from tests.storage.places.contract import CONTENT, KEY, PlaceContract, pieces
@@ -50,6 +51,29 @@ def raw(place: Place) -> obstore.store.S3Store:
     assert isinstance(place, Bucket)
     path, _, endpoint = place.address.partition("?endpoint=")
     return store(endpoint, path.removeprefix(f"//{BUCKET}/"))
+
+
+def test_at_an_address_to_put_at_no_other_size_and_key_is_taken(
+    new_address: Callable[[], str], endpoint: str
+) -> None:
+    place, key = place_at(new_address()), "2R/a~b c+d.zip"
+    address = place.link_to_put(key, endpoint, 60.0, len(CONTENT))
+    assert address is not None
+    other_key = address.replace("/2R/", "/2S/")
+    for there, content in ((address, CONTENT + b"x"), (address, b""), (other_key, CONTENT)):
+        assert httpx.put(there, content=content, trust_env=False).status_code == 403
+    assert place.version(key) is None
+    assert httpx.put(address, content=CONTENT, trust_env=False).is_success
+    assert place.read(key, 0, len(CONTENT)) == CONTENT
+
+
+def test_a_usual_port_and_capitals_are_not_signed_as_clients_do_not_send_them() -> None:
+    moment = datetime(2026, 11, 26, tzinfo=UTC)
+    signatures = {
+        (address_to_put(endpoint, "b/k", "r", 60.0, 7, moment=moment) or "").rpartition("=")[2]
+        for endpoint in ("https://s3.example", "https://S3.Example:443", "https://s3.example:443")
+    }
+    assert len(signatures) == 1
 
 
 def test_an_object_that_memory_should_not_hold_is_stored_and_adopted(
