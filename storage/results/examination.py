@@ -7,6 +7,7 @@ are, only a repetition of the job shows.
 
 import json
 import struct
+from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
@@ -92,10 +93,8 @@ def examine(files: Packed, expected: Expected | None) -> None:
         With the first file that is not as it must be.
     """
     try:
-        content = b""
-        for _, content in listed(_entries(files, expected)):
-            pass  # one file at a time is in memory; the last one is the manifest
-        if files.read(MANIFEST) != content:
+        ((_, manifest),) = deque(listed(_entries(files, expected)), maxlen=1)
+        if files.read(MANIFEST) != manifest:
             raise CorruptStore(f"{MANIFEST} of {files.source} is not that of its files")
     except (*ODD, FileNotFoundError) as error:
         raise CorruptStore(f"{files.source} cannot be read: {error}") from error
