@@ -12,10 +12,12 @@ from jointplay.service.owners import OWNER
 
 _AT_ONCE = 2
 """Processes: the second one is started where another owner asks while the first one is busy."""
+_START = 60.0
+"""Seconds that a question waits for a process to start; it goes on starting for the next one."""
 
 
 class Busy(Exception):
-    """Many are waiting for an answer already."""
+    """Many are waiting for an answer already, or the process has not started yet."""
 
 
 class TooSlow(Exception):
@@ -33,14 +35,16 @@ class AnsweringProcess:
     ----------
     module
         Its program, as `jointplay.worker.answering` has them: it takes the file descriptor of a
-        connection, answers each object it receives from there with another, and ends with the
-        connection, or when it is idle.
+        connection, sends an object once it has started, answers each that it receives with
+        another, and ends with the connection, or when it is idle.
     patience
-        Seconds for one answer; what takes longer is ended.
+        Seconds for one answer, beside the start of the process; what takes longer is ended.
+    start
+        Seconds for which a question waits for the start; the process is left to go on with it.
     """
 
-    def __init__(self, module: str, patience: float) -> None:
-        self.patience = patience
+    def __init__(self, module: str, patience: float, start: float = _START) -> None:
+        self.patience, self.start = patience, start
         self.queue = FairQueue(_AT_ONCE)
         self._processes = [_Process(module) for _ in range(_AT_ONCE)]
 
@@ -54,7 +58,7 @@ class AnsweringProcess:
         """
         try:
             with self.queue.place(OWNER.get()) as place:
-                return self._processes[place].answer(question, self.patience)
+                return self._processes[place].answer(question, self.patience, self.start)
         except Full:
             raise Busy from None
 
@@ -73,14 +77,16 @@ class _Process:
 
     def __init__(self, module: str) -> None:
         self._module = module
+        self._has_started = False
         self.process: subprocess.Popen[bytes] | None = None
         self._connection: Connection | None = None
 
-    def answer(self, question: object, patience: float) -> Any:
+    def answer(self, question: object, patience: float, start: float) -> Any:
         """Return the answer, or raise as above."""
         for _ in range(2):  # it ends by itself when idle for a while
             connection = self._connected()
             with suppress(EOFError, OSError):
+                self._wait_for_start(connection, start)
                 connection.send(question)
                 if connection.poll(patience):
                     return connection.recv()
@@ -97,10 +103,18 @@ class _Process:
             self.process.wait()
         self.process = self._connection = None
 
+    def _wait_for_start(self, connection: Connection, patience: float) -> None:
+        if not self._has_started:
+            if not connection.poll(patience):
+                raise Busy
+            connection.recv()
+            self._has_started = True
+
     def _connected(self) -> Connection:
         """Return the way to the process, which is started if it does not run."""
         if self.process is None or self.process.poll() is not None or self._connection is None:
             self.close()
+            self._has_started = False
             self._connection, theirs = Pipe()
             with theirs:
                 self.process = subprocess.Popen(  # noqa: S603 - our own program

@@ -14,9 +14,11 @@ from jointplay.storage.settings import Settings
 def answer_questions(answer: Callable[[Any], object], idle: float) -> None:
     """Answer what comes through the connection whose file descriptor is the program's argument.
 
-    Ends with the connection, or after `idle` seconds without a question: memory is given back.
+    It sends None first, to say that it has started. Ends with the connection, or after `idle`
+    seconds without a question: memory is given back.
     """
     begin(Settings().log_format, logging.WARNING)
     with Connection(int(sys.argv[1])) as asking, suppress(EOFError, BrokenPipeError):
+        asking.send(None)
         while asking.poll(idle):
             asking.send(answer(asking.recv()))

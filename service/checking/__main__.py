@@ -10,7 +10,7 @@ from typing import Any
 from jointplay.records.strict_json import parse
 from jointplay.service.checking import Check
 from jointplay.service.problems import kinds
-from jointplay.service.problems.handlers import refusal
+from jointplay.service.problems.refusals import refusal
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from jointplay.worker.answering import answer_questions

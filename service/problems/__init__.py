@@ -1,8 +1,8 @@
 """RFC 9457 problem documents: everything that the service answers instead of a result.
 
 Here are their shape and the exception that carries one. `kinds` lists the problems that exist,
-`handlers` turns exceptions of every layer into them, `endpoints` serves the page that each
-problem's ``type`` points to.
+`refusals` says which one an exception of any layer becomes, `handlers` answers with it, and
+`endpoints` serves the page that each problem's ``type`` points to.
 """
 
 from collections.abc import Mapping, Sequence

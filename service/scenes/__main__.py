@@ -7,7 +7,7 @@ from jointplay.figures import NotDrawable, Options, render_mechanism
 from jointplay.records.figure_form import Form
 from jointplay.records.strict_json import parse
 from jointplay.service.problems import RequestRefused, kinds
-from jointplay.service.problems.handlers import refusal
+from jointplay.service.problems.refusals import refusal
 from jointplay.service.scenes.findings import branches_of, findings_of
 from jointplay.solver.kinds.assembled import AssembledScene, assembled_scene
 from jointplay.worker.answering import answer_questions

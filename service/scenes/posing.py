@@ -11,7 +11,7 @@ from pydantic import Field, ValidationError
 from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput
 from jointplay.records.strict_json import parse
-from jointplay.service.problems.handlers import refusal
+from jointplay.service.problems.refusals import refusal
 from jointplay.solver.kinds.assembled import resolved_scene
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.dragging import drag

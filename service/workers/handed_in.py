@@ -25,7 +25,7 @@ _PIECE: Final = 2**20
 class HandedIn:
     """Files of one attempt, of a job whose block a worker holds.
 
-    Methods raise `worker.handed_in.results.NotTheJobs` for what is not the job's, with which the
+    Methods raise `worker.handed_in.errors.NotTheJobs` for what is not the job's, with which the
     block is taken back, `Fenced` for what another attempt or block has, and ValueError or
     FileNotFoundError for names that no file can have.
     """

@@ -17,7 +17,10 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 
 open("started", "a").write("once\\n")
+while Path("slowly").exists():
+    time.sleep(0.01)
 with Connection(int(sys.argv[1])) as asking:
+    asking.send(None)
     while True:
         what, file = asking.recv()
         if what == "end unless there":
@@ -66,6 +69,19 @@ def test_an_answer_that_takes_too_long_ends_the_process(process):
         process.answer(("wait until there", "never"))
     assert not is_alive(pid)
     assert starts() == 1
+
+
+def test_the_start_is_no_part_of_an_answer(tmp_path, process):
+    slowly = tmp_path / "slowly"
+    slowly.touch()
+    slow = AnsweringProcess("answering_program", 600.0, start=0.1)
+    with pytest.raises(Busy):
+        slow.answer(("answer", ""))
+    slowly.unlink()
+    slow.start = 600.0
+    assert is_alive(slow.answer(("answer", "")))
+    assert starts() == 1  # it went on starting
+    slow.close()
 
 
 def test_one_too_many_is_not_kept_waiting(process):

@@ -22,15 +22,12 @@ from jointplay.storage.studies.examined_part import require_part
 from jointplay.storage.studies.examined_study import examined_study, require_documents
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.worker.handed_in import names
+from jointplay.worker.handed_in.errors import NotTheJobs
 from jointplay.worker.handed_in.expected import expected_of
 
 _LONGEST: Final = 500
 """Characters of a reason, which may quote what was handed in."""
 _log = logging.getLogger(__name__)
-
-
-class NotTheJobs(Exception):
-    """Results are not those of the block that they were handed in for, and it is taken back."""
 
 
 @contextmanager
