@@ -15,6 +15,7 @@ from jointplay.solver.mechanics.start.closings import alike, closings
 from jointplay.solver.mechanics.start.drawing import drawn_places
 from jointplay.solver.mechanics.start.given import Taken, distance, taken
 from jointplay.solver.mechanics.start.guess import first_angles, first_clocks, first_pose
+from jointplay.solver.mechanics.start.opening import opened, opened_but_for_one, within_play
 from jointplay.solver.mechanics.start.pose import (
     CLOSED,
     FAR,
@@ -22,8 +23,6 @@ from jointplay.solver.mechanics.start.pose import (
     hold,
     in_given_turns,
     nearest,
-    opened,
-    within_play,
 )
 from jointplay.solver.mechanics.start.rates import start_rates
 from jointplay.solver.mechanics.view import view
@@ -161,7 +160,10 @@ def assemble(scene: Scene) -> Assembly:
         found = _found[geometry] = _assembled(scene)
     if found.opened is not None and within_play(found.places, scene, found.opened.pose):
         return found.opened
-    return found.closed
+    if not found.closed.misfits or not found.places.slack(found.closed.pose):
+        return found.closed
+    pose = opened_but_for_one(found.places, scene, found.closed.pose)
+    return found.closed if pose is None else _assembly(found.places, found.places.loose, pose)
 
 
 def _geometry(scene: Scene) -> str:
@@ -180,7 +182,7 @@ def _assembled(scene: Scene) -> _Found:
     pose = in_given_turns(places, pose)
     if places.keeps(places.given, pose):
         return _Found(places, _assembly(places, places.closed, pose), None)
-    found = opened(places, guess)
+    found = opened(places, guess, places.given)
     return _Found(
         places,
         _assembly(places, places.closed, _nearer(places, pose)),

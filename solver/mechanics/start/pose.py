@@ -1,10 +1,11 @@
 """The pose at the start: given angles and points hold where the joints allow it.
 
 Joints with play start closed, or as `start.joints` and `start.guides` say, unless what is given
-needs their play and is within it. What cannot hold all together holds in the scene's order as far
-as it can, angles first; the rest comes as near as it gets. Of several assemblies that is the
-nearest one, by `given.distance`: the first that closes if it keeps all; else, of equally near ones,
-that in which bodies of which nothing is given are nearest to angle zero, and slides to the middle.
+needs their play and is within it (`opening`). What cannot hold all together holds in the scene's
+order as far as it can, angles first; the rest comes as near as it gets. Of several assemblies that
+is the nearest one, by `given.distance`: the first that closes if it keeps all; else, of equally
+near ones, that in which bodies of which nothing is given are nearest to angle zero, and slides to
+the middle.
 """
 
 import math
@@ -22,8 +23,7 @@ from jointplay.solver.mechanics.start.levels import MOST_ITERATIONS, approach
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Clearance, Fixed, Prismatic, SliderClearance
-from jointplay.solver.scene.pairs import pairs_of
+from jointplay.solver.scene.joints import Fixed, Prismatic
 from jointplay.solver.scene.references import ends
 
 CLOSED = 1e-11
@@ -157,54 +157,6 @@ def hold(places: Places, pose: Floats) -> Floats:
     return pose
 
 
-def opened(places: Places, guess: Floats) -> Floats | None:
-    """Return the pose that keeps all that is given with joints with play let go, if there is one.
-
-    They are as close as they come then with bodies of which nothing is given at the angles of the
-    guess; whether that is within their play is not asked.
-    """
-    named = _named(places.scene)
-    free = [3 * i + 2 for i, body in enumerate(places.closed.bodies) if body not in named]
-    turning = places.length * np.eye(len(guess))[free]
-
-    def levels(pose: Floats) -> list[Rows]:
-        return [
-            places.constraints(places.loose, pose),
-            places.wanted(places.given, pose),
-            Rows(turning @ (pose - guess), turning),
-            Rows(*arrays(places.slack(pose), len(pose))),
-        ]
-
-    found = approach(guess, levels, places.scale, 4)
-    if places.is_closed(places.loose, found) and places.keeps(places.given, found):
-        return found
-    return None
-
-
-def within_play(places: Places, scene: Scene, pose: Floats) -> bool:
-    """Whether the joints with play that are let go are within it, of a scene with this geometry."""
-    found: dict[str, dict[str, float]] = {}
-    for row in places.slack(pose):
-        found.setdefault(row.joint, {})[row.part] = float(row.value)
-    return all(_is_within(scene, name, parts, places.length) for name, parts in found.items())
-
-
-def _is_within(scene: Scene, name: str, parts: dict[str, float], length: float) -> bool:
-    rounding = KEPT * length
-    for pair in pairs_of(name, scene.joints[name]):
-        clearance, play = pair.clearance, pair.play + rounding
-        if isinstance(clearance, Clearance):
-            fits = math.hypot(parts["x"], parts["y"]) <= play
-        elif isinstance(clearance, SliderClearance):
-            turned = 0.5 * clearance.length * abs(math.sin(parts["angle"]))
-            fits = abs(parts["normal"]) + turned <= play
-        else:  # away from a cam there is room
-            fits = (-parts["normal"] if pair.cam else abs(parts["normal"])) <= play
-        if not fits:
-            return False
-    return True
-
-
 def _turning_with(places: Places, body: str) -> list[str]:
     """Return a body and those that joints keep at an angle to it."""
     reached = [body]
@@ -246,14 +198,14 @@ def _with(
     return None
 
 
-def _named(scene: Scene) -> set[str]:
+def named_bodies(scene: Scene) -> set[str]:
     """Return the bodies of which an angle or a point is given."""
     return {*scene.start.angles, *(name.split(".")[0] for name in scene.start.points)}
 
 
 def _from_zero(places: Places, pose: Floats) -> float:
     """Return how far bodies of which nothing is given are from zero, rad and shortest links."""
-    named = _named(places.scene)
+    named = named_bodies(places.scene)
     turned = [
         math.remainder(float(pose[3 * i + 2]), 2.0 * math.pi)
         for i, body in enumerate(places.closed.bodies)

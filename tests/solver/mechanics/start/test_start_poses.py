@@ -107,11 +107,31 @@ def test_a_given_angle_beyond_the_play_of_a_stop_does_not(stop: str) -> None:
     assert (one.given, one.taken) == ((0.3,), (pytest.approx(0.0, abs=1e-9),))
 
 
+@pytest.mark.parametrize("stop", ["slot", "pin"])
+def test_one_value_that_cannot_hold_closes_no_play_that_another_needs(stop: str) -> None:
+    away = {"angles": {"lever": 0.15}, "points": {"lever.b": [3.0, 0.0]}}
+    found, pose, _ = put_together(lever(stop, away))
+    assert pose["lever"][2] == pytest.approx(0.15, abs=1e-12)
+    assert [one.pointer for one in found.misfits] == ["/start/points/lever.b"]
+    place = [math.cos(0.15), math.sin(0.15)]
+    found, pose, _ = put_together(
+        lever(stop, {"angles": {"lever": 0.3}, "points": {"lever.b": place}})
+    )
+    assert pose["lever"][2] == pytest.approx(0.15, abs=1e-9)
+    assert [one.pointer for one in found.misfits] == ["/start/angles/lever"]
+
+
 @pytest.mark.parametrize(
-    ("offset", "tilt", "fits"), [(0.0, 0.015, True), (0.0, 0.03, False), (5e-4, 0.015, False)]
+    ("offset", "tilt", "taken"),
+    [
+        (0.0, 0.015, (0.0, 0.015)),
+        (0.0, 0.03, (0.0, 0.0)),
+        (2e-4, 0.015, (2e-4, 0.015)),
+        (5e-4, 0.015, (0.0, 0.015)),  # the angle holds, and comes first
+    ],
 )
 def test_a_slider_is_within_its_play_with_its_corners(
-    offset: float, tilt: float, fits: bool
+    offset: float, tilt: float, taken: tuple[float, float]
 ) -> None:
     """Corners 50 mm before and behind its point are aside by 50 mm times the tilt."""
     guide = {"type": "prismatic", "guide": "ground.O", "slider": "block.c", "axis": [1, 0]}
@@ -124,8 +144,7 @@ def test_a_slider_is_within_its_play_with_its_corners(
         "start": {"angles": {"block": tilt}, "points": {"block.c": [0.0, offset]}},
     }
     _, pose, _ = put_together(document)
-    wanted = [0.0, offset, tilt] if fits else [0.0, 0.0, 0.0]
-    np.testing.assert_allclose(pose["block"], wanted, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(pose["block"], [0.0, *taken], rtol=0, atol=1e-12)
 
 
 @settings(max_examples=30, deadline=None)

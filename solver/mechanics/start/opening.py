@@ -1,0 +1,82 @@
+"""Joints with play that start open, where what is given needs their play and is within it."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.mechanics.closing import arrays
+from jointplay.solver.mechanics.start.given import Given, Rows
+from jointplay.solver.mechanics.start.levels import approach
+from jointplay.solver.mechanics.start.pose import KEPT, Places, named_bodies
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Clearance, SliderClearance
+from jointplay.solver.scene.pairs import pairs_of
+
+
+def opened(places: Places, guess: Floats, kept: Sequence[Given]) -> Floats | None:
+    """Return the pose that keeps some of what is given with joints with play let go, if any does.
+
+    They are as close as they come then with bodies of which nothing is given at the angles of the
+    guess, and the rest of what is given is as near as that leaves. Whether that is within their
+    play is not asked.
+    """
+    named = named_bodies(places.scene)
+    free = [3 * i + 2 for i, body in enumerate(places.closed.bodies) if body not in named]
+    turning = places.length * np.eye(len(guess))[free]
+    rest = [one for one in places.given if one not in kept]
+
+    def levels(pose: Floats) -> list[Rows]:
+        return [
+            places.constraints(places.loose, pose),
+            places.wanted(kept, pose),
+            Rows(turning @ (pose - guess), turning),
+            Rows(*arrays(places.slack(pose), len(pose))),
+            places.wanted(rest, pose),
+        ]
+
+    found = approach(guess, levels, places.scale, 5)
+    if places.is_closed(places.loose, found) and places.keeps(kept, found):
+        return found
+    return None
+
+
+def opened_but_for_one(places: Places, scene: Scene, closed: Floats) -> Floats | None:
+    """Return the pose within the play of a scene that keeps all that is given but for one value.
+
+    The last one whose absence lets the others hold is left out. None where there is none, or the
+    closed pose keeps as much: values that are read roughly from a drawing open no play.
+    """
+    for left_out in reversed(places.given):
+        kept = [one for one in places.given if one is not left_out]
+        if places.keeps(kept, closed):
+            return None
+        found = opened(places, closed, kept)
+        if found is not None and within_play(places, scene, found):
+            return found
+    return None
+
+
+def within_play(places: Places, scene: Scene, pose: Floats) -> bool:
+    """Whether the joints with play that are let go are within it, of a scene with this geometry."""
+    found: dict[str, dict[str, float]] = {}
+    for row in places.slack(pose):
+        found.setdefault(row.joint, {})[row.part] = float(row.value)
+    return all(_is_within(scene, name, parts, places.length) for name, parts in found.items())
+
+
+def _is_within(scene: Scene, name: str, parts: dict[str, float], length: float) -> bool:
+    rounding = KEPT * length
+    for pair in pairs_of(name, scene.joints[name]):
+        clearance, play = pair.clearance, pair.play + rounding
+        if isinstance(clearance, Clearance):
+            fits = math.hypot(parts["x"], parts["y"]) <= play
+        elif isinstance(clearance, SliderClearance):
+            turned = 0.5 * clearance.length * abs(math.sin(parts["angle"]))
+            fits = abs(parts["normal"]) + turned <= play
+        else:  # away from a cam there is room
+            fits = (-parts["normal"] if pair.cam else abs(parts["normal"])) <= play
+        if not fits:
+            return False
+    return True
