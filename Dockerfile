@@ -12,14 +12,14 @@ ENV NUMBA_CPU_NAME=${PROCESSOR} \
     PYTHONUNBUFFERED=1
 
 WORKDIR /opt/jointplay
-COPY pyproject.toml setup.py README.md LICENSE ./
+COPY pyproject.toml README.md LICENSE ./
+COPY src src
 COPY solver solver
 COPY scenes scenes
 COPY storage storage
 COPY worker worker
 COPY service service
 COPY chaos chaos
-COPY jointplay jointplay
 COPY records records
 COPY figures figures
 COPY paper paper

@@ -18,7 +18,7 @@ help:
 # The newest Python of 3.11 and up that really runs (a pyenv shim may not) and can make a
 # virtual environment (Debian's python3 without python3-venv cannot). Bytecode is made on all
 # processors, and without what dependencies test themselves with: pip takes one for it, and longer.
-$(STAMP): pyproject.toml setup.py
+$(STAMP): pyproject.toml
 	@set -e; if ! $(BIN)/python -m pip --version >/dev/null 2>&1; then \
 	  for candidate in python3.15 python3.14 python3.13 python3.12 python3.11 python3; do \
 	    if $$candidate -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1; \
@@ -55,7 +55,6 @@ bench: $(STAMP)
 	@$(BIN)/python -m benchmarks
 
 docs: $(STAMP)
-	@$(BIN)/python -m tests.wheel_layout
 	@$(BIN)/python -m mkdocs build --quiet
 	@echo "build/site/index.html"
 

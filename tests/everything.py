@@ -19,8 +19,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import Event
 
-from tests.wheel_layout import ROOT, lay_out
-
+ROOT = Path(__file__).resolve().parent.parent
 GROUPS = (
     ("storage", "deployment", "service"),
     ("faults",),
@@ -47,7 +46,6 @@ class Step:
 
     name: str
     command: list[str]
-    folder: Path = ROOT
     counts: Counter[str] = field(default_factory=Counter)
     seconds: float = 0.0
     processor: float = 0.0
@@ -65,7 +63,7 @@ class Step:
         start = time.monotonic()
         with tempfile.TemporaryFile("w+", errors="replace") as output:
             process = subprocess.Popen(
-                self.command, cwd=self.folder, env=ENVIRONMENT, stdout=output, stderr=output
+                self.command, cwd=ROOT, env=ENVIRONMENT, stdout=output, stderr=output
             )
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
@@ -87,9 +85,7 @@ def steps() -> list[Step]:
     """Return the checks of the code, then the tests: what has no group of its own, the groups."""
     bin_folder = Path(sys.executable).parent
     pytest = [sys.executable, "-m", "pytest", "-m", "not long"]
-    tests, tree = ROOT / "tests", lay_out()
-    configuration, cache = ROOT / "pyproject.toml", ROOT / ".mypy_cache"
-    settings = ["--config-file", str(configuration)]
+    tests = ROOT / "tests"
     without = {"solver": ["--ignore", str(tests / "solver/runs")]}  # half of it
     files = {path.relative_to(tests).parts[0] for path in tests.rglob("test_*.py")}
     others = [str(tests / name) for name in sorted(files.difference(*GROUPS))]
@@ -98,8 +94,8 @@ def steps() -> list[Step]:
         loop,
         Step("format", [str(bin_folder / "ruff"), "format", "--check", "."]),
         Step("lint", [str(bin_folder / "ruff"), "check", "."]),
-        Step("types", [str(bin_folder / "mypy"), *settings, f"--cache-dir={cache}"], tree),
-        Step("imports", [str(bin_folder / "lint-imports"), "--config", str(configuration)], tree),
+        Step("types", [str(bin_folder / "mypy")]),
+        Step("imports", [str(bin_folder / "lint-imports")]),
         Step("tests", [*pytest, *others], after=loop.ended),
         *(
             Step(

@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ["records", "solver", "storage", "figures", "worker", "service", "chaos", "paper"]
-PACKAGES += ["jointplay"]
+PACKAGES += ["src/jointplay"]
 SOURCES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
 EVERYTHING = SOURCES + sorted((ROOT / "tests").rglob("*.py"))
 
@@ -141,7 +141,7 @@ def test_no_files_import_each_other_in_a_circle():
     modules = {}
     for path in SOURCES:
         parts = list(path.relative_to(ROOT).with_suffix("").parts)
-        parts = parts if parts[0] == "jointplay" else ["jointplay", *parts]
+        parts = parts[1:] if parts[0] == "src" else ["jointplay", *parts]
         modules[".".join(parts).removesuffix(".__init__")] = path
     graph = {name: {*imported_by(path, modules)} - {name} for name, path in modules.items()}
     assert len(graph) > 400

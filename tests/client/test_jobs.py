@@ -52,7 +52,7 @@ def test_every_field_of_every_kind_can_be_given_and_is_no_parameter(kind):
 
 
 def test_the_fields_are_those_that_the_solver_describes():
-    """Else run `python -m jointplay.solver.kinds.description > jointplay/job_fields.json`."""
+    """Else run `python -m jointplay.solver.kinds.description > src/jointplay/job_fields.json`."""
     assert description() == job_fields.KINDS
 
 

@@ -99,12 +99,13 @@ def installation(request: pytest.FixtureRequest) -> Installation:
 @pytest.fixture(scope="module")
 def folder(installation: Installation, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     made = tmp_path_factory.mktemp("misleading")
-    for name in ROOMS | {"migrations"}:
+    for name in ROOMS | {"jointplay", "migrations"}:
         (made / name).mkdir()
         (made / name / "__init__.py").write_text(TRAP)
-    ours = {path.stem for room in ROOMS for path in (ROOT / room).rglob("[a-z]*.py")}
+    folders = ROOMS | {"src/jointplay"}
+    ours = {path.stem for room in folders for path in (ROOT / room).rglob("[a-z]*.py")}
     names = STANDARD | set(packages_distributions()) | ours | {"celeryconfig", "sitecustomize"}
-    for name in names - ROOMS:
+    for name in names - ROOMS - {"jointplay"}:
         (made / f"{name}.py").write_text(TRAP)
     yield made
     imported = made / "imported"
@@ -226,7 +227,7 @@ def test_a_folder_called_like_a_room_does_no_harm_to_python_m(
     installation: Installation, tmp_path: Path
 ) -> None:
     """Python itself puts the current folder first: only names below `jointplay` are safe."""
-    for name in ROOMS - {"jointplay"}:
+    for name in ROOMS:
         (tmp_path / name).mkdir()
         (tmp_path / name / "__init__.py").write_text(TRAP)
     ended = installation.call(
@@ -242,11 +243,11 @@ def test_a_wheel_holds_one_package_with_everything_that_is_read(built: Path) -> 
     held = {name for name in names if ".dist-info/" not in name}
     assert {name.partition("/")[0] for name in held} == {"jointplay"}
     tracked = subprocess.run(
-        ["git", "ls-files", "-z", *ROOMS], cwd=ROOT, capture_output=True, text=True
+        ["git", "ls-files", "-z", *ROOMS, "src"], cwd=ROOT, capture_output=True, text=True
     ).stdout.split("\0")
     read = {
-        f"jointplay/{name}".replace("jointplay/jointplay/", "jointplay/")
+        name.removeprefix("src/") if name.startswith("src/") else f"jointplay/{name}"
         for name in tracked
-        if name
+        if name and not (ROOT / name).is_symlink()
     }
     assert held == {name for name in read if not name.endswith((".mako", ".md"))}

@@ -81,7 +81,15 @@ def test_the_report_that_the_operator_names_is_shown_and_carries_nothing_out(tmp
 
 @pytest.mark.parametrize(
     "name",
-    ["none.js", "__init__.py", "../setup.py", "%2e%2e/setup.py", "views/", "/etc/passwd", ""],
+    [
+        "none.js",
+        "__init__.py",
+        "../pyproject.toml",
+        "%2e%2e/pyproject.toml",
+        "views/",
+        "/etc/passwd",
+        "",
+    ],
 )
 def test_what_is_no_file_of_the_page_is_not_found(http, name):
     answer = http.get(f"/page/{name}")

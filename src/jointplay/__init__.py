@@ -5,12 +5,20 @@
 >>> client = jointplay.Client("http://127.0.0.1:8000")  # doctest: +SKIP
 """
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     __version__: str
     from jointplay.client import AsyncClient, Client, Job
     from jointplay.local import load, resume, run
+
+if Path(__file__).with_name("solver").is_file():
+    raise ImportError(
+        "This copy of jointplay has text files in place of the symbolic links in src/jointplay."
+        " Clone it again with `git clone -c core.symlinks=true` (on Windows in Developer Mode), or"
+        " install a wheel."
+    )
 
 __all__ = ["AsyncClient", "Client", "Job", "load", "resume", "run"]
 
