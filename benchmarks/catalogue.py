@@ -1,9 +1,10 @@
-"""Submissions and claims a second that SQLite and PostgreSQL sustain, waiting for the disk.
+"""Submissions, claims and blocks a second that SQLite and PostgreSQL sustain, with their disk.
 
 ``python -m benchmarks catalogue [--seconds S]``. Submissions have a key and look for a job that
 asks for the same, as those of the API do. Claims are of the block whose turn it is, among those of
-four owners, just submitted. APIs and claimants are processes, which begin together once each has
-done it for the first time. Processor time is that of the clients.
+four owners, just submitted; other workers claim blocks, advance once, and are done with them. APIs
+and workers are processes, which begin together once each has done it for the first time. Processor
+time is that of the clients.
 """
 
 import argparse
@@ -20,7 +21,13 @@ from typing import Any
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
-from jointplay.storage.catalogue.records import NewJob, Solver, SubmissionKey
+from jointplay.storage.catalogue.records import (
+    Block,
+    BlockState,
+    NewJob,
+    Solver,
+    SubmissionKey,
+)
 from tests.postgresql_server import running_server
 
 PROCESSES = multiprocessing.get_context("fork")
@@ -54,23 +61,37 @@ def submitting(ready: Ready, url: str, threads: int, seconds: float) -> list[flo
     return took
 
 
-def claim(catalogue: Catalogue) -> None:
-    """Claim a block, again where others were quicker or held the database for too long."""
+def claim(catalogue: Catalogue) -> Block:
+    """Claim a block."""
+    while True:  # others may be quicker
+        claimed = again(catalogue.claim_next, f"worker {os.getpid()}", 30.0, SOLVER)
+        if claimed is not None:
+            return claimed.block
+
+
+def compute(catalogue: Catalogue) -> None:
+    """Claim a block, advance, and be done with it."""
+    block = claim(catalogue)
+    again(catalogue.record_progress, block.id, block.attempt, 30.0, time=1.0, fraction=0.5)
+    again(catalogue.finish, block.id, block.attempt, BlockState.done, time=2.0, steps=9)
+
+
+def again(ask: Callable[..., Any], *given: Any, **named: Any) -> Any:
+    """Return an answer of the database, asked again where others held it for too long."""
     while True:
         with suppress(Unavailable):
-            if catalogue.claim_next(f"worker {os.getpid()}", 30.0, SOLVER) is not None:
-                return
+            return ask(*given, **named)
 
 
-def claiming(ready: Ready, url: str, count: int) -> list[float]:
-    """Return how long each claim took, s."""
+def working(ready: Ready, url: str, count: int, act: Callable[[Catalogue], object]) -> list[float]:
+    """Return how long each claim, or each block, took, s."""
     took = []
     with closing(Catalogue(url)) as catalogue:
-        claim(catalogue)
+        act(catalogue)
         ready()
         for _ in range(count):
             began = time.perf_counter()
-            claim(catalogue)
+            act(catalogue)
             took.append(time.perf_counter() - began)
     return took
 
@@ -126,13 +147,14 @@ def main() -> None:
             print(f"{name}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
             measure("submissions, 1 API, 32 threads", submitting, (url, 32, seconds))
             measure("submissions, 2 APIs, 16 threads", submitting, *[(url, 16, seconds)] * 2)
-            for claimants in (1, CLAIMANTS):
-                with closing(Catalogue(url)) as catalogue:
-                    for owner in OWNERS:
-                        some = [new(owner) for _ in range(CLAIMANTS * CLAIMS // len(OWNERS))]
-                        catalogue.submit_batch(some, owner=owner)
-                share = CLAIMANTS // claimants * CLAIMS - 1
-                measure(f"claims, {claimants} claimants", claiming, *[(url, share)] * claimants)
+            for what, act in (("claims", claim), ("blocks", compute)):
+                for workers in (1, CLAIMANTS):
+                    with closing(Catalogue(url)) as catalogue:
+                        for owner in OWNERS:
+                            some = [new(owner) for _ in range(CLAIMANTS * CLAIMS // len(OWNERS))]
+                            catalogue.submit_batch(some, owner=owner)
+                    share = CLAIMANTS // workers * CLAIMS - 1
+                    measure(f"{what}, {workers} workers", working, *[(url, share, act)] * workers)
 
 
 if __name__ == "__main__":
