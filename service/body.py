@@ -12,9 +12,9 @@ from typing import Annotated, Final
 
 from fastapi import Depends, Request
 from fastapi.concurrency import run_in_threadpool
-from starlette.types import Scope
 
 from jointplay.service.problems import RequestRefused, kinds, unavailable
+from jointplay.service.together import RETRY, Together
 
 LARGEST_BODY = 8 * 1024 * 1024  # bytes; a job of 100 000 points, each with three parameters
 LARGEST_BATCH = 32 * 1024 * 1024  # 10 000 jobs of 3 kilobytes
@@ -30,31 +30,7 @@ PATIENCE_OF_WORD: Final = 5.0
 """Seconds that one of a worker may take: those that hold its block have few turns."""
 SLOWEST: Final = 100_000.0
 """Bytes a second that a longer one must arrive with: 1 Mbit/s."""
-RETRY: Final = 5
-"""Seconds after which a client that found no room may ask again."""
-_HELD: Final = "jointplay.body"
-"""Where a request's scope has the bytes that its body takes of `MOST_TOGETHER`."""
-
-
-class Together:
-    """Bytes of longer bodies that are here."""
-
-    def __init__(self) -> None:
-        self.held = 0
-
-    def take(self, scope: Scope, size: int) -> None:
-        """Make room for more of a request's body; RequestRefused if there is none."""
-        if self.held + size > MOST_TOGETHER:
-            raise unavailable("Many large bodies are arriving; send this one again.", RETRY)
-        self.held += size
-        scope[_HELD] = scope.get(_HELD, 0) + size
-
-    def release(self, scope: Scope) -> None:
-        """Give back what the body of an answered request took."""
-        self.held -= scope.pop(_HELD, 0)
-
-
-TOGETHER = Together()
+TOGETHER: Final = Together(MOST_TOGETHER, "Many large bodies are arriving; send this one again.")
 
 
 async def _bounded(request: Request, largest: int, patience: float) -> bytes:

@@ -10,15 +10,15 @@ from starlette.datastructures import Headers
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from jointplay.service.problems import unavailable
+from jointplay.service.problems import RequestRefused
 from jointplay.service.problems.handlers import answer
+from jointplay.service.together import Together
 
 LONGEST: Final = 64 * 1024
 """Bytes of a piece: as many wait for a client that takes nothing, beside the answer itself."""
 MOST_TOGETHER: Final = 64 * 1024 * 1024
-"""Bytes of all longer answers that wait for their clients, if they are several."""
-RETRY: Final = 5
-"""Seconds after which a client whose answer found no room may ask again."""
+"""Bytes of all longer answers, and of what others are made from while they are sent."""
+TOGETHER: Final = Together(MOST_TOGETHER, "Many long answers wait for their clients.")
 
 
 class Pieces:
@@ -26,15 +26,14 @@ class Pieces:
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
-        self._held = 0
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass a request on, and its answer in pieces."""
         start: Message | None = None
-        held, refused = 0, False
+        refused = False
 
         async def cut(message: Message) -> None:
-            nonlocal start, held, refused
+            nonlocal start, refused
             if refused:
                 return
             if message["type"] == "http.response.start" and _is_long(message):
@@ -42,14 +41,12 @@ class Pieces:
                 return
             body = message.get("body", b"")
             if start is not None:
-                if len(body) > LONGEST and self._held and self._held + len(body) > MOST_TOGETHER:
+                try:
+                    TOGETHER.take(scope, len(body) if len(body) > LONGEST else 0)
+                except RequestRefused as problem:
                     refused = True
-                    problem = unavailable("Many long answers wait for their clients.", RETRY)
                     await (await answer(Request(scope), problem))(scope, receive, send)
                     return
-                if len(body) > LONGEST:
-                    held += len(body)
-                    self._held += len(body)
                 await send(start)
                 start = None
             if len(body) <= LONGEST:
@@ -61,7 +58,7 @@ class Pieces:
         try:
             await self._app(scope, receive, cut)
         finally:
-            self._held -= held
+            TOGETHER.release(scope)
 
 
 def _is_long(start: Message) -> bool:

@@ -98,14 +98,15 @@ class Worker:
         *,
         complete: bool = True,
         certificate: CertificateRecord | None = None,
+        impacts: int = 1,
     ) -> None:
-        """Store value = column + time, peaks -1 and 1, and one impact without a release."""
+        """Store value = column + time, peaks -1 and 1, and impacts without a release."""
         admission, writer, target = self._writer(claim)
         channels = admission.channels
         time = np.linspace(0.0, admission.job["duration"], admission.samples)
         section_time = np.arange(float(admission.sections))
         columns = np.arange(float(len(channels)))
-        impacts = np.array([(1, 0.5, np.nan, 0.01, 100.0, 0.2)], IMPACT)
+        rows = np.array(impacts * [(1, 0.5, np.nan, 0.01, 100.0, 0.2)], IMPACT)
         writer.append(
             0,
             time,
@@ -113,7 +114,7 @@ class Worker:
             0,
             section_time,
             columns + section_time[:, None],
-            impacts,
+            rows,
         )
         peaks = {channel.name: Peak(-1.0, 0.25, 1.0, 0.75) for channel in channels}
         energy = dict.fromkeys(LEDGER, 0.0) | {"driver_work": 2.5, "residual": 1e-6}

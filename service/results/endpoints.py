@@ -1,17 +1,17 @@
 """``/v1/jobs/{id}/history`` and its siblings: numbers that a run has computed."""
 
-from collections.abc import Iterator
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any, Final
 
 import numpy as np
 from fastapi import APIRouter, Query, Response
+from numpy.typing import NDArray
 
-from jointplay.records.arrays import Floats
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel import TIME, by_name
 from jointplay.records.resolution import of_samples
 from jointplay.records.run import inside
-from jointplay.records.table_files import Column
+from jointplay.records.table_files import Column as FileColumn
 from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results import schemas
@@ -26,9 +26,8 @@ from jointplay.service.results.queries import (
     check_size,
     chosen_channels,
 )
-from jointplay.service.results.schemas import as_json
 from jointplay.service.results.stores import ResultsOfThePath, RunOfThePath
-from jointplay.service.results.streaming import LEAST, as_stream
+from jointplay.service.results.streaming import LEAST, Column, Parts, as_json
 from jointplay.service.results.windows import ExactRunOfThePath, bins, extremes, resolution, series
 from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
@@ -38,6 +37,8 @@ router = APIRouter(
     tags=["results"],
     responses=problems(*kinds.OF_RESULTS),
 )
+_IMPACTS: Final = 1024
+"""Contacts that are made at a time."""
 
 
 @router.get(
@@ -79,9 +80,15 @@ def show_history(
     if last > first:
         begin, end = (run.history([], at, at + 1)[0][0] for at in (first, last - 1))
         check_size(last - first, len(names) + 1, "samples", float(end - begin))
+    time: Column
+    columns: Mapping[str, Column]
     if form == JSON and (last - first) * (len(names) + 1) > LEAST:
-        return _streamed(run, names, first, last, note)
-    time, columns = run.history(names, first, last)
+        for _ in run.blocks(names, first, last):  # so that no damage is met on the way
+            pass
+        time = _read(run, None, first, last)
+        columns = {name: _read(run, name, first, last) for name in names}
+    else:
+        time, columns = run.history(names, first, last)
     history = schemas.History.model_construct(
         complete=run.complete,
         time=schemas.Series.of(TIME, values=time),
@@ -92,25 +99,11 @@ def show_history(
     return _shown_as(form, file, history)
 
 
-def _streamed(run: ResultReader, names: list[str], first: int, last: int, note: str) -> Response:
-    """Return channels as JSON; all is read once before, so that no damage is met on the way."""
-    for _ in run.blocks(names, first, last):
-        pass
-    history = schemas.History.model_construct(
-        complete=run.complete,
-        time=schemas.Series.of(TIME, values=[]),
-        channels=series(run, dict.fromkeys(names, np.empty(0))),
-        note=note,
-        resolution=resolution(of_samples(run.attributes["job"])),
-    )
-    columns = [_column(run, name, first, last) for name in (None, *names)]
-    return as_stream(history, columns, VARY)
-
-
-def _column(run: ResultReader, name: str | None, first: int, last: int) -> Iterator[Floats]:
-    """Yield the parts of a channel, or of the time."""
-    for time, columns in run.blocks([] if name is None else [name], first, last):
-        yield time if name is None else columns[name]
+def _read(run: ResultReader, name: str | None, first: int, last: int) -> Parts:
+    """Return the samples of a channel, or the time, to be read while they are sent."""
+    blocks = run.blocks([] if name is None else [name], first, last)
+    made = (time if name is None else columns[name] for time, columns in blocks)
+    return Parts(made, last - first)
 
 
 def show_sections(job_id: str, run: ResultReader, selection: Selection, form: str) -> Response:
@@ -184,11 +177,16 @@ def show_impacts(run: RunOfThePath, window: Annotated[Window, Query()]) -> Respo
     names = rows.dtype.names or ()
     if len(rows):
         check_size(len(rows), len(names), "impacts", float(np.ptp(rows["onset"])))
-    found = []
-    for row in rows.tolist():
-        values = dict(zip(names, row, strict=True))
-        values["joint"] = run.joints[values["joint"]]
-        found.append(schemas.Impact.model_construct(**values))
+
+    def shown(some: NDArray[Any]) -> list[schemas.Impact]:
+        found = [dict(zip(names, row, strict=True)) for row in some.tolist()]
+        return [
+            schemas.Impact.model_construct(**one | {"joint": run.joints[one["joint"]]})
+            for one in found
+        ]
+
+    made = (shown(rows[at : at + _IMPACTS]) for at in range(0, len(rows), _IMPACTS))
+    found: Any = Parts(made, rows.size * len(names), rows.nbytes)
     return as_json(schemas.Impacts.model_construct(complete=run.complete, impacts=found))
 
 
@@ -224,7 +222,7 @@ def _shown_as(form: str, name: str, answer: schemas.History | schemas.Overview) 
             shown.append((channel, one.unit, one.minimum, "minimum"))
             shown.append((channel, one.unit, one.maximum, "maximum"))
     columns = [
-        Column(channel, unit, np.array(values, np.float64), part)
+        FileColumn(channel, unit, np.array(values, np.float64), part)
         for channel, unit, values, part in shown
     ]
     return as_file(form, name, columns, complete=answer.complete)

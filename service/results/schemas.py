@@ -1,10 +1,7 @@
 """Results as the API shows them. Where nothing was computed a value is null."""
 
-from collections.abc import Mapping
 from typing import Any, Self, cast
 
-import numpy as np
-from fastapi import Response
 from pydantic import BaseModel, Field
 
 from jointplay.records.channel import Channel
@@ -31,12 +28,8 @@ class Described(BaseModel):
 
     @classmethod
     def of(cls, channel: Channel, **columns: Any) -> Self:
-        """Show columns of a quantity, without validating their numbers."""
-        values = {
-            name: column.tolist() if isinstance(column, np.ndarray) else column
-            for name, column in columns.items()
-        }
-        shown = cls.model_construct(unit=channel.unit, long_name=channel.long_name, **values)
+        """Show columns of a quantity, arrays or what `as_json` takes for them."""
+        shown = cls.model_construct(unit=channel.unit, long_name=channel.long_name, **columns)
         return cast("Self", shown)
 
 
@@ -206,9 +199,3 @@ class Figures(BaseModel):
     """The figures that can be drawn of a job's results."""
 
     figures: list[FigureLink]
-
-
-def as_json(document: BaseModel, headers: Mapping[str, str] | None = None) -> Response:
-    """Serialise once, without validating a million numbers of our own; NaN becomes null."""
-    content = document.__pydantic_serializer__.to_json(document)  # bytes, without a text before
-    return Response(content, media_type="application/json", headers=headers)

@@ -14,7 +14,8 @@ from jointplay.service.fields import in_unit
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results.queries import Selection as SelectionQuery
 from jointplay.service.results.queries import chosen_channels
-from jointplay.service.results.schemas import Described, Partial, Values, as_json
+from jointplay.service.results.schemas import Described, Partial, Values
+from jointplay.service.results.streaming import as_json
 from jointplay.service.results.windows import ExactRunOfThePath
 
 router = APIRouter(

@@ -1,11 +1,11 @@
 """Windows of a run at any resolution: computed from its steps, or else from its samples."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from fastapi import Depends
-from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.records.channel import TIME, by_name
@@ -16,6 +16,7 @@ from jointplay.service.problems import RequestRefused
 from jointplay.service.results import schemas
 from jointplay.service.results.queries import check_points, check_size
 from jointplay.service.results.stores import RunOfThePath
+from jointplay.service.results.streaming import Column
 from jointplay.service.windows import WindowProcess
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.trajectory import Trajectory
@@ -109,9 +110,8 @@ def resolution(found: Resolution | None) -> schemas.Resolution | None:
 
 def bins(times: Floats) -> schemas.Bins:
     """Return the spans (k, 2) of time of groups."""
-    return schemas.Bins.model_construct(
-        unit="s", first=times[:, 0].tolist(), last=times[:, 1].tolist()
-    )
+    spans: dict[str, Any] = {"first": times[:, 0], "last": times[:, 1]}
+    return schemas.Bins.model_construct(unit="s", **spans)
 
 
 def extremes(run: ResultReader, names: list[str], found: Floats) -> dict[str, schemas.Extremes]:
@@ -123,7 +123,7 @@ def extremes(run: ResultReader, names: list[str], found: Floats) -> dict[str, sc
     }
 
 
-def series(run: ResultReader, columns: dict[str, NDArray[np.float64]]) -> dict[str, schemas.Series]:
+def series(run: ResultReader, columns: Mapping[str, Column]) -> dict[str, schemas.Series]:
     """Return columns with their units."""
     described = by_name(run.channels)
     return {

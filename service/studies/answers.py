@@ -141,7 +141,7 @@ def _rows(
     values: dict[str, list[Any]] = {}
     if len(points) == 1:  # of a long record, only the window is read
         time, columns = store.point_sections(points[0], names, window.start, window.stop)
-        values = {name: [column.tolist()] for name, column in {"": time, **columns}.items()}
+        values = {name: [column] for name, column in {"": time, **columns}.items()}
     else:
         for name in ("", *names):
             read = partial(store.sections, name) if name else store.section_times
@@ -152,11 +152,11 @@ def _rows(
 
 def _recorded(
     store: StudyReader, points: range, window: range, read: Callable[[int, int], Floats]
-) -> Iterator[list[float]]:
+) -> Iterator[Floats]:
     """Yield a window of what each point recorded; at most about `_READ` values are held."""
     ends = np.clip(store.counts, window.start, window.stop).tolist()
     rows = max(_READ // store.record, 1)
     for first in range(points.start, points.stop, rows):
         last = min(first + rows, points.stop)
         for point, row in enumerate(read(first, last), first):
-            yield row[window.start : ends[point]].tolist()
+            yield row[window.start : ends[point]].copy()

@@ -8,8 +8,9 @@ from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results.endpoints import show_sections
 from jointplay.service.results.forms import AS_FILES, JSON, VARY, Form
-from jointplay.service.results.schemas import Poincare, as_json
+from jointplay.service.results.schemas import Poincare
 from jointplay.service.results.stores import ResultsOfThePath, StudyOfThePath
+from jointplay.service.results.streaming import as_json
 from jointplay.service.studies import answers, schemas
 from jointplay.service.studies.calibration_schema import Calibration
 from jointplay.service.studies.queries import BifurcationQuery, PoincareQuery, SweepQuery

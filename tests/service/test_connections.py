@@ -11,7 +11,7 @@ import pytest
 import uvicorn
 from starlette.types import Receive, Scope, Send
 
-from jointplay.service.pieces import Pieces
+from jointplay.service.pieces import TOGETHER, Pieces
 from jointplay.service.processes import connections
 from jointplay.service.processes.connections import Connection, Room, protocol
 from tests.waiting import until
@@ -127,7 +127,7 @@ def test_long_answers_that_nobody_takes_share_a_bound(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(connections, "READER_PATIENCE", 3600.0)
-    monkeypatch.setattr("jointplay.service.pieces.MOST_TOGETHER", 2 * LONG)
+    monkeypatch.setattr(TOGETHER, "most", 2 * LONG)
     _, address = server
 
     def status() -> int:
