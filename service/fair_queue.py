@@ -8,9 +8,9 @@ from typing import Final
 
 OF_ONE: Final = 8
 """Threads of one owner in one queue, the one that has its turn included."""
-OF_ONE_EVERYWHERE: Final = 16
 MOST_EVERYWHERE: Final = 32
-"""Threads in all queues: of the 40 that answer requests some are left for what takes no time."""
+"""Threads in all queues: of the 40 that answer requests some are left for what takes no time. No
+owner has more of them than are left: the first half of them, the next one a quarter, and so on."""
 
 
 class Full(Exception):
@@ -50,11 +50,8 @@ class FairQueue:
 
     def _enter(self, owner: str, one: object) -> None:
         own = len(self._waiting.get(owner, ())) + (owner in self._served)
-        if (
-            own >= OF_ONE
-            or self._everywhere[owner] >= OF_ONE_EVERYWHERE
-            or self._everywhere.total() >= MOST_EVERYWHERE
-        ):
+        left = MOST_EVERYWHERE - self._everywhere.total()
+        if own >= OF_ONE or self._everywhere[owner] >= left:
             raise Full
         self._everywhere[owner] += 1
         self._waiting.setdefault(owner, []).append(one)

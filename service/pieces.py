@@ -55,10 +55,7 @@ class Pieces:
             for piece in _pieces(message):
                 await send(piece)
 
-        try:
-            await self._app(scope, receive, cut)
-        finally:
-            TOGETHER.release(scope)
+        await self._app(scope, receive, cut)
 
 
 def _is_long(start: Message) -> bool:

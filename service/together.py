@@ -1,9 +1,11 @@
 """Bytes of many requests that are in memory or on disk at once, bounded together."""
 
+from collections import Counter
 from typing import Final
 
 from starlette.types import Scope
 
+from jointplay.service.owners import OWNER, UNTIL_ANSWERED
 from jointplay.service.problems import unavailable
 
 RETRY: Final = 5
@@ -12,6 +14,8 @@ RETRY: Final = 5
 
 class Together:
     """Room for bytes that requests have until they are answered.
+
+    No owner has more of it than is left: one who takes what he can leaves half to others.
 
     Parameters
     ----------
@@ -22,16 +26,27 @@ class Together:
     """
 
     def __init__(self, most: int, full: str) -> None:
-        self.most, self.held = most, 0
+        self.most = most
         self._full = full
+        self._held: Counter[str] = Counter()
+
+    @property
+    def held(self) -> int:
+        """Bytes that are taken."""
+        return self._held.total()
 
     def take(self, scope: Scope, size: int) -> None:
-        """Make room for more of a request; RequestRefused if there is none."""
-        if size and self.held and self.held + size > self.most:
+        """Make room for more of a request until it is answered; RequestRefused if there is none."""
+        owner = OWNER.get()
+        own = self._held[owner] if owner else 0
+        if size and self.held and own + size > self.most - self.held:
             raise unavailable(self._full, RETRY)
-        self.held += size
+        if self._full not in scope:
+            scope[UNTIL_ANSWERED].callback(self._release, scope, owner)
+        self._held[owner] += size
         scope[self._full] = scope.get(self._full, 0) + size
 
-    def release(self, scope: Scope) -> None:
-        """Give back what an answered request took."""
-        self.held -= scope.pop(self._full, 0)
+    def _release(self, scope: Scope, owner: str) -> None:
+        self._held[owner] -= scope[self._full]
+        if not self._held[owner]:
+            del self._held[owner]

@@ -1,7 +1,6 @@
 """Requests at once, bounded; those that keep the service and its workers going have a reserve.
 
-Callers without a key cannot have all: a key counts only where it is looked at. With an answer, the
-room that a request's body took is given back.
+Callers without a key cannot have all: a key counts only where it is looked at.
 """
 
 import re
@@ -14,7 +13,6 @@ from starlette.requests import Request
 from starlette.routing import BaseRoute, Match
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from jointplay.service.body import TOGETHER
 from jointplay.service.owners import UNTIL_ANSWERED, VITAL
 from jointplay.service.problems import unavailable
 from jointplay.service.problems.handlers import answer
@@ -68,7 +66,6 @@ class Turns:
                 scope[UNTIL_ANSWERED] = held
                 await self._app(scope, receive, send)
         finally:
-            TOGETHER.release(scope)
             self._running[has_key] -= 1
 
     def _shows_key(self, scope: Scope) -> bool:

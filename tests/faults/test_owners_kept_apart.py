@@ -1,6 +1,7 @@
-"""Slow checks, streams and waiting requests of one owner keep no other out."""
+"""Slow checks, streams, waiting requests and large bodies of one owner keep no other out."""
 
 import json
+import select
 import socket
 from collections import Counter
 from collections.abc import Iterator
@@ -75,6 +76,25 @@ def test_slow_batches_of_one_owner_wait_for_their_turn(keyed: Keyed) -> None:
         found = Counter(one.result().status_code for one in sent)
     assert found[202] >= 8
     assert found[202] + found[503] == 12
+
+
+def test_bodies_of_one_owner_that_never_end_leave_room(keyed: Keyed) -> None:
+    told = "Content-Type: application/json\r\nContent-Length: 33000000\r\n\r\n"
+    body = keyed.head("ada", "POST /v1/batches") + told.encode() + b" " * 8_000_000
+    address = (keyed.url.host, keyed.url.port)
+    with keyed.as_("bob") as bob, ExitStack() as stack:
+        held = []
+        for _ in range(20):
+            held.append(stack.enter_context(socket.create_connection(address, timeout=PATIENCE)))
+            held[-1].sendall(body)
+        answers, _, _ = select.select(held, [], [], PATIENCE)
+        assert answered(answers[0]) == 503
+        own = bob.post(
+            "/v1/batches",
+            content=json.dumps({"jobs": [SWING]}).ljust(8_000_000),
+            headers={"Content-Type": "application/json"},
+        )
+        assert own.status_code == 202
 
 
 @pytest.mark.parametrize("asked", ["events", "?wait=60", "claims"])

@@ -11,6 +11,7 @@ import pytest
 import uvicorn
 from starlette.types import Receive, Scope, Send
 
+from jointplay.service.access.turns import Turns
 from jointplay.service.pieces import TOGETHER, Pieces
 from jointplay.service.processes import connections
 from jointplay.service.processes.connections import Connection, Room, protocol
@@ -43,9 +44,8 @@ def application() -> Answering:
 
 @pytest.fixture
 def server(application: Answering) -> Iterator[tuple[uvicorn.Server, tuple[str, int]]]:
-    configuration = uvicorn.Config(
-        Pieces(application), http=protocol(), lifespan="off", log_config=None
-    )
+    turns = Turns(Pieces(application), [], keys=False)
+    configuration = uvicorn.Config(turns, http=protocol(), lifespan="off", log_config=None)
     server = uvicorn.Server(configuration)
     with socket.create_server(("127.0.0.1", 0)) as listening:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]})

@@ -2,10 +2,11 @@
 
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 
 import pytest
 
-from jointplay.service.fair_queue import OF_ONE, OF_ONE_EVERYWHERE, FairQueue, Full
+from jointplay.service.fair_queue import OF_ONE, FairQueue, Full
 from tests.waiting import until
 
 
@@ -52,24 +53,26 @@ def test_one_place_goes_round() -> None:
     assert served == ["ada", "bob", "eve", "ada", "bob", "ada"]
 
 
-def test_an_owner_has_not_all_threads_of_all_queues() -> None:
-    queues, go = [FairQueue(2) for _ in range(5)], threading.Event()
-    held = 0
+def test_owners_leave_threads_of_all_queues_to_others() -> None:
+    queues, go = [FairQueue(2) for _ in range(3)], threading.Event()
 
-    def ask(queue: FairQueue) -> None:
-        with queue.place("ada"):
+    def ask(queue: FairQueue, owner: str) -> None:
+        with suppress(Full), queue.place(owner):
             go.wait()
 
-    for queue in queues:
-        for _ in range(OF_ONE):
-            if held < OF_ONE_EVERYWHERE:
-                threading.Thread(target=ask, args=(queue,), daemon=True).start()
-                held += 1
-                until(lambda held=held: FairQueue._everywhere["ada"] == held)
-    for queue in queues:
-        with pytest.raises(Full), queue.place("ada"):
-            pass
-        with queue.place("bob"):
-            pass
+    def taken(owner: str) -> int:
+        """Return how many threads an owner has who asks as often as he may."""
+        for queue in queues * OF_ONE:
+            before = FairQueue._everywhere[owner]
+            thread = threading.Thread(target=ask, args=(queue, owner), daemon=True)
+            thread.start()
+            until(
+                lambda before=before, thread=thread: (
+                    FairQueue._everywhere[owner] > before or not thread.is_alive()
+                )
+            )
+        return FairQueue._everywhere[owner]
+
+    assert [taken(owner) for owner in ("ada", "bob", "eve", "joe", "max")] == [16, 8, 4, 2, 1]
     go.set()
     until(lambda: not FairQueue._everywhere.total())
