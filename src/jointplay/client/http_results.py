@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,7 @@ from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
 from jointplay.records.run import Dataset
 from jointplay.records.study import StudyDataset
+from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
     from jointplay.figures import Options, Pace
@@ -48,20 +50,11 @@ class HttpResults:
         except NotFound as error:
             raise FileNotFoundError(str(error)) from error
 
-    def window(
-        self,
-        channels: Names,
-        start: Seconds,
-        stop: Seconds,
-        points: int | None,
-        step: Seconds = None,
-    ) -> Window:
-        """Return channels from ``start`` to ``stop``, in s."""
-        if points is None and step is None:
-            return self._window("history", channels, start, stop)
-        window = {"channels": channels, "start": start, "stop": stop}
-        query = window | {"points": points, "step": step}
-        return Window.from_document(self._get("history", **query))
+    def window(self, query: WindowQuery) -> Window:
+        """Return channels in a window of time."""
+        if query.of_samples:
+            return self._window("history", query.channels, query.start, query.stop)
+        return Window.from_document(self._get("history", **asdict(query)))
 
     def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections of a simulation."""
@@ -110,9 +103,9 @@ class HttpResults:
         window = sections or (0, int(self._job.job["record"]))
         return studies.with_sections(self._job, fetch, window)
 
-    def source(self, channels: Names, start: Seconds, stop: Seconds) -> Dataset:
-        """Return a window of a simulation, fetched."""
-        return self.window(channels, start, stop, None).dataset()
+    def source(self, query: WindowQuery) -> Dataset:
+        """Return the samples of a window, fetched."""
+        return self.window(query).dataset()
 
     def figures(self) -> list[str]:
         """Return the names of the figures that can be drawn."""

@@ -11,6 +11,7 @@ from jointplay.client.tables import TabledJob
 from jointplay.client.window import Window
 from jointplay.records.figure_form import Form
 from jointplay.records.study import StudySource
+from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
     from jointplay.exports.table_columns import Table
@@ -44,7 +45,7 @@ class ReadableJob(TabledJob):
         step
             Time between instants, s; values there are computed from the steps of the run.
         """
-        return self.results.window(_listed(channels), start, stop, points, step)
+        return self.results.window(WindowQuery(_listed(channels), start, stop, points, step))
 
     @property
     def statistics(self) -> dict[str, Any]:
@@ -128,7 +129,8 @@ class ReadableJob(TabledJob):
         from jointplay.records.table_files import encode, form_of
 
         form_of(path)  # before anything is fetched
-        columns = columns_of(self, table, _listed(channels), start, stop, points, step)
+        query = WindowQuery(_listed(channels), start, stop, points, step)
+        columns = columns_of(self, table, query)
         file = Path(path)
         file.write_bytes(encode(file, columns, complete=self.state == "succeeded"))
         return file

@@ -13,6 +13,7 @@ from jointplay.records import peak
 from jointplay.records.figure_form import Form
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
+from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
     from jointplay.figures import Options, Pace
@@ -75,15 +76,8 @@ class Results(Protocol):
     def content(self, key: str) -> bytes:
         """Return a file of the store, such as ``zarr.json``; FileNotFoundError if there is none."""
 
-    def window(
-        self,
-        channels: Names,
-        start: Seconds,
-        stop: Seconds,
-        points: int | None,
-        step: Seconds = None,
-    ) -> Window:
-        """Return channels from ``start`` to ``stop``, as samples, extremes or every ``step``."""
+    def window(self, query: WindowQuery) -> Window:
+        """Return channels in a window of time, as samples, extremes or at instants."""
 
     def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections of a simulation."""
@@ -111,8 +105,8 @@ class Results(Protocol):
     ) -> StudySource:
         """Return the points of a study as they are now."""
 
-    def source(self, channels: Names, start: Seconds, stop: Seconds) -> Source:
-        """Return a window of a simulation as exports take it; it may hold more."""
+    def source(self, query: WindowQuery) -> Source:
+        """Return the samples of a window as exports take them; there may be more."""
 
     def figures(self) -> list[str]:
         """Return the names of the figures that can be drawn."""

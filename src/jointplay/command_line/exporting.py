@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import listed
 from jointplay.command_line.typed_window import check_ends
+from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -63,7 +64,7 @@ def text_of(job: "Job", asked: Asked) -> Text:
         window = job.window(channels, asked.start, asked.stop, points=asked.points, step=asked.step)
         asked = asked._replace(channels=None, start=None, stop=None)
         return _channels(window.dataset(), asked)
-    return _channels(job.results.source(channels, asked.start, asked.stop), asked)
+    return _channels(job.results.source(WindowQuery(channels, asked.start, asked.stop)), asked)
 
 
 def _channels(source: "Source", asked: Asked) -> Text:

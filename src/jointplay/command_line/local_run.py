@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.output import json_text, tell
+from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -81,7 +82,7 @@ def _lines(job: "Job", found: dict[str, Any], table: Path) -> Iterator[str]:
     from jointplay.command_line.summary import result_lines
 
     peaks, points = found["peaks"], found["points"]
-    first = () if peaks is None else headline(job.results.source(None, None, None))
+    first = () if peaks is None else headline(job.results.source(WindowQuery()))
     yield from result_lines(job, found, first)
     if peaks is not None:
         yield f"all {len(peaks)} channels are in {table}"

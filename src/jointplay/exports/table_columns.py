@@ -12,6 +12,7 @@ from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
 from jointplay.records.run import inside
 from jointplay.records.table_files import Column
+from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
     from jointplay.client.readable_job import ReadableJob
@@ -31,30 +32,22 @@ class NoSuchTable(ValueError):
     """The job has no such table; the sentence lists those that it has."""
 
 
-def columns_of(
-    job: "ReadableJob",
-    table: Table | None = None,
-    channels: Names = None,
-    start: float | None = None,
-    stop: float | None = None,
-    points: int | None = None,
-    step: float | None = None,
-) -> list[Column]:
+def columns_of(job: "ReadableJob", table: Table | None, query: WindowQuery) -> list[Column]:
     """Return the columns of a table of a job.
 
     Parameters
     ----------
     table
         By default the history of a simulation, of a study the sections or, without any, points.
-    channels, start, stop, points, step
-        As `ReadableJob.export` takes them.
+    query
+        Of a study `start` is the first point, and `stop` the one before which to end.
 
     Raises
     ------
     NoSuchTable
         A job of this kind has no such table.
     """
-    known = TABLES[job.is_study]
+    known, channels, start, stop = TABLES[job.is_study], query.channels, query.start, query.stop
     if table is not None and table not in known:
         what = "a study" if job.is_study else "a simulation"
         raise NoSuchTable(f"{what} has no table {table!r}; it has {', '.join(known)}.")
@@ -66,7 +59,7 @@ def columns_of(
         return list(_of_impacts(job, start, stop))
     if table == "poincare":
         return list(_of_window(job.results.sections(channels), start, stop))
-    return list(_of_window(job.results.window(channels, start, stop, points, step), None, None))
+    return list(_of_window(job.results.window(query), None, None))
 
 
 def _of_window(window: "Window", start: float | None, stop: float | None) -> Iterator[Column]:

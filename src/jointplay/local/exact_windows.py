@@ -8,6 +8,7 @@ import numpy as np
 from jointplay.client.window import ChannelSeries, Window
 from jointplay.records.peak import Peak
 from jointplay.records.run import Floats
+from jointplay.records.window_query import WindowQuery
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.trajectory import Trajectory
 
@@ -29,21 +30,18 @@ def trajectory_of(run: ResultReader) -> Trajectory:
 def exact_window(
     run: ResultReader,
     names: Sequence[str],
-    start: float | None,
-    stop: float | None,
-    points: int | None,
-    step: float | None,
+    query: WindowQuery,
 ) -> Window | str:
-    """Return values every `step` s, or extremes of `points` spans; or why there are none."""
-    trajectory = trajectory_of(run)
-    first, last = _ends(trajectory, start, stop)
+    """Return values at instants, or extremes of spans, of channels; or why there are none."""
+    trajectory, step = trajectory_of(run), query.step
+    first, last = _ends(trajectory, query.start, query.stop)
     if step is not None:
-        if points is not None or not step > 0.0 or not np.isfinite(step):
+        if query.points is not None or not step > 0.0 or not np.isfinite(step):
             return "Give either a positive step in s, or points."
         if first > last:
             return f"The run is known to {trajectory.reached:g} s; {first:g} s is after it."
         return _values(run, trajectory, names, first, last, step)
-    edges = trajectory.edges(first, last, points or 1)
+    edges = trajectory.edges(first, last, query.points or 1)
     found = trajectory.extremes(names, edges)
     if found.values is None:
         return found.refused

@@ -16,6 +16,7 @@ from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.figure_form import Form
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.resolution import of_samples
+from jointplay.records.window_query import WindowQuery
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
@@ -43,27 +44,21 @@ class FolderResults:
         """Return a file of the store, such as ``zarr.json``; FileNotFoundError if there is none."""
         return self._reader.files.read(key)
 
-    def window(
-        self,
-        channels: Names,
-        start: Seconds,
-        stop: Seconds,
-        points: int | None,
-        step: Seconds = None,
-    ) -> Window:
-        """Return channels from ``start`` to ``stop``, in s."""
+    def window(self, query: WindowQuery) -> Window:
+        """Return channels in a window of time."""
         run = self._run("history")
-        names = _chosen(channels, run)
+        names = _chosen(query.channels, run)
+        start, stop, points = query.start, query.stop, query.points
         if start is not None and stop is not None and start > stop:
             raise _refused("stop", f"stop ({stop:g} s) is before start ({start:g} s); swap them.")
         if points is not None and points < 1:
             raise _refused("points", f"points is {points}; it is at least 1.")
         note = ""
-        if step is not None or points is not None:
-            found = exact_window(run, names, start, stop, points, step)
+        if not query.of_samples:
+            found = exact_window(run, names, query)
             if isinstance(found, Window):
                 return found
-            if step is not None:
+            if query.step is not None:
                 raise _refused("step", found)
             note = found
         made_of = of_samples(run.attributes["job"])
@@ -143,7 +138,7 @@ class FolderResults:
             return self._reader
         raise NotFound(f"{self._store} is of a simulation; it has a history and no points.")
 
-    def source(self, channels: Names, start: Seconds, stop: Seconds) -> ResultReader:
+    def source(self, query: WindowQuery) -> ResultReader:
         """Return a simulation: all there is, whatever was asked for."""
         return self._run("history")
 
