@@ -79,6 +79,11 @@ class Study:
         return tuple(self.job.get("statistics", ()))
 
     @property
+    def carries_exponents(self) -> bool:
+        """Whether tangent vectors are carried with the points."""
+        return "lyapunov" in self.indicators
+
+    @property
     def method(self) -> str:
         """Name of the integration method, of `solver.integrators.METHODS`."""
         return method_for(self.job["method"], self.tolerance)

@@ -1,0 +1,65 @@
+"""The verdict on a point: its exponent behind the record in smaller steps, and all indicators."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.records.point import PointEnd
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.nonlinear.lyapunov import undecided
+from jointplay.solver.runs.study.finer import go_on_finer, go_on_longer
+from jointplay.solver.runs.study.grounds import limits
+from jointplay.solver.runs.study.indicators import (
+    MOST_SECTIONS,
+    exponents,
+    growth_by_period,
+    indicators_of,
+)
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.point_run import PointRun
+from jointplay.solver.runs.study.problem import scales_of
+
+
+def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
+    """Let a point whose exponent is wanted go on in smaller steps; return whether it does."""
+    if run.ended is None or run.ended.code or not study.carries_exponents:
+        return False
+    scene, period = study.point_scene(run.point), float(study.period[run.point])
+    run.finer_from = go_on_finer(bundle, lane, scene, study.tolerance, period, study.record)
+    return True
+
+
+def looks_longer(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
+    """Lengthen the stretch in smaller steps while it settles nothing; return whether it does."""
+    scene, period = study.point_scene(run.point), float(study.period[run.point])
+    if not undecided(*exponents(*_growths(study, run), period, run.settled)):
+        return False
+    return go_on_longer(bundle, lane, scene, run.finer_from, period, study.record)
+
+
+def judged(study: Study, bundle: Bundle, run: PointRun) -> PointEnd:
+    """Return a point's end with its indicators, for which now all is there."""
+    assert run.ended is not None  # noqa: S101  (narrows the type)
+    if run.ended.code or not study.indicators:
+        return run.ended
+    states = np.concatenate(run.seen) if run.seen else np.zeros((0, bundle.kernel.states))
+    scales, angles = scales_of(study, bundle.kernel, run.point)
+    period, growths = float(study.period[run.point]), _growths(study, run)
+    found, verdict = indicators_of(
+        study.indicators, states, scales, angles, *growths, period, run.settled
+    )
+    sections, periods = len(states[:MOST_SECTIONS]), len(growths[0])
+    remarks = limits(study.point_scene(run.point), found, sections, periods)
+    reason = "; ".join(filter(None, [verdict.reason, run.lasting, *remarks]))
+    return replace(run.ended, indicators=found, reason=reason)
+
+
+def _growths(study: Study, run: PointRun) -> tuple[Floats, Floats]:
+    """Return logarithms of the tangent's growth by period: in the record, and behind it."""
+    period = float(study.period[run.point])
+    growth, finer = (
+        growth_by_period(np.concatenate([np.zeros((0, 2)), *rows]), period, since)
+        for rows, since in ((run.growth, run.settled), (run.finer, run.finer_from))
+    )
+    return growth, finer

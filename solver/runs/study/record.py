@@ -1,0 +1,106 @@
+"""The record of a point: sections, statistics, extremes, and the end of it."""
+
+from typing import Any
+
+import numpy as np
+
+from jointplay.records.failure import SimulationFailed
+from jointplay.records.point import PointEnd, SectionRows
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
+from jointplay.solver.runs.lane_results import failure_of, statistics_of
+from jointplay.solver.runs.lasting_contacts import lasting_contacts
+from jointplay.solver.runs.study.indicators import MOST_SECTIONS
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.point_extremes import PointExtremes
+from jointplay.solver.runs.study.point_run import (
+    PointRun,
+    statistics_in,
+    take_contacts,
+    take_samples,
+)
+
+
+class Recording:
+    """Takes what the lanes of a bundle hand out of the points of a study."""
+
+    def __init__(self, study: Study, bundle: Bundle) -> None:
+        self._study, self._bundle = study, bundle
+        self.extremes = PointExtremes(study, bundle)
+        rows = bundle.kernel.rows
+        self._observed, self._sampled = (
+            np.array([rows.index(channel.name) for channel in chosen], dtype=np.int64)
+            for chosen in (study.observables, study.channels)
+        )
+        """Rows of the observables, and of the channels, in the kernel's block of channels."""
+
+    def take(self, lane: int, run: PointRun) -> list[SectionRows]:
+        """Take what a lane has handed out; return new sections, if they are to be recorded."""
+        if run.settled >= 0:
+            run.growth.append(self._bundle.growth(lane))
+        sections = self._sections(lane, run)
+        if run.tallies:
+            self._tally(lane, run)
+        self.extremes.take(lane, run)
+        return sections
+
+    def end(self, lane: int, run: PointRun, status: Status) -> PointEnd:
+        """Return how a point ended, still without its indicators."""
+        bundle, study = self._bundle, self._study
+        failure: SimulationFailed | None = None
+        if status != Status.DONE:
+            failure = failure_of(bundle, lane, study.tolerance, study.point_scene(run.point))
+        elif study.indicators:
+            settled = run.settled * float(study.period[run.point])
+            scene = study.point_scene(run.point)
+            run.lasting = lasting_contacts(bundle, lane, scene, settled)
+        return PointEnd(
+            run.point,
+            failure.code if failure else "",
+            failure.detail if failure else "",
+            bundle.lane(lane).time,
+            self.extremes.end(lane, run),
+            self._statistics(lane, run, whole=failure is None),
+            {},
+        )
+
+    def _sections(self, lane: int, run: PointRun) -> list[SectionRows]:
+        bundle = self._bundle
+        rows = bundle.rows(SECTIONS, lane)
+        if not len(rows):
+            return []
+        times = bundle.kernel.row.times(rows, float(self._study.period[run.point]))
+        if run.settled < 0 or (self._study.indicators and run.taken < MOST_SECTIONS):
+            run.seen.append(bundle.kernel.row.states(rows).copy())
+        if run.settled < 0:
+            return []
+        values = bundle.observe(lane, rows, self._observed)
+        first = run.taken
+        run.taken += len(rows)
+        return [SectionRows(run.point, first, times, values)]
+
+    def _tally(self, lane: int, run: PointRun) -> None:
+        """Take a lane's new samples, and the contacts that ended."""
+        bundle, study = self._bundle, self._study
+        rows = bundle.rows(SAMPLES, lane)
+        if len(rows):
+            take_samples(study, run, bundle.observe(lane, rows, self._sampled))
+        contacts = bundle.impacts(lane)
+        if len(contacts):
+            take_contacts(study, run, contacts)
+
+    def _statistics(self, lane: int, run: PointRun, *, whole: bool) -> dict[str, float]:
+        """Return what every point has; those of channels and contacts too if it ran to its end."""
+        found: dict[str, Any] = statistics_of(self._bundle, lane)
+        energy = found.pop("energy")
+        found["smallest_step"] = found["smallest_step"] or float("nan")
+        chosen = ("driver_work", "contact_loss", "friction_loss", "gross_work", "residual")
+        found |= {f"energy_{name}" if name == "residual" else name: energy[name] for name in chosen}
+        found |= {
+            "settled_periods": max(run.settled, 0) if self._study.record else float("nan"),
+            "settling": run.settling.result.code if run.settling and run.settling.result else 0,
+            "from_neighbour": float(run.start is not None),
+        }
+        if run.tallies and whole:
+            found |= statistics_in(self._study, run, self._bundle.kernel.pairs)
+        return {name: float(value) for name, value in found.items()}

@@ -1,0 +1,28 @@
+"""The time until a point settles, in legs of some periods; then the record begins."""
+
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.runs import SECTIONS
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.point_run import PointRun
+from jointplay.solver.runs.study.problem import ENDLESS, WINDOW, most_settling, scales_of
+
+
+def goes_on(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
+    """Give a lane at the end of a leg the next one; return whether there was one."""
+    if run.settled >= 0:
+        return False
+    point = run.point
+    scene = study.point_scene(point)
+    period = float(study.period[point])
+    most = most_settling(study, point)
+    scales, angles = scales_of(study, bundle.kernel, point)
+    if run.reached < most and not run.has_settled(scales, angles, most):
+        run.reached = min(run.reached + WINDOW, most)
+        bundle.extend(lane, scene, run.reached * period, ENDLESS)
+        return True
+    run.settled = run.reached
+    run.seen = []
+    left = float(study.duration[point] - study.settle[point])
+    taken = int(bundle.lane(lane).run["next"][SECTIONS])
+    bundle.extend(lane, scene, run.settled * period + left, taken + study.record)
+    return True
