@@ -1,10 +1,10 @@
 """Connections of clients, bounded: none is held for nothing, and one address cannot have all.
 
 uvicorn counts connections, and refuses all requests while there are too many, whoever has them.
-Here a connection that waits for a request makes room for a new one, those of the address that has
-most first; one that has sent no whole head in `HEAD_PATIENCE` is closed, and one whose client takes
-nothing of its answer in `READER_PATIENCE`. A request waits until the answers before it are taken:
-it has no turn meanwhile.
+Here a connection that waits for a request makes room for a new one: one of the address that has
+most, and of those that were never asked anything, unless more of the others wait. One that has sent
+no whole head in `HEAD_PATIENCE` is closed, and one whose client takes nothing of its answer in
+`READER_PATIENCE`. A request waits until the answers before it are taken: it has no turn meanwhile.
 """
 
 import asyncio
@@ -13,7 +13,10 @@ import resource
 import socket
 import struct
 from collections import Counter, OrderedDict
+from fcntl import ioctl
 from http import HTTPStatus
+from itertools import islice
+from termios import FIONREAD
 from typing import Any, Protocol
 
 import h11
@@ -33,6 +36,8 @@ UNSENT = 64 * 1024
 """Bytes of an answer that the system keeps beyond those on their way: it would keep megabytes, and
 say for as long as a slow client takes a third of them that it takes nothing."""
 RETRY = 5  # s, what a refused client is told
+_LOOKED_AT = 64
+"""Idle connections of which one makes room: of many that come at once none was read yet."""
 
 Timer = asyncio.TimerHandle | None
 
@@ -44,6 +49,14 @@ class Guest(Protocol):
 
     address: str
 
+    @property
+    def asked(self) -> bool:
+        """Whether it has had a request before."""
+
+    @property
+    def unread(self) -> bool:
+        """Whether the client has sent what was not looked at yet."""
+
     def end(self) -> None:
         """Leave, and close the connection: it waits for a request."""
 
@@ -54,7 +67,8 @@ class Room:
     def __init__(self, most: int) -> None:
         self.most, self.of_one = most, max(1, int(SHARE * most))
         self._held: Counter[str] = Counter()
-        self._idle: dict[str, OrderedDict[Guest, None]] = {}
+        self._idle: dict[tuple[str, bool], OrderedDict[Guest, None]] = {}
+        """Those that wait, the longest first, by address and whether they were asked before."""
 
     @property
     def held(self) -> int:
@@ -83,23 +97,32 @@ class Room:
 
     def rest(self, connection: Guest) -> None:
         """Note that a connection waits for a request."""
-        idle = self._idle.setdefault(connection.address, OrderedDict())
-        idle[connection] = None
-        idle.move_to_end(connection)
+        self.work(connection)
+        whose = connection.address, connection.asked
+        self._idle.setdefault(whose, OrderedDict())[connection] = None
 
     def work(self, connection: Guest) -> None:
         """Note that a connection has a request, or is gone."""
-        idle = self._idle.get(connection.address, OrderedDict())
-        idle.pop(connection, None)
-        if not idle:
-            self._idle.pop(connection.address, None)
+        for asked in (False, True):
+            idle = self._idle.get((connection.address, asked), OrderedDict())
+            idle.pop(connection, None)
+            if not idle:
+                self._idle.pop((connection.address, asked), None)
 
-    def _crowd(self) -> str | None:
+    def _crowd(self) -> str:
         """Return the address with most connections, of those that have an idle one."""
-        return max(self._idle, key=lambda address: self._held[address], default=None)
+        return max((one for one, _ in self._idle), key=lambda one: self._held[one], default="")
 
-    def _longest_idle(self, address: str | None) -> Guest | None:
-        return next(iter(self._idle.get(address or "", {})), None)
+    def _longest_idle(self, address: str) -> Guest | None:
+        """Return one of an address that has waited long; those that wait no more go to the end."""
+        none: OrderedDict[Guest, None] = OrderedDict()
+        new, others = (self._idle.get((address, asked), none) for asked in (False, True))
+        idle = new if len(new) >= len(others) else others
+        for guest in [*islice(idle, _LOOKED_AT)]:
+            if not guest.unread:
+                return guest
+            idle.move_to_end(guest)
+        return None
 
 
 class Connection(H11Protocol):
@@ -112,6 +135,16 @@ class Connection(H11Protocol):
         self.address, self._entered = "", False
         self._head: Timer = None
         self._reader: Timer = None
+
+    @property
+    def asked(self) -> bool:
+        """See `Guest`."""
+        return self.cycle is not None
+
+    @property
+    def unread(self) -> bool:
+        """See `Guest`."""
+        return has_unread(self.transport)
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Let the connection in, or tell it why not."""
@@ -227,6 +260,12 @@ def address_of(transport: asyncio.Transport) -> str:
     """Return the address of a client, without its port; empty if it is gone."""
     peer = transport.get_extra_info("peername")
     return str(peer[0]) if isinstance(peer, tuple) else ""
+
+
+def has_unread(transport: asyncio.Transport) -> bool:
+    """Return whether the system keeps bytes of a client that nobody has read."""
+    number = transport.get_extra_info("socket").fileno()
+    return any(ioctl(number, FIONREAD, bytes(4)))
 
 
 def _cancel(timer: Timer) -> Timer:

@@ -11,7 +11,7 @@ from typing import Any
 import uvicorn
 
 from jointplay.service.processes import connections
-from jointplay.service.processes.connections import Connection, address_of
+from jointplay.service.processes.connections import Connection, address_of, has_unread
 
 
 class EncryptedConfig(uvicorn.Config):
@@ -31,6 +31,7 @@ class Handshake(asyncio.Protocol):
     made: type[Connection]
     """Class of what it is afterwards."""
     context: ssl.SSLContext
+    asked = False
 
     def __init__(self, **named: Any) -> None:
         self._connection = self.made(**named)
@@ -51,6 +52,11 @@ class Handshake(asyncio.Protocol):
     def data_received(self, data: bytes) -> None:
         """Keep what came with the end of the handshake."""
         self._sent += data
+
+    @property
+    def unread(self) -> bool:
+        """Whether the client goes on with the handshake."""
+        return has_unread(self._transport)
 
     def end(self) -> None:
         """Make room for others."""

@@ -3,8 +3,9 @@
 import socket
 import threading
 import time
-from collections.abc import Iterator
-from contextlib import ExitStack
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from typing import cast
 
 import pytest
@@ -176,3 +177,73 @@ def test_those_of_the_address_that_has_most_make_room(
         for one in (few, new, *many[1:]):
             one.sendall(asked(1))
             assert one.recv(1000).startswith(b"HTTP/1.1 200")
+
+
+def test_those_that_were_never_asked_make_room_first(
+    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connections, "HEAD_PATIENCE", 3600.0)
+    running, address = server
+    monkeypatch.setattr(running.config.http_protocol_class, "room", Room(8))
+
+    def answers(one: socket.socket) -> bool:
+        one.sendall(asked(1))
+        answer = one.recv(1000)
+        while answer and not answer.endswith(b"\r\n\r\nx"):
+            answer += one.recv(1000)
+        return answer.startswith(b"HTTP/1.1 200")
+
+    with ExitStack() as stack:
+        used = [stack.enter_context(with_little_room(address)) for _ in range(2)]
+        assert all(map(answers, used))
+        for _ in range(20):
+            new = stack.enter_context(with_little_room(address))
+        assert answers(new)
+        assert all(map(answers, used))
+        for _ in range(20):  # they have no more than half of the room for themselves
+            used.append(stack.enter_context(with_little_room(address)))
+            assert answers(used[-1])
+        new = [stack.enter_context(with_little_room(address)) for _ in range(2)]
+        assert all(map(answers, new))
+
+
+@contextmanager
+def at_once(
+    server: tuple[uvicorn.Server, tuple[str, int]], sent: Sequence[bytes]
+) -> Iterator[list[socket.socket]]:
+    """Open connections that have sent something by the time the server hears of the first one.
+
+    One that was there before is given, too; it asks for something then.
+    """
+    running, address = server
+    with with_little_room(address) as first, ExitStack() as stack:
+        until(lambda: len(connections_of(running)) == 1)
+        (held,) = connections_of(running)
+        go = threading.Event()
+        held.loop.call_soon_threadsafe(go.wait)
+        first.sendall(asked(1))
+        new = [stack.enter_context(with_little_room(address)) for _ in sent]
+        for one, content in zip(new, sent, strict=True):
+            one.sendall(content)
+        go.set()
+        yield [first, *new]
+
+
+def test_of_many_that_come_at_once_none_is_closed_unheard(
+    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server[0].config.http_protocol_class, "room", Room(8))
+    with at_once(server, [asked(1)] * 9) as ones:
+        answers = Counter(one.recv(1000)[9:12] for one in ones)
+    assert answers == {b"200": 6, b"503": 4}
+
+
+def test_what_makes_room_is_found_behind_those_that_are_not_read_yet(
+    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server[0].config.http_protocol_class, "room", Room(6))
+    monkeypatch.setattr(connections, "_LOOKED_AT", 1)
+    sent = [asked(1), asked(1), b"", asked(1), asked(1), asked(1)]
+    with at_once(server, sent) as ones:
+        answers = [one.recv(1000)[9:12] for one in ones]
+    assert answers == [b"200", b"200", b"200", b"", b"503", b"503", b"200"]
