@@ -32,6 +32,7 @@ ALL = (
     "latency",
     "memory",
     "hostile",
+    "attack",
     "start",
     "first_hour",
     "compilation",

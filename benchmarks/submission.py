@@ -48,8 +48,9 @@ def _document(**parameters: float) -> bytes:
 class Line:
     """One connection that is kept."""
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, key: str = "") -> None:
         parts = urlsplit(url)
+        self._key = f"Authorization: Bearer {key}\r\n" if key else ""
         self._host, self._port = str(parts.hostname), int(parts.port or 80)
         self._streams: tuple[asyncio.StreamReader, asyncio.StreamWriter] | None = None
 
@@ -58,7 +59,8 @@ class Line:
         if self._streams is None:
             self._streams = await asyncio.open_connection(self._host, self._port)
         reader, writer = self._streams
-        head = f"POST /v1/jobs HTTP/1.1\r\nHost: {self._host}\r\nContent-Type: application/json\r\n"
+        head = f"POST /v1/jobs HTTP/1.1\r\nHost: {self._host}\r\n{self._key}"
+        head += "Content-Type: application/json\r\n"
         writer.write(f"{head}Content-Length: {len(body)}\r\n\r\n".encode() + body)
         answer = await reader.readuntil(b"\r\n\r\n")
         length = next(
@@ -75,14 +77,16 @@ class Line:
             self._streams[1].close()
 
 
-async def at_full_speed(url: str, job: Callable[[int], bytes], first: int) -> tuple[float, int]:
+async def at_full_speed(
+    url: str, job: Callable[[int], bytes], first: int, key: str = ""
+) -> tuple[float, int]:
     """Return jobs a second over all clients, and how many were sent."""
     sent = first
     until = time.perf_counter() + SECONDS
 
     async def client() -> None:
         nonlocal sent
-        line = Line(url)
+        line = Line(url, key)
         while time.perf_counter() < until:
             sent += 1
             assert await line.post(job(sent)) in {200, 202}
