@@ -6,6 +6,7 @@ One is apart, the other in contact; both steps' ends look smooth.
 from typing import Any
 
 from benchmarks.lies.named.lie import Lie, by_extremes
+from benchmarks.lies.scenes.bristles import bristled_journal
 
 
 def _spun(
@@ -15,24 +16,8 @@ def _spun(
     spin: float,
     start: dict[str, Any],
 ) -> dict[str, Any]:
-    return {
-        "kind": "simulate",
-        "scene": {
-            "name": "bristled-journal",
-            "ground": {"points": {"O": [0.0, 0.0]}},
-            "bodies": {"rotor": rotor},
-            "joints": {
-                "J": {
-                    "type": "revolute",
-                    "bearing": "ground.O",
-                    "journal": "rotor.pin",
-                    "clearance": clearance,
-                }
-            },
-            "start": {"angular_velocities": {"rotor": spin}, "joints": {"J": start}},
-        },
-        "duration": duration,
-    }
+    scene = bristled_journal(0.0, rotor, clearance, spin, start)
+    return {"kind": "simulate", "scene": scene, "duration": duration}
 
 
 DAHL = _spun(

@@ -59,5 +59,5 @@ LOOSE: dict[str, Random] = {
     "slider-crank, guide, motor": motors.slider_crank,
 }
 """Scenes with play in guides, slots, cams and bearings, with bristles and motors, at the accuracies
-that a user asks for; truth as of `OTHERS`."""
+that a user asks for. Far finer runs tell the truth of bristles and rollers."""
 EVERY = SCENES | OTHERS | LOOSE

@@ -25,42 +25,50 @@ def _journal(
     radius = clearance * draw.size(5.0, 200.0)
     at, aside = draw.even(0.0, 2.0 * math.pi), clearance * draw.even(0.0, 0.95)
     heading, speed = draw.even(0.0, 2.0 * math.pi), draw.size(5e-3, 0.5)
-    scene = {
-        "name": "bristled-journal",
-        "gravity": [0.0, draw.one_of(-9.81, 0.0)],
-        "ground": {"points": {"O": [0.0, 0.0]}},
-        "bodies": {
-            "rotor": {
-                "mass": mass,
-                "inertia": mass * radius**2 * draw.size(0.5, 20.0),
-                "points": {"pin": [radius * draw.even(0.0, 0.5), 0.0]},
-            }
+    gravity = draw.one_of(-9.81, 0.0)
+    rotor = {
+        "mass": mass,
+        "inertia": mass * radius**2 * draw.size(0.5, 20.0),
+        "points": {"pin": [radius * draw.even(0.0, 0.5), 0.0]},
+    }
+    fit = {
+        "radial_clearance": clearance,
+        "bearing_radius": radius,
+        "contact": {
+            "law": "lankarani-nikravesh",
+            "stiffness": draw.size(1e8, 1e11),
+            "restitution": draw.even(0.2, 1.0),
         },
+        "friction": friction(draw),
+    }
+    start = {
+        "eccentricity": [aside * math.cos(at), aside * math.sin(at)],
+        "rate": [speed * math.cos(heading), speed * math.sin(heading)],
+    }
+    scene = bristled_journal(gravity, rotor, fit, draw.even(-300.0, 300.0), start)
+    return scene, clearance / speed
+
+
+def bristled_journal(
+    gravity: float,
+    rotor: dict[str, Any],
+    clearance: dict[str, Any],
+    spin: float,
+    start: dict[str, Any],
+) -> dict[str, Any]:
+    """Return the scene of a rotor with the point `pin`, its spin in rad/s and its joint's start."""
+    return {
+        "name": "bristled-journal",
+        "gravity": [0.0, gravity],
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {"rotor": rotor},
         "joints": {
             "J": {
                 "type": "revolute",
                 "bearing": "ground.O",
                 "journal": "rotor.pin",
-                "clearance": {
-                    "radial_clearance": clearance,
-                    "bearing_radius": radius,
-                    "contact": {
-                        "law": "lankarani-nikravesh",
-                        "stiffness": draw.size(1e8, 1e11),
-                        "restitution": draw.even(0.2, 1.0),
-                    },
-                    "friction": friction(draw),
-                },
+                "clearance": clearance,
             }
         },
-        "start": {
-            "angular_velocities": {"rotor": draw.even(-300.0, 300.0)},
-            "joints": {
-                "J": {
-                    "eccentricity": [aside * math.cos(at), aside * math.sin(at)],
-                    "rate": [speed * math.cos(heading), speed * math.sin(heading)],
-                }
-            },
-        },
+        "start": {"angular_velocities": {"rotor": spin}, "joints": {"J": start}},
     }
-    return scene, clearance / speed

@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from benchmarks.lies.draw import Draw
+from benchmarks.lies.scenes.drives import motor
 from benchmarks.lies.scenes.surfaces import contact, coulomb, lugre
 
 
@@ -12,13 +13,7 @@ def flat(draw: Draw) -> tuple[dict[str, Any], float]:
     base, speed = draw.size(0.005, 0.05), draw.size(10.0, 200.0)
     lift, mass = base * draw.even(0.05, 0.3), draw.size(0.02, 2.0)
     clearance = _lash(draw, base, coulomb(draw))
-    profile = {
-        "type": "sinusoidal",
-        "amplitude": lift,
-        "frequency": 1.0,
-        "offset": base + lift,
-        "phase": draw.even(0.0, 2.0 * math.pi),
-    }
+    profile = _profile(draw, base, lift, 1.0)
     scene = {
         "name": "flat-follower",
         "gravity": [0.0, -9.81],
@@ -57,13 +52,7 @@ def roller(draw: Draw) -> tuple[dict[str, Any], float]:
     lift, mass = base * draw.even(0.05, 0.3), draw.size(0.02, 2.0)
     arm, inertia = base * draw.even(4.0, 8.0), mass * base**2 * draw.size(1.0, 100.0)
     clearance = _lash(draw, base, lugre(draw))
-    profile = {
-        "type": "sinusoidal",
-        "amplitude": lift,
-        "frequency": draw.one_of(1.0, 2.0),
-        "offset": base + lift,
-        "phase": draw.even(0.0, 2.0 * math.pi),
-    }
+    profile = _profile(draw, base, lift, draw.one_of(1.0, 2.0))
     scene = {
         "name": "roller-on-an-arm",
         "gravity": [0.0, -9.81],
@@ -92,13 +81,7 @@ def roller(draw: Draw) -> tuple[dict[str, Any], float]:
         },
         "forces": {
             "spring": _spring(draw, "ground.top", "arm.roller", mass, speed, base),
-            "motor": {
-                "type": "motor",
-                "first": "ground.O",
-                "second": "cam.O",
-                "stall_torque": inertia * speed**2 * draw.size(0.03, 3.0),
-                "no_load_speed": speed * draw.even(1.0, 2.0),
-            },
+            "motor": motor(draw, "cam.O", inertia, speed),
         },
         "start": {
             "angular_velocities": {"cam": speed},
@@ -106,6 +89,16 @@ def roller(draw: Draw) -> tuple[dict[str, Any], float]:
         },
     }
     return scene, 0.4 / speed
+
+
+def _profile(draw: Draw, base: float, lift: float, waves: float) -> dict[str, Any]:
+    return {
+        "type": "sinusoidal",
+        "amplitude": lift,
+        "frequency": waves,
+        "offset": base + lift,
+        "phase": draw.even(0.0, 2.0 * math.pi),
+    }
 
 
 def _lash(draw: Draw, base: float, friction: dict[str, Any]) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from typing import Any
 
 from benchmarks.lies.draw import Draw
+from benchmarks.lies.scenes.drives import motor, turning
 from benchmarks.lies.scenes.surfaces import contact, coulomb
 
 
@@ -60,18 +61,7 @@ def slider_crank(draw: Draw) -> tuple[dict[str, Any], float]:
                 },
             },
         },
-        "forces": {
-            "motor": {
-                "type": "motor",
-                "first": "ground.O",
-                "second": "crank.O",
-                "stall_torque": inertia * speed**2 * draw.size(0.03, 3.0),
-                "no_load_speed": speed * draw.even(1.0, 2.0),
-            },
-        },
-        "start": {
-            "angles": {"crank": draw.even(-3.0, 3.0)},
-            "angular_velocities": {"crank": speed * draw.even(0.2, 1.0)},
-        },
+        "forces": {"motor": motor(draw, "crank.O", inertia, speed)},
+        "start": turning(draw, "crank", speed, 0.2),
     }
     return scene, 0.3 / speed

@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from benchmarks.lies.draw import Draw
+from benchmarks.lies.scenes.drives import motor, turning
 from benchmarks.lies.scenes.surfaces import contact, coulomb, lugre
 
 
@@ -80,19 +81,8 @@ def yoke(draw: Draw) -> tuple[dict[str, Any], float]:
             },
             "slot": _slot(draw, "yoke.slot", "flywheel.pin", crank, coulomb(draw)),
         },
-        "forces": {
-            "motor": {
-                "type": "motor",
-                "first": "ground.O",
-                "second": "flywheel.O",
-                "stall_torque": inertia * speed**2 * draw.size(0.03, 3.0),
-                "no_load_speed": speed * draw.even(1.0, 2.0),
-            },
-        },
-        "start": {
-            "angles": {"flywheel": draw.even(-3.0, 3.0)},
-            "angular_velocities": {"flywheel": speed * draw.even(0.0, 1.0)},
-        },
+        "forces": {"motor": motor(draw, "flywheel.O", inertia, speed)},
+        "start": turning(draw, "flywheel", speed, 0.0),
     }
     return scene, 0.5 / speed
 
