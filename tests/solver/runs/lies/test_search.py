@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from benchmarks.lies.climbing import Found, climb
+from benchmarks.lies.contacts import contacts_hold
 from benchmarks.lies.draw import DIMENSIONS, anywhere
 from benchmarks.lies.extremes import beyond
 from benchmarks.lies.job import random_job
@@ -66,6 +67,28 @@ def test_a_highest_value_that_is_invented_is_seen() -> None:
     assert beyond(1.0, shape[600:]) > 0.2  # not where it is said to be
 
 
+@pytest.mark.parametrize(
+    ("own", "true", "coarse", "said"),
+    [
+        ([0.1, 0.5], [0.1, 0.5], [0.1, 0.5], True),
+        ([0.1, 0.501], [0.1, 0.5], [0.1, 0.5], True),  # as late as it may be
+        ([0.1, 0.503], [0.1, 0.5], [0.1, 0.5], False),
+        ([0.1], [0.1, 0.5], [0.1, 0.5], False),
+        ([0.1, 0.3, 0.5], [0.1, 0.5], [0.1, 0.5], False),
+        ([], [0.1], [0.1], False),  # a pair that the run never saw in contact
+        ([0.1, 0.7, 0.8], [0.1, 0.9], [0.1], True),  # behind the span nothing is certified
+        ([0.1], [0.1, 0.5], [0.1], None),  # the truth is not known
+    ],
+)
+def test_certified_contacts_are_compared_one_by_one(
+    own: list[float], true: list[float], coarse: list[float], said: bool | None
+) -> None:
+    impacts = {"until": 0.6, "onset_error": 2e-3}
+    runs = [{3: np.array(onsets)} if onsets else {} for onsets in (own, true, coarse)]
+    assert contacts_hold(impacts, runs[0], (runs[1], runs[2]), 1.0) is said
+    assert contacts_hold(None, runs[0], (runs[1], runs[2]), 1.0) is None
+
+
 def searched(measure: str, seed: int, runs: int, kinds: list[str]) -> list[Any]:
     """Return the verdicts of a search, most of which judge."""
     judged = search(MEASURES[measure], seed, runs, kinds)
@@ -90,6 +113,7 @@ def test_error_bars_of_a_search_hold(runs: int, kinds: list[str]) -> None:
     inside = sum(verdict.inside for verdict in verdicts)
     assert inside >= 0.999 * sum(verdict.errors for verdict in verdicts)
     assert sum(verdict.untrue for verdict in verdicts) == 0
+    assert sum(verdict.contacts for verdict in verdicts) > 0
 
 
 @pytest.mark.parametrize(
