@@ -10,8 +10,11 @@ import httpx
 import pytest
 
 from jointplay.records.strict_json import DEEPEST
+from jointplay.service import body, fair_queue, owners, pieces
+from jointplay.service.access import turns
 from jointplay.service.app import create_app
 from jointplay.service.body import LARGEST_BATCH, LARGEST_BODY
+from jointplay.service.processes import connections
 from jointplay.service.results.queries import MOST_VALUES
 from jointplay.solver.kinds import KINDS
 from jointplay.solver.kinds.limits import (
@@ -162,6 +165,34 @@ def test_the_documentation_gives_the_limits_that_hold():
     assert "a million periods, 10⁸ samples, 10 GB" in documentation
     assert (MOST_POINTS, MOST_PERIODS) == (100_000, 1e8)
     assert "100 000 points, 10⁸ periods" in documentation
+
+
+def test_the_documentation_gives_the_bounds_of_what_is_done_at_once():
+    documentation = (Path(__file__).parents[2] / "docs" / "http.md").read_text()
+    _, _, told = documentation.partition("| what | at most at once | beyond it |\n|---|---|---|\n")
+    table, _, others = told.partition("\n\n")
+    of_address = int(connections.SHARE * connections.MOST)
+    assert [row.split(" | ")[1] for row in table.splitlines()] == [
+        f"{connections.MOST}, or half as many as the process may have open files",
+        f"three quarters of these: {of_address}",
+        f"{turns.MOST}; of these {turns.OF_HEALTH} only for health and readiness, "
+        f"{turns.OF_WORKERS} more only for these and for workers with a block",
+        f"{turns.WITHOUT_KEY}; where keys are required {turns.BESIDE_KEYS}",
+        f"{owners.OF_ONE}",
+        f"{owners.WAITING} (where no key is asked for: of all callers together)",
+        f"{body.MOST_TOGETHER // 2**20} MiB together",
+        f"{pieces.MOST_TOGETHER // 2**20} MiB together",
+        f"{fair_queue.OF_ONE} of a kind, {fair_queue.OF_ONE_EVERYWHERE} of all kinds; of all owners"
+        f" {fair_queue.MOST_EVERYWHERE}",
+    ]
+    assert table.count(f"of more than {body.SHORT // 1024} KiB") == 2
+    assert body.SHORT == pieces.LONGEST
+    assert f"head of its request within {connections.HEAD_PATIENCE:g} s" in others
+    assert f"takes nothing of its answer for {connections.READER_PATIENCE:g} s" in others
+    assert f"not agreed on TLS within {connections.HEAD_PATIENCE:g} s" in others
+    assert f"within {body.PATIENCE:g} s, and {1e6 / body.SLOWEST:g} s more for each me" in others
+    assert f"share its {of_address} connections" in others
+    assert f"[{owners.WAITING} waiting requests]" in documentation
 
 
 def test_the_documentation_lists_every_address(openapi):
