@@ -17,27 +17,47 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from tests.waiting import PATIENCE
 
+Served = tuple[uvicorn.Server, tuple[str, int]]
+"""A server that runs, and where it listens."""
+
 
 @contextmanager
-def serving(app: FastAPI, port: int = 0) -> Iterator[str]:
-    """Serve ``app`` with uvicorn in a thread; the socket listens before, so nobody has to wait."""
+def in_thread(
+    configuration: uvicorn.Config, port: int = 0, *, force: bool = False
+) -> Iterator[Served]:
+    """Run uvicorn in a thread; the socket listens before, so nobody has to wait.
+
+    Parameters
+    ----------
+    force
+        At the end connections that are busy are closed, not waited for.
+    """
     # the protocol is named, else asyncio leaves Nagle's algorithm on: 40 ms a request
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     listener.bind(("127.0.0.1", port))
     listener.listen()
-    configuration = uvicorn.Config(
-        app, log_level="warning", lifespan="on", h11_max_incomplete_event_size=LONGEST_HEAD
-    )
+    configuration.load()  # who is given the server may look at it
     server = uvicorn.Server(configuration)
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     try:
-        yield f"http://127.0.0.1:{listener.getsockname()[1]}"
+        yield server, listener.getsockname()
     finally:
+        server.force_exit = force
         server.should_exit = True
         thread.join()
         listener.close()
+
+
+@contextmanager
+def serving(app: FastAPI, port: int = 0) -> Iterator[str]:
+    """Serve ``app`` in a thread, at the address that is returned."""
+    configuration = uvicorn.Config(
+        app, log_level="warning", lifespan="on", h11_max_incomplete_event_size=LONGEST_HEAD
+    )
+    with in_thread(configuration, port) as (_, (host, chosen)):
+        yield f"http://{host}:{chosen}"
 
 
 @pytest.fixture(scope="session")

@@ -1,7 +1,6 @@
 """Clients that take their answers slowly, or not at all."""
 
 import socket
-import threading
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -16,6 +15,7 @@ from jointplay.service.access.turns import Turns
 from jointplay.service.pieces import TOGETHER, Pieces
 from jointplay.service.processes import connections
 from jointplay.service.processes.connections import Connection, Room, protocol
+from tests.service_in_thread import Served, in_thread
 from tests.waiting import until
 
 SHORT, LONG = 30_000, 3_000_000
@@ -44,19 +44,11 @@ def application() -> Answering:
 
 
 @pytest.fixture
-def server(application: Answering) -> Iterator[tuple[uvicorn.Server, tuple[str, int]]]:
+def server(application: Answering) -> Iterator[Served]:
     turns = Turns(Pieces(application), [], keys=False)
     configuration = uvicorn.Config(turns, http=protocol(), lifespan="off", log_config=None)
-    server = uvicorn.Server(configuration)
-    with socket.create_server(("127.0.0.1", 0)) as listening:
-        thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]})
-        thread.start()
-        until(lambda: server.started)
-        try:
-            yield server, listening.getsockname()
-        finally:
-            server.should_exit = server.force_exit = True
-            thread.join()
+    with in_thread(configuration, force=True) as served:
+        yield served
 
 
 def asked(size: int, count: int = 1) -> bytes:
@@ -81,7 +73,7 @@ def is_full(server: uvicorn.Server) -> bool:
 
 
 def test_requests_wait_until_the_answers_before_are_taken(
-    server: tuple[uvicorn.Server, tuple[str, int]],
+    server: Served,
     application: Answering,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -98,7 +90,7 @@ def test_requests_wait_until_the_answers_before_are_taken(
 
 
 def test_a_connection_with_an_answer_that_is_not_taken_makes_room_at_once(
-    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+    server: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connections, "READER_PATIENCE", 3600.0)
     running, address = server
@@ -111,7 +103,7 @@ def test_a_connection_with_an_answer_that_is_not_taken_makes_room_at_once(
 
 
 def test_a_client_that_takes_its_answer_slowly_gets_it(
-    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+    server: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connections, "READER_PATIENCE", 4.0)
     with with_little_room(server[1]) as one:
@@ -123,7 +115,7 @@ def test_a_client_that_takes_its_answer_slowly_gets_it(
 
 
 def test_long_answers_that_nobody_takes_share_a_bound(
-    server: tuple[uvicorn.Server, tuple[str, int]],
+    server: Served,
     application: Answering,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -145,7 +137,7 @@ def test_long_answers_that_nobody_takes_share_a_bound(
 
 
 def test_one_address_cannot_have_all_connections(
-    server: tuple[uvicorn.Server, tuple[str, int]],
+    server: Served,
     application: Answering,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -163,7 +155,7 @@ def test_one_address_cannot_have_all_connections(
 
 
 def test_those_of_the_address_that_has_most_make_room(
-    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+    server: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connections, "HEAD_PATIENCE", 3600.0)
     running, address = server

@@ -2,23 +2,21 @@
 
 import socket
 import ssl
-import threading
 from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-import uvicorn
 from starlette.responses import Response
 from trustme import CA
 
 from jointplay.service.processes import connections
 from jointplay.service.processes.connections import Room, protocol
 from jointplay.service.processes.handshakes import EncryptedConfig
+from tests.service_in_thread import Served, in_thread
 from tests.waiting import until
 
 ASKED = b"GET / HTTP/1.1\r\nHost: a\r\n\r\n"
-Served = tuple[uvicorn.Server, tuple[str, int]]
 
 
 @pytest.fixture(scope="module")
@@ -42,24 +40,15 @@ def served(authority: CA, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> It
     )
     roomed = protocol()
     monkeypatch.setattr(roomed, "room", Room(4))
-    server = uvicorn.Server(
-        EncryptedConfig(
-            Response("there"),
-            http=roomed,
-            lifespan="off",
-            log_config=None,
-            ssl_certfile=tmp_path / "own.pem",
-        )
+    configuration = EncryptedConfig(
+        Response("there"),
+        http=roomed,
+        lifespan="off",
+        log_config=None,
+        ssl_certfile=tmp_path / "own.pem",
     )
-    with socket.create_server(("127.0.0.1", 0)) as listening:
-        thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]})
-        thread.start()
-        until(lambda: server.started)
-        try:
-            yield server, listening.getsockname()
-        finally:
-            server.should_exit = server.force_exit = True
-            thread.join()
+    with in_thread(configuration, force=True) as served:
+        yield served
 
 
 def silent(address: tuple[str, int], own: str = "127.0.0.1") -> socket.socket:
