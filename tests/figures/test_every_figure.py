@@ -13,6 +13,7 @@ from PIL import Image
 
 from jointplay import figures
 from jointplay.figures import FORMS, Selection, saving
+from tests.sampled import sampled
 
 MILLIMETRES_AN_INCH = 25.4
 UNITS = {"", "s", "Hz", "m", "mm", "µm", "m/s", "mm/s", "N", "kN", "J", "1/s", "m²/Hz"}
@@ -21,7 +22,8 @@ MOTION = closed_form_motion()
 CHOICES = {
     name: Selection(channels=("block.x", "left.normal_force")) for name in ("time-history", "xy")
 }
-CASES = {name: (MOTION, name, CHOICES.get(name)) for name in figures.ROSTER} | {
+OF_RUNS = {name: (MOTION, name, CHOICES.get(name)) for name in figures.ROSTER}
+OF_STUDIES = {
     "bifurcation": (bifurcation(points=60), "bifurcation", None),
     "with verdicts": (
         bifurcation(points=60, judged=True, failed=(7, 30), unfinished=range(40, 50)),
@@ -59,11 +61,18 @@ CASES = {name: (MOTION, name, CHOICES.get(name)) for name in figures.ROSTER} | {
     "map of a statistic": (sweep((8, 6), failed=(3,)), "left.contact_share", None),
     "map": (sweep((8, 6), failed=(3,), unfinished=range(20, 30)), "sweep", None),
 }
+CASES = OF_RUNS | OF_STUDIES
 TAKEN = {type(MOTION): ("values", "section_values"), type(sweep()): ("section_values", "extremes")}
 """Where figures find channels, by the type of their source."""
 
 
-@pytest.fixture(scope="module", params=CASES.values(), ids=CASES)
+@pytest.fixture(
+    scope="module",
+    params=[
+        *sampled(OF_RUNS.values(), len(OF_RUNS), OF_RUNS),
+        *sampled(OF_STUDIES.values(), 8, OF_STUDIES),
+    ],
+)
 def case(request):
     return request.param
 

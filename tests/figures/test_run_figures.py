@@ -15,6 +15,7 @@ from jointplay import figures
 from jointplay.figures import NotDrawable, Selection, UnknownFigure, colours, page
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.records.peak import Peak
+from tests.sampled import sampled
 
 
 @pytest.fixture(scope="module")
@@ -59,8 +60,16 @@ def test_a_window_without_samples_is_refused(motion, name):
         figures.draw(motion, name, nothing)
 
 
-@pytest.mark.parametrize("samples", [1, 2])
-def test_one_or_two_samples_are_drawn(name, samples):
+def test_one_sample_is_drawn(name):
+    assert_short_is_drawn(name, 1)
+
+
+@pytest.mark.parametrize("name", sampled(figures.ROSTER, 4))
+def test_two_samples_are_drawn(name):
+    assert_short_is_drawn(name, 2)
+
+
+def assert_short_is_drawn(name, samples):
     short = closed_form_motion(samples=samples, periods=0)
     if name == "impact-loop":
         with pytest.raises(NotDrawable, match=r"output_step of 0\.\d+ s"):
@@ -69,6 +78,7 @@ def test_one_or_two_samples_are_drawn(name, samples):
     assert drawn(short, name).axes
 
 
+@pytest.mark.parametrize("name", sampled(figures.ROSTER, 5))
 def test_values_that_were_not_computed_leave_a_gap(motion, name):
     values = {key: np.where(motion.time > 1.0, np.nan, v) for key, v in motion.values.items()}
     assert figures.render(replace(motion, values=values), name, "png", CHOICES.get(name))
@@ -79,6 +89,7 @@ def long_history():
     return closed_form_motion(samples=200_000, periods=30_000)
 
 
+@pytest.mark.parametrize("name", sampled(figures.ROSTER, 4))
 def test_a_long_history_makes_no_large_file(long_history, name):
     assert len(figures.render(long_history, name, "svg", CHOICES.get(name))) < 1_500_000
 
