@@ -2,8 +2,7 @@
 
 import math
 
-from numba import njit
-
+from benchmarks.lies.truth.compiled import compiled_inside
 from benchmarks.lies.truth.mechanism import ARM, EDGE, KIND, Floats, Mechanism
 from benchmarks.lies.truth.pairs import CAM, CIRCLE
 from benchmarks.lies.truth.points import point, push
@@ -16,7 +15,7 @@ DX, DY, RX, RY = range(11, 15)
 TOLD = 15
 
 
-@njit(cache=True)
+@compiled_inside
 def resist(
     m: Mechanism,
     j: int,
@@ -42,7 +41,7 @@ def resist(
     told[SEEN], told[DAMPING] = seen, damping
 
 
-@njit(cache=True)
+@compiled_inside
 def touch_surface(
     m: Mechanism, j: int, y: Floats, closed: bool, impact: float, told: Floats
 ) -> None:
@@ -75,7 +74,7 @@ def touch_surface(
     told[DX], told[DY], told[RX], told[RY] = dx, dy, rx, ry
 
 
-@njit(cache=True)
+@compiled_inside
 def touch(m: Mechanism, j: int, y: Floats, closed: bool, impact: float, told: Floats) -> None:
     """Evaluate the contact of a joint with play: eqs 2 to 17 of the press paper."""
     if m.wall[j, KIND] != CIRCLE:
@@ -99,7 +98,7 @@ def touch(m: Mechanism, j: int, y: Floats, closed: bool, impact: float, told: Fl
     told[EX], told[EY], told[VX], told[VY] = ex, ey, vx, vy
 
 
-@njit(cache=True)
+@compiled_inside
 def load_play(m: Mechanism, j: int, y: Floats, told: Floats, load: Floats) -> None:
     """Add the forces of a contact, where the surfaces touch."""
     distance = math.hypot(told[EX], told[EY])

@@ -6,14 +6,14 @@ The state is (6 bodies,): x, y (m) and angle (rad) of each body, then their rate
 import math
 
 import numpy as np
-from numba import njit
 
+from benchmarks.lies.truth.compiled import compiled, compiled_inside
 from benchmarks.lies.truth.contacts import load_play, touch
 from benchmarks.lies.truth.mechanism import ACROSS_X, ACROSS_Y, ANGLE, NORMAL, Floats, Mechanism
 from benchmarks.lies.truth.points import point, push
 
 
-@njit(cache=True)
+@compiled
 def stretch(m: Mechanism, s: int, y: Floats) -> tuple[float, float, float, float, float]:
     """Return length, its rate, tension and direction of a spring with damper."""
     _, _, px, py, pvx, pvy, _ = point(m, m.spring[s, 0], y)
@@ -27,7 +27,7 @@ def stretch(m: Mechanism, s: int, y: Floats) -> tuple[float, float, float, float
     return length, rate, tension, ux, uy
 
 
-@njit(cache=True)
+@compiled
 def driven(m: Mechanism, r: int, t: float) -> tuple[float, float, float]:
     """Return what a driver prescribes at a time: position, speed and acceleration."""
     amplitude, frequency = m.motion[r, 4], m.motion[r, 5]
@@ -39,7 +39,7 @@ def driven(m: Mechanism, r: int, t: float) -> tuple[float, float, float]:
     )
 
 
-@njit(cache=True)
+@compiled
 def turn(m: Mechanism, s: int, y: Floats) -> tuple[float, float]:
     """Return a motor's moment on its rotor, and the speed of that against the stator."""
     _, _, _, _, _, _, stator = point(m, m.motor[s, 0], y)
@@ -48,7 +48,7 @@ def turn(m: Mechanism, s: int, y: Floats) -> tuple[float, float]:
     return m.motor_law[s, 0] * (1.0 - speed / m.motor_law[s, 1]), speed
 
 
-@njit(cache=True)
+@compiled_inside
 def constrain(
     m: Mechanism, t: float, y: Floats, jacobian: Floats, off: Floats, drift: Floats, gamma: Floats
 ) -> None:
@@ -104,7 +104,7 @@ def constrain(
                 jacobian[r, 3 * here + 2] += px * dx + py * dy
 
 
-@njit(cache=True)
+@compiled_inside
 def solve(system: Floats, right: Floats) -> bool:
     """Solve a symmetric positive system in place; whether it is one."""
     count = len(right)
@@ -133,7 +133,7 @@ def solve(system: Floats, right: Floats) -> bool:
     return True
 
 
-@njit(cache=True)
+@compiled_inside
 def multiply_out(m: Mechanism, jacobian: Floats, system: Floats) -> None:
     """Fill in J M⁻¹ Jᵀ, below its diagonal."""
     for i in range(len(m.row)):
@@ -144,7 +144,7 @@ def multiply_out(m: Mechanism, jacobian: Floats, system: Floats) -> None:
             system[i, j] = total
 
 
-@njit(cache=True)
+@compiled_inside
 def accelerate(
     m: Mechanism,
     t: float,
@@ -192,7 +192,7 @@ def accelerate(
     return regular
 
 
-@njit(cache=True)
+@compiled_inside
 def project(m: Mechanism, t: float, y: Floats) -> None:
     """Move the state onto its constraints, as little as possible in the norm of the masses."""
     half, rows = len(y) // 2, len(m.row)

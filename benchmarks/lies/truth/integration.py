@@ -8,9 +8,9 @@ journal crosses more than a share of its bearing.
 import math
 
 import numpy as np
-from numba import njit
 from scipy.integrate import DOP853
 
+from benchmarks.lies.truth.compiled import compiled, compiled_inside
 from benchmarks.lies.truth.contacts import DAMPING, GAP, GAP_RATE, SEEN, TOLD, VX, VY
 from benchmarks.lies.truth.equations import accelerate, project
 from benchmarks.lies.truth.mechanism import Floats, Mechanism
@@ -34,7 +34,7 @@ FIRST = 1e-3
 DONE, TOO_LONG, SINGULAR = range(3)
 
 
-@njit(cache=True)
+@compiled_inside
 def attempt(
     m: Mechanism,
     t: float,
@@ -84,7 +84,7 @@ def attempt(
     return error
 
 
-@njit(cache=True)
+@compiled_inside
 def root(left: float, right: float, slope_left: float, slope_right: float) -> float:
     """Return the share of a step at which Hermite's cubic changes sign, by bisection."""
     low, high = 0.0, 1.0
@@ -97,7 +97,7 @@ def root(left: float, right: float, slope_left: float, slope_right: float) -> fl
     return 0.5 * (low + high)
 
 
-@njit(cache=True)
+@compiled_inside
 def cubic(at: float, left: float, right: float, slope_left: float, slope_right: float) -> float:
     """Return Hermite's cubic at a share of a step; slopes are those over the whole step."""
     rest = 1.0 - at
@@ -106,7 +106,7 @@ def cubic(at: float, left: float, right: float, slope_left: float, slope_right: 
     return value
 
 
-@njit(cache=True)
+@compiled_inside
 def turning(left: float, right: float, slope_left: float, slope_right: float) -> float:
     """Return the share of a step at which the slope of Hermite's cubic changes sign."""
     low, high = 0.0, 1.0
@@ -122,7 +122,7 @@ def turning(left: float, right: float, slope_left: float, slope_right: float) ->
     return 0.5 * (low + high)
 
 
-@njit(cache=True)
+@compiled_inside
 def kink(m: Mechanism, j: int, which: int, told: Floats) -> float:
     """Return what changes sign where the force of a contact has a kink."""
     if which == 0:
@@ -134,7 +134,7 @@ def kink(m: Mechanism, j: int, which: int, told: Floats) -> float:
     return value if edge > 0.0 else 1.0
 
 
-@njit(cache=True)
+@compiled_inside
 def shorter(
     m: Mechanism, h: float, closed: np.ndarray, before: Floats, after: Floats, landed: float
 ) -> float:
@@ -164,7 +164,7 @@ def shorter(
     return share
 
 
-@njit(cache=True)
+@compiled_inside
 def longest(
     m: Mechanism, y: Floats, closed: np.ndarray, told: Floats, share: float, most: float
 ) -> float:
@@ -183,14 +183,14 @@ def longest(
     return step
 
 
-@njit(cache=True)
+@compiled_inside
 def keep(values: Floats, row: Floats) -> None:
     """Copy values to a row; compiling an assigned array takes seconds, for a check of shapes."""
     for i in range(len(values)):
         row[i] = values[i]
 
 
-@njit(cache=True)
+@compiled_inside
 def note(began: Floats, onsets: int, j: int, t: float) -> int:
     """Write down an onset; how many there are now."""
     if onsets < len(began):
@@ -198,7 +198,7 @@ def note(began: Floats, onsets: int, j: int, t: float) -> int:
     return onsets + 1
 
 
-@njit(cache=True)
+@compiled
 def integrate(
     m: Mechanism,
     start: Floats,
@@ -226,8 +226,12 @@ def integrate(
     before, after = np.zeros((joints, TOLD)), np.zeros((joints, TOLD))
     multipliers = np.empty(rows)
     closed, impact = np.zeros(joints, np.bool_), np.ones(joints)
-    size = np.abs(start[: count // 2]).max()
-    landed = LANDED * max(size, m.law[:, 0].max() if joints else 0.0)
+    size = 0.0  # by loops: to compile `max` of an array takes a second
+    for i in range(count // 2):
+        size = max(size, abs(start[i]))
+    for j in range(joints):
+        size = max(size, m.law[j, 0])
+    landed = LANDED * size
     project(m, 0.0, y)
     if not accelerate(m, 0.0, y, closed, impact, k[0], before, multipliers):
         return SINGULAR

@@ -2,12 +2,11 @@
 
 import math
 
-from numba import njit
-
+from benchmarks.lies.truth.compiled import compiled, compiled_inside
 from benchmarks.lies.truth.mechanism import Floats, Mechanism
 
 
-@njit(cache=True)
+@compiled
 def point(m: Mechanism, p: int, y: Floats) -> tuple[float, ...]:
     """Return arm, position and velocity of a point, world components, and its body's spin."""
     body = m.body[p]
@@ -23,7 +22,7 @@ def point(m: Mechanism, p: int, y: Floats) -> tuple[float, ...]:
     return ax, ay, y[3 * body] + ax, y[3 * body + 1] + ay, vx, vy, spin
 
 
-@njit(cache=True)
+@compiled_inside
 def push(m: Mechanism, p: int, y: Floats, fx: float, fy: float, load: Floats) -> None:
     """Add a force on a point to the generalised forces."""
     body = m.body[p]
