@@ -4,9 +4,11 @@ The integration loop is compiled first, by one step for all tests: each would co
 
 Run as ``python -m tests.everything [STEP ...]``; without a step, all of them. A third of the tests
 wait (for leases, restarts, shutdowns) while the others compute. Processor seconds are those of the
-processes that ended before the step did.
+processes that ended before the step did. Those of each file of tests are in build/test-times.json;
+the dearest files are printed.
 """
 
+import json
 import os
 import re
 import subprocess
@@ -14,10 +16,13 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import Event
+
+from tests.times import dearest
 
 ROOT = Path(__file__).resolve().parent.parent
 GROUPS = (
@@ -37,6 +42,7 @@ ENVIRONMENT = {
     name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"
 }
 """Without bytecode every process that a test starts would translate our sources again."""
+TIMES = ROOT / "build" / "test-times.json"
 _COUNTS = re.compile(r"(\d+) (passed|failed|errors?|skipped)\b")
 
 
@@ -51,6 +57,8 @@ class Step:
     processor: float = 0.0
     failed: bool = False
     output: str = ""
+    times: Path | None = None
+    """File that pytest writes: what each file of tests took."""
     after: Event | None = None
     """Happens before the command is run."""
     ended: Event = field(default_factory=Event)
@@ -60,6 +68,8 @@ class Step:
         if self.after is not None:
             self.after.wait()
         print(f"{self.name} ...", flush=True)
+        if self.times is not None:
+            self.times.unlink(missing_ok=True)
         start = time.monotonic()
         with tempfile.TemporaryFile("w+", errors="replace") as output:
             process = subprocess.Popen(
@@ -84,11 +94,9 @@ class Step:
 def steps() -> list[Step]:
     """Return the checks of the code, then the tests: what has no group of its own, the groups."""
     bin_folder = Path(sys.executable).parent
-    pytest = [sys.executable, "-m", "pytest", "-m", "not long"]
     tests = ROOT / "tests"
-    without = {"solver": ["--ignore", str(tests / "solver/runs")]}  # half of it
     files = {path.relative_to(tests).parts[0] for path in tests.rglob("test_*.py")}
-    others = [str(tests / name) for name in sorted(files.difference(*GROUPS))]
+    others = sorted(files.difference(*GROUPS))
     loop = Step("loop", [sys.executable, "-m", "jointplay.solver.kernels.compile_loop"])
     return [
         loop,
@@ -96,16 +104,18 @@ def steps() -> list[Step]:
         Step("lint", [str(bin_folder / "ruff"), "check", "."]),
         Step("types", [str(bin_folder / "mypy")]),
         Step("imports", [str(bin_folder / "lint-imports")]),
-        Step("tests", [*pytest, *others], after=loop.ended),
-        *(
-            Step(
-                f"tests/{'+'.join(group)}",
-                [*pytest, *(str(tests / name) for name in group), *without.get(group[0], [])],
-                after=loop.ended,
-            )
-            for group in GROUPS
-        ),
+        _pytest("tests", others, loop.ended),
+        *(_pytest(f"tests/{'+'.join(group)}", group, loop.ended) for group in GROUPS),
     ]
+
+
+def _pytest(name: str, folders: Iterable[str], after: Event) -> Step:
+    tests, times = ROOT / "tests", TIMES.with_name(f"times-{name.replace('/', '-')}.json")
+    command = [sys.executable, "-m", "pytest", "-m", "not long", "-p", "tests.times"]
+    command += ["--times", str(times), *(str(tests / folder) for folder in folders)]
+    if "solver" in folders:
+        command += ["--ignore", str(tests / "solver/runs")]  # half of it
+    return Step(name, command, times=times, after=after)
 
 
 def main() -> int:
@@ -122,6 +132,19 @@ def main() -> int:
         for done in as_completed([pool.submit(step.run) for step in run]):
             step = done.result()
             print(f"\n== {step.name}\n{step.output}", flush=True)
+    _report(run, time.monotonic() - begun)
+    return int(any(step.failed for step in run))
+
+
+def _report(run: Sequence[Step], seconds: float) -> None:
+    """Print where the time went, and close with one line of counts."""
+    files = {}
+    for step in run:
+        if step.times is not None and step.times.exists():
+            files |= json.loads(step.times.read_text())
+    if files:
+        TIMES.write_text(json.dumps(files, indent=1))
+        print(f"\n{dearest(files)}")
     print("\nstep                              seconds  of processor")
     for step in run:
         outcome = "FAILED" if step.failed else "ok"
@@ -129,10 +152,8 @@ def main() -> int:
     counts: Counter[str] = sum((step.counts for step in run), Counter())
     print(
         f"{counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped "
-        f"in {time.monotonic() - begun:.0f} s, "
-        f"{sum(step.processor for step in run):.0f} s of processor"
+        f"in {seconds:.0f} s, {sum(step.processor for step in run):.0f} s of processor"
     )
-    return int(any(step.failed for step in run))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Clients that take their answers slowly, or not at all."""
 
 import socket
+import threading
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence

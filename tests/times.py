@@ -1,0 +1,99 @@
+"""Where the tests' processor time goes, file by file: `pytest -p tests.times --times FILE`.
+
+Processor seconds are those of pytest and of the processes that ended during a file's tests; what a
+service took that several files share is that of the last one.
+"""
+
+import json
+import os
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import asdict, astuple, dataclass
+from pathlib import Path
+
+import pytest
+
+
+@dataclass
+class Spent:
+    """What the tests of a file took, or all tests until now."""
+
+    processor: float = 0.0
+    """Seconds of processor."""
+    seconds: float = 0.0
+    """Seconds by the clock."""
+    compiling: float = 0.0
+    """Seconds of processor of pytest itself for kernels that were not compiled yet."""
+    processes: int = 0
+    """Processes that were started."""
+    tests: int = 0
+
+    def __add__(self, other: "Spent") -> "Spent":
+        """Return the sum of both."""
+        return Spent(*(one + more for one, more in zip(astuple(self), astuple(other), strict=True)))
+
+    def __sub__(self, other: "Spent") -> "Spent":
+        """Return what was spent since."""
+        return Spent(*(one - less for one, less in zip(astuple(self), astuple(other), strict=True)))
+
+
+class Times:
+    """Adds up what each file of tests takes, and writes it in the end."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._files: dict[str, Spent] = {}
+        self._tests = self._processes = 0
+        sys.addaudithook(self._hear)
+
+    def _hear(self, event: str, _: object) -> None:
+        self._processes += event == "subprocess.Popen"
+
+    def _until_now(self) -> Spent:
+        cache = sys.modules.get("jointplay.solver.kernels.cache")  # not for those who need none
+        compiling = 0.0 if cache is None else cache.SPENT.seconds
+        own = sum(os.times()[:4])
+        return Spent(own, time.monotonic(), compiling, self._processes, self._tests)
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
+        """Add what a test takes, its fixtures included."""
+        before = self._until_now()
+        self._tests += 1
+        result = yield
+        file = item.location[0]
+        self._files[file] = self._files.get(file, Spent()) + (self._until_now() - before)
+        return result
+
+    def pytest_unconfigure(self) -> None:
+        """Write the files' times."""
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        self._path.write_text(json.dumps({name: asdict(one) for name, one in self._files.items()}))
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Take the file to write."""
+    parser.addoption("--times", type=Path, help="write where the processor's time goes")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Measure where it is asked for."""
+    if path := config.getoption("times"):
+        config.pluginmanager.register(Times(path))
+
+
+def dearest(files: dict[str, dict[str, float]], count: int = 25) -> str:
+    """Return a table of the files that take most of the processor, and of all together."""
+    ordered = sorted(files.items(), key=lambda named: -named[1]["processor"])
+    total = sum((Spent(**one) for one in files.values()), Spent())  # type: ignore[arg-type]
+    rows = [*ordered[:count], (f"all {len(files)} files", asdict(total))]
+    head = "processor  seconds  compiling  processes  tests  file"
+    return "\n".join([head, *(_row(name, one) for name, one in rows)])
+
+
+def _row(name: str, one: dict[str, float]) -> str:
+    return (
+        f"{one['processor']:9.1f} {one['seconds']:8.1f} {one['compiling']:10.1f}"
+        f" {one['processes']:10.0f} {one['tests']:6.0f}  {name}"
+    )
