@@ -10,6 +10,7 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.calibration.document import FreeParameter
+from jointplay.solver.quantities.scalars import power
 from jointplay.solver.scene.document import Parameter, Scene
 from jointplay.solver.scene.parameters import allowed_range
 
@@ -42,7 +43,7 @@ class Space:
         linear = self.minimum + share * (self.maximum - self.minimum)
         ratio = np.where(self.logarithmic, self.maximum, 1.0)
         ratio = ratio / np.where(self.logarithmic, self.minimum, 1.0)
-        found = np.where(self.logarithmic, self.minimum * ratio**share, linear)
+        found = np.where(self.logarithmic, self.minimum * power(ratio, share), linear)
         found = np.where(share == 1.0, self.maximum, found)
         return np.asarray(np.clip(found, self.minimum, self.maximum), np.float64)
 

@@ -9,6 +9,8 @@ from typing import Any, Final
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.linear_algebra.orthogonal import Decomposition
+from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, rank
 from jointplay.solver.mechanics.start.closings import alike, closings
@@ -211,7 +213,7 @@ def _assembly(places: Places, held: AbsoluteMechanism, pose: Floats) -> Assembly
     constraints, jacobian = places.constraints(places.closed, pose)
     velocity, rates = start_rates(places, pose)
     loose = AbsoluteMechanism(places.scene, places.closed.numbers, close_play=False)
-    loose_rows = loose.rows(pose, velocity, places.driven)
+    loose_rows = loose.rows(pose.tolist(), velocity.tolist(), places.driven)
     _, open_jacobian = arrays(loose_rows, count)
     found, loose_rank = rank(jacobian * places.scale), rank(open_jacobian * places.scale)
     pose.flags.writeable = velocity.flags.writeable = False
@@ -241,10 +243,10 @@ def poses_nearby(scene: Scene, *, close_play: bool = True) -> Iterator[tuple[Flo
     driven, still = first_clocks(scene), np.zeros_like(start)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
     _, jacobian = arrays(ideal.rows(start, still, driven), len(start))
-    _, values, directions = np.linalg.svd(jacobian * scale)
-    free = directions[int((values > RANK_TOLERANCE * values[0]).sum()) :]
-    for deviates in np.random.default_rng(NEARBY_SEED).standard_normal((NEARBY, len(free))):
-        move = deviates @ free
+    free = Decomposition(jacobian * scale, RANK_TOLERANCE).free
+    generator = np.random.default_rng(NEARBY_SEED)
+    for deviates in generator.standard_normal((NEARBY, free.shape[1])):
+        move = applied(free, deviates)
         move *= ASIDE / np.abs(move).max()
         pose = start + scale * move
         close(ideal, pose, driven, scale)

@@ -3,11 +3,15 @@
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
+from jointplay.solver.linear_algebra.elimination import solve
+from jointplay.solver.linear_algebra.orthogonal import Decomposition
+from jointplay.solver.linear_algebra.products import applied, lengths, product
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.rows import Row
 
 RANK_TOLERANCE = 1e-9
-"""Singular values below this share of the largest count as zero (rows scaled by length)."""
+"""Columns of which less than this share of the longest is left count as zero (rows scaled by
+length)."""
 MOST_ITERATIONS = 200
 ROUNDING = 1e-16
 """Steps, for each coordinate, below which Newton's iteration only repeats its rounding."""
@@ -35,15 +39,15 @@ def close(
     rad. held : (3 bodies,) coordinates that keep their values. converged : largest step, in scales,
     after which it ends.
     """
-    count, still = len(pose), np.zeros_like(pose)
+    count, still = len(pose), [0.0] * len(pose)
     angles = np.arange(count) % 3 == 2
     for _ in range(iterations):
-        residual, jacobian = arrays(mechanism.rows(pose, still, driven), count)
+        residual, jacobian = arrays(mechanism.rows(pose.tolist(), still, driven), count)
         if not len(residual) or not np.isfinite(residual).all():
             break
         if held is not None:
             jacobian[:, held] = 0.0
-        step, *_ = np.linalg.lstsq(jacobian * scale, -residual, rcond=RANK_TOLERANCE)
+        step = Decomposition(jacobian * scale, RANK_TOLERANCE).least_squares(-residual)
         # a turn of more than half a radian would lead to another assembly; positions follow
         turn = float(np.abs(step[angles]).max())
         pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
@@ -73,10 +77,10 @@ def close_many(
             for k, entry in row.jacobian.items():
                 jacobian[:, i, k] = entry
         jacobian *= freed
-        square = jacobian @ jacobian.swapaxes(1, 2)
+        turned = jacobian.swapaxes(1, 2)
+        square = product(jacobian, turned)
         square += (DAMPING * np.trace(square, axis1=1, axis2=2))[:, None, None] * np.eye(len(rows))
-        wanted = np.linalg.solve(square, -residual[..., None])
-        step = (jacobian.swapaxes(1, 2) @ wanted)[..., 0]
+        step = applied(turned, solve(square, -residual))
         turn = np.abs(step[:, angles]).max(axis=1)
         step *= np.minimum(1.0, LARGEST_TURN / np.maximum(turn, 1e-300))[:, None]
         poses += freed * step
@@ -97,6 +101,5 @@ def rank(scaled_jacobian: Floats) -> int:
     """Return the number of independent rows of a Jacobian whose columns are of one unit."""
     if not scaled_jacobian.size:
         return 0
-    rows = np.linalg.norm(scaled_jacobian, axis=1, keepdims=True)
-    values = np.linalg.svd(scaled_jacobian / np.maximum(rows, 1e-300), compute_uv=False)
-    return int((values > RANK_TOLERANCE * values[0]).sum())
+    rows = lengths(scaled_jacobian)[:, None]
+    return Decomposition(scaled_jacobian / np.maximum(rows, 1e-300), RANK_TOLERANCE).rank

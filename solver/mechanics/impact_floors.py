@@ -5,6 +5,7 @@ floor that is far below the speeds of a scene leaves its impacts alone.
 """
 
 import math
+from collections.abc import Sequence
 
 from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Scene
@@ -26,7 +27,7 @@ def scene_speed(scene: Scene, play: float, length: float) -> float:
     """
     forces = math.fsum(element.strength(length) for element in scene.forces.values())
     lightest = min(body.mass for body in scene.bodies.values())
-    speeds = [math.sqrt(2.0 * (math.hypot(*scene.gravity) + forces / lightest) * play)]
+    speeds = [math.sqrt(2.0 * (_length(scene.gravity) + forces / lightest) * play)]
     for driver in scene.drivers.values():
         lever = length if turns(scene, driver) else 1.0
         if isinstance(driver, MovingDriver):
@@ -35,12 +36,17 @@ def scene_speed(scene: Scene, play: float, length: float) -> float:
             speeds.append(lever * abs(driver.clock_rate))
     speeds += [length * abs(element.fastest) for element in scene.forces.values()]
     start = scene.start
-    speeds += [math.hypot(*velocity) for velocity in start.velocities.values()]
+    speeds += [_length(velocity) for velocity in start.velocities.values()]
     speeds += [length * abs(spin) for spin in start.angular_velocities.values()]
-    speeds += [math.hypot(*one.rate) for one in start.joints.values() if one.rate is not None]
+    speeds += [_length(one.rate) for one in start.joints.values() if one.rate is not None]
     for guided in start.guides.values():
         speeds += [abs(guided.rate or 0.0), length * abs(guided.tilt_rate or 0.0)]
     return max(speeds)
+
+
+def _length(vector: Sequence[float]) -> float:
+    x, y = vector
+    return math.sqrt(x * x + y * y)
 
 
 def impact_floor(scene: Scene, pair: ContactPair, length: float) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT, UNKNOWN, Estimate
+from jointplay.solver.nonlinear.student import student
 
 FEWEST_BATCHES = 8
 MOST_UNSEEN = 0.95
@@ -73,8 +74,8 @@ def _error_and_correction(series: Floats) -> tuple[Floats, Floats]:
         suggested = _batch_error(centred, length)
         ratio = np.maximum(suggested / np.where(independent > 0.0, independent, 1.0), 1.0)
         error = np.where(searching, suggested * _widening(n // length), error)
-        unseen = np.where(searching, ratio**2 / length, unseen)
-        searching &= length**3 <= 2.0 * n * ratio**4
+        unseen = np.where(searching, ratio * ratio / length, unseen)
+        searching &= length**3 <= 2.0 * n * (ratio * ratio) * (ratio * ratio)
         length *= 2
     return error * scale, 1.0 / np.sqrt(1.0 - np.minimum(unseen, MOST_UNSEEN))
 
@@ -93,6 +94,4 @@ def _batch_error(centred: Floats, length: int) -> Floats:
 
 def _widening(batches: int) -> float:
     """Return Student's t, two means taken out, over that of a known error, at three errors."""
-    from scipy.special import ndtr, stdtrit  # a tenth of the time in which workers start
-
-    return float(stdtrit(max(batches - 2, 1), ndtr(SIGNIFICANT))) / SIGNIFICANT
+    return student(max(batches - 2, 1)) / SIGNIFICANT

@@ -15,6 +15,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.batch_means import mean_estimate
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT, UNKNOWN, Estimate
+from jointplay.solver.quantities.scalars import logarithm
 
 ROUNDING = 8.0 * float(np.finfo(np.float64).eps)
 """Rounding of the logarithm of a norm, the least error of a growth: it may always be upwards."""
@@ -57,7 +58,7 @@ def exponent_from_growth(log_growth: Floats, block_time: float, before: float = 
     end_effect = max(_end_effect(kept) / len(kept), ROUNDING)
     found = mean_estimate(kept / block_time, end_effect / block_time)
     since = before + left_out
-    linear = math.log((before + len(growth)) / max(since, 1.0)) / (len(kept) * block_time)
+    linear = logarithm((before + len(growth)) / max(since, 1.0)) / (len(kept) * block_time)
     if 0.0 < found.value <= SIGNIFICANT * linear:
         return replace(found, error=max(found.error, linear))
     return found

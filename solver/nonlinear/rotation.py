@@ -8,6 +8,7 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.estimate import Estimate
+from jointplay.solver.quantities.scalars import direction_angle, exponential
 
 FEWEST_POINTS = 32
 WIDEST_GAP = 0.125
@@ -51,8 +52,8 @@ def rotation_number(section: Floats) -> Estimate | None:
     if round_points is None:
         return None
     x, y = round_points
-    turns = np.arctan2(y, x) / (2.0 * np.pi)
-    if not _closed_curve(turns, np.hypot(x, y)):
+    turns = direction_angle(x, y) / (2.0 * np.pi)
+    if not _closed_curve(turns, np.sqrt(x * x + y * y)):
         return None
     advances = _lifted(np.diff(turns))
     half = len(advances) // 2
@@ -99,5 +100,5 @@ def _lifted(advances: Floats) -> Floats:
 def _weighted_average(values: Floats) -> float:
     """Return the average with weights exp(-1/(t(1-t))), t from 0 to 1 over the record."""
     t = np.arange(1.0, len(values) + 1.0) / (len(values) + 1.0)
-    weights = np.exp(-1.0 / (t * (1.0 - t)))
+    weights = exponential(-1.0 / (t * (1.0 - t)))
     return float((weights * values).sum() / weights.sum())

@@ -182,7 +182,7 @@ def _change_between(windows: Sequence[Floats], tolerance: float) -> str:
     """
     for name, statistic in (("mean", _means), ("spread", _spreads)):
         for a, b in combinations([statistic(window) for window in windows], 2):
-            sampling = SIGNIFICANT * np.hypot(a.error, b.error)
+            sampling = SIGNIFICANT * np.sqrt(a.error * a.error + b.error * b.error)
             allowed = np.maximum(np.where(a.blurred | b.blurred, 0.0, sampling), tolerance)
             excess = np.abs(b.value - a.value) / np.maximum(allowed, TINY)
             column = int(excess.argmax())

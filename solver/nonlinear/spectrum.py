@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import signal
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.nonlinear.fourier import transformed
+from jointplay.solver.quantities.scalars import exponential, logarithm, sine_cosine
 
 
 @dataclass(frozen=True)
@@ -39,11 +40,27 @@ def power_spectrum(series: Floats, interval: float = 1.0, segments: int = 1) -> 
     length = 2 * len(values) // (segments + 1)
     if not interval > 0.0 or segments < 1 or length < 8:
         raise ValueError("a spectrum needs a positive interval and eight samples a segment")
-    window = "boxcar" if segments == 1 else "hann"
-    frequency, density = signal.welch(
-        values, 1.0 / interval, window, nperseg=length, detrend="constant", axis=0
-    )
-    return Spectrum(np.asarray(frequency), np.asarray(density), 1.0 / (length * interval))
+    window = np.ones(length)
+    if segments > 1:
+        _, cosine = sine_cosine((2.0 * np.pi / length) * np.arange(length))
+        window = 0.5 - 0.5 * cosine
+    columns = values.reshape(len(values), -1)
+    begins = range(0, len(values) - length + 1, length - length // 2)
+    total = sum(_periodogram(columns[i : i + length], window) for i in begins)
+    density = total * (interval / ((window * window).sum() * len(begins)))
+    frequency = np.arange(len(density)) / (length * interval)
+    shape = (len(frequency), *values.shape[1:])
+    return Spectrum(frequency, density.reshape(shape), 1.0 / (length * interval))
+
+
+def _periodogram(columns: Floats, window: Floats) -> Floats:
+    """Return the squares of the one-sided transform of columns (n, d) less their means."""
+    centred = columns - columns.mean(axis=0)
+    real, imaginary = transformed((window[:, None] * centred, np.zeros_like(centred)))
+    n = len(columns)
+    squares = (real * real + imaginary * imaginary)[: n // 2 + 1]
+    squares[1 : (n + 1) // 2] *= 2.0
+    return np.asarray(squares, np.float64)
 
 
 def strongest_line(spectrum: Spectrum) -> tuple[float, float]:
@@ -71,7 +88,7 @@ def flatness(spectrum: Spectrum) -> float:
     if float(power.sum()) == 0.0:
         return 0.0
     floor = np.finfo(np.float64).eps ** 2 * float(power.max())
-    return float(np.exp(np.log(np.maximum(power, floor)).mean()) / power.mean())
+    return float(exponential(float(logarithm(np.maximum(power, floor)).mean())) / power.mean())
 
 
 def _relative(spectrum: Spectrum) -> Floats:

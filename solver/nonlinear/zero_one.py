@@ -7,12 +7,23 @@ mean square displacement with the correlation method.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
+from jointplay.solver.nonlinear.fourier import (
+    Complex,
+    conjugate,
+    inverse,
+    padded,
+    power_of_two,
+    times,
+    transformed,
+)
+from jointplay.solver.quantities.scalars import sine_cosine
 
 FREQUENCIES = 100
+AT_ONCE = 2**16
+"""Samples that are transformed together: what a processor has at hand."""
 """Random frequencies c, whose median is taken: near a line of the spectrum K is not 0 or 1."""
 LOWEST, HIGHEST = math.pi / 5.0, 4.0 * math.pi / 5.0
 FEWEST_SAMPLES = 30
@@ -74,32 +85,36 @@ def _correlations(driving: Floats, seed: int) -> Floats:
     reach = n // 10
     generator = np.random.default_rng(seed)
     frequencies = LOWEST + (HIGHEST - LOWEST) * generator.random(FREQUENCIES)
-    times = np.arange(1.0, n + 1.0)
-    result = np.empty((columns, FREQUENCIES))
-    for i, c in enumerate(frequencies):  # one at a time: memory stays small
-        translation = np.cumsum(driving * np.exp(1j * c * times), axis=1)  # p + i q
-        result[:, i] = _correlation_with_time(_mean_square_displacement(translation, reach))
-    return result
+    counted = np.arange(1.0, n + 1.0)[:, None, None]
+    together = max(AT_ONCE // driving.size, 1)
+    found = []
+    for c in np.split(frequencies, range(together, FREQUENCIES, together)):
+        turning = sine_cosine(c[:, None] * counted)
+        q, p = (
+            np.add.accumulate(driving.T[:, None] * part, axis=0).reshape(n, -1) for part in turning
+        )
+        displacement = _mean_square_displacement((p, q), reach).T
+        found.append(_correlation_with_time(displacement).reshape(len(c), columns))
+    return np.concatenate(found).T
 
 
-def _mean_square_displacement(translation: NDArray[np.complex128], reach: int) -> Floats:
-    """Return M_c(n) for n = 1..reach: over the n - reach first starts.
+def _mean_square_displacement(translation: Complex, reach: int) -> Floats:
+    """Return M_c(n), (reach, columns), for n = 1..reach: over the first starts.
 
     |z_{j+n} - z_j|² = |z_{j+n}|² + |z_j|² - 2 Re z̄_j z_{j+n}; the last sum over j is a correlation,
     done by Fourier transforms.
     """
-    from scipy import fft  # a tenth of the time in which workers start
-
-    n = translation.shape[1]
+    p, q = translation
+    n, columns = p.shape
     starts = n - reach
-    squares = np.zeros((len(translation), n + 1))
-    np.cumsum(translation.real**2 + translation.imag**2, axis=1, out=squares[:, 1:])
+    squares = np.zeros((n + 1, columns))
+    np.add.accumulate(p * p + q * q, axis=0, out=squares[1:])
     shifts = np.arange(1, reach + 1)
-    size = fft.next_fast_len(n)  # no wrap-around: j + n stays below the record's length
-    first = fft.fft(translation[:, :starts], size, axis=1)
-    product = fft.ifft(np.conj(first) * fft.fft(translation, size, axis=1), axis=1)
-    arriving = squares[:, starts + shifts] - squares[:, shifts]
-    total = arriving + squares[:, starts, None] - 2.0 * product[:, shifts].real
+    size = power_of_two(n)  # no wrap-around: j + n stays below the record's length
+    first = transformed(padded((p[:starts], q[:starts]), size))
+    correlation, _ = inverse(times(conjugate(first), transformed(padded(translation, size))))
+    arriving = squares[starts + shifts] - squares[shifts]
+    total = arriving + squares[starts] - 2.0 * correlation[shifts]
     return np.asarray(total / starts, np.float64)
 
 

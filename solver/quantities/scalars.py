@@ -6,9 +6,13 @@ and on recorded expressions (`solver.kernels.record.recorder`), which become ker
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
+
+from jointplay.solver.quantities import elementary
+from jointplay.solver.quantities.elementary import within_reach
 
 type_of_array = np.ndarray
 
@@ -32,20 +36,23 @@ def sqrt(x: Scalar) -> Scalar:
 def sine_cosine(x: Scalar) -> tuple[Scalar, Scalar]:
     """Sine and cosine of an angle in rad."""
     if isinstance(x, float | int):
-        return math.sin(x), math.cos(x)
-    return (np.sin(x), np.cos(x)) if isinstance(x, type_of_array) else x.sine_cosine()
+        return _sine_cosine_of(float(x) + 0.0)  # -0.0, which equals 0.0, must not find its sine
+    if isinstance(x, type_of_array):
+        return elementary.sine_cosine(within_reach(x))
+    return x.sine_cosine()
+
+
+@lru_cache(maxsize=4096)  # joints of one body ask for its angle one after the other
+def _sine_cosine_of(x: float) -> tuple[float, float]:
+    return (x, x) if math.isnan(x) else elementary.sine_cosine(within_reach(x))
 
 
 def direction_angle(x: Scalar, y: Scalar) -> Scalar:
     """Return the angle of a direction against the x axis, rad, from -pi to pi.
 
-    Recorded: an eighth of the angle to the nearer half of that axis, by two halvings of its
-    tangent, and the series of the arcus tangent up to the 19th power; the rest is 4e-16 of it.
+    It is an eighth of the angle to the nearer half of that axis, by two halvings of its tangent,
+    and the series of the arcus tangent up to the 19th power; the rest is 4e-16 of it.
     """
-    if isinstance(x, float | int) and isinstance(y, float | int):
-        return math.atan2(y, x)
-    if isinstance(x, type_of_array) or isinstance(y, type_of_array):
-        return np.arctan2(y, x)
     reach = maximum(sqrt(x * x + y * y), absolute(y))  # squares may vanish
     tangent = y / (reach + absolute(x) + SLIGHT)
     for _ in range(2):
@@ -138,23 +145,25 @@ def power(x: Scalar, exponent: Scalar) -> Scalar:
     """Return x ** exponent for x >= 0; the Hertz exponent 1.5 costs one square root."""
     if isinstance(exponent, float) and exponent == 1.5:
         return x * sqrt(x)
-    if isinstance(x, float | int | type_of_array):
-        return x**exponent
+    if isinstance(x, float | int):
+        return elementary.power(float(x), exponent)
+    if isinstance(x, type_of_array):
+        return elementary.power(x, exponent)
     return x.power(exponent)
 
 
 def logarithm(x: Scalar) -> Scalar:
     """Natural logarithm of x > 0."""
     if isinstance(x, float | int):
-        return math.log(x)
-    return np.log(x) if isinstance(x, type_of_array) else x.logarithm()
+        return elementary.log(float(x))
+    return elementary.log(x) if isinstance(x, type_of_array) else x.logarithm()
 
 
 def exponential(x: Scalar) -> Scalar:
     """Return e ** x, for x below 700."""
     if isinstance(x, float | int):
-        return math.exp(x)
-    return np.exp(x) if isinstance(x, type_of_array) else x.exponential()
+        return elementary.exp(float(x))
+    return elementary.exp(x) if isinstance(x, type_of_array) else x.exponential()
 
 
 def hyperbolic_tangent(x: Scalar) -> Scalar:

@@ -3,6 +3,10 @@
 import numpy as np
 
 from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
+from jointplay.solver.linear_algebra.spectral_radius import spectral_radius
+
+SQUARINGS = 10
+"""Of a Jacobian whose eigenvectors' condition may be 1e6: the rate is known to 1.5 %."""
 
 
 def fastest_rate(bundle: Bundle, i: int) -> float:
@@ -32,4 +36,4 @@ def fastest_rate(bundle: Bundle, i: int) -> float:
         jacobian[:, chosen] = (work[slope][:, columns] - still) / moved
     if not np.isfinite(jacobian).all():
         return 0.0
-    return float(np.abs(np.linalg.eigvals(jacobian)).max())
+    return spectral_radius(jacobian, SQUARINGS)

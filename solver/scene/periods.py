@@ -99,7 +99,7 @@ def driven_travel(scene: Scene, unit: float, until: float) -> float:
     motions; of a sinusoidal motion with that period its amplitude. 0: there is none.
     """
     ways = [
-        bound * (unit / (2.0 * math.pi)) ** order
+        bound * math.prod([unit / (2.0 * math.pi)] * order)
         for driver in scene.drivers.values()
         if isinstance(driver, MovingDriver) and not turns(scene, driver)
         for order, bound in enumerate(driver.motion.largest(until), start=1)
@@ -144,7 +144,7 @@ def characteristic_time(scene: Scene, length: float) -> float:
     turning = [speed for speed in speeds if speed >= SLOWEST]
     if turning:
         return 2.0 * math.pi / max(turning)
-    gravity = math.hypot(*scene.gravity)
+    gravity = math.sqrt(sum(part * part for part in scene.gravity))
     return 2.0 * math.pi * math.sqrt(length / gravity) if gravity > 0.0 else 1.0
 
 

@@ -16,7 +16,6 @@ not limit, geometry must. Three rules make a step's inside known from its ends:
    (`may_open`): the tangent at the normal in the middle between those at both ends.
 """
 
-import math
 from collections.abc import Callable, Iterable
 from functools import reduce
 from operator import add
@@ -24,7 +23,7 @@ from operator import add
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import MOTION
 from jointplay.solver.kernels.record.recorder import Expression
-from jointplay.solver.quantities.scalars import maximum, minimum, sqrt
+from jointplay.solver.quantities.scalars import maximum, minimum, sine_cosine, sqrt
 
 TURN = 0.5
 """Largest angle by which a body may turn in a step, rad."""
@@ -37,7 +36,7 @@ HELD = 0.1
 SLIGHT = 1e-300
 WHIP = 0.5
 """Angle of a normal in a step, rad, beyond which channels that follow it are looked at closely."""
-COSINE = math.cos(WHIP)
+_, COSINE = sine_cosine(WHIP)
 PATHS = ("eccentricity_start", "eccentricity")
 
 

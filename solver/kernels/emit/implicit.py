@@ -121,7 +121,8 @@ class RosenbrockRecorder(StepRecorder):
         """Go to an inner node of the ledger's formula, and keep the ledger where it was."""
         v, theta = self.variable, INNER[place - 1]
         weights = tuple(
-            sum(c * theta ** (k + 1) for k, c in enumerate(row)) for row in self.method.dense[1:]
+            sum(c * math.prod([theta] * (k + 1)) for k, c in enumerate(row))
+            for row in self.method.dense[1:]
         )
         newest = len(self.method.nodes) if place == 1 else 0
         outputs = [(f"stage{i}", self._moved(weights, i, newest)) for i in range(self.states)]

@@ -19,8 +19,8 @@ from jointplay.solver.kernels.emit.judging import (
 from jointplay.solver.kernels.emit.knots import KnotRecorder
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.lane_functions import coarse_log2
 from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.quantities.elementary import coarse_log2
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
 SMALLEST_ERROR = 1e-16

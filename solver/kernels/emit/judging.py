@@ -1,11 +1,10 @@
 """Consequences of a step: how much the next one grows, and what contacts did in it."""
 
-import math
 from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.enclosure import beyond, may_open, whips_round
-from jointplay.solver.kernels.record.lane_functions import coarse_exp2
 from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.quantities.elementary import coarse_exp2, log2
 from jointplay.solver.quantities.scalars import Scalar, maximum, minimum, select_positive
 
 SAFETY = 0.95
@@ -37,7 +36,7 @@ def growth(order: float, good: Expression, magnitude: Expression, memory: Expres
     smooth = exponent - 0.75 * PROPORTIONAL
     onwards = PROPORTIONAL * memory - smooth * magnitude
     again = -exponent * magnitude
-    factor: Expression = coarse_exp2(math.log2(SAFETY) + select_positive(good, onwards, again))
+    factor: Expression = coarse_exp2(log2(SAFETY) + select_positive(good, onwards, again))
     factor = select_positive(good, factor, minimum(factor, 1.0))
     factor = select_positive(factor - LARGEST_CUT, factor, LARGEST_CUT)
     limited: Expression = minimum(factor, LARGEST_GROWTH)

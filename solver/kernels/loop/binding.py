@@ -76,7 +76,7 @@ def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
     shares = np.abs(state[count : 2 * count]) * lane["weight"][count : 2 * count]
     full = 1.0 / problem.tolerance
     lane["full"] = full
-    lane["fastest"] = min(max(STRICTEST * full**2, *shares), full)
+    lane["fastest"] = min(max(STRICTEST * full * full, *shares), full)
 
 
 def number(lane: Lane, compiled: Kernel | Tangents, scene: Scene) -> None:
@@ -93,7 +93,7 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     reach = mechanism_size(scene, length)
     radian = unit / (2.0 * math.pi)
     gravity = math.sqrt(sum(part * part for part in scene.gravity))
-    acceleration = gravity + length / radian**2
+    acceleration = gravity + length / (radian * radian)
     crossing = ACROSS * math.sqrt(acceleration * finest) / length
     laws = [pair.clearance.friction for pair in pairs]
     full = [law.full_slip_speed for law in laws if law is not None and not law.is_off]

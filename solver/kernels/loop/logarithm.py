@@ -3,7 +3,7 @@
 import math
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.record.lane_functions import ATANH_SERIES, LN_2
+from jointplay.solver.quantities.elementary import ATANH_SERIES, LN_2
 
 LEAST = math.sqrt(0.5)
 """Mantissas are from here to twice as much, about 1."""

@@ -13,6 +13,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from jointplay.solver.quantities.elementary import HIGHEST, LOWEST, ON_FLOATS
+from jointplay.solver.quantities.scalars import exponential, logarithm, power, sine_cosine
+
 Node = Any
 """An expression of `solver.kernels.record.recorder`, which uses this table."""
 Rates = tuple[Node, ...]
@@ -39,7 +42,7 @@ class Operation:
     """Its derivative, from a node and the derivatives of its arguments."""
     on_lanes: Callable[..., Vector] | None = None
     """Its code, from a builder and vectors; none of what kernels have as arithmetic
-    (`solver.kernels.record.lane_functions`), whose node and one argument the recorder knows."""
+    (`solver.quantities.elementary`), whose node and one argument the recorder knows."""
 
 
 def _nothing(node: Node, _rates: Rates) -> Node:
@@ -118,7 +121,7 @@ def _mantissa(lanes: Lanes, x: Vector) -> Vector:
 
 def _power_of_two(lanes: Lanes, x: Vector) -> Vector:
     """Return 2^x for a whole x, limited to -1022..1023; NaN gives the lower limit."""
-    low, high = lanes.same(-1022.0), lanes.same(1023.0)
+    low, high = lanes.same(LOWEST), lanes.same(HIGHEST)
     x = lanes.choose(lanes.greater(x, low), x, low)
     x = lanes.choose(lanes.greater(high, x), x, high)
     bits = lanes.on_words("add", lanes.whole(x), lanes.word(BIAS))
@@ -166,40 +169,38 @@ OPERATIONS: dict[str, Operation] = {
         lambda lanes, x: lanes.call("fabs", x),
     ),
     "sqrt": Operation(math.sqrt, _root_rate, lambda lanes, x: lanes.call("sqrt", x)),
-    "floor": Operation(
-        lambda x: float(math.floor(x)), _nothing, lambda lanes, x: lanes.call("floor", x)
-    ),
+    "floor": Operation(ON_FLOATS["floor"], _nothing, lambda lanes, x: lanes.call("floor", x)),
     "select": Operation(
-        lambda x, a, b: a if x > 0.0 else b,
+        ON_FLOATS["select"],
         lambda node, rates: node.arguments[0].select_positive(rates[1], rates[2]),
         _select,
     ),
-    "exponent_of": Operation(lambda x: float(math.frexp(x)[1] - 1), _nothing, _exponent),
+    "exponent_of": Operation(ON_FLOATS["exponent_of"], _nothing, _exponent),
     "mantissa_of": Operation(
-        lambda x: 2.0 * math.frexp(x)[0],
+        ON_FLOATS["mantissa_of"],
         lambda node, rates: node / node.arguments[0] * rates[0],
         _mantissa,
     ),
-    "power_of_two": Operation(
-        lambda x: math.ldexp(1.0, int(min(max(x, -1022.0), 1023.0))), _nothing, _power_of_two
-    ),
+    "power_of_two": Operation(ON_FLOATS["power_of_two"], _nothing, _power_of_two),
     "quarter_turns": Operation(
-        lambda n, sine, cosine: (sine, cosine, -sine, -cosine)[int(n) % 4],
+        ON_FLOATS["quarter_turns"],
         lambda node, rates: node.recorder.apply(
             "quarter_turns", node.arguments[0], rates[1], rates[2]
         ),
         _quarter_turns,
     ),
     "sin": Operation(
-        math.sin, lambda node, rates: node.recorder.functions[node.index].partner * rates[0]
+        lambda x: sine_cosine(x)[0],
+        lambda node, rates: node.recorder.functions[node.index].partner * rates[0],
     ),
     "cos": Operation(
-        math.cos, lambda node, rates: -1.0 * node.recorder.functions[node.index].partner * rates[0]
+        lambda x: sine_cosine(x)[1],
+        lambda node, rates: -1.0 * node.recorder.functions[node.index].partner * rates[0],
     ),
-    "pow": Operation(operator.pow, _power_rate),
+    "pow": Operation(power, _power_rate),
     "log": Operation(
-        math.log, lambda node, rates: rates[0] / node.recorder.functions[node.index].argument
+        logarithm, lambda node, rates: rates[0] / node.recorder.functions[node.index].argument
     ),
-    "exp": Operation(math.exp, lambda node, rates: node * rates[0]),
+    "exp": Operation(exponential, lambda node, rates: node * rates[0]),
 }
 """Every operation by its name on tapes."""

@@ -16,9 +16,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from jointplay.records.failure import LimitExceeded
-from jointplay.solver.kernels.record import lane_functions
 from jointplay.solver.kernels.record.operations import OPERATIONS
 from jointplay.solver.kernels.watched import require_wanted
+from jointplay.solver.quantities import elementary
 
 MOST_STATEMENTS = 22_000
 """Beyond it compilation takes a minute (40 four-bars need 21 555 in `lagrange`); see
@@ -215,10 +215,10 @@ class Expression:
         return self.recorder.apply("select", self, a, b)
 
     def sine_cosine(self) -> tuple[Expression, Expression]:
-        """Sine and cosine by our own lane functions; outside the kernel where x is fixed."""
+        """Sine and cosine by arithmetic of our own; outside the kernel where x is fixed."""
         if self.fixed:
             return self.recorder.apply("sin", self), self.recorder.apply("cos", self)
-        sine, cosine = lane_functions.sine_cosine(self)
+        sine, cosine = elementary.sine_cosine(self)
         self.recorder.functions[sine.index] = Function("sin", self, cosine)
         self.recorder.functions[cosine.index] = Function("cos", self, sine)
         return sine, cosine
@@ -241,22 +241,22 @@ class Expression:
         return self
 
     def power(self, exponent: object) -> Expression:
-        """X ** exponent for x >= 0 by our own lane functions."""
+        """X ** exponent for x >= 0 by arithmetic of our own."""
         lifted = self.recorder.lift(exponent)
         if self.fixed and lifted.fixed:
             return self.recorder.apply("pow", self, lifted)
-        result: Expression = lane_functions.power(self, lifted)
+        result: Expression = elementary.power(self, lifted)
         if lifted.fixed:
             self.recorder.functions[result.index] = Function("pow", self, lifted)
         return result
 
     def logarithm(self) -> Expression:
-        """Natural logarithm by our own lane functions; outside the kernel where x is fixed."""
-        return self._function("log", lane_functions.log)
+        """Natural logarithm by arithmetic of our own; outside the kernel where x is fixed."""
+        return self._function("log", elementary.log)
 
     def exponential(self) -> Expression:
-        """Exponential by our own lane functions; outside the kernel where x is fixed."""
-        return self._function("exp", lane_functions.exp)
+        """Exponential by arithmetic of our own; outside the kernel where x is fixed."""
+        return self._function("exp", elementary.exp)
 
     def _function(self, name: str, on_lanes: Callable[[Expression], Expression]) -> Expression:
         if self.fixed:

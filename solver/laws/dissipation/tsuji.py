@@ -34,7 +34,7 @@ class Tsuji(Dissipation):
     def normal_force(self, elastic: Elastic, rate: Scalar, impact_rate: Scalar) -> Scalar:
         """Return F_n, N."""
         lost = logarithm(self.restitution)
-        factor = -math.sqrt(5.0) * lost / sqrt(lost * lost + math.pi**2)
+        factor = -math.sqrt(5.0) * lost / sqrt(lost * lost + math.pi * math.pi)
         return elastic.force + factor * sqrt(self.effective_mass * elastic.secant) * rate
 
     def jumps_at_onset(self, stiffness: Stiffness) -> bool:

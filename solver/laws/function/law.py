@@ -4,7 +4,7 @@ import math
 from abc import abstractmethod
 from typing import ClassVar, Literal, NamedTuple, Self
 
-from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.scalars import Scalar, power
 from jointplay.solver.quantities.units import Rule, Strict
 
 SMOOTH = 6
@@ -78,4 +78,4 @@ class Function(Strict):
     def quickness(self, until: float, unit: float) -> float:
         """Return the least r with |f^(k)| <= unit r^k for each of these derivatives, k from 1."""
         bounds = enumerate(self.largest(until), start=1)
-        return max(((bound / unit) ** (1.0 / k) for k, bound in bounds), default=0.0)
+        return max((power(bound / unit, 1.0 / k) for k, bound in bounds), default=0.0)

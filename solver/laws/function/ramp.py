@@ -54,7 +54,9 @@ class Ramp(Function):
     def largest(self, until: float) -> list[float]:
         """Return what the step's derivatives are at most."""
         rise = abs(self.end - self.start)
-        return [rise * bound / self.length**k for k, bound in enumerate(STEEPEST, start=1)]
+        return [
+            rise * bound / math.prod([self.length] * k) for k, bound in enumerate(STEEPEST, start=1)
+        ]
 
 
 def step(u: Scalar) -> Scalar:

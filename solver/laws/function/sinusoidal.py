@@ -55,4 +55,4 @@ class Sinusoidal(Function):
 
     def largest(self, until: float) -> list[float]:
         """Return amplitude times powers of the frequency."""
-        return [abs(self.amplitude) * self.frequency**k for k in range(1, SMOOTH + 1)]
+        return [abs(self.amplitude) * math.prod([self.frequency] * k) for k in range(1, SMOOTH + 1)]

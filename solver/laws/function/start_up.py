@@ -54,5 +54,7 @@ class StartUp(Function):
     def largest(self, until: float) -> list[float]:
         """Return the larger speed, and what the step's derivatives are at most."""
         rise = abs(self.speed - self.start_speed)
-        further = [rise * bound / self.length**k for k, bound in enumerate(STEEPEST, start=1)]
+        further = [
+            rise * bound / math.prod([self.length] * k) for k, bound in enumerate(STEEPEST, start=1)
+        ]
         return [max(abs(self.speed), abs(self.start_speed)), *further]

@@ -42,7 +42,9 @@ class Liu(OfWidth):
         deep = positive_part(depth)
         total: Scalar = 0.0
         for x, weight in NODES:  # with δ x² for the depth, x^4 dx remains of δ^1.5 dδ
-            total += weight * x**4 / sqrt(2.0 * (fit.radial_clearance + x * x * deep))
+            total += (
+                weight * ((x * x) * (x * x)) / sqrt(2.0 * (fit.radial_clearance + x * x * deep))
+            )
         half = 0.5 * math.pi * self.effective_modulus * fit.bearing_width
         return 2.0 * half * (deep * deep * sqrt(deep)) * total
 

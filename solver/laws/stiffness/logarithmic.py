@@ -32,7 +32,7 @@ from jointplay.solver.quantities.scalars import (
 
 LAST = 2.0
 """u at the depth where the tangent takes over."""
-LAST_T = LAST - math.log(LAST)
+LAST_T = LAST - logarithm(LAST)
 ROUNDS = 3
 SMALLEST = 1e-300
 """Depth (m) below which the logarithm changes no more."""

@@ -29,5 +29,5 @@ class Radzimovsky(Logarithmic):
     def constants(self, fit: Fit) -> Constants:
         """Return 1 / (π E* L), 16 R_i R_j F / b² and 2/3."""
         line = self.effective_modulus * fit.bearing_width
-        b = 8.0 / WIDTH**2 * line * fit.radial_clearance  # 16 R_i R_j / D is 8 ΔR
+        b = 8.0 / (WIDTH * WIDTH) * line * fit.radial_clearance  # 16 R_i R_j / D is 8 ΔR
         return Constants(1.0 / (math.pi * line), b, 2.0 / 3.0)

@@ -4,11 +4,11 @@ Two points or more of a body give it an angle, by the least squares of their dis
 they are drawn; one gives it a place only.
 """
 
-import math
-
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.linear_algebra.products import product
+from jointplay.solver.quantities.scalars import direction_angle, sine_cosine
 from jointplay.solver.scene.document import Scene
 
 
@@ -17,9 +17,9 @@ def drawn_angles(scene: Scene) -> dict[str, float]:
     found: dict[str, float] = {}
     for body, (own, there) in _drawn(scene).items():
         (x, y), (u, v) = (own - own.mean(axis=0)).T, (there - there.mean(axis=0)).T
-        along, across = float(x @ u + y @ v), float(x @ v - y @ u)
-        if len(own) > 1 and math.hypot(along, across) > 0.0:
-            found[body] = math.atan2(across, along)
+        along, across = float((x * u + y * v).sum()), float((x * v - y * u).sum())
+        if len(own) > 1 and (along != 0.0 or across != 0.0):
+            found[body] = float(direction_angle(along, across))
     return found
 
 
@@ -27,8 +27,8 @@ def drawn_places(scene: Scene, angles: dict[str, float]) -> dict[str, Floats]:
     """Return centres of mass of drawn bodies, (2,) m, once their angles, rad, are known."""
     found: dict[str, Floats] = {}
     for body, (own, there) in _drawn(scene).items():
-        c, s = math.cos(angles[body]), math.sin(angles[body])
-        found[body] = (there - own @ np.array([[c, s], [-s, c]])).mean(axis=0)
+        s, c = sine_cosine(angles[body])
+        found[body] = (there - product(own, np.array([[c, s], [-s, c]]))).mean(axis=0)
     return found
 
 

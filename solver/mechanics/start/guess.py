@@ -6,8 +6,9 @@ from types import MappingProxyType
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.linear_algebra.orthogonal import Decomposition
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.closing import arrays
+from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays
 from jointplay.solver.mechanics.start.drawing import drawn_angles
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.clocks import clocks
@@ -71,8 +72,9 @@ def first_pose(
         if body in places:
             pose[3 * i : 3 * i + 2] = places[body]
             positions[3 * i : 3 * i + 2] = False
-    residual, jacobian = arrays(ideal.rows(pose, np.zeros(count), driven), count)
+    residual, jacobian = arrays(ideal.rows(pose.tolist(), [0.0] * count, driven), count)
     if len(residual) and positions.any():  # revolute joints are linear in x and y
-        step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
-        pose[positions] += step
+        pose[positions] += Decomposition(jacobian[:, positions], RANK_TOLERANCE).least_squares(
+            -residual
+        )
     return pose

@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.linear_algebra.orthogonal import Decomposition
+from jointplay.solver.linear_algebra.products import applied, length, lengths, product
 from jointplay.solver.mechanics.closing import LARGEST_TURN, RANK_TOLERANCE, ROUNDING
 from jointplay.solver.mechanics.start.given import Rows
 
@@ -30,12 +32,10 @@ def step_of(levels: Sequence[Rows], scale: Floats) -> Floats:
         if not len(value) or not free.shape[1]:
             continue
         scaled = jacobian * scale
-        least = RANK_TOLERANCE * float(np.linalg.norm(scaled, axis=1).max())
-        left, sizes, right = np.linalg.svd(scaled @ free)
-        count = int((sizes > least).sum())
-        wanted = left[:, :count].T @ -(value + scaled @ step)
-        step = step + free @ (right[:count].T @ (wanted / sizes[:count]))
-        free = free @ right[count:].T
+        least = RANK_TOLERANCE * float(lengths(scaled).max())
+        left = Decomposition(product(scaled, free), 0.0, least)
+        step = step + applied(free, left.least_squares(-(value + applied(scaled, step))))
+        free = product(free, left.free)
     return np.asarray(scale * step)
 
 
@@ -95,4 +95,4 @@ def _along(
 
 
 def _size(levels: list[Rows]) -> float:
-    return sum(LESS**k * float(np.linalg.norm(rows.value)) for k, rows in enumerate(levels))
+    return sum(LESS**k * length(rows.value) for k, rows in enumerate(levels))

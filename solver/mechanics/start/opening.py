@@ -6,10 +6,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.start.given import Given, Rows
 from jointplay.solver.mechanics.start.levels import approach
 from jointplay.solver.mechanics.start.pose import KEPT, Places, named_bodies
+from jointplay.solver.quantities.scalars import sine_cosine
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.joints import Clearance, SliderClearance
 from jointplay.solver.scene.pairs import pairs_of
@@ -31,7 +33,7 @@ def opened(places: Places, guess: Floats, kept: Sequence[Given]) -> Floats | Non
         return [
             places.constraints(places.loose, pose),
             places.wanted(kept, pose),
-            Rows(turning @ (pose - guess), turning),
+            Rows(applied(turning, pose - guess), turning),
             Rows(*arrays(places.slack(pose), len(pose))),
             places.wanted(rest, pose),
         ]
@@ -73,7 +75,7 @@ def _is_within(scene: Scene, name: str, parts: dict[str, float], length: float) 
         if isinstance(clearance, Clearance):
             fits = math.hypot(parts["x"], parts["y"]) <= play
         elif isinstance(clearance, SliderClearance):
-            turned = 0.5 * clearance.length * abs(math.sin(parts["angle"]))
+            turned = 0.5 * clearance.length * abs(sine_cosine(parts["angle"])[0])
             fits = abs(parts["normal"]) + turned <= play
         else:  # away from a cam there is room
             fits = (-parts["normal"] if pair.cam else abs(parts["normal"])) <= play

@@ -74,11 +74,12 @@ class Places:
 
     def constraints(self, mechanism: AbsoluteMechanism, pose: Floats) -> Rows:
         """Return the rows of a mechanism's joints and drivers."""
-        return Rows(*arrays(mechanism.rows(pose, np.zeros_like(pose), self.driven), len(pose)))
+        count = len(pose)
+        return Rows(*arrays(mechanism.rows(pose.tolist(), [0.0] * count, self.driven), count))
 
     def slack(self, pose: Floats) -> list[Row]:
         """Return the rows of joints with play of which the scene does not say how they start."""
-        rows = self.closed.rows(pose, np.zeros_like(pose), self.driven)
+        rows = self.closed.rows(pose.tolist(), [0.0] * len(pose), self.driven)
         let_go = set(self.scene.joints).difference(self.loose.joints)
         return [row for row in rows if row.joint in let_go]
 

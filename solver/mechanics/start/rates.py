@@ -10,6 +10,7 @@ centres rest.
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.start.given import Given, Rows, given_rates, without_rounding
@@ -26,7 +27,7 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     """Return the rates of a pose, (3 bodies,), and what is given of them."""
     given = given_rates(places.closed, places.length)
     still = np.zeros_like(pose)
-    rows = places.closed.rows(pose, still, places.driven)
+    rows = places.closed.rows(pose.tolist(), still.tolist(), places.driven)
     hard = [row for row in rows if _is_hard(places, row)]
     soft = [row for row in rows if not _is_hard(places, row) and _moves_along(places, row)]
     held = _rates(hard, pose)
@@ -36,14 +37,14 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     for one in given:
         more = _joined([held, wanted[one.pointer]], pose)
         velocity = step_of([more], places.scale)
-        if np.abs(more.value + more.jacobian @ velocity).max() <= HOLDS * size:
+        if np.abs(more.value + applied(more.jacobian, velocity)).max() <= HOLDS * size:
             held = more
         else:
             rest.append(wanted[one.pointer])
     levels = [held, _joined(rest, pose), _rates(soft, pose), _still(places, pose)]
     velocity = step_of(levels, places.scale)
     # once more, from there: what is left is the rounding of the first
-    again = [Rows(r.value + r.jacobian @ velocity, r.jacobian) for r in levels]
+    again = [Rows(r.value + applied(r.jacobian, velocity), r.jacobian) for r in levels]
     velocity = velocity + step_of(again, places.scale)
     without_rounding(given, velocity, HOLDS * size)
     return velocity, given

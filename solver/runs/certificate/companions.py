@@ -22,6 +22,7 @@ from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.periods import look_ahead, plan, stop
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
+from jointplay.solver.quantities.scalars import power
 from jointplay.solver.runs.certificate.instants import Instants
 from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
 
@@ -81,10 +82,11 @@ class Companions:
         )
         order = bundle.kernel.tableau.order
         for lane, factor in enumerate(LADDER, start=1):
-            step = problem.step and problem.step * factor ** (1.0 / order)
+            longer = power(factor, 1.0 / order)
+            step = problem.step and problem.step * longer
             rung = replace(coarse, tolerance=problem.tolerance * factor, step=step)
             bundle.load(lane, rung, like=RUN)
-            longest = bundle.lane(RUN)["largest_step"] * factor ** (1.0 / order)
+            longest = bundle.lane(RUN)["largest_step"] * longer
             bundle.lane(lane)["largest_step"] = longest
         scales = start_scales(problem.scene, bundle.kernel.coordinates, period)
         perturbation = Perturbation(problem.tolerance, SEED)

@@ -20,6 +20,7 @@ from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.kernels.loop.tangent import tangent_length
+from jointplay.solver.quantities.scalars import logarithm
 from jointplay.solver.runs.certificate.companions import RUN, TIGHTEST, Companions
 
 SHARE, FEWEST, MOST = 0.05, 200, 1_000_000
@@ -104,8 +105,8 @@ class Windows:
         """Logarithm of how much each tangent has grown."""
         lanes = [self.bundle.lane(lane) for lane in range(BUNDLE)]
         lengths = [tangent_length(lane.index, lane.places[0], lane.work) for lane in lanes]
-        with np.errstate(divide="ignore"):
-            return self.grown + np.log(lengths)
+        logarithms = [logarithm(length) if length > 0.0 else -math.inf for length in lengths]
+        return self.grown + np.array(logarithms)
 
     def exponent(self) -> Exponent | None:
         """Return what the windows say; none where there is no tangent, or no time to follow it."""

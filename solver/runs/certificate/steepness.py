@@ -88,4 +88,4 @@ def _entering(contact: Floats) -> tuple[Floats, Floats]:
         return contact[0], np.abs(contact[1])
     depth, ex, ey, vx, vy = contact
     with np.errstate(invalid="ignore"):  # a journal at the centre of its bearing enters nothing
-        return depth, np.abs(ex * vx + ey * vy) / np.hypot(ex, ey)
+        return depth, np.abs(ex * vx + ey * vy) / np.sqrt(ex * ex + ey * ey)

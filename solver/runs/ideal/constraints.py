@@ -5,6 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.linear_algebra.elimination import solve as solve_square
+from jointplay.solver.linear_algebra.orthogonal import least_squares, smallest
+from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE
@@ -80,22 +83,14 @@ def solve(matrix: Floats, right: Floats, *, free: bool = False) -> Floats:
     the smallest x. b : (..., rows).
     """
     if free:
-        inverse = np.linalg.pinv(matrix, rcond=RANK_TOLERANCE)
-        return np.asarray((inverse @ right[..., None])[..., 0], np.float64)
+        return applied(np.linalg.pinv(matrix, rcond=RANK_TOLERANCE), right)  # shown, not stored
     if matrix.shape[-2] == matrix.shape[-1]:
-        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0], np.float64)
-    q, r = np.linalg.qr(matrix)
-    return np.asarray(np.linalg.solve(r, _transposed(q) @ right[..., None])[..., 0], np.float64)
+        return solve_square(matrix, right)
+    return least_squares(matrix, right)
 
 
 def solve_transposed(matrix: Floats, right: Floats) -> Floats:
     """Return x of Aᵀ x = b, (..., rows); the smallest where A has more rows than columns."""
     if matrix.shape[-2] == matrix.shape[-1]:
-        return solve(_transposed(matrix), right)
-    q, r = np.linalg.qr(matrix)
-    found = q @ np.linalg.solve(_transposed(r), right[..., None])
-    return np.asarray(found[..., 0], np.float64)
-
-
-def _transposed(matrix: Floats) -> Floats:
-    return np.swapaxes(matrix, -1, -2)
+        return solve_square(matrix.swapaxes(-1, -2), right)
+    return smallest(matrix, right)

@@ -7,12 +7,18 @@ and steps shrink towards a dead point, which they approach but do not pass (Allg
 ch. 6; Deuflhard 2011, sec. 5.1, for the test of the start).
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
+from jointplay.solver.linear_algebra.elimination import solve_many
+from jointplay.solver.linear_algebra.orthogonal import Decomposition
+from jointplay.solver.linear_algebra.products import applied, product
+from jointplay.solver.linear_algebra.spectral_radius import spectral_radius
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE
+from jointplay.solver.quantities.scalars import power
 from jointplay.solver.runs.ideal.constraints import Constraints, System, solve
 
 FEWEST_A_SCALE = 24
@@ -25,6 +31,8 @@ CONTRACTION = 0.25
 """Largest share of a correction that the next one may have."""
 MOST_CHANGE = 0.5
 """Largest relative change of the Jacobian in a step."""
+SQUARINGS = 6
+"""Of the relative change, for a bound of its eigenvalues that is near them."""
 AIM, AIM_OFF = 0.3, 0.01
 """Change, and first correction, that the next step is chosen for."""
 LEAST_STEP = 1e-12
@@ -159,9 +167,11 @@ class Path:
         except np.linalg.LinAlgError:
             return None, 0.0
         change = _change(here, there)
-        off = np.abs((pose - guess) / self.constraints.scale).max()
-        growth = min(AIM / max(change, 1e-3), (AIM_OFF / max(off, 1e-9)) ** (1.0 / 3.0))
-        return (there if change <= MOST_CHANGE else None), float(growth)
+        off = float(np.abs((pose - guess) / self.constraints.scale).max())
+        if not math.isfinite(change):
+            return None, 0.0
+        growth = min(AIM / max(change, 1e-3), power(AIM_OFF / max(off, 1e-9), 1.0 / 3.0))
+        return (there if change <= MOST_CHANGE else None), growth
 
     def closed(self, guess: Floats, time: float | Floats) -> tuple[Floats, Flags, System]:
         """Return the poses (..., 3 bodies) beside guesses, and to which Newton went at once.
@@ -195,24 +205,23 @@ class Path:
         if system is None:
             system = constraints.system(pose, np.zeros_like(pose), driven)
         jacobian = system.jacobian
-        if constraints.free:
-            found = np.linalg.pinv(jacobian, rcond=RANK_TOLERANCE)
+        unit = np.eye(len(jacobian))
+        if jacobian.shape[0] == jacobian.shape[1] and not constraints.free:
+            inverse = solve_many(jacobian, unit)
         else:
-            square = jacobian.shape[0] == jacobian.shape[1]
-            found = (np.linalg.inv if square else np.linalg.pinv)(jacobian)
-        inverse = np.asarray(found, np.float64)
-        velocity = -inverse @ system.rate
-        left = np.abs(system.rate + jacobian @ velocity).max(initial=0.0)
+            tolerance = RANK_TOLERANCE if constraints.free else 0.0
+            inverse = Decomposition(jacobian, tolerance).least_squares_many(unit)
+        velocity = -applied(inverse, system.rate)
+        left = np.abs(system.rate + applied(jacobian, velocity)).max(initial=0.0)
         consistent = bool(left <= CONSISTENT * np.abs(system.rate).max(initial=0.0))
         velocity = velocity * constraints.scale
         moving = constraints.system(pose, velocity, driven)
-        acceleration = inverse @ moving.gamma * constraints.scale
+        acceleration = applied(inverse, moving.gamma) * constraints.scale
         return Point(time, pose, velocity, acceleration, system, inverse, consistent)
 
 
 def _change(here: Point, there: Point) -> float:
-    """Return the largest eigenvalue of J_0⁺ J_1 - I; those of columns of J that stay are 0."""
+    """Return a bound of the eigenvalues of J_0⁺ J_1 - I; those of columns of J that stay are 0."""
     moved = there.system.jacobian - here.system.jacobian
     columns = np.flatnonzero(np.abs(moved).max(axis=0, initial=0.0))
-    relative = here.inverse[columns] @ moved[:, columns]
-    return float(np.abs(np.linalg.eigvals(relative)).max(initial=0.0))
+    return spectral_radius(product(here.inverse[columns], moved[:, columns]), SQUARINGS)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
+from jointplay.solver.linear_algebra.principal_directions import along_principal_directions
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from jointplay.solver.nonlinear.lyapunov import (
     confirmed,
@@ -14,6 +15,7 @@ from jointplay.solver.nonlinear.lyapunov import (
 )
 from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
+from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
 from jointplay.solver.nonlinear.verdict import Verdict, decide
 from jointplay.solver.nonlinear.zero_one import zero_one_test
 
@@ -71,9 +73,6 @@ def indicators_of(
     if "spectrum" in chosen and len(states) < FEWEST_FOR_SPECTRUM:
         found |= dict.fromkeys(("line_frequency", "line_share", "flatness"), math.nan)
     elif "spectrum" in chosen:
-        # scipy.signal takes a second to import, which only this indicator needs
-        from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
-
         spectrum = power_spectrum(principal_plane(states)[:, 0], period)
         frequency, share = strongest_line(spectrum)
         found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
@@ -128,8 +127,4 @@ def unwound(states: Floats, angles: Flags) -> Floats:
 def principal_plane(states: Floats) -> Floats:
     """Return the states seen along the two directions in which they spread most, (n, 2)."""
     centred = states - states.mean(axis=0)
-    _, _, directions = np.linalg.svd(centred, full_matrices=False)
-    plane = centred @ directions[:2].T
-    if plane.shape[1] == 2:
-        return np.asarray(plane, np.float64)
-    return np.column_stack([plane, np.zeros(len(plane))])
+    return np.column_stack(along_principal_directions(centred, 2))

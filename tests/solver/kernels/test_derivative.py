@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from jointplay.solver.kernels.record import lane_functions
+from jointplay.solver.quantities import elementary
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import record
 from jointplay.solver.kernels.record.operations import OPERATIONS
@@ -65,12 +65,12 @@ positive = st.floats(0.1, 2.0).map(lambda x: round(x, 3))
     [
         lambda x: scalars.sine_cosine(x)[0],
         lambda x: scalars.sine_cosine(3.0 * x - 1.0)[1],
-        lambda x: lane_functions.sine_cosine(x)[0],
-        lambda x: lane_functions.sine_cosine(x)[1],
-        lambda x: lane_functions.exp2(x),
-        lambda x: lane_functions.log2(1.5 + x * x),
+        lambda x: elementary.sine_cosine(x)[0],
+        lambda x: elementary.sine_cosine(x)[1],
+        lambda x: elementary.exp2(x),
+        lambda x: elementary.log2(1.5 + x * x),
         lambda x: scalars.power(x * x + 0.5, 1.3),
-        lambda x: lane_functions.power(x * x + 0.5, 1.3),
+        lambda x: elementary.power(x * x + 0.5, 1.3),
         lambda x: scalars.power(x * x + 0.5, 1.5),
         lambda x: scalars.sqrt(x * x + 1.0),
         lambda x: scalars.logarithm(x * x + 0.5),
@@ -128,7 +128,7 @@ RANDOM: dict[str, Callable[[Expression, Expression, Expression], Expression]] = 
     "sine": lambda a, b, c: a.sine_cosine()[0] * bounded(b),
     "cosine": lambda a, b, c: a.sine_cosine()[1] - b,
     "power": lambda a, b, c: (1.5 + bounded(a)).power(1.25),
-    "floor": lambda a, b, c: bounded(a) - lane_functions.operate("floor", 4.0 * bounded(a)),
+    "floor": lambda a, b, c: bounded(a) - elementary.operate("floor", 4.0 * bounded(a)),
     "positive": lambda a, b, c: scalars.positive_part(bounded(a)) * b,
 }
 
@@ -208,7 +208,7 @@ def test_what_vanishes_keeps_out_what_changes_infinitely_fast() -> None:
 def test_whole_numbers_and_powers_of_two_do_not_change() -> None:
     recorder = Recorder()
     x = recorder.variable("x")
-    operate = lane_functions.operate
+    operate = elementary.operate
     exponent, mantissa = operate("exponent_of", x), operate("mantissa_of", x)
     whole = operate("floor", x)
     for node in (whole, exponent, operate("power_of_two", whole)):

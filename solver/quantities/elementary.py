@@ -1,7 +1,9 @@
-"""Sine, cosine, power, logarithm and exponential as straight-line arithmetic for lanes.
+"""Sine, cosine, power, logarithm and exponential as arithmetic: the same bits on every processor.
 
-One call into the C library, for one lane, costs more than these polynomials do for eight lanes
-together. Each is written on abstract scalars, so that tests run it on floats against the library.
+C libraries and NumPy choose other polynomials for other processors, and round other last bits.
+These are sums, products and quotients alone, each rounded as it is written: on floats, on arrays
+and, recorded, in kernels, where one call into a library for one lane would cost more than these
+polynomials do for eight lanes together. (There sums of products are rounded once.)
 
 `coarse_log2` and `coarse_exp2` are exact to five digits, for the control of steps: the next step
 waits for them, and no step size is known to five digits. Their pairs of terms are evaluated side
@@ -9,17 +11,47 @@ by side, in a quarter of the time of the others.
 """
 
 import math
+from collections.abc import Callable
 from typing import Any
 
-from jointplay.solver.kernels.record.operations import OPERATIONS
-from jointplay.solver.quantities.scalars import select_positive
+import numpy as np
+
+LOWEST, HIGHEST = -1022.0, 1023.0
+"""Exponents of the smallest normal number and of the largest."""
+ON_FLOATS: dict[str, Callable[..., Any]] = {
+    "floor": lambda x: float(math.floor(x)) if math.isfinite(x) else x,
+    "select": lambda x, a, b: a if x > 0.0 else b,
+    "exponent_of": lambda x: float(math.frexp(x)[1] - 1),
+    "mantissa_of": lambda x: 2.0 * math.frexp(x)[0],
+    "power_of_two": lambda x: math.ldexp(1.0, int(min(max(x, LOWEST), HIGHEST))),
+    "quarter_turns": lambda n, sine, cosine: (sine, cosine, -sine, -cosine)[int(n) % 4],
+}
+ON_ARRAYS: dict[str, Callable[..., Any]] = {
+    "floor": np.floor,
+    "select": lambda x, a, b: np.where(x > 0.0, a, b),
+    "exponent_of": lambda x: np.frexp(x)[1] - 1.0,
+    "mantissa_of": lambda x: 2.0 * np.frexp(x)[0],
+    "power_of_two": lambda x: np.ldexp(1.0, np.fmin(np.fmax(x, LOWEST), HIGHEST).astype(np.int64)),
+    "quarter_turns": lambda n, sine, cosine: (
+        np.where(n % 2.0 == 1.0, cosine, sine) * np.where(n % 4.0 >= 2.0, -1.0, 1.0)
+    ),
+}
+"""What is exact: on floats, on arrays; `solver.kernels.record.operations` has it on lanes."""
 
 
 def operate(name: str, x: Any, *others: Any) -> Any:
-    """Return what an operation gives, of floats or of expressions."""
+    """Return what an operation gives, of floats, of arrays or of expressions."""
     if isinstance(x, float):
-        return OPERATIONS[name].on_floats(x, *others)
+        return ON_FLOATS[name](x, *others)
+    if isinstance(x, np.ndarray):
+        return ON_ARRAYS[name](x, *others)
     return x.recorder.apply(name, x, *others)
+
+
+def _chosen(x: Any, if_positive: Any, otherwise: Any) -> Any:
+    if isinstance(x, float | np.ndarray):
+        return operate("select", x, if_positive, otherwise)
+    return x.select_positive(if_positive, otherwise)
 
 
 TWO_OVER_PI = 0.6366197723675814
@@ -70,6 +102,20 @@ def sine_cosine(x: Any) -> tuple[Any, Any]:
     return turned, operate("quarter_turns", n + 1.0, sine, cosine)
 
 
+LARGEST_ANGLE = 1e6
+
+
+def within_reach(x: Any) -> Any:
+    """Return an angle or an array of angles, less whole turns if too large for `sine_cosine`.
+
+    By then it is itself rounded by more than what its turns are wrong by. Infinite: ValueError, and
+    NaN in an array.
+    """
+    if isinstance(x, float):
+        return x if abs(x) <= LARGEST_ANGLE else math.remainder(x, 2.0 * math.pi)
+    return np.where(np.abs(x) <= LARGEST_ANGLE, x, np.fmod(x, 2.0 * math.pi))
+
+
 LOG2_E = 1.4426950408889634
 LN_2 = 0.6931471805599453
 ATANH_SERIES = tuple(1.0 / (2 * k + 1) for k in range(11))
@@ -83,8 +129,8 @@ def log2(x: Any) -> Any:
     """Base-2 logarithm of x > 0, within 4e-16 of max(1, |log2 x|)."""
     exponent, mantissa = operate("exponent_of", x), operate("mantissa_of", x)
     upper = mantissa - math.sqrt(2.0)
-    mantissa = select_positive(upper, 0.5 * mantissa, mantissa)
-    exponent = select_positive(upper, exponent + 1.0, exponent)
+    mantissa = _chosen(upper, 0.5 * mantissa, mantissa)
+    exponent = _chosen(upper, exponent + 1.0, exponent)
     f = (mantissa - 1.0) / (mantissa + 1.0)
     return exponent + (2.0 * LOG2_E) * f * _polynomial(f * f, ATANH_SERIES)
 
@@ -111,8 +157,8 @@ def power(x: Any, exponent: Any) -> Any:
 
     The relative error is about 1e-16 * exponent * |log2 x|.
     """
-    above = select_positive(x - SMALLEST, x, SMALLEST)
-    return select_positive(x - SMALLEST, exp2(exponent * log2(above)), 0.0)
+    above = _chosen(x - SMALLEST, x, SMALLEST)
+    return _chosen(x - SMALLEST, exp2(exponent * log2(above)), 0.0)
 
 
 LOG2 = (

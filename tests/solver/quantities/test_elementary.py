@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from jointplay.solver.kernels.record import lane_functions as lane
+from jointplay.solver.quantities import elementary as lane
 
 ULP_OF_ONE = 2.0**-52
 
