@@ -9,14 +9,13 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from jointplay.solver.quantities import elementary
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import record
 from jointplay.solver.kernels.record.operations import OPERATIONS
 from jointplay.solver.kernels.record.reachable import reachable
 from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.mechanics.tree import spanning_tree
-from jointplay.solver.quantities import scalars
+from jointplay.solver.quantities import elementary, scalars
 from tests.solver.kernels.test_recorder import evaluate
 from tests.solver.readable_mechanics import preset
 
