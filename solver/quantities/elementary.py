@@ -112,7 +112,7 @@ def within_reach(x: Any) -> Any:
     NaN in an array.
     """
     if isinstance(x, float):
-        return x if abs(x) <= LARGEST_ANGLE else math.remainder(x, 2.0 * math.pi)
+        return x if abs(x) <= LARGEST_ANGLE else math.fmod(x, 2.0 * math.pi)
     return np.where(np.abs(x) <= LARGEST_ANGLE, x, np.fmod(x, 2.0 * math.pi))
 
 

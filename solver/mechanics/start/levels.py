@@ -22,21 +22,37 @@ HALVINGS = 8
 """Times that a step is halved at most, until it brings what is given nearer."""
 
 
-def step_of(levels: Sequence[Rows], scale: Floats) -> Floats:
-    """Return the smallest change, (3 bodies,), that does for each level what it can.
+class Steps:
+    """The smallest changes, (3 bodies,), that do for each level what they can.
 
     scale : (3 bodies,) what changes are measured in, m and rad.
     """
-    step, free = np.zeros(len(scale)), np.eye(len(scale))
-    for value, jacobian in levels:
-        if not len(value) or not free.shape[1]:
-            continue
-        scaled = jacobian * scale
-        least = RANK_TOLERANCE * float(lengths(scaled).max())
-        left = Decomposition(product(scaled, free), 0.0, least)
-        step = step + applied(free, left.least_squares(-(value + applied(scaled, step))))
-        free = product(free, left.free)
-    return np.asarray(scale * step)
+
+    def __init__(self, jacobians: Sequence[Floats], scale: Floats) -> None:
+        self._scale = scale
+        self._levels: list[tuple[int, Floats, Floats, Decomposition]] = []
+        free = np.eye(len(scale))
+        for i, jacobian in enumerate(jacobians):
+            if not len(jacobian) or not free.shape[1]:
+                continue
+            scaled = jacobian * scale
+            least = RANK_TOLERANCE * float(lengths(scaled).max())
+            left = Decomposition(product(scaled, free) if self._levels else scaled, 0.0, least)
+            self._levels.append((i, scaled, free, left))
+            free = product(free, left.free) if self._levels[1:] else left.free
+
+    def step(self, values: Sequence[Floats]) -> Floats:
+        """Return the change that levels off by these values want."""
+        step = np.zeros(len(self._scale))
+        for i, scaled, free, left in self._levels:
+            wanted = left.least_squares(-(values[i] + applied(scaled, step)))
+            step = step + applied(free, wanted)
+        return np.asarray(self._scale * step)
+
+
+def step_of(levels: Sequence[Rows], scale: Floats) -> Floats:
+    """Return the smallest change, (3 bodies,), that does for each level what it can."""
+    return Steps([rows.jacobian for rows in levels], scale).step([rows.value for rows in levels])
 
 
 def approach(
@@ -95,4 +111,7 @@ def _along(
 
 
 def _size(levels: list[Rows]) -> float:
-    return sum(LESS**k * length(rows.value) for k, rows in enumerate(levels))
+    total = 0.0
+    for rows in reversed(levels):
+        total = length(rows.value) + LESS * total
+    return total

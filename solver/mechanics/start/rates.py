@@ -14,7 +14,7 @@ from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.start.given import Given, Rows, given_rates, without_rounding
-from jointplay.solver.mechanics.start.levels import step_of
+from jointplay.solver.mechanics.start.levels import Steps, step_of
 from jointplay.solver.mechanics.start.pose import KEPT, Places
 from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.references import ends
@@ -34,20 +34,29 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     wanted = {one.pointer: one.rows(pose, still) for one in given}
     size = max(float(np.abs(rows.value).max(initial=0.0)) for rows in [held, *wanted.values()])
     rest: list[Rows] = []
-    for one in given:
-        more = _joined([held, wanted[one.pointer]], pose)
-        velocity = step_of([more], places.scale)
-        if np.abs(more.value + applied(more.jacobian, velocity)).max() <= HOLDS * size:
+    together = _joined([held, *wanted.values()], pose)
+    if len(wanted) > 1 and _hold(together, places.scale, size):
+        held, wanted = together, {}
+    for rows in wanted.values():
+        more = _joined([held, rows], pose)
+        if _hold(more, places.scale, size):
             held = more
         else:
-            rest.append(wanted[one.pointer])
+            rest.append(rows)
     levels = [held, _joined(rest, pose), _rates(soft, pose), _still(places, pose)]
-    velocity = step_of(levels, places.scale)
+    steps = Steps([rows.jacobian for rows in levels], places.scale)
+    velocity = steps.step([rows.value for rows in levels])
     # once more, from there: what is left is the rounding of the first
-    again = [Rows(r.value + applied(r.jacobian, velocity), r.jacobian) for r in levels]
-    velocity = velocity + step_of(again, places.scale)
+    left = [rows.value + applied(rows.jacobian, velocity) for rows in levels]
+    velocity = velocity + steps.step(left)
     without_rounding(given, velocity, HOLDS * size)
     return velocity, given
+
+
+def _hold(rows: Rows, scale: Floats, size: float) -> bool:
+    """Whether some rates meet all rows, which are of a size."""
+    velocity = step_of([rows], scale)
+    return bool(np.abs(rows.value + applied(rows.jacobian, velocity)).max() <= HOLDS * size)
 
 
 def _rates(rows: list[Row], pose: Floats) -> Rows:

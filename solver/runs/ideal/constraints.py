@@ -6,7 +6,7 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.linear_algebra.elimination import solve as solve_square
-from jointplay.solver.linear_algebra.orthogonal import least_squares, smallest
+from jointplay.solver.linear_algebra.many import least_squares, smallest
 from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import assemble, shortest_link

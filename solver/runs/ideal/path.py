@@ -205,12 +205,11 @@ class Path:
         if system is None:
             system = constraints.system(pose, np.zeros_like(pose), driven)
         jacobian = system.jacobian
-        unit = np.eye(len(jacobian))
         if jacobian.shape[0] == jacobian.shape[1] and not constraints.free:
-            inverse = solve_many(jacobian, unit)
+            inverse = solve_many(jacobian, np.eye(len(jacobian)))
         else:
             tolerance = RANK_TOLERANCE if constraints.free else 0.0
-            inverse = Decomposition(jacobian, tolerance).least_squares_many(unit)
+            inverse = Decomposition(jacobian, tolerance).inverse()
         velocity = -applied(inverse, system.rate)
         left = np.abs(system.rate + applied(jacobian, velocity)).max(initial=0.0)
         consistent = bool(left <= CONSISTENT * np.abs(system.rate).max(initial=0.0))

@@ -2,11 +2,13 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from jointplay.solver.quantities import elementary as lane
+from jointplay.solver.quantities import scalars
 
 ULP_OF_ONE = 2.0**-52
 
@@ -86,3 +88,34 @@ def test_the_coarse_logarithm_is_within_its_stated_bound(x: float) -> None:
 @given(st.floats(-1000.0, 1000.0))
 def test_the_coarse_exponential_is_within_its_stated_bound(x: float) -> None:
     assert lane.coarse_exp2(x) == pytest.approx(math.exp2(x), rel=1.2e-7)
+
+
+FUNCTIONS = {
+    "sine": (lambda x: scalars.sine_cosine(x)[0], math.sin, (-1e9, 1e9)),
+    "cosine": (lambda x: scalars.sine_cosine(x)[1], math.cos, (-1e9, 1e9)),
+    "logarithm": (scalars.logarithm, math.log, (1e-9, 1e9)),
+    "exponential": (scalars.exponential, math.exp, (-30.0, 30.0)),
+    "power": (lambda x: scalars.power(x, 2.3), lambda x: x**2.3, (0.0, 1e3)),
+    "angle": (lambda x: scalars.direction_angle(x, 0.3 - x), None, (-2.0, 2.0)),
+}
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_numbers_and_arrays_of_them_have_the_same_bits(name: str) -> None:
+    function, known, (low, high) = FUNCTIONS[name]
+    spread = np.random.default_rng(1).uniform(low, high, 500)
+    x = np.concatenate([spread, [low, high], spread * 1e-9 if low < 0.0 else spread])
+    found = function(x)
+    assert [function(float(one)) for one in x] == found.tolist()
+    if known is None:
+        known = lambda x: math.atan2(0.3 - x, x)  # noqa: E731
+    # of an angle of 1e9 rad, a bit is 1e-7
+    bound = 1e-15 if high < 1e9 or low > 0.0 else 1e-7
+    assert found == pytest.approx([known(float(one)) for one in x], rel=1e-14, abs=bound)
+
+
+def test_sines_keep_what_is_no_number_and_refuse_the_infinite() -> None:
+    assert all(map(math.isnan, scalars.sine_cosine(math.nan)))
+    assert np.isnan(scalars.sine_cosine(np.array([math.nan]))).all()
+    with pytest.raises(ValueError, match="math domain error"):
+        scalars.sine_cosine(math.inf)
