@@ -1,6 +1,6 @@
 """Complete orthogonal decomposition of a matrix of any rank, by Householder's reflections.
 
-A P = Q [T 0; 0 0] Z with orthogonal Q, Z, a triangle T of the order of the rank and a permutation P:
+A P = Q [T 0; 0 0] Z: Q and Z orthogonal, T a triangle of the order of the rank, P a permutation:
 columns are taken the longest first, until what is left of all is rounding; what those have in
 common with the others is then reflected away from the right (Golub and Van Loan 2013, Matrix
 Computations, 4th ed., algorithm 5.4.1 and section 5.4.7).

@@ -3,8 +3,11 @@
 import math
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.quantities.elementary import ATANH_SERIES, LN_2
 
+LN_2 = 0.6931471805599453
+ATANH_SERIES = tuple(1.0 / (2 * k + 1) for k in range(11))
+"""As in `solver.quantities.elementary`; compiled code takes nothing from outside of this package,
+for changes there would not compile it anew."""
 LEAST = math.sqrt(0.5)
 """Mantissas are from here to twice as much, about 1."""
 
