@@ -48,7 +48,7 @@ class _Reflection:
 
 
 class Decomposition:
-    """Of a matrix (rows, columns), and its rank.
+    """Decomposition of a matrix (rows, columns), and its rank.
 
     tolerance : what is left of columns is rounding if it is no longer than this share of the
     longest one; `least` : or no longer than this.

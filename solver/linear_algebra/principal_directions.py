@@ -6,7 +6,7 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.linear_algebra.products import applied, lengths, product
 
 SQUARINGS = 40
-"""Of the covariance: two spreads that differ by 1e-11 of their size are told apart."""
+"""Squarings of the covariance: two spreads that differ by 1e-11 of their size are told apart."""
 
 
 def along_principal_directions(points: Floats, count: int) -> list[Floats]:

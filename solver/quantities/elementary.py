@@ -36,7 +36,7 @@ ON_ARRAYS: dict[str, Callable[..., Any]] = {
         np.where(n % 2.0 == 1.0, cosine, sine) * np.where(n % 4.0 >= 2.0, -1.0, 1.0)
     ),
 }
-"""What is exact: on floats, on arrays; `solver.kernels.record.operations` has it on lanes."""
+"""Exact operations, on floats and on arrays; `solver.kernels.record.operations` has it on lanes."""
 
 
 def operate(name: str, x: Any, *others: Any) -> Any:

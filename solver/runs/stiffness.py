@@ -6,7 +6,7 @@ from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
 from jointplay.solver.linear_algebra.spectral_radius import spectral_radius
 
 SQUARINGS = 10
-"""Of a Jacobian whose eigenvectors' condition may be 1e6: the rate is known to 1.5 %."""
+"""Squarings of a Jacobian whose eigenvectors' condition may be 1e6: the rate is known to 1.5 %."""
 
 
 def fastest_rate(bundle: Bundle, i: int) -> float:

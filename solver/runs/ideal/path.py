@@ -32,7 +32,7 @@ CONTRACTION = 0.25
 MOST_CHANGE = 0.5
 """Largest relative change of the Jacobian in a step."""
 SQUARINGS = 6
-"""Of the relative change, for a bound of its eigenvalues that is near them."""
+"""Squarings of the relative change, for a bound of its eigenvalues that is near them."""
 AIM, AIM_OFF = 0.3, 0.01
 """Change, and first correction, that the next step is chosen for."""
 LEAST_STEP = 1e-12
