@@ -26,6 +26,7 @@ from filelock import FileLock
 from numba.core.caching import UserProvidedCacheLocator
 
 from jointplay.solver.kernels.compiler import leave_out_slow_passes
+from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.watched import compile_if_watched
 from jointplay.solver.version import source_digest
 
@@ -114,7 +115,7 @@ SPENT = Spent()
 
 
 def is_compiled(path: Path) -> bool:
-    """Return whether all functions of a generated file have once been compiled."""
+    """Return whether all functions of a generated file are compiled for what this process is."""
     return _mark(path).exists()
 
 
@@ -148,7 +149,7 @@ def _load_file(path: Path) -> ModuleType:
 
 
 def _mark(path: Path) -> Path:
-    return path.with_suffix(".compiled")
+    return path.with_suffix(f".{own_target().mark}.compiled")
 
 
 @contextmanager

@@ -24,6 +24,7 @@ from jointplay.solver.kernels.loop.replay import (
     step_ends,
     works_in_steps,
 )
+from jointplay.solver.kernels.target import own_target
 
 RUNS, WINDOWS = "runs", "windows"
 PARTS: Mapping[str, Sequence[Deferred]] = {
@@ -35,15 +36,15 @@ PARTS: Mapping[str, Sequence[Deferred]] = {
 
 def compile_part(part: str) -> None:
     """Compile a part, or load it from the cache; only one process compiles."""
-    with FileLock(_marker(part).with_suffix(".lock")), without_collection():
+    with FileLock(marker(part).with_suffix(".lock")), without_collection():
         for one in PARTS[part]:
             one.compile()
-    _marker(part).touch()
+    marker(part).touch()
 
 
 def begin(part: str) -> subprocess.Popen[bytes] | None:
     """Start compiling a part in a process of its own; None when it is in the cache."""
-    if _marker(part).exists():
+    if marker(part).exists():
         return None
     return subprocess.Popen(  # noqa: S603 - our own program
         [sys.executable, "-P", "-m", "jointplay.solver.kernels.compile_loop", part],
@@ -62,8 +63,9 @@ def main(parts: Sequence[str]) -> int:
     return int(any(codes))
 
 
-def _marker(part: str) -> Path:
-    return cache_folder() / f"{part}-compiled"
+def marker(part: str) -> Path:
+    """Return the file that says that a part is compiled for what this process is."""
+    return cache_folder() / f"{part}-{own_target().mark}-compiled"
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ sum is rounded as it is written; see `solver.kernels.emit.lane_arithmetic`.
 
 # mypy: disable-error-code="no-untyped-call"
 
+import hashlib
 import os
 import platform
 import re
@@ -14,6 +15,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
+import llvmlite
 import numba
 from llvmlite import binding
 from numba.core.codegen import get_host_cpu_features
@@ -40,6 +42,12 @@ class Target:
     lanes: int
     processor: str
     features: str
+
+    @property
+    def mark(self) -> str:
+        """Return twelve hexadecimal digits that tell code for it, by this compiler, from other."""
+        about = (self, llvmlite.__version__, binding.llvm_version_info)
+        return hashlib.sha256(repr(about).encode()).hexdigest()[:12]
 
     def machine(self) -> Any:
         """Return LLVM's generator of code for it, set as Numba sets its own."""

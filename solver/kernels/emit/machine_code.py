@@ -4,7 +4,6 @@ Numba, which compiles the loops that call it, would optimise such a module three
 and keep an entry to each function for itself: more than half of the compilation of a press.
 """
 
-import hashlib
 import os
 import tempfile
 from collections.abc import Callable
@@ -12,7 +11,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import llvmlite
 from llvmlite import binding
 
 from jointplay.solver.kernels.compiler import order_instructions
@@ -31,7 +29,7 @@ def load_code(text: Callable[[], str], target: Target, source: Path | None) -> N
 
     `source` : beside which the file is; None: nothing is kept.
     """
-    path = None if source is None else _beside(source, target)
+    path = None if source is None else source.with_suffix(f".{target.mark}.o")
     if path is not None and path.exists():
         code = path.read_bytes()
     else:
@@ -57,12 +55,6 @@ def address_of_number(name: str) -> int:
     if address == 0:
         raise LookupError(f"no code is loaded that keeps '{name}'")
     return address
-
-
-def _beside(source: Path, target: Target) -> Path:
-    """Return the file of a source's code for a target and this compiler."""
-    about = (target, llvmlite.__version__, binding.llvm_version_info)
-    return source.with_suffix(f".{hashlib.sha256(repr(about).encode()).hexdigest()[:12]}.o")
 
 
 def _compiled(text: str, target: Target) -> bytes:

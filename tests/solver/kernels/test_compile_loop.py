@@ -2,13 +2,16 @@
 
 import importlib
 import pkgutil
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from jointplay.solver import kernels
-from jointplay.solver.kernels import compile_loop
+from jointplay.solver.kernels import cache, compile_loop
 from jointplay.solver.kernels.jit import Deferred
+from jointplay.solver.kernels.target import own_target
 
 
 def test_every_kernel_that_python_calls_is_compiled() -> None:
@@ -22,9 +25,27 @@ def test_every_kernel_that_python_calls_is_compiled() -> None:
 def test_what_is_compiled_already_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(compile_loop, "cache_folder", lambda: tmp_path)
     compile_loop.compile_part(compile_loop.WINDOWS)
-    (tmp_path / "runs-compiled").touch()
+    compile_loop.marker(compile_loop.RUNS).touch()
     monkeypatch.setattr(compile_loop, "subprocess", None)  # nothing can be started any more
     assert compile_loop.main([]) == 0
-    (tmp_path / "windows-compiled").unlink()
+    compile_loop.marker(compile_loop.WINDOWS).unlink()
     with pytest.raises(AttributeError):
         compile_loop.main([])
+
+
+@pytest.mark.parametrize("other", [{"lanes": 2}, {"processor": "another"}])
+def test_what_is_compiled_for_another_target_is_compiled_again(
+    other: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = tmp_path / "generated.py"
+    source.touch()
+    monkeypatch.setattr(compile_loop, "cache_folder", lambda: tmp_path)
+    cache.load_file(source)
+    compile_loop.compile_part(compile_loop.RUNS)
+    assert cache.is_compiled(source)
+    assert compile_loop.begin(compile_loop.RUNS) is None
+    target = replace(own_target(), **other)
+    for module in (cache, compile_loop):
+        monkeypatch.setattr(module, "own_target", lambda: target)
+    assert not cache.is_compiled(source)
+    assert not compile_loop.marker(compile_loop.RUNS).exists()

@@ -240,9 +240,9 @@ def compiling(catalogue: Catalogue, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(kernel_cache, "_kernels", {})
     folder = tmp_path / "kernels"
     folder.mkdir()
-    (folder / "runs-compiled").touch()
     for module in (cache, compile_loop):
         monkeypatch.setattr(module, "cache_folder", lambda: folder)
+    compile_loop.marker(compile_loop.RUNS).touch()
     admitted = admit(SEVERAL_BODIES)
     new = NewJob("simulate", admitted.job, admitted.digest, SOLVER_VERSION)
     return f"{catalogue.submit(new).job.id}-0"
