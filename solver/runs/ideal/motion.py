@@ -59,8 +59,8 @@ class IdealMotion:
                 return lost_at(self.path, self.scene)
             if self.period > duration or self._comes_back():
                 return None
-        self.period = None
-        return elsewhere(MOST_PERIODS, self.path.end.time)
+        self.period, end = None, self.path.end.time
+        return elsewhere(MOST_PERIODS, end) if end < duration else None
 
     def at(self, times: Floats, local: Floats) -> Motion:
         """Return the motion and all forces at times in s, `local` within the period.

@@ -150,6 +150,21 @@ def test_a_mechanism_that_comes_back_after_two_periods_goes_on() -> None:
     assert found.low <= samples[:, 0].min() < samples[:, 0].max() <= found.high
 
 
+def test_a_run_up_to_where_a_mechanism_does_not_come_back_is_whole(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(motion, "MOST_PERIODS", 1)
+    request = job(twice_round(), duration=1.0) | {"output_step": 0.05}
+    samples = np.concatenate(
+        [
+            piece.samples
+            for piece in Simulation(admit(request | {"channels": ["platform.x"]})).slices()
+        ]
+    )
+    wanted = follow(Scene.model_validate(twice_round()), np.linspace(0.0, 1.0, 21).tolist())
+    np.testing.assert_allclose(samples[:, 0], wanted.poses[:, -3], rtol=0, atol=1e-9)
+
+
 def test_a_mechanism_that_does_not_come_back_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(motion, "MOST_PERIODS", 1)
     simulation = Simulation(admit(job(twice_round(), duration=1.5) | {"output_step": 0.05}))
