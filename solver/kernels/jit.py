@@ -10,9 +10,6 @@ from jointplay.solver.kernels.cache import cache_folder
 
 cache_folder()  # names Numba's cache before any kernel is declared
 
-LaneFunction = Callable[..., Any]
-"""A generated function of work arrays: first-class inside kernels."""
-
 
 def kernel() -> Callable[[Any], Any]:
     """Compile a function when another kernel or Python first uses it."""
@@ -20,13 +17,27 @@ def kernel() -> Callable[[Any], Any]:
     return decorator
 
 
-def inner_kernel() -> Callable[[Any], Any]:
+INNER: dict[str, Any] = {
+    "cache": True,
+    "error_model": "numpy",
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+}
+
+
+def inner_kernel(*, forceinline: bool = False) -> Callable[[Any], Any]:
     """Compile a function that kernels alone call, without what calls from elsewhere need.
 
     That is a quarter of its compilation. Called from Python it would be a null pointer.
+    `forceinline` : for one that is called in one place, or takes more to call than to run.
     """
-    without: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    decorator: Callable[[Any], Any] = numba.njit(cache=True, error_model="numpy", **without)
+    decorator: Callable[[Any], Any] = numba.njit(forceinline=forceinline, **INNER)
+    return decorator
+
+
+def written_out() -> Callable[[Any], Any]:
+    """Write a function into those that call it: only so may it return a tuple with a record."""
+    decorator: Callable[[Any], Any] = numba.njit(inline="always", **INNER)
     return decorator
 
 

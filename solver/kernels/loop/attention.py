@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
+from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.emit.judging import DUE, ONSET, PACE, REJECTED, RELEASE
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.contacts import (
     CAUTIOUS,
     begin_abruptly,
@@ -25,7 +25,8 @@ from jointplay.solver.kernels.loop.events import has_all_events, record_event
 from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, note_openings
 from jointplay.solver.kernels.loop.peaks import end_peaks
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
-from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers, Run, SectionKind, Status
+from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers, SectionKind, Status
+from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.loop.tangent import latch_tangent, record_growth
 
 AT_ONSET = 1e-4
@@ -34,26 +35,17 @@ grows as a root of time may ask for it. So short a one need not move time, but i
 
 
 @inner_kernel()
-def attend(
-    flag: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    rows: np.ndarray,
-    states_within: LaneFunction,
-    gaps_within: LaneFunction,
-) -> bool:
+def attend(flag: int, s: Step, rows: np.ndarray) -> bool:
     """Look after one lane between its attempt and its commit; whether a buffer is full."""
+    lane, run, at, work = s.lane, s.run, s.at, s.work
     run.attended += 1
     opening = 1.0
     if flag & RELEASE:
-        opening = note_openings(lane, at, work, spare, gaps_within, not flag & REJECTED)
+        opening = note_openings(s, not flag & REJECTED)
     if flag & REJECTED:
         run.rejections += 1
         run.landing = NO_PAIR  # its attempts count on, or they might go in circles
-        touching = is_touching(lane, at, work)
+        touching = is_touching(s)
         smallest = run.smallest_step * AT_ONSET if touching else run.smallest_step
         if work[at.next_step, lane] < smallest:
             stop(Status.UNDERFLOW, lane, run, at, work)
@@ -61,33 +53,24 @@ def attend(
         if touching:
             work[at.next_step, lane] *= CAUTIOUS
     if opening < LATE:
-        end_behind_opening(opening, lane, run, at, work)
+        end_behind_opening(opening, s)
         return False
     if flag & REJECTED:
         return False
     if flag & ONSET or run.landing != NO_PAIR:
-        landed = land(lane, run, at, work, spare, gaps_within)
+        landed = land(s)
         if not landed:
             work[at.accept, lane] = 0.0
             return False
     if flag & DUE:
-        return hand_out(lane, run, at, work, spare, rows, states_within)
+        return hand_out(s, rows)
     return False
 
 
 @inner_kernel()
-def settle(
-    flag: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    buffers: Buffers,
-    weigh: LaneFunction,
-    right_hand_side: LaneFunction,
-    tangent_gaps: LaneFunction,
-) -> bool:
+def settle(flag: int, s: Step, buffers: Buffers) -> bool:
     """Look after one lane once its step is taken; whether a buffer is nearly full."""
+    lane, run, at, work, call = s.lane, s.run, s.at, s.work, functions_at(s.call)
     tangents = buffers.growths.shape[1] > 0
     begun = float(run.periods) * run.period
     now = begun + work[at.time, lane]
@@ -96,21 +79,22 @@ def settle(
     if landed != NO_PAIR:
         abrupt = False
         for j in range(at.pairs):
-            if j != landed and not lands_beside(j, lane, at, work):
+            if j != landed and not lands_beside(j, s):
                 continue
-            begin_contact(j, now, lane, at, work)
-            weigh(work)  # where a fixed step ends, one may begin deep: with energy from nowhere
+            begin_contact(j, now, s)
+            # where a fixed step ends, a contact may begin deep: with energy from nowhere
+            call.weigh(work)
             work[at.stored_start, lane] = work[at.stored, lane]
             if tangents:
-                tangent_gaps(work)
-                latch_tangent(j, lane, at, work)
+                call.tangent_gaps(work)
+                latch_tangent(j, s)
             run.onsets += 1
             run.slow += int(work[at.approach + j, lane] < work[at.impact_floor + j, lane])
             if run.section_kind == SectionKind.ONSET and run.section_place == j:
-                full |= record_event(lane, lane, run, at, work, work, buffers.rows)
+                full |= record_event(lane, s, work, buffers.rows)
             abrupt |= work[at.abrupt + j, lane] > 0.0
         if abrupt:
-            begin_abruptly(landed, lane, at, work, right_hand_side)
+            begin_abruptly(landed, s)
         run.landing = NO_PAIR
         run.landings = 0
     if flag & RELEASE:
@@ -118,15 +102,15 @@ def settle(
             opened = work[at.opened + j, lane]
             if work[at.mode + j, lane] > 0.0 and opened < math.inf:
                 work[at.mode + j, lane] = 0.0
-                end_contact(j, begun + opened, lane, run, at, work, buffers.impacts)
+                end_contact(j, begun + opened, s, buffers.impacts)
         full |= run.impacts + at.pairs > buffers.impacts.shape[1]
     if work[at.time, lane] >= work[at.end, lane] or has_all_events(run):
-        end_peaks(now, lane, at, work)
+        end_peaks(now, s)
         if tangents:
-            full |= record_growth(now, lane, run, at, work, buffers.growths)
+            full |= record_growth(now, s, buffers.growths)
         for j in range(at.pairs):
             if work[at.mode + j, lane] > 0.0:
-                end_contact(j, math.nan, lane, run, at, work, buffers.impacts)
+                end_contact(j, math.nan, s, buffers.impacts)
         stop(Status.DONE, lane, run, at, work)
         return full
     if flag & PACE:
@@ -135,6 +119,6 @@ def settle(
         if work[at.time, lane] >= run.period:
             turn_over(lane, run, at, work)
             if tangents:
-                full |= record_growth(now, lane, run, at, work, buffers.growths)
+                full |= record_growth(now, s, buffers.growths)
         plan(lane, run, at, work)
     return full

@@ -8,8 +8,7 @@ import math
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.cuts_at_bends import (
     MOST_PLACES,
     bends_below,
@@ -18,7 +17,7 @@ from jointplay.solver.kernels.loop.cuts_at_bends import (
 )
 from jointplay.solver.kernels.loop.inner_peaks import place_evenly
 from jointplay.solver.kernels.loop.looks_into_steps import look_at_suspects
-from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.loop.step import Step, channels_within
 
 BEYOND = 0.5
 """Part of what a cubic goes beyond its ends by which slip may go further than the cubic."""
@@ -49,15 +48,16 @@ def beyond_ends(change: float, begin: float, end: float) -> tuple[float, float]:
     return below - least, most - above
 
 
-@inner_kernel()
-def may_pass_bend(lane: int, at: Places, work: np.ndarray) -> bool:
+@inner_kernel(forceinline=True)
+def may_pass_bend(s: Step) -> bool:
     """Whether a slip may pass a bend and come back in this step, or pass more than one.
 
     Both is told by its values and rates at both ends: one bend that is passed once shows there.
     """
+    lane, at, work = s.lane, s.at, s.work
     step = work[at.tried, lane]
     for j in range(at.pairs):
-        if has_bend(j, lane, at, work):
+        if has_bend(j, s):
             before, now = work[at.slip_start + j, lane], work[at.slip + j, lane]
             begin = step * work[at.slip_rate_start + j, lane]
             end = step * work[at.slip_rate + j, lane]
@@ -66,25 +66,26 @@ def may_pass_bend(lane: int, at: Places, work: np.ndarray) -> bool:
             low, high = min(before, now), max(before, now)
             least = low - (1.0 + BEYOND) * below - margin
             most = high + (1.0 + BEYOND) * above + margin
-            first, last = bends_below(low, j, lane, at, work), bends_below(high, j, lane, at, work)
+            first, last = bends_below(low, j, s), bends_below(high, j, s)
             if (
                 last - first > 1
-                or bends_below(least, j, lane, at, work) < first
-                or bends_below(most, j, lane, at, work) > last
+                or bends_below(least, j, s) < first
+                or bends_below(most, j, s) > last
             ):
                 return True
     return False
 
 
 @inner_kernel()
-def find_in_reach(lane: int, at: Places, work: np.ndarray, found: np.ndarray) -> int:
+def find_in_reach(s: Step, found: np.ndarray) -> int:
     """Write the rows that friction may bring to a record in this step; how many.
 
     It is as large as the normal force allows, and so it was where that was largest.
     """
+    lane, at, work = s.lane, s.at, s.work
     share, count = 0.0, 0
     for j in range(at.pairs):
-        if has_bend(j, lane, at, work):
+        if has_bend(j, s):
             row = int(work[at.normal_row + j, lane])
             normal = max(work[at.previous + row, lane], work[at.channel + row, lane])
             share = max(share, normal / work[at.highest + row, lane])
@@ -99,38 +100,16 @@ def find_in_reach(lane: int, at: Places, work: np.ndarray, found: np.ndarray) ->
 
 
 @inner_kernel()
-def any_bend(at: Places, work: np.ndarray) -> bool:
-    """Whether a slip in any lane may come to a bend in the step that it takes."""
-    for lane in range(work.shape[1]):
-        if work[at.accept, lane] > 0.0 and may_pass_bend(lane, at, work):
-            return True
-    return False
-
-
-@inner_kernel()
-def look_between_bends(
-    chosen: np.ndarray,
-    low: float,
-    high: float,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-    channels_within: LaneFunction,
-    gaps_within: LaneFunction,
-) -> None:
+def look_between_bends(chosen: np.ndarray, low: float, high: float, s: Step) -> None:
     """Seek extremes of chosen rows between two shares, from one passage of a bend to the next."""
     if len(chosen) == 0:
         return
     cuts, begin = np.empty((MOST_PLACES + 1, 2)), low
-    count = find_cuts(low, high, lane, at, work, spare, gaps_within, cuts)
+    count = find_cuts(low, high, s, cuts)
     cuts[count] = high
     for end, behind in cuts[: count + 1]:
         if begin < end:
-            place_evenly(begin, end, at, spare)
-            channels_within(work, spare, lane)
-            look_at_suspects(chosen, begin, end, lane, run, at, work, spare, table, channels_around)
+            place_evenly(begin, end, s)
+            channels_within(s)
+            look_at_suspects(chosen, begin, end, s)
         begin = max(begin, behind)

@@ -28,11 +28,7 @@ from jointplay.solver.scene.references import inner_states
 
 STEPS_IN_A_PERIOD = 100
 """Fewest steps in a period of the fastest driver, or in the scene's own scale of time."""
-ROWS = {
-    "slip_velocity": "slip_row",
-    "penetration": "penetration_row",
-    "normal_force": "normal_row",
-}
+ROWS = {"slip_velocity": "slip_row", "penetration": "penetration_row", "normal_force": "normal_row"}
 """Slots that have the rows of a pair's channels."""
 RESTART = 1e-3
 """The first step in contact closes this share of the clearance at the impact rate."""

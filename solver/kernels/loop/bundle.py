@@ -20,14 +20,7 @@ from jointplay.solver.kernels.loop.dense_rows import observe_rows
 from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.periods import look_ahead, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
-from jointplay.solver.kernels.loop.runs import (
-    DTYPE,
-    NO_PAIR,
-    SAMPLES,
-    SECTIONS,
-    Buffers,
-    Status,
-)
+from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, Buffers, Status
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed

@@ -2,12 +2,13 @@
 
 import numpy as np
 
+from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.emit.judging import LANDED
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.onset import NO_ONSET, first_onset
 from jointplay.solver.kernels.loop.periods import stop
-from jointplay.solver.kernels.loop.runs import NO_PAIR, Run, Status
+from jointplay.solver.kernels.loop.runs import NO_PAIR, Status
+from jointplay.solver.kernels.loop.step import Step
 
 MOST_LANDINGS = 12
 """Attempts to land on one onset before it is approached in shorter steps."""
@@ -21,14 +22,7 @@ LANDED_AT_LAST = 1e-9
 
 
 @inner_kernel()
-def land(
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    gaps_within: LaneFunction,
-) -> bool:
+def land(s: Step) -> bool:
     """Whether this step may be taken: no contact begins inside it, but perhaps at its end.
 
     1. Find the pair whose contact begins first inside the step, and when (`earliest_onset`).
@@ -43,19 +37,20 @@ def land(
     A target that only came near, and is on its way back, is dropped. Where steps are fixed,
     contact begins at the end of the step that it began in.
     """
-    at_end = closed_in_fixed_step(lane, at, work)
+    lane, run, at, work = s.lane, s.run, s.at, s.work
+    at_end = closed_in_fixed_step(s)
     if at_end != NO_PAIR:
         run.landing = at_end
         return True
     target = run.landing
-    pair, share = earliest_onset(target, lane, at, work, spare, gaps_within)
+    pair, share = earliest_onset(target, s)
     if target != NO_PAIR:
         alone = pair in (NO_PAIR, target)
         last = run.landings >= MOST_LANDINGS
-        if alone and has_landed(target, last, lane, at, work):
+        if alone and has_landed(target, last, s):
             return True
         if last:
-            approach(lane, run, at, work)
+            approach(s)
             return False
         gap, rate = work[at.gap + target, lane], work[at.gap_rate + target, lane]
         if gap < 0.0 and rate <= 0.0 and pair == NO_PAIR:
@@ -72,8 +67,9 @@ def land(
 
 
 @inner_kernel()
-def closed_in_fixed_step(lane: int, at: Places, work: np.ndarray) -> int:
+def closed_in_fixed_step(s: Step) -> int:
     """Return the first open pair whose gap is closed at the end of a fixed step."""
+    lane, at, work = s.lane, s.at, s.work
     for j in range(at.pairs):
         fixed = work[at.restart + j, lane] == np.inf
         if fixed and work[at.mode + j, lane] <= 0.0 and work[at.gap + j, lane] > 0.0:
@@ -82,19 +78,13 @@ def closed_in_fixed_step(lane: int, at: Places, work: np.ndarray) -> int:
 
 
 @inner_kernel()
-def earliest_onset(
-    target: int,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    gaps_within: LaneFunction,
-) -> tuple[int, float]:
+def earliest_onset(target: int, s: Step) -> tuple[int, float]:
     """Return the open pair whose gap closes first inside the step, and the share of it before.
 
     A target that has landed does not count, nor what lands beside it. One that is too deep at the
     end counts as before all others, for when it closed does not matter then.
     """
+    lane, at, work = s.lane, s.at, s.work
     pair, share = NO_PAIR, NO_ONSET
     overshot = False
     for j in range(at.pairs):
@@ -103,34 +93,35 @@ def earliest_onset(
         gap = work[at.gap + j, lane]
         if j == target and abs(gap) <= LANDED:
             continue
-        if target != NO_PAIR and lands_beside(j, lane, at, work):
+        if target != NO_PAIR and lands_beside(j, s):
             continue
         if j == target and gap > 0.0:
             overshot = True
             continue
-        found = first_onset(j, lane, at, work, spare, gaps_within)
+        found = first_onset(j, s)
         if found < share:
             pair, share = j, found
     if overshot:
         found = -1.0
         if pair != NO_PAIR:
-            found = first_onset(target, lane, at, work, spare, gaps_within)
+            found = first_onset(target, s)
         if found < share:
             pair, share = target, found
     return pair, share
 
 
 @inner_kernel()
-def lands_beside(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
+def lands_beside(j: int, s: Step) -> bool:
     """Whether an open pair's gap closes at the end of the step, too: both corners of a side."""
+    lane, at, work = s.lane, s.at, s.work
     apart = work[at.mode + j, lane] <= 0.0 < work[at.gap_rate + j, lane]
     return bool(apart and abs(work[at.gap + j, lane]) <= LANDED)
 
 
 @inner_kernel()
-def has_landed(target: int, last: bool, lane: int, at: Places, work: np.ndarray) -> bool:
+def has_landed(target: int, last: bool, s: Step) -> bool:
     """Whether a target's gap is as good as zero at the end of the step."""
-    depth = abs(work[at.gap + target, lane])
+    depth = abs(s.work[s.at.gap + target, s.lane])
     return depth <= LANDED or (last and depth <= LANDED_AT_LAST)
 
 
@@ -144,8 +135,9 @@ def corrected_share(gap: float, rate: float, tried: float) -> float:
 
 
 @inner_kernel()
-def approach(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def approach(s: Step) -> None:
     """Give an onset up for now: steps are so long that one's end hardly tells of another's."""
+    lane, run, at, work = s.lane, s.run, s.at, s.work
     run.landing = NO_PAIR
     run.landings += 1
     work[at.next_step, lane] = 0.25 * work[at.tried, lane]
@@ -154,8 +146,9 @@ def approach(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
 
 
 @inner_kernel()
-def begin_contact(j: int, now: float, lane: int, at: Places, work: np.ndarray) -> None:
+def begin_contact(j: int, now: float, s: Step) -> None:
     """Latch the impact rate of pair j, once per onset, and restart with a small step."""
+    lane, at, work = s.lane, s.at, s.work
     rate = work[at.gap_rate + j, lane]
     floored = max(rate, work[at.impact_floor + j, lane])
     work[at.mode + j, lane] = 1.0
@@ -169,19 +162,18 @@ def begin_contact(j: int, now: float, lane: int, at: Places, work: np.ndarray) -
 
 
 @inner_kernel()
-def begin_abruptly(
-    j: int, lane: int, at: Places, work: np.ndarray, right_hand_side: LaneFunction
-) -> None:
+def begin_abruptly(j: int, s: Step) -> None:
     """Begin the next step with the slopes just behind the onset of pair j, whose force jumps there.
 
     Those that the step before has left are without it, and no step would be short enough.
     """
+    lane, at, work = s.lane, s.at, s.work
     kept = work[:, lane].copy()
     behind = 2.0 * LANDED / max(work[at.gap_rate + j, lane], LANDED)
     work[at.stage_time, lane] += behind
     for i in range(at.step_row.coordinates):
         work[at.stage + i, lane] += behind * work[at.k1_ + i, lane]
-    right_hand_side(work)
+    functions_at(s.call).right_hand_side(work)
     for i in range(at.states):
         kept[at.k1_ + i] = work[at.slope + i, lane]
     for i in range(at.ledger):
@@ -190,11 +182,10 @@ def begin_abruptly(
 
 
 @inner_kernel()
-def end_contact(
-    j: int, now: float, lane: int, run: Run, at: Places, work: np.ndarray, impacts: np.ndarray
-) -> None:
+def end_contact(j: int, now: float, s: Step, impacts: np.ndarray) -> None:
     """Write the contact of pair j that ends now, s; NaN: it lasts beyond the run."""
-    impact = impacts[lane, run.impacts]
+    lane, at, work = s.lane, s.at, s.work
+    impact = impacts[lane, s.run.impacts]
     row = at.contact_row + j
     impact.joint = j
     impact.onset = work[at.onset_time + j, lane]
@@ -202,12 +193,13 @@ def end_contact(
     impact.approach_rate = work[at.approach + j, lane]
     impact.peak_force = max(work[at.highest + row, lane], work[at.previous + row, lane])
     impact.impulse = work[at.impulse + j, lane] - work[at.onset_total + j, lane]
-    run.impacts += 1
+    s.run.impacts += 1
 
 
 @inner_kernel()
-def is_touching(lane: int, at: Places, work: np.ndarray) -> bool:
+def is_touching(s: Step) -> bool:
     """Whether a contact begins where this step does."""
+    lane, at, work = s.lane, s.at, s.work
     found = False
     for j in range(at.pairs):
         depth = abs(work[at.gap_start + j, lane])

@@ -6,9 +6,9 @@ bend, and the intervals of these passages shrink to nothing.
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS, INSTANTS
+from jointplay.solver.kernels.loop.step import Step, gaps_within
 
 TURNS = 2
 """Rounds in which places are added to either side of one where a slip turns near a bend."""
@@ -23,41 +23,33 @@ MOST_PLACES = 256
 
 
 @inner_kernel()
-def bends_below(slip: float, j: int, lane: int, at: Places, work: np.ndarray) -> int:
+def bends_below(slip: float, j: int, s: Step) -> int:
     """Return how many bends of pair j's friction, either way, a slip is above."""
     below = 0
     for k in range(BENDS * j, BENDS * (j + 1)):
-        bend = work[at.bend + k, lane]
+        bend = s.work[s.at.bend + k, s.lane]
         below += int(slip > bend) + int(slip > -bend)
     return below
 
 
 @inner_kernel()
-def nearest_bend(slip: float, j: int, lane: int, at: Places, work: np.ndarray) -> float:
+def nearest_bend(slip: float, j: int, s: Step) -> float:
     """Return the distance of a slip from the nearest bend of pair j's friction, m/s."""
     nearest = np.inf
     for k in range(BENDS * j, BENDS * (j + 1)):
-        nearest = min(nearest, abs(abs(slip) - work[at.bend + k, lane]))
+        nearest = min(nearest, abs(abs(slip) - s.work[s.at.bend + k, s.lane]))
     return nearest
 
 
 @inner_kernel()
-def has_bend(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
+def has_bend(j: int, s: Step) -> bool:
     """Whether pair j touches with friction that bends somewhere."""
+    lane, at, work = s.lane, s.at, s.work
     return bool(work[at.mode + j, lane] > 0.0 and work[at.bend + BENDS * j, lane] < np.inf)
 
 
 @inner_kernel()
-def find_cuts(
-    low: float,
-    high: float,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    gaps_within: LaneFunction,
-    cuts: np.ndarray,
-) -> int:
+def find_cuts(low: float, high: float, s: Step, cuts: np.ndarray) -> int:
     """Find where slips pass bends between two shares of a step, in the order of time.
 
     cuts : (MOST_PLACES, 2)
@@ -65,8 +57,8 @@ def find_cuts(
     """
     shares, slips, wanted = np.empty(MOST_PLACES), np.empty(MOST_PLACES), np.empty(MOST_PLACES)
     found = 0
-    for j in range(at.pairs):
-        if not has_bend(j, lane, at, work):
+    for j in range(s.at.pairs):
+        if not has_bend(j, s):
             continue
         for i in range(INSTANTS):
             wanted[i] = low + (high - low) * (i / (INSTANTS - 1))
@@ -74,16 +66,18 @@ def find_cuts(
         for turn in range(MOST_ROUNDS):
             for first in range(0, more, INSTANTS):
                 for i in range(INSTANTS):
-                    spare[at.theta, i] = wanted[min(first + i, more - 1)]
-                gaps_within(work, spare, lane)
+                    s.spare[s.at.theta, i] = wanted[min(first + i, more - 1)]
+                gaps_within(s)
                 for i in range(min(INSTANTS, more - first)):
-                    count = insert(wanted[first + i], spare[at.slip + j, i], shares, slips, count)
-            more = want_more(turn < TURNS, shares, slips, count, j, lane, at, work, wanted)
+                    count = insert(
+                        wanted[first + i], s.spare[s.at.slip + j, i], shares, slips, count
+                    )
+            more = want_more(turn < TURNS, shares, slips, count, j, s, wanted)
             if more == 0 or count + more > MOST_PLACES:
                 break
         for i in range(1, count):
-            below = bends_below(slips[i - 1], j, lane, at, work)
-            if below != bends_below(slips[i], j, lane, at, work) and found < MOST_PLACES:
+            below = bends_below(slips[i - 1], j, s)
+            if below != bends_below(slips[i], j, s) and found < MOST_PLACES:
                 insert(shares[i - 1], shares[i], cuts[:, 0], cuts[:, 1], found)
                 found += 1
     return found
@@ -107,9 +101,7 @@ def want_more(
     slips: np.ndarray,
     count: int,
     j: int,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
+    s: Step,
     wanted: np.ndarray,
 ) -> int:
     """Write places next to those where a slip passes a bend, or turns near one; how many."""
@@ -117,12 +109,12 @@ def want_more(
     for i in range(count):
         left, right = max(i - 1, 0), min(i + 1, count - 1)
         width = shares[right] - shares[i]
-        below = bends_below(slips[i], j, lane, at, work)
-        behind = bends_below(slips[right], j, lane, at, work)
+        below = bends_below(slips[i], j, s)
+        behind = bends_below(slips[right], j, s)
         if below != behind:
             for k in range(BENDS * j, BENDS * (j + 1)):
                 for sense in (1.0, -1.0):
-                    bend = sense * work[at.bend + k, lane]
+                    bend = sense * s.work[s.at.bend + k, s.lane]
                     between = (bend - slips[i]) * (bend - slips[right]) <= 0.0
                     if between and width > SAME and more + 4 <= MOST_PLACES:
                         share = (bend - slips[i]) / (slips[right] - slips[i])
@@ -132,8 +124,8 @@ def want_more(
                             wanted[more] = shares[i] + inside * width
                             more += 1
         rise, fall = slips[i] - slips[left], slips[i] - slips[right]
-        reached = nearest_bend(slips[i], j, lane, at, work) < abs(rise) + abs(fall)
-        same = bends_below(slips[left], j, lane, at, work) == below == behind
+        reached = nearest_bend(slips[i], j, s) < abs(rise) + abs(fall)
+        same = bends_below(slips[left], j, s) == below == behind
         if turning and rise * fall >= 0.0 and reached and same and more + 6 <= MOST_PLACES:
             for k in range(1, 4):
                 wanted[more] = shares[left] + 0.25 * k * (shares[i] - shares[left])

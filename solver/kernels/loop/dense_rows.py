@@ -5,21 +5,16 @@ from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.places import PERIOD, PLACES, TIME, Places
-from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel
+from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.periods import due_time
 from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.loop.step import Step, states_within
 
 
 @inner_kernel()
 def write_row(
-    row: np.ndarray,
-    i: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    source: np.ndarray,
+    row: np.ndarray, i: int, lane: int, run: Run, at: Places, work: np.ndarray, source: np.ndarray
 ) -> None:
     """Write the dense state in column i of `source`, a lane's, as `DenseRow` arranges it."""
     row[PERIOD] = run.periods
@@ -49,19 +44,12 @@ def read_row(row: np.ndarray, i: int, at: Places, target: np.ndarray) -> None:
 
 
 @inner_kernel()
-def hand_out(
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    rows: np.ndarray,
-    states_within: LaneFunction,
-) -> bool:
+def hand_out(s: Step, rows: np.ndarray) -> bool:
     """Write the samples and sections inside this step; whether a buffer was too full for them.
 
     A full buffer postpones the step: the same attempt is made again once there is room.
     """
+    lane, run, at, work = s.lane, s.run, s.at, s.work
     arrival = work[at.arrival, lane]
     start, tried = work[at.time, lane], work[at.tried, lane]
     for kind in range(2):
@@ -70,16 +58,16 @@ def hand_out(
             moment = run.due[kind]
             while count < INSTANTS and moment <= arrival:
                 theta = (moment - start) / tried if tried > 0.0 else 0.0
-                spare[at.theta, count] = min(max(theta, 0.0), 1.0)
+                s.spare[at.theta, count] = min(max(theta, 0.0), 1.0)
                 count += 1
                 moment = due_time(kind, run.next[kind] + count, lane, run, at, work)
             if run.filled[kind] + count > rows.shape[2]:
                 work[at.accept, lane] = 0.0
                 work[at.next_step, lane] = work[at.step, lane]
                 return True
-            states_within(work, spare, lane)
+            states_within(s)
             for i in range(count):
-                write_row(rows[kind, lane, run.filled[kind]], i, lane, run, at, work, spare)
+                write_row(rows[kind, lane, run.filled[kind]], i, lane, run, at, work, s.spare)
                 run.filled[kind] += 1
             run.next[kind] += count
             run.due[kind] = moment

@@ -11,12 +11,12 @@ import math
 import numpy as np
 
 from jointplay.solver.kernels.emit.judging import PASSING
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.dense_rows import write_row
 from jointplay.solver.kernels.loop.passages import closest_approach, passes, place_about
 from jointplay.solver.kernels.loop.runs import SECTIONS, Run, SectionKind
+from jointplay.solver.kernels.loop.step import Step, channels_within
 
 LEVELS = 14
 """Each narrows the interval of a crossing to an eighth: 2e-13 of the step at the end."""
@@ -47,16 +47,9 @@ def has_all_events(run: Run) -> bool:
 
 
 @inner_kernel()
-def record_event(
-    i: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    source: np.ndarray,
-    rows: np.ndarray,
-) -> bool:
+def record_event(i: int, s: Step, source: np.ndarray, rows: np.ndarray) -> bool:
     """Write the state in column i of `source` as a section; whether the buffer is full now."""
+    lane, run, at, work = s.lane, s.run, s.at, s.work
     begun = float(run.periods) * run.period
     if begun + source[at.stage_time, i] < run.section_from or has_all_events(run):
         return False
@@ -97,11 +90,12 @@ def below(height: float, run: Run) -> float:
 
 
 @inner_kernel()
-def may_cross(lane: int, run: Run, at: Places, work: np.ndarray) -> bool:
+def may_cross(s: Step) -> bool:
     """Whether a lane's channel may come to a level of its section within the step.
 
     A channel that time alone gives is not followed from step to step: it may always.
     """
+    lane, run, at, work = s.lane, s.run, s.at, s.work
     if run.section_kind != SectionKind.CROSSING:
         return False
     place = run.section_place
@@ -119,51 +113,42 @@ def may_cross(lane: int, run: Run, at: Places, work: np.ndarray) -> bool:
 
 
 @inner_kernel()
-def record_crossings(
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    rows: np.ndarray,
-    channels_within: LaneFunction,
-) -> bool:
+def record_crossings(s: Step, rows: np.ndarray) -> bool:
     """Write a section for each crossing inside the step; whether the buffer is full now."""
+    run = s.run
     shares, heights = np.empty(MOST_PLACES), np.empty(MOST_PLACES)
-    count = places_to_look_at(lane, at, work, spare, shares)
-    look_at(shares, count, heights, lane, run, at, work, spare, channels_within)
+    count = places_to_look_at(s, shares)
+    look_at(shares, count, heights, s)
     for _ in range(ROUNDS):
         more = refined(shares, heights, count, run)
         if more == count:
             break
         count = more
-        look_at(shares, count, heights, lane, run, at, work, spare, channels_within)
+        look_at(shares, count, heights, s)
     full = False
     taken = 0
     for i in range(1, count):
         if level(heights[i], run) > level(heights[i - 1], run) and taken < MOST_IN_A_STEP:
             wanted = level(heights[i], run)
             low, high = shares[i - 1], shares[i]
-            found = locate(wanted, low, high, lane, run, at, work, spare, channels_within)
-            full |= record_event(found, lane, run, at, work, spare, rows)
+            found = locate(wanted, low, high, s)
+            full |= record_event(found, s, s.spare, rows)
             taken += 1
     return full
 
 
 @inner_kernel()
-def places_to_look_at(
-    lane: int, at: Places, work: np.ndarray, spare: np.ndarray, shares: np.ndarray
-) -> int:
+def places_to_look_at(s: Step, shares: np.ndarray) -> int:
     """Set the shares of the step at which to look first, in their order; how many there are."""
     for i in range(INSTANTS):
         shares[i] = i / (INSTANTS - 1)
     count = INSTANTS
-    for j in range(at.pairs):
-        if passes(j, lane, at, work) and count + INSTANTS <= MOST_PLACES // 4:
-            share, width = closest_approach(j, lane, at, work)
-            place_about(share, width, at, spare)
+    for j in range(s.at.pairs):
+        if passes(j, s) and count + INSTANTS <= MOST_PLACES // 4:
+            share, width = closest_approach(j, s)
+            place_about(share, width, s)
             for i in range(INSTANTS):
-                shares[count + i] = spare[at.theta, i]
+                shares[count + i] = s.spare[s.at.theta, i]
             count += INSTANTS
     return ordered(shares, count)
 
@@ -182,26 +167,17 @@ def ordered(shares: np.ndarray, count: int) -> int:
 
 
 @inner_kernel()
-def look_at(
-    shares: np.ndarray,
-    count: int,
-    heights: np.ndarray,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    channels_within: LaneFunction,
-) -> None:
+def look_at(shares: np.ndarray, count: int, heights: np.ndarray, s: Step) -> None:
     """Evaluate a section's channel at shares of the step; its ends are those of other steps."""
+    lane, run, at, work = s.lane, s.run, s.at, s.work
     place = run.section_place
     for first in range(0, count, INSTANTS):
         many = min(INSTANTS, count - first)
         for i in range(INSTANTS):
-            spare[at.theta, i] = shares[first + min(i, many - 1)]
-        channels_within(work, spare, lane)
+            s.spare[at.theta, i] = shares[first + min(i, many - 1)]
+        channels_within(s)
         for i in range(many):
-            heights[first + i] = height(spare[at.channel + place, i], run)
+            heights[first + i] = height(s.spare[at.channel + place, i], run)
     if place < at.rows:
         heights[0] = height(work[at.previous + place, lane], run)
         heights[count - 1] = height(work[at.channel + place, lane], run)
@@ -227,30 +203,21 @@ def refined(shares: np.ndarray, heights: np.ndarray, count: int, run: Run) -> in
 
 
 @inner_kernel()
-def locate(
-    wanted: float,
-    low: float,
-    high: float,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    channels_within: LaneFunction,
-) -> int:
+def locate(wanted: float, low: float, high: float, s: Step) -> int:
     """Return the column of `spare` that holds the state where a channel comes to a level.
 
     wanted : the number of that level, at which the channel is at the share `high` of the step.
     """
+    run = s.run
     found = INSTANTS - 1
     for _ in range(LEVELS):
         width = (high - low) / INSTANTS
         for i in range(INSTANTS):
-            spare[at.theta, i] = low + width * (i + 1)
-        channels_within(work, spare, lane)
+            s.spare[s.at.theta, i] = low + width * (i + 1)
+        channels_within(s)
         found = INSTANTS - 1
         for i in range(INSTANTS):
-            if level(height(spare[at.channel + run.section_place, i], run), run) >= wanted:
+            if level(height(s.spare[s.at.channel + run.section_place, i], run), run) >= wanted:
                 found = i
                 break
         low, high = low + width * found, low + width * (found + 1)

@@ -1,10 +1,12 @@
 """Extremes of channels in parts of stored steps, sought as those of a run are."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.places import PLACES, Places
+from jointplay.solver.kernels.emit.places import PLACES
 from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
@@ -27,7 +29,8 @@ from jointplay.solver.kernels.loop.looks_into_steps import (
 )
 from jointplay.solver.kernels.loop.passages import passes
 from jointplay.solver.kernels.loop.runs import RUNS
-from jointplay.solver.kernels.loop.suspects import find_suspects
+from jointplay.solver.kernels.loop.step import Group, Step, channels_within, step_of
+from jointplay.solver.kernels.loop.suspects import Part, find_suspects
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
 MOTION = 6
@@ -35,8 +38,9 @@ MOTION = 6
 
 
 @inner_kernel()
-def remember_start(lane: int, at: Places, work: np.ndarray) -> None:
+def remember_start(s: Step) -> None:
     """Keep what pairs do where the step starts: the stage is there."""
+    lane, at, work = s.lane, s.at, s.work
     for j in range(at.pairs):
         work[at.gap_start + j, lane] = work[at.gap + j, lane]
         work[at.gap_rate_start + j, lane] = work[at.gap_rate + j, lane]
@@ -47,10 +51,9 @@ def remember_start(lane: int, at: Places, work: np.ndarray) -> None:
 
 
 @inner_kernel()
-def load_records(
-    chosen: np.ndarray, book: np.ndarray, lane: int, at: Places, work: np.ndarray
-) -> None:
+def load_records(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
     """Set a lane's records of chosen rows to those of a book, and their ranges."""
+    lane, at, work = s.lane, s.at, s.work
     for r in chosen:
         work[at.known_range + r, lane] = book[RANGE, r]
         work[at.lowest + r, lane] = book[LOWEST, r]
@@ -60,10 +63,9 @@ def load_records(
 
 
 @inner_kernel()
-def store_records(
-    chosen: np.ndarray, book: np.ndarray, lane: int, at: Places, work: np.ndarray
-) -> None:
+def store_records(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
     """Set a book's records to those that a lane has of chosen rows."""
+    lane, at, work = s.lane, s.at, s.work
     for r in chosen:
         book[LOWEST, r] = work[at.lowest + r, lane]
         book[LOWEST_TIME, r] = work[at.lowest_time + r, lane]
@@ -72,11 +74,11 @@ def store_records(
 
 
 @inner_kernel()
-def any_passes(lane: int, at: Places, work: np.ndarray) -> bool:
+def any_passes(s: Step) -> bool:
     """Whether a journal passes the centre of its bearing in this step."""
     found = False
-    for j in range(at.pairs):
-        found |= passes(j, lane, at, work)
+    for j in range(s.at.pairs):
+        found |= passes(j, s)
     return found
 
 
@@ -90,6 +92,51 @@ def eights(rows: np.ndarray) -> np.ndarray:
             found[count] = first
             count += 1
     return found[:count]
+
+
+class Wanted(NamedTuple):
+    """Rows that are wanted, and room for some of them."""
+
+    every: np.ndarray
+    """Those that are scanned, ascending."""
+    blocks: np.ndarray
+    """First rows of the eights that wanted rows are in."""
+    suspects: np.ndarray
+    cornered: np.ndarray
+    """(width of the book,) each."""
+    close: np.ndarray
+    """As `spare`."""
+
+
+@inner_kernel()
+def part_of(low: float, high: float, sharp: float, s: Step) -> Part:
+    """Return the part of a step between two shares."""
+    tried = s.work[s.at.tried, s.lane]
+    begun = float(s.run.periods) * s.run.period + s.work[s.at.time, s.lane]
+    return Part(low, high, begun + low * tried, (high - low) * tried / (INSTANTS - 1), sharp)
+
+
+@inner_kernel()
+def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> None:
+    """Seek extremes of wanted rows in a part of a step, and let them count in a book."""
+    low, high = part.low, part.high
+    place_evenly(low, high, s)
+    channels_within(s)
+    behind = find_suspects(part, wanted.blocks, s, wanted.close, book, wanted.suspects)
+    passing, bending = any_passes(s), may_pass_bend(s)
+    chosen = wanted.every if passing or bending else wanted.suspects[:behind]
+    if len(chosen) == 0:
+        return
+    load_records(chosen, book, s)
+    behind = find_cornered(chosen, s, book, wanted.cornered)
+    look_at_suspects(chosen, low, high, s)
+    if behind > 0 and high > low:
+        look_beside_ends(wanted.cornered[:behind], low, high, s)
+    if passing:
+        look_about_passages(wanted.every, low, high, s)
+    if bending and high > low:
+        look_between_bends(wanted.every, low, high, s)
+    store_records(chosen, book, s)
 
 
 @deferred(
@@ -138,84 +185,21 @@ def extremes_in_steps(
     """
     call, at = functions_at(addresses[0]), places[0]
     work, spare, runs, table = unowned(work), unowned(spare), unowned(runs), unowned(table)
-    book, close = unowned(book), np.empty(spare.shape)
-    every, suspects = rows[rows < at.rows], np.empty(book.shape[1], np.int64)
-    blocks, cornered = eights(rows), np.empty_like(suspects)
-    around, within = call.channels_around, call.channels_within
+    group = Group(runs, at, work, spare, table, addresses[0])
+    book, room = unowned(book), np.empty((2, book.shape[1]), np.int64)
+    wanted = Wanted(rows[rows < at.rows], eights(rows), room[0], room[1], np.empty(spare.shape))
     p, present = 0, 0
     for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, runs, at, work)
         call.right_hand_side(work)
         for lane in range(work.shape[1]):
-            remember_start(lane, at, work)
+            remember_start(step_of(lane, group))
         call.attempt(work)
         while p < len(parts) and parts[p, 0] < first + count:
             if parts[p, 1] != present:
                 close_bin(book, rows, records[present])
                 present = parts[p, 1]
-            lane = parts[p, 0] - first
-            run, tried = runs[lane], work[at.tried, lane]
-            low, high = shares[p, 0], shares[p, 1]
-            begin = float(run.periods) * run.period + work[at.time, lane] + low * tried
-            spacing = (high - low) * tried / (INSTANTS - 1)
-            place_evenly(low, high, at, spare)
-            within(work, spare, lane)
-            behind = find_suspects(
-                low,
-                high,
-                begin,
-                spacing,
-                sharp,
-                blocks,
-                lane,
-                at,
-                work,
-                spare,
-                close,
-                table,
-                book,
-                within,
-                suspects,
-            )
-            passing, bending = any_passes(lane, at, work), may_pass_bend(lane, at, work)
-            chosen = every if passing or bending else suspects[:behind]
-            if len(chosen) > 0:
-                load_records(chosen, book, lane, at, work)
-                behind = find_cornered(chosen, at, spare, book, cornered)
-                look_at_suspects(chosen, low, high, lane, run, at, work, spare, table, around)
-                if behind > 0 and high > low:
-                    look_beside_ends(
-                        cornered[:behind],
-                        low,
-                        high,
-                        lane,
-                        run,
-                        at,
-                        work,
-                        spare,
-                        table,
-                        around,
-                        within,
-                    )
-                if passing:
-                    look_about_passages(
-                        every, low, high, lane, run, at, work, spare, table, around, within
-                    )
-                if bending and high > low:
-                    look_between_bends(
-                        every,
-                        low,
-                        high,
-                        lane,
-                        run,
-                        at,
-                        work,
-                        spare,
-                        table,
-                        around,
-                        within,
-                        call.gaps_within,
-                    )
-                store_records(chosen, book, lane, at, work)
+            s = step_of(parts[p, 0] - first, group)
+            look_into_part(part_of(shares[p, 0], shares[p, 1], sharp, s), wanted, s, book)
             p += 1
     write_bin(book, rows, records[present])

@@ -9,8 +9,7 @@ stability swing inside.
 import numpy as np
 
 from jointplay.solver.kernels.emit.judging import SWINGING
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.passages import (
     NARROWEST,
@@ -21,7 +20,8 @@ from jointplay.solver.kernels.loop.passages import (
 )
 from jointplay.solver.kernels.loop.peaks import look_at_extremes
 from jointplay.solver.kernels.loop.roughness import is_due, may_set_records
-from jointplay.solver.kernels.loop.runs import NO_PAIR, Run
+from jointplay.solver.kernels.loop.runs import NO_PAIR
+from jointplay.solver.kernels.loop.step import Step, channels_within
 from jointplay.solver.kernels.loop.tops import open_windows
 from jointplay.solver.kernels.loop.turns_before_onset import turns_before_onset
 from jointplay.solver.kernels.loop.windows import CLOSER
@@ -37,50 +37,39 @@ WIDTHS = 2.0
 
 
 @inner_kernel()
-def look_at_passages(
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-    channels_within: LaneFunction,
-) -> None:
+def look_at_passages(s: Step) -> None:
     """Seek extremes where a journal passes the centre of its bearing.
 
     To be called while ``channel`` has the values at the step's end, before the scan.
     """
+    lane, at, work = s.lane, s.at, s.work
     for j in range(at.pairs):
-        if not passes(j, lane, at, work):
+        if not passes(j, s):
             continue
-        share, width = closest_approach(j, lane, at, work)
-        if NARROWEST < share < 1.0 - NARROWEST and may_be_fastest(j, share, width, lane, at, work):
+        share, width = closest_approach(j, s)
+        if NARROWEST < share < 1.0 - NARROWEST and may_be_fastest(j, share, width, s):
             low, high = max(share - WIDTHS * width, 0.0), min(share + WIDTHS * width, 1.0)
-            place_evenly(low, high, at, spare)
-            channels_within(work, spare, lane)
+            place_evenly(low, high, s)
+            channels_within(s)
             waiting = 0
             for row in (int(work[at.slip_row + j, lane]), int(work[at.penetration_row + j, lane])):
                 if row != NO_ROW:
-                    waiting = look_at_instants(
-                        row, waiting, low, high, lane, run, at, work, spare, table
-                    )
-            look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
+                    waiting = look_at_instants(row, waiting, low, high, s)
+            look_at_extremes(waiting, s)
 
 
 @inner_kernel()
-def may_be_fastest(
-    j: int, share: float, width: float, lane: int, at: Places, work: np.ndarray
-) -> bool:
+def may_be_fastest(j: int, share: float, width: float, s: Step) -> bool:
     """Whether slip or penetration of a pair may have a record where its journal passes the centre.
 
     There the slip is that of the spins, as at the end of the step, and all of the journal's speed.
     """
-    distance, speed = distance_and_speed(j, share, lane, at, work)
+    lane, at, work = s.lane, s.at, s.work
+    distance, speed = distance_and_speed(j, share, s)
     slip, depth = int(work[at.slip_row + j, lane]), int(work[at.penetration_row + j, lane])
     found = depth != NO_ROW and distance - work[at.inner + j, lane] < work[at.lowest + depth, lane]
     if slip != NO_ROW:
-        spinning = work[at.channel + slip, lane] - orbiting_at_end(j, lane, at, work)
+        spinning = work[at.channel + slip, lane] - orbiting_at_end(j, s)
         beyond = SLACK * speed
         found |= spinning + speed + beyond > work[at.highest + slip, lane]
         found |= spinning - speed - beyond < work[at.lowest + slip, lane]
@@ -88,73 +77,54 @@ def may_be_fastest(
 
 
 @inner_kernel()
-def look_inside(
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-    channels_within: LaneFunction,
-) -> None:
+def look_inside(s: Step) -> None:
     """Seek extremes of all channels in a step that begins or ends the run, swings or is rough.
 
     Also in one that ends at an onset, where a channel may turn unseen. Methods that are
     `watched_closely` have every step in contact looked at.
     """
+    lane, at, work = s.lane, s.at, s.work
     wanted = np.isnan(work[at.change, lane]) or work[at.arrival, lane] >= work[at.end, lane]
-    wanted |= at.watched_closely and touches(lane, at, work)
-    wanted |= run.landing != NO_PAIR and turns_before_onset(lane, at, work)
-    due = int(work[at.flag, lane]) & SWINGING != 0 or is_due(lane, run, at, work)
+    wanted |= at.watched_closely and touches(s)
+    wanted |= s.run.landing != NO_PAIR and turns_before_onset(s)
+    due = int(work[at.flag, lane]) & SWINGING != 0 or is_due(s)
     if not (wanted or due):
         return
-    place_evenly(0.0, 1.0, at, spare)
-    channels_within(work, spare, lane)
+    place_evenly(0.0, 1.0, s)
+    channels_within(s)
     if due:
-        wanted |= may_set_records(lane, run, at, work, spare)
+        wanted |= may_set_records(s)
     if not wanted:
         return
     waiting = 0
     for r in range(at.rows):
-        waiting = look_at_instants(r, waiting, 0.0, 1.0, lane, run, at, work, spare, table)
-    look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
+        waiting = look_at_instants(r, waiting, 0.0, 1.0, s)
+    look_at_extremes(waiting, s)
 
 
 @inner_kernel()
-def touches(lane: int, at: Places, work: np.ndarray) -> bool:
+def touches(s: Step) -> bool:
     """Whether a pair is in contact during this step."""
     found = False
-    for j in range(at.pairs):
-        found |= work[at.mode + j, lane] > 0.0
+    for j in range(s.at.pairs):
+        found |= s.work[s.at.mode + j, s.lane] > 0.0
     return found
 
 
 @inner_kernel()
-def place_evenly(low: float, high: float, at: Places, spare: np.ndarray) -> None:
+def place_evenly(low: float, high: float, s: Step) -> None:
     """Place eight instants evenly from one share of a step to another."""
     for i in range(INSTANTS):
-        spare[at.theta, i] = low + (high - low) * (i / (INSTANTS - 1))
+        s.spare[s.at.theta, i] = low + (high - low) * (i / (INSTANTS - 1))
 
 
 @inner_kernel()
-def look_at_instants(
-    r: int,
-    waiting: int,
-    low: float,
-    high: float,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-) -> int:
+def look_at_instants(r: int, waiting: int, low: float, high: float, s: Step) -> int:
     """Let extremes of a channel between eight even instants count, if they are sharp.
 
     How many windows wait to be looked at more closely, of all channels.
     """
     for i in range(INSTANTS):
-        table[CLOSER + i] = spare[at.channel + r, i]
+        s.table[CLOSER + i] = s.spare[s.at.channel + r, i]
     spacing = (high - low) / (INSTANTS - 1)
-    return open_windows(r, 1, low, spacing, INSTANTS, EXACT, waiting, lane, run, at, work, table)
+    return open_windows(r, 1, low, spacing, INSTANTS, EXACT, waiting, s)

@@ -7,20 +7,20 @@ apart, too. The slopes at both ends of a step tell how far.
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.inner_peaks import place_evenly
 from jointplay.solver.kernels.loop.looks_into_steps import look_at_suspects
-from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.kernels.loop.step import Step, channels_within, states_within
 from jointplay.solver.kernels.loop.tops import CORNER
 from jointplay.solver.kernels.record.rows import NO_ROW
 
 
 @inner_kernel()
-def may_surpass(k: int, lane: int, at: Places, work: np.ndarray) -> bool:
+def may_surpass(k: int, s: Step) -> bool:
     """Whether inner state `k` may have a record inside the step, beyond what a look is worth."""
+    lane, at, work = s.lane, s.at, s.work
     row = int(work[at.inner_row + k, lane])
     if row == NO_ROW:
         return False
@@ -33,21 +33,11 @@ def may_surpass(k: int, lane: int, at: Places, work: np.ndarray) -> bool:
 
 
 @inner_kernel()
-def any_may_surpass(at: Places, work: np.ndarray) -> bool:
-    """Whether an inner state in any lane may have a record in the step that it takes."""
-    for lane in range(work.shape[1] if at.inner_states > 0 else 0):
-        if work[at.accept, lane] > 0.0:
-            for k in range(at.inner_states):
-                if may_surpass(k, lane, at, work):
-                    return True
-    return False
-
-
-@inner_kernel()
-def surpasses(k: int, lane: int, at: Places, work: np.ndarray, spare: np.ndarray) -> bool:
+def surpasses(k: int, s: Step) -> bool:
     """Whether inner state `k`, known at even instants, may have a record worth a look."""
+    lane, at, work = s.lane, s.at, s.work
     row = int(work[at.inner_row + k, lane])
-    values = spare[at.stage + 2 * at.step_row.coordinates + k]
+    values = s.spare[at.stage + 2 * at.step_row.coordinates + k]
     least, most, bend = values[0], values[0], 0.0
     for i in range(1, INSTANTS):
         least, most = min(least, values[i]), max(most, values[i])
@@ -59,29 +49,20 @@ def surpasses(k: int, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
 
 
 @inner_kernel()
-def look_at_inner_states(
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    states_within: LaneFunction,
-    channels_around: LaneFunction,
-    channels_within: LaneFunction,
-) -> None:
+def look_at_inner_states(s: Step) -> None:
     """Seek extremes of inner states inside the step."""
-    rows, count, placed = np.empty(at.inner_states, np.int64), 0, False
-    for k in range(at.inner_states):
-        if not may_surpass(k, lane, at, work):
-            continue
-        if not placed:
-            place_evenly(0.0, 1.0, at, spare)
-            states_within(work, spare, lane)
-            placed = True
-        if surpasses(k, lane, at, work, spare):
-            rows[count] = int(work[at.inner_row + k, lane])
+    any_may = False
+    for k in range(s.at.inner_states):
+        any_may |= may_surpass(k, s)
+    if not any_may:
+        return
+    place_evenly(0.0, 1.0, s)
+    states_within(s)
+    rows, count = np.empty(s.at.inner_states, np.int64), 0
+    for k in range(s.at.inner_states):
+        if may_surpass(k, s) and surpasses(k, s):
+            rows[count] = int(s.work[s.at.inner_row + k, s.lane])
             count += 1
     if count > 0:
-        channels_within(work, spare, lane)
-        look_at_suspects(rows[:count], 0.0, 1.0, lane, run, at, work, spare, table, channels_around)
+        channels_within(s)
+        look_at_suspects(rows[:count], 0.0, 1.0, s)

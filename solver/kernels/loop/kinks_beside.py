@@ -7,13 +7,12 @@ Where such kinks are is known: a contact ended when its gap opened, and slip has
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.cuts_at_bends import has_bend
 from jointplay.solver.kernels.loop.extreme import PLACES
-from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, SHARP
+from jointplay.solver.kernels.loop.step import Step, channels_around
 from jointplay.solver.kernels.loop.tops import open_windows
 from jointplay.solver.kernels.loop.windows import CLOSER
 
@@ -24,11 +23,12 @@ REACH = 2.0
 
 
 @inner_kernel()
-def nearest_kink(step: int, lane: int, at: Places, work: np.ndarray) -> float:
+def nearest_kink(step: int, s: Step) -> float:
     """Return how far from the start of this step the nearest kink is: 0 if none is near.
 
     In shares of this step, for one behind (`step` 1), or of the step before (0).
     """
+    lane, at, work = s.lane, s.at, s.work
     now, before = work[at.time, lane], work[at.before_step, lane]
     length = work[at.tried, lane] if step else -before
     nearest = FARTHEST
@@ -36,7 +36,7 @@ def nearest_kink(step: int, lane: int, at: Places, work: np.ndarray) -> float:
         ended = (now - work[at.opened + j, lane]) / before
         if step == 0 and 0.0 < ended < nearest:
             nearest = ended
-        if not has_bend(j, lane, at, work):
+        if not has_bend(j, s):
             continue
         slip, slips = work[at.slip_start + j, lane], length * work[at.slip_rate_start + j, lane]
         for k in range(BENDS * j, BENDS * (j + 1)):
@@ -48,25 +48,18 @@ def nearest_kink(step: int, lane: int, at: Places, work: np.ndarray) -> float:
 
 
 @inner_kernel()
-def any_in_reach(
-    rows: np.ndarray,
-    before: float,
-    behind: float,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-) -> bool:
+def any_in_reach(rows: np.ndarray, before: float, behind: float, s: Step) -> bool:
     """Whether a row that turns about the start of this step may have a record at a kink beside it.
 
     Up to a kink it goes on as on the other side of the start. `before`, `behind` : how far kinks
     are away.
     """
+    lane, at, work = s.lane, s.at, s.work
     for r in rows:
         start = work[at.previous + r, lane] - work[at.change + r, lane]
         rose, fell = (
-            start - spare[at.channel + r, HALF - 1],
-            start - spare[at.channel + r, HALF + 1],
+            start - s.spare[at.channel + r, HALF - 1],
+            start - s.spare[at.channel + r, HALF + 1],
         )
         far = REACH * HALF * max(before * abs(fell), behind * abs(rose))
         highest, lowest = work[at.highest + r, lane], work[at.lowest + r, lane]
@@ -77,40 +70,29 @@ def any_in_reach(
 
 
 @inner_kernel()
-def look_at_kinks_beside(
-    rows: np.ndarray,
-    waiting: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-) -> int:
+def look_at_kinks_beside(rows: np.ndarray, waiting: int, s: Step) -> int:
     """Let extremes of rows at kinks next to the start of this step count, if they are sharp.
 
     How many windows wait to be looked at more closely, of all channels. To be called while `spare`
     has the channels at quarters of both steps.
     """
-    before, behind = nearest_kink(0, lane, at, work), nearest_kink(1, lane, at, work)
+    lane, at, work, spare = s.lane, s.at, s.work, s.spare
+    before, behind = nearest_kink(0, s), nearest_kink(1, s)
     near = before > 0.0 or behind > 0.0
-    if not (near and any_in_reach(rows, before, behind, lane, at, work, spare)):
+    if not (near and any_in_reach(rows, before, behind, s)):
         return waiting
     for i in range(HALF):
         spare[at.theta, i] = 1.0 - 0.5 * (HALF - i) * before
         spare[at.theta, HALF + i] = 0.5 * (i + 1) * behind
-    channels_around(work, spare, lane)
+    channels_around(s)
     for r in rows:
         for step, beside in enumerate((before, behind)):
             if beside == 0.0:
                 continue
             for i in range(HALF):
-                table[CLOSER + step + i] = spare[at.channel + r, HALF * step + i]
+                s.table[CLOSER + step + i] = spare[at.channel + r, HALF * step + i]
             junction = work[at.previous + r, lane] - work[at.change + r, lane]
-            table[CLOSER + (1 - step) * HALF] = junction
+            s.table[CLOSER + (1 - step) * HALF] = junction
             start, spacing = (1 - step) * (1.0 - 0.5 * HALF * beside), 0.5 * beside
-            waiting = open_windows(
-                r, step, start, spacing, PLACES, FORETOLD, waiting, lane, run, at, work, table
-            )
+            waiting = open_windows(r, step, start, spacing, PLACES, FORETOLD, waiting, s)
     return waiting

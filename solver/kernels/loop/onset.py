@@ -2,11 +2,9 @@
 
 import math
 
-import numpy as np
-
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.step import Step, gaps_within
 
 NO_ONSET = math.inf
 NEWTON_STEPS = 2
@@ -15,30 +13,15 @@ TURNING_LEVELS = 4
 
 
 @inner_kernel()
-def look_between(
-    low: float,
-    high: float,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    gaps_within: LaneFunction,
-) -> None:
+def look_between(low: float, high: float, s: Step) -> None:
     """Evaluate all gaps at eight equal distances from one share of the step to another."""
     for i in range(INSTANTS):
-        spare[at.theta, i] = low + (high - low) * (i + 1) / INSTANTS
-    gaps_within(work, spare, lane)
+        s.spare[s.at.theta, i] = low + (high - low) * (i + 1) / INSTANTS
+    gaps_within(s)
 
 
 @inner_kernel()
-def first_onset(
-    j: int,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    gaps_within: LaneFunction,
-) -> float:
+def first_onset(j: int, s: Step) -> float:
     """Return the share of the step after which pair j's gap first closes, `NO_ONSET` if never.
 
     The gap is looked at in eight places; where its rate turns between two of them without the gap
@@ -46,30 +29,29 @@ def first_onset(
     """
     begun = 0
     while begun < INSTANTS:
-        look_between(0.0, 1.0, lane, at, work, spare, gaps_within)
-        i = next_suspect(1.0, j, begun, lane, at, work, spare)
+        look_between(0.0, 1.0, s)
+        i = next_suspect(1.0, j, begun, s)
         if i == INSTANTS:
             break
         left, right = i / INSTANTS, (i + 1) / INSTANTS
         closed = right
-        if spare[at.gap + j, i] <= 0.0:
-            closed = crossed_between(1.0, j, left, right, lane, at, work, spare, gaps_within)
+        if s.spare[s.at.gap + j, i] <= 0.0:
+            closed = crossed_between(1.0, j, left, right, s)
         if closed < NO_ONSET:
-            return polish(j, left, closed, lane, at, work, spare, gaps_within)
+            return polish(j, left, closed, s)
         begun = i + 1
     return NO_ONSET
 
 
 @inner_kernel()
-def next_suspect(
-    sense: float, j: int, begun: int, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
-) -> int:
+def next_suspect(sense: float, j: int, begun: int, s: Step) -> int:
     """Return the first eighth of the step, from the one with number `begun` on, that may touch.
 
     The gap is closed at its end, or rises at its beginning and falls at its end from where it would
     close if it went on for the eighth at twice these rates. None: the number of eighths. With the
     `sense` -1 instead of 1, all is the other way round: the first in which it may open.
     """
+    lane, at, work, spare = s.lane, s.at, s.work, s.spare
     for i in range(begun, INSTANTS):
         gap, rate = sense * spare[at.gap + j, i], sense * spare[at.gap_rate + j, i]
         before = sense * work[at.gap_start + j, lane]
@@ -86,29 +68,20 @@ def next_suspect(
 
 
 @inner_kernel()
-def crossed_between(
-    sense: float,
-    j: int,
-    left: float,
-    right: float,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    gaps_within: LaneFunction,
-) -> float:
+def crossed_between(sense: float, j: int, left: float, right: float, s: Step) -> float:
     """Return a share of the step at which pair j's gap is closed, `NO_ONSET` if there is none.
 
     From one share to another, between which the gap's rate turns from rising to falling. With the
     `sense` -1 instead of 1, at which it is open, and the other way round.
     """
+    spare = s.spare
     for _ in range(TURNING_LEVELS):
-        look_between(left, right, lane, at, work, spare, gaps_within)
+        look_between(left, right, s)
         turning = INSTANTS - 1
         for i in range(INSTANTS):
-            if sense * spare[at.gap + j, i] > 0.0:
-                return float(spare[at.theta, i])
-            if sense * spare[at.gap_rate + j, i] < 0.0 and turning == INSTANTS - 1:
+            if sense * spare[s.at.gap + j, i] > 0.0:
+                return float(spare[s.at.theta, i])
+            if sense * spare[s.at.gap_rate + j, i] < 0.0 and turning == INSTANTS - 1:
                 turning = i
         width = (right - left) / INSTANTS
         left = left + width * turning
@@ -117,20 +90,12 @@ def crossed_between(
 
 
 @inner_kernel()
-def polish(
-    j: int,
-    left: float,
-    right: float,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    gaps_within: LaneFunction,
-) -> float:
+def polish(j: int, left: float, right: float, s: Step) -> float:
     """Return the root of pair j's gap in a bracket: sectioning, then Newton inside the bracket."""
+    lane, at, work, spare = s.lane, s.at, s.work, s.spare
     tried = work[at.tried, lane]
     root = right
-    look_between(left, right, lane, at, work, spare, gaps_within)
+    look_between(left, right, s)
     for i in range(INSTANTS):
         if spare[at.gap + j, i] > 0.0:
             right = spare[at.theta, i]
@@ -141,7 +106,7 @@ def polish(
             break
     for _ in range(NEWTON_STEPS):
         spare[at.theta, 0] = root
-        gaps_within(work, spare, lane)
+        gaps_within(s)
         gap, rate = spare[at.gap + j, 0], spare[at.gap_rate + j, 0]
         better = root - gap / (rate * tried) if rate > 0.0 else root
         if left <= better <= right:

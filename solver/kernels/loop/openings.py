@@ -3,8 +3,7 @@
 import numpy as np
 
 from jointplay.solver.kernels.emit.judging import LANDED
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel, kernel
+from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.onset import (
     NO_ONSET,
@@ -12,7 +11,8 @@ from jointplay.solver.kernels.loop.onset import (
     look_between,
     next_suspect,
 )
-from jointplay.solver.kernels.loop.runs import NO_PAIR, Run
+from jointplay.solver.kernels.loop.runs import NO_PAIR
+from jointplay.solver.kernels.loop.step import Step
 
 MOST_ITERATIONS = 40
 ROOT = 1e-15
@@ -24,27 +24,21 @@ LATE = 0.95
 
 
 @kernel()
-def dip(
-    j: int,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    gaps_within: LaneFunction,
-) -> float:
+def dip(j: int, s: Step) -> float:
     """Return a share of the step at which pair j's gap is open, though it closes again.
 
     The gap is looked at in eight places, and for where it turns between two of them. 1: it stays
     closed, or once open it stays so. Where contact has only just begun, it must have been deeper.
     """
-    look_between(0.0, 1.0, lane, at, work, spare, gaps_within)
+    lane, at, work, spare = s.lane, s.at, s.work, s.spare
+    look_between(0.0, 1.0, s)
     begun = 0
     if work[at.gap_start + j, lane] <= LANDED:
         while begun < INSTANTS and spare[at.gap + j, begun] <= LANDED:
             begun += 1
         begun += 1
     while begun < INSTANTS:
-        i = next_suspect(-1.0, j, begun, lane, at, work, spare)
+        i = next_suspect(-1.0, j, begun, s)
         if i == INSTANTS:
             break
         left, right = i / INSTANTS, (i + 1) / INSTANTS
@@ -53,11 +47,11 @@ def dip(
                 if spare[at.gap + j, later] > 0.0:
                     return right
             break
-        open_at = crossed_between(-1.0, j, left, right, lane, at, work, spare, gaps_within)
+        open_at = crossed_between(-1.0, j, left, right, s)
         if open_at < NO_ONSET:
             return open_at
         begun = i + 1
-        look_between(0.0, 1.0, lane, at, work, spare, gaps_within)
+        look_between(0.0, 1.0, s)
     return 1.0
 
 
@@ -88,14 +82,7 @@ def falling_root(start: float, start_rate: float, end: float, end_rate: float) -
 
 
 @inner_kernel()
-def note_openings(
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    gaps_within: LaneFunction,
-    inside: bool,
-) -> float:
+def note_openings(s: Step, inside: bool) -> float:
     """Note when in this step each gap opens: at the root of the cubic through both its ends.
 
     Infinite where it is not open at the end; where contact has only just begun, it must be on its
@@ -104,6 +91,7 @@ def note_openings(
     has ended a contact: what touches then is another one, with an impact rate of its own. The
     share is then such that the step redone ends within that opening, or at least before its end.
     """
+    lane, at, work = s.lane, s.at, s.work
     step = work[at.tried, lane]
     soonest = 1.0
     for j in range(at.pairs):
@@ -118,7 +106,7 @@ def note_openings(
         if start > LANDED and closed and not fixed:
             soonest = min(soonest, high)
         if inside and closed and not fixed:
-            low = dip(j, lane, at, work, spare, gaps_within)
+            low = dip(j, s)
             if low < 1.0:
                 soonest = min(soonest, min(low, LATE) / BEHIND)
         open_now = gap <= 0.0 and (start > LANDED or rate < 0.0)
@@ -127,7 +115,7 @@ def note_openings(
 
 
 @inner_kernel()
-def end_behind_opening(share: float, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def end_behind_opening(share: float, s: Step) -> None:
     """Have this step redone so that it ends where a gap opens, after `share` of it.
 
     The force of a contact has no second derivative there. Within a step its error would depend on
@@ -135,7 +123,8 @@ def end_behind_opening(share: float, lane: int, run: Run, at: Places, work: np.n
     happens to be too small. The estimate of a step with the kink inside says nothing of the steps
     to either side: what a rejection asks for does not count.
     """
+    lane, at, work = s.lane, s.at, s.work
     work[at.accept, lane] = 0.0
     work[at.next_step, lane] = BEHIND * share * work[at.tried, lane]
-    run.landing = NO_PAIR
-    run.landings = 0
+    s.run.landing = NO_PAIR
+    s.run.landings = 0

@@ -7,9 +7,9 @@ however long the step is. The journal's place is that on the quintic which enclo
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.step import Step
 
 MOST_ITERATIONS = 60
 NARROWEST = 1e-9
@@ -20,8 +20,9 @@ AXES = 2
 
 
 @inner_kernel()
-def passes(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
+def passes(j: int, s: Step) -> bool:
     """Whether pair j is open and its journal comes closest to the centre in this step."""
+    lane, at, work = s.lane, s.at, s.work
     return bool(
         work[at.mode + j, lane] <= 0.0
         and work[at.gap_rate_start + j, lane] < 0.0 < work[at.gap_rate + j, lane]
@@ -29,8 +30,9 @@ def passes(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
 
 
 @inner_kernel()
-def power(k: int, axis: int, j: int, lane: int, at: Places, work: np.ndarray) -> float:
+def power(k: int, axis: int, j: int, s: Step) -> float:
     """Return the coefficient of share^k of one component of pair j's eccentricity, m."""
+    lane, at, work = s.lane, s.at, s.work
     step = work[at.tried, lane]
     first, last = at.eccentricity_start + 6 * j + axis, at.eccentricity + 6 * j + axis
     place, rate = work[first, lane], step * work[first + AXES, lane]
@@ -52,7 +54,7 @@ def power(k: int, axis: int, j: int, lane: int, at: Places, work: np.ndarray) ->
 
 
 @inner_kernel()
-def closest_approach(j: int, lane: int, at: Places, work: np.ndarray) -> tuple[float, float]:
+def closest_approach(j: int, s: Step) -> tuple[float, float]:
     """Return the share of the step at which a journal is closest to the centre, and the width.
 
     The width is the distance there over the way that the journal makes in a step: the share of the
@@ -61,7 +63,7 @@ def closest_approach(j: int, lane: int, at: Places, work: np.ndarray) -> tuple[f
     x = np.empty((AXES, 6))
     for axis in range(AXES):
         for k in range(6):
-            x[axis, k] = power(k, axis, j, lane, at, work)
+            x[axis, k] = power(k, axis, j, s)
     low, high, share = 0.0, 1.0, 0.5
     distance = way = 0.0
     for _ in range(MOST_ITERATIONS):
@@ -91,24 +93,23 @@ def closest_approach(j: int, lane: int, at: Places, work: np.ndarray) -> tuple[f
 
 
 @inner_kernel()
-def distance_and_speed(
-    j: int, share: float, lane: int, at: Places, work: np.ndarray
-) -> tuple[float, float]:
+def distance_and_speed(j: int, share: float, s: Step) -> tuple[float, float]:
     """Return how far a journal is from the centre at a share of the step, m, and its speed, m/s."""
     square = way = 0.0
     for axis in range(AXES):
         place = rate = 0.0
         for k in range(5, -1, -1):
             rate = rate * share + place
-            place = place * share + power(k, axis, j, lane, at, work)
+            place = place * share + power(k, axis, j, s)
         square += place * place
         way += rate * rate
-    return np.sqrt(square), np.sqrt(way) / work[at.tried, lane]
+    return np.sqrt(square), np.sqrt(way) / s.work[s.at.tried, s.lane]
 
 
 @inner_kernel()
-def orbiting_at_end(j: int, lane: int, at: Places, work: np.ndarray) -> float:
+def orbiting_at_end(j: int, s: Step) -> float:
     """Return the velocity of a journal's centre along the tangent at the end of the step, m/s."""
+    lane, at, work = s.lane, s.at, s.work
     first = at.eccentricity + 6 * j
     x, y = work[first, lane], work[first + 1, lane]
     vx, vy = work[first + AXES, lane], work[first + AXES + 1, lane]
@@ -116,8 +117,8 @@ def orbiting_at_end(j: int, lane: int, at: Places, work: np.ndarray) -> float:
 
 
 @inner_kernel()
-def place_about(share: float, width: float, at: Places, spare: np.ndarray) -> None:
+def place_about(share: float, width: float, s: Step) -> None:
     """Place eight instants of a step about a passage, inside the step."""
     before, after = min(width, 0.5 * share), min(width, 0.5 * (1.0 - share))
     for i in range(INSTANTS):
-        spare[at.theta, i] = share + ABOUT[i] * (before if ABOUT[i] < 0.0 else after)
+        s.spare[s.at.theta, i] = share + ABOUT[i] * (before if ABOUT[i] < 0.0 else after)

@@ -2,13 +2,12 @@
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extreme import PLACES
 from jointplay.solver.kernels.loop.kinks_beside import look_at_kinks_beside
-from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, MOST_ROUNDS, is_done_by, seek
+from jointplay.solver.kernels.loop.step import Step, channels_around
 from jointplay.solver.kernels.loop.tops import open_windows
 from jointplay.solver.kernels.loop.windows import (
     CLOSER,
@@ -30,107 +29,69 @@ BYTES = 8
 
 
 @inner_kernel()
-def refine_peaks(
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    marked: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-) -> None:
+def refine_peaks(s: Step, marked: np.ndarray) -> None:
     """Seek the extremes that the scan suspects around the start of this step.
 
     Candidate channels are evaluated at quarters of the step before and of this one. `marked` :
     `work`, seen as bytes of the scan. `table` : see `solver.kernels.loop.windows`.
     """
     for i in range(INSTANTS):
-        spare[at.theta, i] = (i % HALF) / HALF
-    channels_around(work, spare, lane)
-    rows, waiting = np.empty(at.rows, np.int64), 0
-    rows = rows[: find_marked(lane, at, marked[at.marked * work.shape[1] :], rows)]
+        s.spare[s.at.theta, i] = (i % HALF) / HALF
+    channels_around(s)
+    rows, waiting = np.empty(s.at.rows, np.int64), 0
+    rows = rows[: find_marked(s, marked[s.at.marked * s.work.shape[1] :], rows)]
     for r in rows:
-        waiting = look_at_quarters(r, waiting, lane, run, at, work, spare, table)
-    waiting = look_at_kinks_beside(
-        rows, waiting, lane, run, at, work, spare, table, channels_around
-    )
-    look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
+        waiting = look_at_quarters(r, waiting, s)
+    waiting = look_at_kinks_beside(rows, waiting, s)
+    look_at_extremes(waiting, s)
 
 
 @inner_kernel()
-def find_marked(lane: int, at: Places, marked: np.ndarray, rows: np.ndarray) -> int:
+def find_marked(s: Step, marked: np.ndarray, rows: np.ndarray) -> int:
     """Write the rows that the scan marked for a lane; how many. `marked` : from the marks on."""
     count = 0
-    lanes_bits = np.uint64(ONE_OF_EIGHT << lane)
-    for word in range((at.rows + BYTES - 1) // BYTES):
+    lanes_bits = np.uint64(ONE_OF_EIGHT << s.lane)
+    for word in range((s.at.rows + BYTES - 1) // BYTES):
         bits = marked[word] & lanes_bits
         if bits != 0:
-            for r in range(min(BYTES, at.rows - BYTES * word)):  # no marks beyond
-                if bits >> np.uint64(8 * r + lane) & np.uint64(1):
+            for r in range(min(BYTES, s.at.rows - BYTES * word)):  # no marks beyond
+                if bits >> np.uint64(8 * r + s.lane) & np.uint64(1):
                     rows[count] = BYTES * word + r
                     count += 1
     return count
 
 
-@inner_kernel()
-def look_at_quarters(
-    r: int,
-    waiting: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-) -> int:
+@inner_kernel(forceinline=True)
+def look_at_quarters(r: int, waiting: int, s: Step) -> int:
     """Let extremes of a channel in the step before and in this one count, if they are sharp.
 
     How many windows wait to be looked at more closely, of all channels.
     """
+    lane, at, work = s.lane, s.at, s.work
     end = work[at.previous + r, lane]
     junction = end - work[at.change + r, lane]
     for step in range(2):
         for i in range(HALF):
-            table[CLOSER + i] = spare[at.channel + r, HALF * step + i]
-        table[CLOSER + HALF] = end if step else junction
-        waiting = open_windows(
-            r, step, 0.0, 1.0 / HALF, PLACES, FORETOLD, waiting, lane, run, at, work, table
-        )
+            s.table[CLOSER + i] = s.spare[at.channel + r, HALF * step + i]
+        s.table[CLOSER + HALF] = end if step else junction
+        waiting = open_windows(r, step, 0.0, 1.0 / HALF, PLACES, FORETOLD, waiting, s)
     return waiting
 
 
 @inner_kernel()
-def look_at_extremes(
-    waiting: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-) -> None:
+def look_at_extremes(waiting: int, s: Step) -> None:
     """Evaluate the channels of windows where their extremes seem to be, many at once.
 
     Mostly that makes them sharp; the others are sought one after the other.
     """
-    if look_where_foretold(waiting, lane, run, at, work, spare, table, channels_around) > 0:
-        seek(waiting, lane, run, at, work, spare, table, channels_around)
+    if look_where_foretold(waiting, s) > 0:
+        seek(waiting, s)
 
 
 @inner_kernel()
-def look_where_foretold(
-    waiting: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-) -> int:
+def look_where_foretold(waiting: int, s: Step) -> int:
     """Evaluate the channels of windows where their extremes seem to be; how many are not sharp."""
+    table = s.table
     done = 0
     while done < waiting:
         early, late = 0, HALF
@@ -139,19 +100,19 @@ def look_where_foretold(
             w = WINDOWS + STRIDE * behind
             column = late if table[w + IN_THIS] else early
             early, late = (early, late + 1) if table[w + IN_THIS] else (early + 1, late)
-            spare[at.theta, column] = table[w + START] + table[w + PLACE] * table[w + SPACING]
+            s.spare[s.at.theta, column] = table[w + START] + table[w + PLACE] * table[w + SPACING]
             table[w + COLUMN] = column
             behind += 1
-        channels_around(work, spare, lane)
+        channels_around(s)
         for k in range(done, behind):
             w = WINDOWS + STRIDE * k
-            table[w + FOUND] = spare[at.channel + int(table[w + ROW]), int(table[w + COLUMN])]
+            table[w + FOUND] = s.spare[s.at.channel + int(table[w + ROW]), int(table[w + COLUMN])]
         done = behind
     unsharp = 0
     for k in range(waiting):
         w = WINDOWS + STRIDE * k
         table[w + ROUNDS] = 0.0
-        if is_done_by(table[w + FOUND], w, lane, run, at, work, table):
+        if is_done_by(table[w + FOUND], w, s):
             table[w + ROUNDS] = MOST_ROUNDS
         else:
             unsharp += 1
@@ -159,8 +120,9 @@ def look_where_foretold(
 
 
 @inner_kernel()
-def end_peaks(now: float, lane: int, at: Places, work: np.ndarray) -> None:
+def end_peaks(now: float, s: Step) -> None:
     """Let the values at the run's last instant count as extremes."""
+    lane, at, work = s.lane, s.at, s.work
     for r in range(at.rows):
         value = work[at.previous + r, lane]
         if value > work[at.highest + r, lane]:

@@ -4,11 +4,11 @@ from fractions import Fraction
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.book import HIGHEST, LOWEST, RANGE, count_value
 from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.loop.tops import CORNER
 
 LAST = INSTANTS - 1
@@ -42,13 +42,7 @@ value changes by the square of that."""
 
 @inner_kernel()
 def count_if_polynomial(
-    r: int,
-    begin: float,
-    spacing: float,
-    at: Places,
-    spare: np.ndarray,
-    book: np.ndarray,
-    powers: np.ndarray,
+    r: int, begin: float, spacing: float, s: Step, book: np.ndarray, powers: np.ndarray
 ) -> bool:
     """Let extremes of a row inside a part of a step count, if it is a polynomial; whether it is.
 
@@ -57,8 +51,8 @@ def count_if_polynomial(
 
     powers : (INSTANTS,) room for coefficients.
     """
-    values = spare[at.channel + r]
-    if has_corner(r, at, spare, book):
+    values = s.spare[s.at.channel + r]
+    if has_corner(r, s, book):
         return False
     known = False
     for i in range(INSTANTS):
@@ -84,9 +78,9 @@ def count_if_polynomial(
 
 
 @inner_kernel()
-def has_corner(r: int, at: Places, spare: np.ndarray, book: np.ndarray) -> bool:
+def has_corner(r: int, s: Step, book: np.ndarray) -> bool:
     """Whether the seventh difference of a row is too large for a polynomial."""
-    values, seventh = spare[at.channel + r], 0.0
+    values, seventh = s.spare[s.at.channel + r], 0.0
     for i in range(len(SEVENTH)):
         seventh += SEVENTH[i] * (values[i] - values[LAST - i])
     wide = max(book[RANGE, r], book[HIGHEST, r] - book[LOWEST, r])

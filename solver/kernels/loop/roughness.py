@@ -10,11 +10,10 @@ is, and all that follow a rough one.
 import numpy as np
 
 from jointplay.solver.kernels.emit.judging import SWINGING
-from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.seeking import HALF
+from jointplay.solver.kernels.loop.step import Step
 
 EVERY = 256
 """Steps from one look inside to the next, and those that are looked at after a rough one."""
@@ -31,29 +30,21 @@ ROUNDING = 1e-13
 
 
 @inner_kernel()
-def is_due(lane: int, run: Run, at: Places, work: np.ndarray) -> bool:
+def is_due(s: Step) -> bool:
     """Whether a step is to be looked at inside, rough or not."""
-    steps = int(work[at.steps, lane])
-    return bool(steps < run.rough_until or steps % EVERY == EVERY - 1)
+    steps = int(s.work[s.at.steps, s.lane])
+    return bool(steps < s.run.rough_until or steps % EVERY == EVERY - 1)
 
 
 @inner_kernel()
-def any_due(runs: np.ndarray, at: Places, work: np.ndarray) -> bool:
-    """Whether a step of any lane is to be looked at inside."""
-    found = False
-    for lane in range(work.shape[1]):
-        found |= is_due(lane, runs[lane], at, work)
-    return found
-
-
-@inner_kernel()
-def may_set_records(lane: int, run: Run, at: Places, work: np.ndarray, spare: np.ndarray) -> bool:
+def may_set_records(s: Step) -> bool:
     """Whether a channel that leaves its values at the ends of a step has a record in reach.
 
     Channels are known at eight even instants. Notes if the step is rough, and which of the next
     ones that swing is to be looked at: when ends that move as these do may be as far from a record
     as a swing goes, or when one swings more.
     """
+    lane, at, work, spare = s.lane, s.at, s.work, s.spare
     widest, rough, near, most, pause = 0.0, False, False, 0.0, EVERY - 1.0
     for r in range(at.contact_row):  # behind are records of single contacts
         widest = max(widest, work[at.highest + r, lane] - work[at.lowest + r, lane])
@@ -81,9 +72,9 @@ def may_set_records(lane: int, run: Run, at: Places, work: np.ndarray, spare: np
             pause = min(pause, steps_until(rest, last - first, bend, REACH * swing))
     steps = int(work[at.steps, lane])
     if rough:
-        run.rough += 1
+        s.run.rough += 1
     if rough and near and not int(work[at.flag, lane]) & SWINGING:
-        run.rough_until = steps + EVERY
+        s.run.rough_until = steps + EVERY
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
     work[at.look_beyond, lane] = work[at.swing, lane] * max(GROWTH, SEEN / (most + 1e-300))
     return near

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extreme import (
     LAST,
@@ -13,7 +12,7 @@ from jointplay.solver.kernels.loop.extreme import (
     highest,
     slope_left_out,
 )
-from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.loop.step import Step, channels_around
 from jointplay.solver.kernels.loop.windows import (
     BENT,
     BEST,
@@ -49,81 +48,65 @@ SAME = 1e-9
 
 
 @inner_kernel()
-def is_done(
-    w: int,
-    sharp: float,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    table: np.ndarray,
-) -> bool:
+def is_done(w: int, sharp: float, s: Step) -> bool:
     """Look where a window's extreme is, and let it count if it is a record and sharp.
 
     Whether that is all there is to do: otherwise it may be a record, and is not sharp. `sharp` :
     share of the channel's range up to now by which it may be off.
     """
+    table = s.table
     sense = table[w + SENSE]
     r = int(table[w + ROW])
-    record = work[(at.highest if sense > 0.0 else at.lowest) + r, lane]
+    record = s.work[(s.at.highest if sense > 0.0 else s.at.lowest) + r, s.lane]
     place, value, error, bent = extreme(table, w + VALUES, int(table[w + BEST]), sense, record)
     if not sense * value + error > sense * record:
         return True
     table[w + PLACE], table[w + VALUE], table[w + ERROR] = place, value, error
     table[w + BENT] = bent
-    if error > sharp * spread(r, value, lane, at, work):
+    if error > sharp * spread(r, value, s):
         return False
-    count(w, place, value, lane, run, at, work, table)
+    count(w, place, value, s)
     return True
 
 
-@inner_kernel()
-def is_done_by(
-    value: float, w: int, lane: int, run: Run, at: Places, work: np.ndarray, table: np.ndarray
-) -> bool:
+@inner_kernel(forceinline=True)
+def is_done_by(value: float, w: int, s: Step) -> bool:
     """Let the value at the place of a window's extreme count; whether it is sharp.
 
     What is beyond the value found is the square of the slope there by twice the second derivative.
     """
+    table = s.table
     place = table[w + PLACE]
-    count(w, place, value, lane, run, at, work, table)
+    count(w, place, value, s)
     slope = slope_left_out(place, abs(value - table[w + VALUE]))
     slope = max(slope, LEFT_OUT * LEAST_OFF * table[w + ERROR])
-    sharp = SHARP * spread(int(table[w + ROW]), value, lane, at, work)
+    sharp = SHARP * spread(int(table[w + ROW]), value, s)
     return bool(0.5 * slope * slope <= sharp * table[w + BENT])
 
 
 @inner_kernel()
-def seek(
-    waiting: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-) -> None:
+def seek(waiting: int, s: Step) -> None:
     """Narrow all waiting windows about their extremes until these are sharp or no records.
 
     Many channels have a kink where a law has one: windows of the same places are narrowed at once.
     """
+    table = s.table
     behind = WINDOWS + STRIDE * waiting
     for w in range(WINDOWS, behind, STRIDE):
         while table[w + ROUNDS] < MOST_ROUNDS:
             rounds, step = table[w + ROUNDS], table[w + IN_THIS]
             start, spacing, parts = closer(w, table)
-            place_closer(start, spacing, parts, HALF * int(step), at, spare)
-            channels_around(work, spare, lane)
+            place_closer(start, spacing, parts, HALF * int(step), s)
+            channels_around(s)
             for v in range(w, behind, STRIDE):
                 if table[v + ROUNDS] != rounds or table[v + IN_THIS] != step:
                     continue
                 if v == w or (start, spacing, parts) == closer(v, table):
-                    narrow(v, start, spacing, parts, at, spare, table)
-                    if is_done(v, FORETOLD, lane, run, at, work, table) or rests_at_end(v, table):
+                    narrow(v, start, spacing, parts, s)
+                    if is_done(v, FORETOLD, s) or rests_at_end(v, table):
                         table[v + ROUNDS] = MOST_ROUNDS
         best = table[w + BEST]
-        count(w, best, table[w + VALUES + int(best)], lane, run, at, work, table)
+        count(w, best, table[w + VALUES + int(best)], s)
 
 
 @inner_kernel()
@@ -137,24 +120,17 @@ def rests_at_end(w: int, table: np.ndarray) -> bool:
 
 
 @inner_kernel()
-def spread(r: int, value: float, lane: int, at: Places, work: np.ndarray) -> float:
+def spread(r: int, value: float, s: Step) -> float:
     """Return a channel's range up to now, with a further value, or the one known beforehand."""
+    lane, at, work = s.lane, s.at, s.work
     low = min(work[at.lowest + r, lane], value)
     return max(max(work[at.highest + r, lane], value) - low, work[at.known_range + r, lane])
 
 
 @inner_kernel()
-def count(
-    w: int,
-    place: float,
-    value: float,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    table: np.ndarray,
-) -> None:
+def count(w: int, place: float, value: float, s: Step) -> None:
     """Note a value at a place of a window, if it is a record of the window's channel."""
+    lane, at, work, table = s.lane, s.at, s.work, s.table
     r, sense = int(table[w + ROW]), table[w + SENSE]
     block, times = at.lowest, at.lowest_time
     if sense > 0.0:
@@ -166,7 +142,7 @@ def count(
     if table[w + IN_THIS] == 0.0:
         time = (share - 1.0) * work[at.before_step, lane]
     work[block + r, lane] = value
-    work[times + r, lane] = float(run.periods) * run.period + work[at.time, lane] + time
+    work[times + r, lane] = float(s.run.periods) * s.run.period + work[at.time, lane] + time
 
 
 @inner_kernel()
@@ -184,28 +160,19 @@ def closer(w: int, table: np.ndarray) -> tuple[float, float, int]:
 
 
 @inner_kernel()
-def place_closer(
-    start: float, spacing: float, parts: int, first: int, at: Places, spare: np.ndarray
-) -> None:
+def place_closer(start: float, spacing: float, parts: int, first: int, s: Step) -> None:
     """Place the four instants of a closer look that are not known yet, in columns from `first`."""
     column = first
     for k in range(1, parts):
         if parts == HALF + 1 or 2 * k != parts:
-            spare[at.theta, column] = min(start + k * spacing, 1.0)
+            s.spare[s.at.theta, column] = min(start + k * spacing, 1.0)
             column += 1
 
 
 @inner_kernel()
-def narrow(
-    w: int,
-    start: float,
-    spacing: float,
-    parts: int,
-    at: Places,
-    spare: np.ndarray,
-    table: np.ndarray,
-) -> None:
+def narrow(w: int, start: float, spacing: float, parts: int, s: Step) -> None:
     """Narrow a window to five places about the best one of a closer look."""
+    table = s.table
     r, sense = int(table[w + ROW]), table[w + SENSE]
     column = HALF * int(table[w + IN_THIS])
     best = w + VALUES + int(table[w + BEST])
@@ -213,7 +180,7 @@ def narrow(
     table[CLOSER], table[CLOSER + parts] = table[left], table[min(best + 1, w + VALUES + LAST)]
     for k in range(1, parts):
         if parts == HALF + 1 or 2 * k != parts:
-            table[CLOSER + k] = spare[at.channel + r, column]
+            table[CLOSER + k] = s.spare[s.at.channel + r, column]
             column += 1
         else:
             table[CLOSER + k] = table[best]

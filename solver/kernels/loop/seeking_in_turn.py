@@ -4,11 +4,7 @@ There, windows of a channel may be narrowed in an order that those of other chan
 record that one of them sets decides how sharp the next has to be.
 """
 
-import numpy as np
-
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
-from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.seeking import (
     FORETOLD,
     HALF,
@@ -20,6 +16,7 @@ from jointplay.solver.kernels.loop.seeking import (
     place_closer,
     rests_at_end,
 )
+from jointplay.solver.kernels.loop.step import Step, channels_around
 from jointplay.solver.kernels.loop.windows import (
     BEST,
     IN_THIS,
@@ -32,30 +29,22 @@ from jointplay.solver.kernels.loop.windows import (
 
 
 @inner_kernel()
-def seek_in_turn(
-    waiting: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-) -> None:
+def seek_in_turn(waiting: int, s: Step) -> None:
     """Narrow all waiting windows about their extremes, those of a channel one after the other.
 
     Windows of the same places are narrowed at once, of each channel the first that is not done.
     """
+    table = s.table
     behind = WINDOWS + STRIDE * waiting
     for w in range(WINDOWS, behind, STRIDE):
         if table[w + ROUNDS] < MOST_ROUNDS:
-            count_best(w, lane, run, at, work, table)
+            count_best(w, s)
     for w in range(WINDOWS, behind, STRIDE):
         while table[w + ROUNDS] < MOST_ROUNDS:
             rounds, step = table[w + ROUNDS], table[w + IN_THIS]
             start, spacing, parts = closer(w, table)
-            place_closer(start, spacing, parts, HALF * int(step), at, spare)
-            channels_around(work, spare, lane)
+            place_closer(start, spacing, parts, HALF * int(step), s)
+            channels_around(s)
             before_is_open = False
             for v in range(w, behind, STRIDE):
                 of_another_row = v == w or table[v + ROW] != table[v - STRIDE + ROW]
@@ -64,17 +53,15 @@ def seek_in_turn(
                 if not has_turn or table[v + ROUNDS] != rounds or table[v + IN_THIS] != step:
                     continue
                 if v == w or (start, spacing, parts) == closer(v, table):
-                    narrow(v, start, spacing, parts, at, spare, table)
-                    if is_done(v, FORETOLD, lane, run, at, work, table) or rests_at_end(v, table):
+                    narrow(v, start, spacing, parts, s)
+                    if is_done(v, FORETOLD, s) or rests_at_end(v, table):
                         table[v + ROUNDS] = MOST_ROUNDS
                     if table[v + ROUNDS] >= MOST_ROUNDS:
-                        count_best(v, lane, run, at, work, table)
+                        count_best(v, s)
 
 
 @inner_kernel()
-def count_best(
-    w: int, lane: int, run: Run, at: Places, work: np.ndarray, table: np.ndarray
-) -> None:
+def count_best(w: int, s: Step) -> None:
     """Let the best value of a window count as it is."""
-    best = table[w + BEST]
-    count(w, best, table[w + VALUES + int(best)], lane, run, at, work, table)
+    best = s.table[w + BEST]
+    count(w, best, s.table[w + VALUES + int(best)], s)

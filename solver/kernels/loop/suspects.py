@@ -1,13 +1,16 @@
 """Channels that may be beyond their records inside a part of a step, known at even instants."""
 
+from typing import NamedTuple
+
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.emit.functions import functions_at
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.book import ROUNDING, count_value
 from jointplay.solver.kernels.loop.polynomial_extreme import count_if_polynomial
 from jointplay.solver.kernels.loop.screening import JAGGED, ONE_BY_ONE, screen
+from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.loop.windows import CLOSER
 
 SHORT = 2.0**-30
@@ -16,28 +19,38 @@ SCATTER = 8.0
 """Times the median change of slope in such a time that rounding amounts to in a step."""
 
 
+class Part(NamedTuple):
+    """Part of a step in which extremes are sought, known at even instants."""
+
+    low: float
+    """Share of the step at which it begins."""
+    high: float
+    begin: float
+    """Time of the first instant, s."""
+    spacing: float
+    """From one instant to the next, s."""
+    sharp: float
+    """Share of its range by which an extreme may be off unseen."""
+
+
 @inner_kernel()
-def count_each(
-    r: int, begin: float, spacing: float, at: Places, spare: np.ndarray, book: np.ndarray
-) -> None:
+def count_each(r: int, part: Part, s: Step, book: np.ndarray) -> None:
     """Let the values of a row between the ends count as they are."""
     for i in range(1, INSTANTS - 1):
-        count_value(book, r, spare[at.channel + r, i], begin + spacing * i)
+        count_value(book, r, s.spare[s.at.channel + r, i], part.begin + part.spacing * i)
 
 
 @inner_kernel()
-def count_smooth(
-    r: int, begin: float, spacing: float, at: Places, spare: np.ndarray, book: np.ndarray
-) -> None:
+def count_smooth(r: int, part: Part, s: Step, book: np.ndarray) -> None:
     """Let extremes of a function of time alone count: by parabolas through three instants."""
-    values = spare[at.channel + r]
+    values = s.spare[s.at.channel + r]
     for i in range(1, INSTANTS - 1):
-        value, time = values[i], begin + spacing * i
+        value, time = values[i], part.begin + part.spacing * i
         rise, fall = value - values[i - 1], value - values[i + 1]
         if rise * fall > 0.0:
             place = 0.5 * (rise - fall) / (rise + fall)
             value += 0.25 * (rise - fall) * place
-            time += spacing * place
+            time += part.spacing * place
         count_value(book, r, value, time)
 
 
@@ -58,35 +71,21 @@ def scatter(values: np.ndarray) -> float:
 
 
 @inner_kernel()
-def is_rounding(r: int, at: Places, spare: np.ndarray, close: np.ndarray, book: np.ndarray) -> bool:
+def is_rounding(r: int, s: Step, close: np.ndarray, book: np.ndarray) -> bool:
     """Whether what a row does in a part of a step is rounding, by what it does in no time.
 
     close : as `spare`, at instants `SHORT` apart. The book notes what was seen.
     """
-    book[ROUNDING, r] = max(book[ROUNDING, r], scatter(close[at.channel + r]))
+    book[ROUNDING, r] = max(book[ROUNDING, r], scatter(close[s.at.channel + r]))
     least, most = np.inf, -np.inf
-    for value in spare[at.channel + r]:
+    for value in s.spare[s.at.channel + r]:
         least, most = min(least, value), max(most, value)
     return bool(most - least <= book[ROUNDING, r])
 
 
 @inner_kernel()
 def find_suspects(
-    low: float,
-    high: float,
-    begin: float,
-    spacing: float,
-    sharp: float,
-    blocks: np.ndarray,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    close: np.ndarray,
-    table: np.ndarray,
-    book: np.ndarray,
-    channels_within: LaneFunction,
-    found: np.ndarray,
+    part: Part, blocks: np.ndarray, s: Step, close: np.ndarray, book: np.ndarray, found: np.ndarray
 ) -> int:
     """Let the ends of a part of a step count, and find rows that may be beyond them inside.
 
@@ -95,12 +94,6 @@ def find_suspects(
 
     Parameters
     ----------
-    low, high
-        Shares of the step between which the even instants are.
-    begin, spacing
-        Time of the first, and between them, s.
-    sharp
-        Share of its range by which an extreme may be off unseen.
     blocks
         First rows of the eights that wanted rows are in.
     close : (slots, INSTANTS)
@@ -108,11 +101,12 @@ def find_suspects(
     found : (width of the book,)
         Where rows are written; how many is returned.
     """
+    at, begin, spacing, sharp = s.at, part.begin, part.spacing, part.sharp
     count, looked = 0, False
     end = begin + spacing * (INSTANTS - 1)
-    powers = table[CLOSER : CLOSER + INSTANTS]
+    powers = s.table[CLOSER : CLOSER + INSTANTS]
     for first in blocks:
-        marks = screen(spare, at.channel + first, book, first, begin, end, sharp)
+        marks = screen(s.spare, at.channel + first, book, first, begin, end, sharp)
         if marks == 0:
             continue
         for k in range(INSTANTS):
@@ -120,18 +114,18 @@ def find_suspects(
             if mark >> JAGGED & 1:
                 if not looked:
                     for i in range(INSTANTS):
-                        close[at.theta, i] = 0.5 * (low + high) + SHORT * i
-                    channels_within(work, close, lane)
+                        close[at.theta, i] = 0.5 * (part.low + part.high) + SHORT * i
+                    functions_at(s.call).channels_within(s.work, close, s.lane)
                     looked = True
-                if is_rounding(r, at, spare, close, book):
-                    count_each(r, begin, spacing, at, spare, book)
+                if is_rounding(r, s, close, book):
+                    count_each(r, part, s, book)
                     continue
             if mark >> ONE_BY_ONE & 1:
-                count_each(r, begin, spacing, at, spare, book)
+                count_each(r, part, s, book)
             elif mark & 1 and r >= at.rows:
-                count_smooth(r, begin, spacing, at, spare, book)
+                count_smooth(r, part, s, book)
             elif mark & 1 and not (
-                sharp > 0.0 and count_if_polynomial(r, begin, spacing, at, spare, book, powers)
+                sharp > 0.0 and count_if_polynomial(r, begin, spacing, s, book, powers)
             ):
                 found[count] = r
                 count += 1

@@ -7,7 +7,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.loop.logarithm import logarithm
-from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.loop.step import Step
 
 GOLDEN = 0.6180339887498949
 """Its multiples less their whole parts are unrelated: a direction that no symmetry singles out."""
@@ -28,7 +28,7 @@ def start_tangent(lane: int, at: Places, work: np.ndarray) -> None:
 
 
 @inner_kernel()
-def latch_tangent(j: int, lane: int, at: Places, work: np.ndarray) -> None:
+def latch_tangent(j: int, s: Step) -> None:
     """Give the latched impact rate of pair j its derivative along the tangent.
 
     To be called once `begin_contact` has latched the rate and `tangent_gaps` was evaluated at the
@@ -43,6 +43,7 @@ def latch_tangent(j: int, lane: int, at: Places, work: np.ndarray) -> None:
     jumps, too, but where the slip reverses, which is no onset; a run with such friction has no
     tangent (`solver.kernels.loop.beginning`).
     """
+    lane, at, work = s.lane, s.at, s.work
     rate = work[at.gap_rate + j, lane]
     latched = 0.0
     if rate > work[at.impact_floor + j, lane]:
@@ -53,16 +54,15 @@ def latch_tangent(j: int, lane: int, at: Places, work: np.ndarray) -> None:
 
 
 @inner_kernel()
-def record_growth(
-    now: float, lane: int, run: Run, at: Places, work: np.ndarray, growths: np.ndarray
-) -> bool:
+def record_growth(now: float, s: Step, growths: np.ndarray) -> bool:
     """Hand out by how much a lane's tangent grew since the record before; whether none fits more.
 
     now : end of that time, s since the start.
     """
-    record = growths[lane, run.growths]
+    run = s.run
+    record = growths[s.lane, run.growths]
     record.end = now
-    record.logarithm = renormalise(lane, at, work)
+    record.logarithm = renormalise(s.lane, s.at, s.work)
     run.growths += 1
     return run.growths >= growths.shape[1]
 

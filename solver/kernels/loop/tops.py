@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.extreme import PLACES
-from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.seeking import is_done
+from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.loop.windows import (
     BEST,
     CLOSER,
@@ -26,18 +25,7 @@ CORNER = 0.5
 
 @inner_kernel()
 def open_windows(
-    r: int,
-    step: int,
-    start: float,
-    spacing: float,
-    count: int,
-    sharp: float,
-    waiting: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    table: np.ndarray,
+    r: int, step: int, start: float, spacing: float, count: int, sharp: float, waiting: int, s: Step
 ) -> int:
     """Let local extremes of a channel among `count` values of a step count, if they are sharp.
 
@@ -45,13 +33,14 @@ def open_windows(
     the step (1: this one, 0: the one before). How many windows wait to be looked at more closely,
     of all channels.
     """
+    table = s.table
     values = table[CLOSER : CLOSER + count]
     least, most, bend = min(values[0], values[1]), max(values[0], values[1]), 0.0
     for i in range(2, count):
         least, most = min(least, values[i]), max(most, values[i])
         bend = max(bend, abs(values[i - 2] - 2.0 * values[i - 1] + values[i]))
     for sense in (1.0, -1.0):
-        record = work[(at.highest if sense > 0.0 else at.lowest) + r, lane]
+        record = s.work[(s.at.highest if sense > 0.0 else s.at.lowest) + r, s.lane]
         if not (most if sense > 0.0 else -least) + CORNER * bend > sense * record:
             continue
         for best in range(count):
@@ -64,7 +53,7 @@ def open_windows(
             table[w + BEST] = best - kept
             for i in range(PLACES):
                 table[w + VALUES + i] = values[kept + i]
-            if not is_done(w, sharp, lane, run, at, work, table):
+            if not is_done(w, sharp, s):
                 waiting += 1
     return waiting
 

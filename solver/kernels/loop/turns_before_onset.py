@@ -4,22 +4,21 @@ A free step may be as long as a flight, and the one behind the onset is a thousa
 channel that turns in the first, and once more where the contact begins, changes alike in both.
 """
 
-import numpy as np
-
-from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.kernels.loop.step import Step
 
 REACH = 3.0
 """Times that a channel may go farther beyond the ends of a step than a parabola does."""
 
 
 @inner_kernel()
-def turns_before_onset(lane: int, at: Places, work: np.ndarray) -> bool:
+def turns_before_onset(s: Step) -> bool:
     """Whether a channel may have a record inside this step, by the ends of it and the one before.
 
     To be called while ``channel`` has the values at the step's end, before the scan.
     """
+    lane, at, work = s.lane, s.at, s.work
     longer = work[at.tried, lane] / work[at.before_step, lane]
     for r in range(at.rows):
         start, end, rose = (

@@ -6,7 +6,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
 LOOP = "jointplay.solver.kernels.loop"
-COMPILED = ("kernel(", "deferred(")
+COMPILED = ("kernel(", "deferred(", "written_out(")
 
 
 def is_compiled(function: ast.FunctionDef, by: tuple[str, ...] = COMPILED) -> bool:

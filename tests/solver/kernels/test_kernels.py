@@ -15,8 +15,8 @@ from jointplay.solver.kernels.cache import cache_folder
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.advance import count_active
 from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.lanes import count_active
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates
 from jointplay.solver.mechanics.tree import spanning_tree

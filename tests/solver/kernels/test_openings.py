@@ -6,16 +6,20 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numba import njit
+from numba import cfunc, int64, void
 
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.enclosure import may_open
+from jointplay.solver.kernels.emit.functions import DTYPE as FUNCTIONS
+from jointplay.solver.kernels.emit.functions import WORK
 from jointplay.solver.kernels.emit.judging import RELEASE
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.places import DTYPE
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.bundle import aligned_zeros
 from jointplay.solver.kernels.loop.openings import dip, falling_root
+from jointplay.solver.kernels.loop.runs import DTYPE as RUN
+from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.readable_mechanics import preset
@@ -50,7 +54,7 @@ def test_a_straight_line_is_met_at_once(start: float, speed: float) -> None:
     assert falling_root(start, rate, min(end, 0.0), rate) == pytest.approx(1.0 / speed, rel=1e-12)
 
 
-@njit
+@cfunc(void(WORK, WORK, int64))  # type: ignore[misc]
 def gaps_of_a_polynomial(work: np.ndarray, spare: np.ndarray, lane: int) -> None:
     """A gap with up to four zeros in a step, and its rate: it is as deep as their product."""
     for i in range(INSTANTS):
@@ -60,6 +64,20 @@ def gaps_of_a_polynomial(work: np.ndarray, spare: np.ndarray, lane: int) -> None
             rate = rate * (share - zero) + depth
             depth *= share - zero
         spare[1, i], spare[2, i] = depth, rate
+
+
+def step_with_gap(zeros: tuple[float, ...], start: tuple[float, float]) -> Step:
+    """Return a step of lane 3 whose gap has these zeros, and its gap and rate at the start."""
+    places, addresses = np.zeros(1, DTYPE), np.zeros(1, FUNCTIONS)
+    for place, name in enumerate(("theta", "gap", "gap_rate")):
+        places[name] = place
+    for place, name in enumerate(("gap_start", "gap_rate_start", "tried"), start=7):
+        places[name] = place
+    addresses["gaps_within"] = gaps_of_a_polynomial.address
+    work, spare = np.zeros((10, LANES)), np.zeros((3, INSTANTS))
+    work[3:7, 3], work[7:, 3] = zeros, (*start, 1.0)
+    run = np.zeros(1, RUN)[0]
+    return Step(3, run, places[0], work, spare, np.zeros(0), addresses[0])
 
 
 @pytest.mark.parametrize(
@@ -77,32 +95,15 @@ def gaps_of_a_polynomial(work: np.ndarray, spare: np.ndarray, lane: int) -> None
 def test_a_gap_that_opens_and_closes_inside_a_step_is_found(
     zeros: tuple[float, ...], share: float
 ) -> None:
-    places = np.zeros(1, DTYPE)
-    for place, name in enumerate(("theta", "gap", "gap_rate")):
-        places[name] = place
-    for place, name in enumerate(("gap_start", "gap_rate_start", "tried"), start=7):
-        places[name] = place
-    work, spare = np.zeros((10, LANES)), np.zeros((3, INSTANTS))
-    work[3:7, 3] = zeros
-    gaps_of_a_polynomial(work, spare, 3)  # at zero
-    work[7:, 3] = spare[1, 0], spare[2, 0], 1.0
-    found = dip(0, 3, places[0], work, spare, gaps_of_a_polynomial)
+    rate = -sum(math.prod(zeros[:k] + zeros[k + 1 :]) for k in range(len(zeros)))
+    found = dip(0, step_with_gap(zeros, (math.prod(zeros), rate)))
     assert found == pytest.approx(share, abs=1.1e-3)
 
 
 def test_a_contact_that_has_just_begun_must_have_been_deeper_before_it_opens() -> None:
-    places = np.zeros(1, DTYPE)
-    for place, name in enumerate(("theta", "gap", "gap_rate")):
-        places[name] = place
-    for place, name in enumerate(("gap_start", "gap_rate_start", "tried"), start=7):
-        places[name] = place
-    work, spare = np.zeros((10, LANES)), np.zeros((3, INSTANTS))
-    work[3:7, 3] = 0.0, 0.4, 0.6, 2.0  # it rises where it is positive: 0.4 to 0.6 is closed
-    work[7:, 3] = 0.0, -0.48, 1.0
-    assert dip(0, 3, places[0], work, spare, gaps_of_a_polynomial) == 1.0
-    work[3:7, 3] = 0.0, 0.4, 0.6, -2.0
-    work[7:, 3] = 0.0, 0.48, 1.0
-    assert dip(0, 3, places[0], work, spare, gaps_of_a_polynomial) == 4.0 / 8.0
+    # it rises where it is positive: 0.4 to 0.6 is closed
+    assert dip(0, step_with_gap((0.0, 0.4, 0.6, 2.0), (0.0, -0.48))) == 1.0
+    assert dip(0, step_with_gap((0.0, 0.4, 0.6, -2.0), (0.0, 0.48))) == 4.0 / 8.0
 
 
 @pytest.mark.parametrize(

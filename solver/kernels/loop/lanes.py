@@ -1,0 +1,109 @@
+"""Loops over the lanes of a group: which of them need what, while one attempt is looked after."""
+
+import numpy as np
+
+from jointplay.solver.kernels.emit.places import Places
+from jointplay.solver.kernels.jit import inner_kernel, kernel
+from jointplay.solver.kernels.loop.accepted_steps import write_step
+from jointplay.solver.kernels.loop.attention import attend, settle
+from jointplay.solver.kernels.loop.closer_look import look_closer
+from jointplay.solver.kernels.loop.events import has_all_events, may_cross, record_crossings
+from jointplay.solver.kernels.loop.peaks import refine_peaks
+from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers
+from jointplay.solver.kernels.loop.step import Group, step_of
+
+
+@kernel()
+def count_active(at: Places, work: np.ndarray) -> int:
+    """Return how many lanes run."""
+    running = 0
+    for lane in range(work.shape[1]):
+        if work[at.active, lane] > 0.0:
+            running += 1
+    return running
+
+
+@inner_kernel()
+def any_accepted(at: Places, work: np.ndarray) -> bool:
+    """Return whether a lane takes the step that was just judged."""
+    accepted = 0.0
+    for lane in range(work.shape[1]):
+        accepted += work[at.accept, lane]
+    return accepted > 0.0
+
+
+@inner_kernel()
+def still_landing(runs: np.ndarray) -> bool:
+    """Return whether a lane is about to land on an onset."""
+    landing = 0
+    for lane in range(len(runs)):
+        if runs[lane].landing != NO_PAIR:
+            landing += 1
+    return landing > 0
+
+
+@inner_kernel()
+def attend_lanes(group: Group, rows: np.ndarray) -> bool:
+    """Look after lanes between their attempts and the commit; return whether a buffer is full."""
+    full = False
+    for lane in range(len(group.runs)):
+        s = step_of(lane, group)
+        flag = int(s.work[s.at.flag, lane])
+        wanted = flag != 0 or s.run.landing != NO_PAIR
+        if wanted and s.work[s.at.active, lane] > 0.0:
+            full |= attend(flag, s, rows)
+    return full
+
+
+@inner_kernel()
+def cross_lanes(group: Group, rows: np.ndarray) -> tuple[bool, bool]:
+    """Write sections where channels cross; return whether one may, and whether a buffer is full."""
+    crossed, full = False, False
+    for lane in range(len(group.runs)):
+        s = step_of(lane, group)
+        if s.work[s.at.accept, lane] > 0.0 and may_cross(s):
+            crossed = True
+            full |= record_crossings(s, rows)
+    return crossed, full
+
+
+@inner_kernel()
+def look_closer_at_lanes(group: Group) -> None:
+    """Seek extremes that no scan of step ends finds, in the steps that lanes take."""
+    for lane in range(len(group.runs)):
+        if group.work[group.at.accept, lane] > 0.0:
+            look_closer(step_of(lane, group))
+
+
+@inner_kernel()
+def refine_lanes(candidates: int, group: Group, marked: np.ndarray) -> None:
+    """Seek the extremes that the scan suspects, of lanes whose bits are set in `candidates`."""
+    for lane in range(len(group.runs)):
+        if candidates >> lane & 1 and group.work[group.at.accept, lane] > 0.0:
+            refine_peaks(step_of(lane, group), marked)
+
+
+@inner_kernel()
+def keep_steps(group: Group, steps: np.ndarray) -> bool:
+    """Write the steps that lanes take which keep them; return whether a buffer is full now."""
+    full = False
+    for lane in range(len(steps)):
+        if group.work[group.at.accept, lane] > 0.0:
+            run = group.runs[lane]
+            write_step(steps[lane, run.kept], lane, run, group.at, group.work)
+            run.kept += 1
+            full |= run.kept == steps.shape[1]
+    return full
+
+
+@inner_kernel()
+def settle_lanes(group: Group, buffers: Buffers) -> bool:
+    """Look after lanes whose steps are taken; return whether a buffer is nearly full."""
+    full = False
+    for lane in range(len(group.runs)):
+        s = step_of(lane, group)
+        flag = int(s.work[s.at.flag, lane])
+        wanted = flag != 0 or s.run.landing != NO_PAIR or has_all_events(s.run)
+        if wanted and s.work[s.at.accept, lane] > 0.0:
+            full |= settle(flag, s, buffers)
+    return full

@@ -1,0 +1,72 @@
+"""A step of one lane, as the loop looks at it: what its functions take as `s`, one for all."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from jointplay.solver.kernels.emit.functions import functions_at
+from jointplay.solver.kernels.emit.places import Places
+from jointplay.solver.kernels.jit import inner_kernel, written_out
+from jointplay.solver.kernels.loop.runs import Run
+
+Addresses = Any
+"""Record of the kernel's functions; see `solver.kernels.emit.functions`."""
+
+
+class Step(NamedTuple):
+    """A lane's attempt at a step. Inlined, it costs nothing; else it is 30 numbers."""
+
+    lane: int
+    """Column of the work array."""
+    run: Run
+    at: Places
+    work: np.ndarray
+    """All quantities of all lanes of the group, (slots, lanes)."""
+    spare: np.ndarray
+    """Room for instants inside this step, (slots, INSTANTS)."""
+    table: np.ndarray
+    """See `solver.kernels.loop.windows`."""
+    call: Addresses
+
+
+class Group(NamedTuple):
+    """Lanes that are advanced at once; each of them has a `Step`."""
+
+    runs: np.ndarray
+    """(lanes,) of `Run`."""
+    at: Places
+    work: np.ndarray
+    spare: np.ndarray
+    table: np.ndarray
+    call: Addresses
+
+
+@written_out()
+def step_of(lane: int, group: Group) -> Step:
+    """Return the step that a lane attempts."""
+    run = group.runs[lane]
+    return Step(lane, run, group.at, group.work, group.spare, group.table, group.call)
+
+
+@inner_kernel(forceinline=True)
+def states_within(s: Step) -> None:
+    """Evaluate the states at the instants of this step that `spare` has."""
+    functions_at(s.call).states_within(s.work, s.spare, s.lane)
+
+
+@inner_kernel(forceinline=True)
+def gaps_within(s: Step) -> None:
+    """Evaluate gaps and slips there."""
+    functions_at(s.call).gaps_within(s.work, s.spare, s.lane)
+
+
+@inner_kernel(forceinline=True)
+def channels_within(s: Step) -> None:
+    """Evaluate all channels there."""
+    functions_at(s.call).channels_within(s.work, s.spare, s.lane)
+
+
+@inner_kernel(forceinline=True)
+def channels_around(s: Step) -> None:
+    """Evaluate all channels at four instants of the step before and four of this one."""
+    functions_at(s.call).channels_around(s.work, s.spare, s.lane)
