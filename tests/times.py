@@ -17,7 +17,7 @@ import pytest
 
 @dataclass
 class Spent:
-    """What the tests of a file took, or all tests until now."""
+    """Costs of the tests of a file, or of all tests until now."""
 
     processor: float = 0.0
     """Seconds of processor."""

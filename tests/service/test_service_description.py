@@ -182,8 +182,8 @@ def test_the_documentation_gives_the_bounds_of_what_is_done_at_once():
         f"{owners.WAITING} (where no key is asked for: of all callers together)",
         f"{body.MOST_TOGETHER // 2**20} MiB together",
         f"{pieces.MOST_TOGETHER // 2**20} MiB together",
-        f"{fair_queue.OF_ONE} of a kind, {fair_queue.OF_ONE_EVERYWHERE} of all kinds; of all owners"
-        f" {fair_queue.MOST_EVERYWHERE}",
+        f"{fair_queue.OF_ONE} of a kind; of all kinds together no more than are left of the"
+        f" {fair_queue.MOST_EVERYWHERE} of all owners",
     ]
     assert table.count(f"of more than {body.SHORT // 1024} KiB") == 2
     assert body.SHORT == pieces.LONGEST

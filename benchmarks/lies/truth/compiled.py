@@ -1,4 +1,4 @@
-"""How the program is compiled: in half the time that Numba takes unasked."""
+"""Compilation of the program, in half the time that Numba takes unasked."""
 
 from collections.abc import Callable
 from typing import Any
