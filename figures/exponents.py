@@ -21,6 +21,8 @@ def draw_exponents(
 ) -> None:
     """Draw the largest Lyapunov exponent of points with its uncertainty.
 
+    An uncertainty without bounds is a bar over the whole height.
+
     Parameters
     ----------
     across
@@ -34,10 +36,14 @@ def draw_exponents(
     axes.axhline(0.0, color=colours.GEOMETRY, linewidth=0.4, zorder=1.0)
     for group in groups:
         members = group.members[points] & np.isfinite(exponents)
+        unbounded = across[members & np.isinf(reach)]
+        axes.vlines(
+            unbounded, 0.0, 1.0, group.colour, linewidth=0.4, transform=axes.get_xaxis_transform()
+        )
         axes.errorbar(
             across[members],
             exponents[members],
-            yerr=np.nan_to_num(reach[members]),
+            yerr=np.nan_to_num(reach[members], posinf=0.0),
             fmt="o",
             color=group.colour,
             markersize=1.6,

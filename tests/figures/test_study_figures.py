@@ -261,6 +261,18 @@ def test_long_numbers_of_a_section_stand_apart():
         stand_apart(figure)
 
 
+@pytest.mark.parametrize("name", ["exponents", "block.x"])
+def test_an_exponent_without_bounds_has_a_bar_over_the_whole_height(name):
+    source = bifurcation(points=5, judged=True)
+    bounded = drawn_with(source, name, None).axes[-1].get_ylim()
+    source.indicators["lyapunov_error"][3] = np.inf  # of a few sections only
+    exponents = drawn_with(source, name, None).axes[-1]
+    assert exponents.get_ylim() == pytest.approx(bounded, rel=0.2)
+    bars = [bar for bars in exponents.collections for bar in bars.get_segments()]
+    whole = [bar[:, 0] for bar in bars if sorted(bar[:, 1]) == [0.0, 1.0]]
+    np.testing.assert_allclose(whole, [[source.values[3, 0] * 1e3] * 2])
+
+
 def test_exponents_alone_are_drawn_with_their_verdicts():
     source = bifurcation(points=60, judged=True)
     (axes,) = drawn_with(source, "exponents", None).axes
