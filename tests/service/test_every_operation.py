@@ -84,7 +84,7 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Known
 DESCRIBED = schemathesis.openapi.from_dict(create_app().openapi())
 OPERATIONS = {found.ok().label: found.ok() for found in DESCRIBED.get_all_operations()}
 SOME = settings(
-    max_examples=8,
+    max_examples=4,  # of each of fifty operations
     derandomize=True,
     database=None,
     phases=[Phase.generate],  # a request that fails says enough; making it smaller takes minutes

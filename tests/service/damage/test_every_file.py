@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.sampled import sampled
 from tests.service.damage.damages import WHOLE, Damage, content_of, damages, put
 from tests.service.damage.installations import PLACES, Installation
 from tests.service.damage.readings import Denied, Reading, readings
@@ -109,7 +110,7 @@ def striker(
     return Striker(installation, table, tmp_path, request.config.getoption("--seed"))
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", sampled(KINDS, 7))
 @pytest.mark.parametrize("installation", ["folder"], indirect=True)
 def test_nothing_is_served_that_was_not_stored(striker: Striker, kind: str) -> None:
     """A sample of what the last test does."""
