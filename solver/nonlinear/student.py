@@ -45,4 +45,5 @@ def _share_within(t: float, freedom: int) -> float:
     if not odd:
         return sine * total
     cosine = math.sqrt(square)
-    return (direction_angle(math.sqrt(freedom), t) + sine * cosine * total) * (2.0 / math.pi)
+    angle = float(direction_angle(math.sqrt(freedom), t))
+    return (angle + sine * cosine * total) * (2.0 / math.pi)

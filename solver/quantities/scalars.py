@@ -44,7 +44,8 @@ def sine_cosine(x: Scalar) -> tuple[Scalar, Scalar]:
 
 @lru_cache(maxsize=4096)  # joints of one body ask for its angle one after the other
 def _sine_cosine_of(x: float) -> tuple[float, float]:
-    return (x, x) if math.isnan(x) else elementary.sine_cosine(within_reach(x))
+    sine, cosine = (x, x) if math.isnan(x) else elementary.sine_cosine(within_reach(x))
+    return sine, cosine
 
 
 def direction_angle(x: Scalar, y: Scalar) -> Scalar:

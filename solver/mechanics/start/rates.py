@@ -37,12 +37,12 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     together = _joined([held, *wanted.values()], pose)
     if len(wanted) > 1 and _hold(together, places.scale, size):
         held, wanted = together, {}
-    for rows in wanted.values():
-        more = _joined([held, rows], pose)
+    for also in wanted.values():
+        more = _joined([held, also], pose)
         if _hold(more, places.scale, size):
             held = more
         else:
-            rest.append(rows)
+            rest.append(also)
     levels = [held, _joined(rest, pose), _rates(soft, pose), _still(places, pose)]
     steps = Steps([rows.jacobian for rows in levels], places.scale)
     velocity = steps.step([rows.value for rows in levels])

@@ -105,8 +105,11 @@ class Windows:
         """Logarithm of how much each tangent has grown."""
         lanes = [self.bundle.lane(lane) for lane in range(BUNDLE)]
         lengths = [tangent_length(lane.index, lane.places[0], lane.work) for lane in lanes]
-        logarithms = [logarithm(length) if length > 0.0 else -math.inf for length in lengths]
-        return self.grown + np.array(logarithms)
+        logarithms = [
+            logarithm(length) if 0.0 < length < math.inf else length or -math.inf
+            for length in lengths
+        ]
+        return np.asarray(self.grown + np.array(logarithms), np.float64)
 
     def exponent(self) -> Exponent | None:
         """Return what the windows say; none where there is no tangent, or no time to follow it."""

@@ -83,7 +83,8 @@ def solve(matrix: Floats, right: Floats, *, free: bool = False) -> Floats:
     the smallest x. b : (..., rows).
     """
     if free:
-        return applied(np.linalg.pinv(matrix, rcond=RANK_TOLERANCE), right)  # shown, not stored
+        inverse = np.asarray(np.linalg.pinv(matrix, rcond=RANK_TOLERANCE), np.float64)
+        return applied(inverse, right)  # shown, not stored
     if matrix.shape[-2] == matrix.shape[-1]:
         return solve_square(matrix, right)
     return least_squares(matrix, right)
