@@ -39,7 +39,8 @@ def sine_cosine(x: Scalar) -> tuple[Scalar, Scalar]:
         return _sine_cosine_of(float(x) + 0.0)  # -0.0, which equals 0.0, must not find its sine
     if isinstance(x, type_of_array):
         return elementary.sine_cosine(within_reach(x))
-    return x.sine_cosine()
+    sine, cosine = x.sine_cosine()
+    return sine, cosine
 
 
 @lru_cache(maxsize=4096)  # joints of one body ask for its angle one after the other

@@ -31,7 +31,8 @@ class Instants:
     @classmethod
     def over(cls, duration: float, unit: float) -> Instants:
         """Return the instants of a run (s) of which a unit, such as its period, is resolved."""
-        wanted = math.ceil(math.log2(max(duration / unit, 1.0)))
+        mantissa, exponent = math.frexp(max(duration / unit, 1.0))
+        wanted = exponent - 1 if mantissa == 0.5 else exponent
         return cls(duration, min(wanted, MOST_OCTAVES))
 
     @property
