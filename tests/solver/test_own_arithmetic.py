@@ -1,4 +1,4 @@
-"""What makes results calls no function whose bits depend on the processor or on the C library."""
+"""Sources of results call no function whose bits depend on the processor or the C library."""
 
 import ast
 from collections.abc import Iterator
@@ -32,7 +32,6 @@ SHOWN = {
     "mechanics/misfit.py": "a sentence",
     "mechanics/redundancy.py": "sentences",
     "nonlinear/estimate.py": "digits of a sentence",
-    "runs/certificate/instants.py": "a number of instants, of a power of two",
     "runs/ideal/constraints.py": "poses that are shown",
     "runs/ideal/dead_point.py": "a sentence",
     "runs/ideal/margin.py": "a sentence",
