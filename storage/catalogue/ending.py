@@ -25,6 +25,8 @@ _LOST: Final = "lost"
 _REFUSED: Final = "refused"
 _CUT_OFF: Final = "cut-off"
 _LONGEST_RETREAT: Final = 60.0  # s
+MOST_CUT_OFF: Final = 100
+"""Attempts at a block that may be cut off: the service was away as often, or a worker lies."""
 _FIRST_PAUSE = 2.0  # s
 LONGEST_PAUSE: Final = 5.0
 """Seconds after which a block that was put off is tried again at the latest."""
@@ -227,6 +229,9 @@ def note_cut_off(unit: Unit, block_id: str, attempt: int, owner: str) -> None:
     """
     table = tables.attempt
     if job_of(unit, block_id) is None:
+        return
+    of_block = select(func.count()).where(table.c.block == block_id)
+    if unit.execute(of_block.where(table.c.outcome == _CUT_OFF)).scalar_one() >= MOST_CUT_OFF:
         return
     lost = (table.c.block == block_id) & (table.c.number == attempt) & (table.c.outcome == _LOST)
     back = update(table).where(lost, table.c.worker.startswith(owner, autoescape=True))

@@ -1,7 +1,9 @@
 """Losses count against a block only where the worker could reach whoever keeps the catalogue."""
 
+import pytest
 from stepped_clock import Clock
 
+from jointplay.storage.catalogue import ending
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import JobState, NewJob, Solver
 
@@ -48,3 +50,15 @@ def test_machines_that_were_not_heard_of_since_do_not_count(
     assert found.state is JobState.failed
     assert found.error is not None
     assert found.error.code == "worker-lost"
+
+
+def test_a_worker_that_says_so_again_and_again_is_believed_so_often(
+    catalogue: Catalogue, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ending, "MOST_CUT_OFF", 4)
+    job = catalogue.submit(NEW).job.id
+    for _ in range(4 + 3):
+        assert catalogue.get(job).state is not JobState.failed
+        attempt = lost(catalogue, clock, job, "k@host:1:2:boot:3")
+        catalogue.note_cut_off(f"{job}-0", attempt, "k@")
+    assert catalogue.get(job).state is JobState.failed
