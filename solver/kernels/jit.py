@@ -25,13 +25,15 @@ INNER: dict[str, Any] = {
 }
 
 
-def inner_kernel(*, forceinline: bool = False) -> Callable[[Any], Any]:
+def inner_kernel(*, forceinline: bool = False, borrows: bool = False) -> Callable[[Any], Any]:
     """Compile a function that kernels alone call, without what calls from elsewhere need.
 
     That is a quarter of its compilation. Called from Python it would be a null pointer.
     `forceinline` : for one that is called in one place, or takes more to call than to run.
+    `borrows` : it makes no array and counts no references, which takes longer than short work does.
     """
-    decorator: Callable[[Any], Any] = numba.njit(forceinline=forceinline, **INNER)
+    options: dict[str, Any] = INNER | {"forceinline": forceinline, "_nrt": not borrows}
+    decorator: Callable[[Any], Any] = numba.njit(**options)
     return decorator
 
 

@@ -48,7 +48,7 @@ def beyond_ends(change: float, begin: float, end: float) -> tuple[float, float]:
     return below - least, most - above
 
 
-@inner_kernel(forceinline=True)
+@inner_kernel(forceinline=True, borrows=True)
 def may_pass_bend(s: Step) -> bool:
     """Whether a slip may pass a bend and come back in this step, or pass more than one.
 

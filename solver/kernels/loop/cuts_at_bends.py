@@ -22,7 +22,7 @@ the line errs, which is less in a shorter interval, and to be sure."""
 MOST_PLACES = 256
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def bends_below(slip: float, j: int, s: Step) -> int:
     """Return how many bends of pair j's friction, either way, a slip is above."""
     below = 0
@@ -41,7 +41,7 @@ def nearest_bend(slip: float, j: int, s: Step) -> float:
     return nearest
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def has_bend(j: int, s: Step) -> bool:
     """Whether pair j touches with friction that bends somewhere."""
     lane, at, work = s.lane, s.at, s.work

@@ -22,7 +22,7 @@ REACH = 2.0
 """Times that a channel may change faster up to a kink than on the other side of the start."""
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def nearest_kink(step: int, s: Step) -> float:
     """Return how far from the start of this step the nearest kink is: 0 if none is near.
 
@@ -47,7 +47,7 @@ def nearest_kink(step: int, s: Step) -> float:
     return nearest if nearest < FARTHEST else 0.0
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def any_in_reach(rows: np.ndarray, before: float, behind: float, s: Step) -> bool:
     """Whether a row that turns about the start of this step may have a record at a kink beside it.
 
@@ -69,7 +69,7 @@ def any_in_reach(rows: np.ndarray, before: float, behind: float, s: Step) -> boo
     return False
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def look_at_kinks_beside(rows: np.ndarray, waiting: int, s: Step) -> int:
     """Let extremes of rows at kinks next to the start of this step count, if they are sharp.
 

@@ -42,7 +42,7 @@ def still_landing(runs: np.ndarray) -> bool:
     return landing > 0
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def attend_lanes(group: Group, rows: np.ndarray) -> bool:
     """Look after lanes between their attempts and the commit; return whether a buffer is full."""
     full = False
@@ -55,7 +55,7 @@ def attend_lanes(group: Group, rows: np.ndarray) -> bool:
     return full
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def cross_lanes(group: Group, rows: np.ndarray) -> tuple[bool, bool]:
     """Write sections where channels cross; return whether one may, and whether a buffer is full."""
     crossed, full = False, False
@@ -67,7 +67,7 @@ def cross_lanes(group: Group, rows: np.ndarray) -> tuple[bool, bool]:
     return crossed, full
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def look_closer_at_lanes(group: Group) -> None:
     """Seek extremes that no scan of step ends finds, in the steps that lanes take."""
     for lane in range(len(group.runs)):
@@ -75,7 +75,7 @@ def look_closer_at_lanes(group: Group) -> None:
             look_closer(step_of(lane, group))
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def refine_lanes(candidates: int, group: Group, marked: np.ndarray) -> None:
     """Seek the extremes that the scan suspects, of lanes whose bits are set in `candidates`."""
     for lane in range(len(group.runs)):
@@ -83,7 +83,7 @@ def refine_lanes(candidates: int, group: Group, marked: np.ndarray) -> None:
             refine_peaks(step_of(lane, group), marked)
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def keep_steps(group: Group, steps: np.ndarray) -> bool:
     """Write the steps that lanes take which keep them; return whether a buffer is full now."""
     full = False
@@ -96,7 +96,7 @@ def keep_steps(group: Group, steps: np.ndarray) -> bool:
     return full
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def settle_lanes(group: Group, buffers: Buffers) -> bool:
     """Look after lanes whose steps are taken; return whether a buffer is nearly full."""
     full = False

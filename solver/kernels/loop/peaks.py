@@ -46,7 +46,7 @@ def refine_peaks(s: Step, marked: np.ndarray) -> None:
     look_at_extremes(waiting, s)
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def find_marked(s: Step, marked: np.ndarray, rows: np.ndarray) -> int:
     """Write the rows that the scan marked for a lane; how many. `marked` : from the marks on."""
     count = 0
@@ -61,7 +61,7 @@ def find_marked(s: Step, marked: np.ndarray, rows: np.ndarray) -> int:
     return count
 
 
-@inner_kernel(forceinline=True)
+@inner_kernel(forceinline=True, borrows=True)
 def look_at_quarters(r: int, waiting: int, s: Step) -> int:
     """Let extremes of a channel in the step before and in this one count, if they are sharp.
 
@@ -78,7 +78,7 @@ def look_at_quarters(r: int, waiting: int, s: Step) -> int:
     return waiting
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def look_at_extremes(waiting: int, s: Step) -> None:
     """Evaluate the channels of windows where their extremes seem to be, many at once.
 
@@ -88,7 +88,7 @@ def look_at_extremes(waiting: int, s: Step) -> None:
         seek(waiting, s)
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def look_where_foretold(waiting: int, s: Step) -> int:
     """Evaluate the channels of windows where their extremes seem to be; how many are not sharp."""
     table = s.table

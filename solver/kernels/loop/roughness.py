@@ -29,7 +29,7 @@ ROUNDING = 1e-13
 """Share of the largest range of all channels that a range of nothing but rounding is below."""
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def is_due(s: Step) -> bool:
     """Whether a step is to be looked at inside, rough or not."""
     steps = int(s.work[s.at.steps, s.lane])

@@ -47,7 +47,7 @@ SAME = 1e-9
 """Share of a step: places closer than that are one."""
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def is_done(w: int, sharp: float, s: Step) -> bool:
     """Look where a window's extreme is, and let it count if it is a record and sharp.
 
@@ -69,7 +69,7 @@ def is_done(w: int, sharp: float, s: Step) -> bool:
     return True
 
 
-@inner_kernel(forceinline=True)
+@inner_kernel(forceinline=True, borrows=True)
 def is_done_by(value: float, w: int, s: Step) -> bool:
     """Let the value at the place of a window's extreme count; whether it is sharp.
 
@@ -119,7 +119,7 @@ def rests_at_end(w: int, table: np.ndarray) -> bool:
     return bool(table[w + ROUNDS] >= ENOUGH_AT_END and not SAME < share < 1.0 - SAME)
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def spread(r: int, value: float, s: Step) -> float:
     """Return a channel's range up to now, with a further value, or the one known beforehand."""
     lane, at, work = s.lane, s.at, s.work
@@ -127,7 +127,7 @@ def spread(r: int, value: float, s: Step) -> float:
     return max(max(work[at.highest + r, lane], value) - low, work[at.known_range + r, lane])
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def count(w: int, place: float, value: float, s: Step) -> None:
     """Note a value at a place of a window, if it is a record of the window's channel."""
     lane, at, work, table = s.lane, s.at, s.work, s.table

@@ -23,7 +23,7 @@ CORNER = 0.5
 """Share of a second difference by which a channel may exceed its values between two of them."""
 
 
-@inner_kernel()
+@inner_kernel(borrows=True)
 def open_windows(
     r: int, step: int, start: float, spacing: float, count: int, sharp: float, waiting: int, s: Step
 ) -> int:
