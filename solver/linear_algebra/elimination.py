@@ -1,13 +1,16 @@
-"""Gaussian elimination with partial pivoting, of many systems at once.
+"""Gaussian elimination with partial pivoting, of one system or of many at once.
 
 Golub and Van Loan 2013, Matrix Computations, 4th ed., algorithm 3.4.1. There is no sum in it: each
-of many systems is solved as if it were alone.
+of many systems is solved as if it were alone. A small one alone goes by lists, without its zeros.
 """
 
 import numpy as np
 from numpy.linalg import LinAlgError
 
 from jointplay.records.arrays import Floats
+
+FEW = 24
+"""Unknowns up to which one system is solved by lists."""
 
 
 def solve(matrix: Floats, right: Floats) -> Floats:
@@ -30,6 +33,8 @@ def solve_many(matrix: Floats, right: Floats) -> Floats:
         A matrix is singular.
     """
     n, columns = right.shape[-2:]
+    if right.ndim == 2 and n <= FEW:
+        return np.array(_solved(matrix.tolist(), right.tolist())).reshape(n, columns)
     whole = np.concatenate([matrix, right], axis=-1).reshape(-1, n, n + columns)
     with np.errstate(over="ignore", invalid="ignore"):
         for k in range(n):
@@ -41,6 +46,31 @@ def solve_many(matrix: Floats, right: Floats) -> Floats:
             whole[:, k + 1 :, k + 1 :] -= shares[:, :, None] * whole[:, k, None, k + 1 :]
         found = back_substituted(whole[:, :, :n], whole[:, :, n:])
     return found.reshape(right.shape)
+
+
+def _solved(matrix: list[list[float]], right: list[list[float]]) -> list[list[float]]:
+    """Return what `solve_many` returns, of one system."""
+    rows = [[*one, *more] for one, more in zip(matrix, right, strict=True)]
+    n = len(rows)
+    for k in range(n):
+        largest = max(range(k, n), key=lambda i: abs(rows[i][k]))
+        rows[k], rows[largest] = rows[largest], rows[k]
+        pivot, *behind = rows[k][k:]
+        if not pivot:
+            raise LinAlgError("Singular matrix")
+        for row in _with(k, rows[k + 1 :]):
+            share = row[k] / pivot
+            row[k + 1 :] = [x - share * y for x, y in zip(row[k + 1 :], behind, strict=True)]
+    for k in range(n - 1, -1, -1):
+        rows[k][n:] = found = [x / rows[k][k] for x in rows[k][n:]]
+        for row in _with(k, rows[:k]):
+            share = row[k]
+            row[n:] = [x - share * y for x, y in zip(row[n:], found, strict=True)]
+    return [row[n:] for row in rows]
+
+
+def _with(k: int, rows: list[list[float]]) -> list[list[float]]:
+    return [row for row in rows if row[k]]
 
 
 def back_substituted(upper: Floats, right: Floats) -> Floats:

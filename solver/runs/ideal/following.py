@@ -14,13 +14,15 @@ from jointplay.records.failure import LimitExceeded, SimulationFailed
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble
 from jointplay.solver.runs.ideal.constraints import Constraints
 from jointplay.solver.runs.ideal.dead_point import lost_at
-from jointplay.solver.runs.ideal.path import Path
+from jointplay.solver.runs.ideal.path import FEWEST_A_SCALE, Path
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import MovingDriver
 from jointplay.solver.scene.periods import quickest_driver
 
 MOST_POSES = 4096
 """Poses of a path: seconds."""
+MOST_IN_VAIN = 768
+"""Poses of a path to an instant out of reach: only for where it may jam before."""
 
 
 @dataclass(frozen=True)
@@ -53,12 +55,15 @@ def follow(scene: Scene, times: Sequence[float]) -> Followed:
     if math.isinf(scale):  # nothing is driven
         return Followed(np.tile(start.pose, (len(instants), 1)), None)
     path, last = Path(constraints, start.pose, scale), float(instants[-1])
-    whole = path.follow(last, MOST_POSES)  # also where that is too far: it may jam before
+    farthest = MOST_POSES * scale / FEWEST_A_SCALE
+    most = MOST_POSES if last <= farthest else MOST_IN_VAIN
+    whole = path.follow(last, most)
     reached = path.end.time
-    if not whole and len(path.times) >= MOST_POSES:
+    if not whole and len(path.times) >= most:
+        farthest = reached if most == MOST_POSES else farthest
         raise LimitExceeded.at(
             "/times",
-            f"The mechanism is followed through {MOST_POSES} poses, to {reached:.3g} s at most;"
+            f"The mechanism is followed through {MOST_POSES} poses, to {farthest:.3g} s at most;"
             " give earlier times.",
         )
     lost = None if whole else _ended(scene, instants) or lost_at(path, scene)
