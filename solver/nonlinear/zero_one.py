@@ -22,9 +22,9 @@ from jointplay.solver.nonlinear.fourier import (
 from jointplay.solver.quantities.scalars import sine_cosine
 
 FREQUENCIES = 100
+"""Random frequencies c, whose median is taken: near a line of the spectrum K is not 0 or 1."""
 AT_ONCE = 2**16
 """Samples that are transformed together: what a processor has at hand."""
-"""Random frequencies c, whose median is taken: near a line of the spectrum K is not 0 or 1."""
 LOWEST, HIGHEST = math.pi / 5.0, 4.0 * math.pi / 5.0
 FEWEST_SAMPLES = 30
 FEWEST_TELLING = 300

@@ -65,7 +65,7 @@ def direction_angle(x: Scalar, y: Scalar) -> Scalar:
         term = (1.0 if power_of_tangent % 4 == 1 else -1.0) / power_of_tangent
         series = series * square + term
     angle = 8.0 * (tangent * series)
-    return select_positive(x, angle, sign(y) * math.pi - angle)
+    return select_positive(x, angle, -math.pi * sign(-y) - angle)  # pi where y is 0
 
 
 def floor(x: Scalar) -> Scalar:

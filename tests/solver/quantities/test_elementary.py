@@ -119,3 +119,9 @@ def test_sines_keep_what_is_no_number_and_refuse_the_infinite() -> None:
     assert np.isnan(scalars.sine_cosine(np.array([math.nan]))).all()
     with pytest.raises(ValueError, match="math domain error"):
         scalars.sine_cosine(math.inf)
+
+
+def test_the_direction_of_the_negative_axis_is_pi() -> None:
+    for zero in (0.0, -0.0):
+        assert scalars.direction_angle(-1.0, zero) == math.pi
+        assert scalars.direction_angle(np.array([-1.0]), np.array([zero])) == math.pi

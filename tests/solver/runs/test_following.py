@@ -14,6 +14,7 @@ from jointplay.solver.mechanics.dragging import drag
 from jointplay.solver.mechanics.observe import body_values
 from jointplay.solver.runs.ideal.following import follow
 from jointplay.solver.runs.ideal.motion import IdealMotion
+from jointplay.solver.runs.ideal.path import Path
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers_time import drivers_time
@@ -100,6 +101,24 @@ def test_a_crank_turned_by_the_end_of_long_drives_counts_its_turns() -> None:
     assert found.poses[-1][2] == pytest.approx(150.2)
     with pytest.raises(LimitExceeded, match="4096 poses"):
         follow(resolved_scene(arm(speed=3.0)), [1000.0])
+
+
+def test_an_instant_out_of_reach_is_refused_after_a_few_turns(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    paths = []
+    go = Path.follow
+
+    def follow_and_count(path: Path, until: float, most: float = math.inf) -> bool:
+        whole = go(path, until, most)
+        paths.append(len(path.times))
+        return whole
+
+    monkeypatch.setattr(Path, "follow", follow_and_count)
+    with pytest.raises(LimitExceeded, match="4096 poses"):
+        follow(resolved_scene(arm(speed=3.0)), [1e6])
+    assert len(paths) == 1
+    assert paths[0] < 1000
 
 
 def test_a_motion_that_is_a_function_places_what_it_drives() -> None:
