@@ -38,7 +38,9 @@ export class FreeMotion {
       this.slider,
       this.said);
     this.scenes = new Newest((scene) => this.take(scene));
-    this.pulls = new Newest((pull) => this.pull(pull), RATE);
+    this.pulls = new Newest((pull) => this.pull(pull), {
+      rate: RATE, told: (busy) => this.canvas.setAttribute("aria-busy", String(busy)),
+    });
     this.canvas.addEventListener("pointerdown", (event) => this.grasp(event));
   }
 

@@ -6,9 +6,10 @@ export class Newest {
   /**
    * @param send sends what is wanted, and takes the answer
    * @param rate requests a second at most
+   * @param told called with whether anything that is wanted is not answered yet
    */
-  constructor(send, rate = Infinity) {
-    Object.assign(this, { send, least: 1000 / rate, next: null, busy: false });
+  constructor(send, { rate = Infinity, told = () => {} } = {}) {
+    Object.assign(this, { send, least: 1000 / rate, told, next: null, busy: false });
   }
 
   /** Leaves what waits unsent. */
@@ -20,7 +21,7 @@ export class Newest {
   async want(what) {
     this.next = { what };
     if (this.busy) return;
-    this.busy = true;
+    this.told(this.busy = true);
     try {
       while (this.next) {
         const { what: now } = this.next;
@@ -31,7 +32,7 @@ export class Newest {
         if (left > 0) await pause(left);
       }
     } finally {
-      this.busy = false;
+      this.told(this.busy = false);
     }
   }
 }

@@ -41,6 +41,10 @@ DRAWN = f"""asked => {{
   return found[0] > asked[2] && found;
 }}"""
 REDRAWN = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+ANSWERED = """label =>
+  document.querySelector(`canvas[aria-label="${label}"]`).ariaBusy !== "true"
+"""
+"""A mechanism is drawn as the pointer left it."""
 EDITED = "The mechanism as the text describes it"
 
 
@@ -176,15 +180,11 @@ def test_a_mechanism_in_the_editor_is_dragged(browsing, url):
     with browsing.page(f"{url}/#/editor") as page:
         page.get_by_text("of one core").wait_for()  # the last that comes, and moves the drawing
         corner = page.get_by_label(EDITED).bounding_box()
-        asked, answered = [], []
-        page.on("request", lambda one: asked.append(one.url))
-        page.on("response", lambda one: answered.append(one.url))
 
         def pin():
             """Place of the only joint with play, at the end of the crank, once all is answered."""
-            while len(answered) < len(asked):
-                page.wait_for_event("response")
             page.evaluate(REDRAWN)  # the pointer's moves are told to the page once a frame
+            page.wait_for_function(ANSWERED, arg=EDITED)
             _, right, down = drawn(page, EDITED, "play", 20)
             return corner["x"] + right, corner["y"] + down
 
