@@ -225,6 +225,7 @@ def loaded_by(module: str, watched: list[str]) -> list[str]:
                 "numba",
                 "scipy",
                 "matplotlib",
+                "jointplay.solver.computations",
                 "jointplay.solver.runs.simulate",
                 "jointplay.worker.tasks",
             ],

@@ -14,7 +14,7 @@ from jointplay.records.job import JobError
 from jointplay.records.peak import Peak
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.records.run import CertificateRecord
-from jointplay.solver.kinds import Admission, Study, admit
+from jointplay.solver.kinds import KINDS, Admission, Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState, Claim
 from jointplay.storage.places import StoredObject
@@ -219,7 +219,7 @@ class Worker:
             0.7,
             np.full_like(peaks, np.nan) if failed else peaks,
             {"steps": 1000.0 + point}
-            | ({} if failed else dict.fromkeys(study.own_outputs(), 0.5 * point)),
+            | ({} if failed else dict.fromkeys(KINDS[study.kind].outputs(study), 0.5 * point)),
             indicators if study.indicators and not failed else {},
             f"point {point} was judged" if study.indicators and not failed else "",
         )

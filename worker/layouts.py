@@ -1,7 +1,7 @@
 """Layouts of the stores of jobs: what results a job has, before anything of it is computed."""
 
 from jointplay.records.channel import Channel
-from jointplay.solver.kinds import Admission, Study
+from jointplay.solver.kinds import KINDS, Admission, Study
 from jointplay.solver.nonlinear.settling import SETTLINGS
 from jointplay.solver.nonlinear.verdict import VERDICTS
 from jointplay.solver.runs.dense_output.columns import (
@@ -41,7 +41,7 @@ def layout_of_run(admission: Admission) -> ResultLayout:
 
 def layout_of_study(study: Study) -> StudyLayout:
     """Return what a study's store holds."""
-    declared, own = study.point_scene(0).parameters, study.own_outputs()
+    declared, own = study.point_scene(0).parameters, KINDS[study.kind].outputs(study)
     return StudyLayout(
         parameters=tuple(
             Channel(name, unit, declared[name].help)
@@ -52,6 +52,7 @@ def layout_of_study(study: Study) -> StudyLayout:
         record=study.record,
         channels=study.channels,
         blocks=study.blocks,
+        shape=study.shape,
         attributes={
             "job": study.job,
             "scene": study.scene_document(),
@@ -59,8 +60,8 @@ def layout_of_study(study: Study) -> StudyLayout:
             "solver_version": SOLVER_VERSION,
             "verdicts": sorted(VERDICTS, key=VERDICTS.__getitem__),
             "settlings": sorted(SETTLINGS, key=SETTLINGS.__getitem__),
-            **({"meanings": own} if own else {}),
+            **({"meanings": dict(own)} if own else {}),
             **study.attributes(),
         },
-        outputs={name: Channel(name, *output) for name, output in (OUTPUTS | own).items()},
+        outputs={name: Channel(name, *output) for name, output in {**OUTPUTS, **own}.items()},
     )

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.solver.computations import computation_of
 from jointplay.solver.kernels.cache import SPENT
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.runs.dense_output.columns import most_steps
@@ -26,7 +27,6 @@ from jointplay.storage.results.intervals import GROUP as INTERVALS
 from jointplay.storage.results.steps import GROUP as STEPS
 from jointplay.worker.answering import answer_questions
 from jointplay.worker.execute import Answer, Outcome, Progress, execute
-from jointplay.worker.study_block import computation_of
 
 BUDGET = 0.5
 """Seconds of computing spent on one estimate; more where nothing has moved by then."""

@@ -9,13 +9,9 @@ from pathlib import Path
 from jointplay.records.job import JobError
 from jointplay.records.point import StudySlice
 from jointplay.solver.calibration.calibrate import NothingFits
-from jointplay.solver.calibration.plan import CalibrationStudy
-from jointplay.solver.calibration.run import CalibrationRun
+from jointplay.solver.computations import computation_of
 from jointplay.solver.kernels.watched import CompilationEnded
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.study.run import StudyRun
-from jointplay.solver.runs.work_precision.plan import WorkPrecisionStudy
-from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
 from jointplay.storage.errors import ResultsError
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.layout import StudyLayout
@@ -24,17 +20,6 @@ from jointplay.worker.execute import Answer, Outcome, Progress, Report, uncompil
 from jointplay.worker.layouts import layout_of_study
 
 _log = logging.getLogger(__name__)
-
-
-def computation_of(
-    study: Study, index: int, checkpoint: bytes | None = None
-) -> StudyRun | WorkPrecisionRun | CalibrationRun:
-    """Return the computation of a block, from where a restart point was made if there is one."""
-    if isinstance(study, WorkPrecisionStudy):
-        return WorkPrecisionRun(study, index, checkpoint)
-    if isinstance(study, CalibrationStudy):
-        return CalibrationRun(study, index, checkpoint)
-    return StudyRun(study, index, checkpoint)
 
 
 def run_block(

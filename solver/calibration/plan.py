@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from jointplay.solver.calibration.document import CHAINS
 from jointplay.solver.calibration.problem import Calibration
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.statistics import Output
 
 BYTES_PER_NUMBER, BYTES_PER_TARGET = 24, 512
 """Sizes in the document of results, before compression."""
@@ -16,17 +15,6 @@ class CalibrationStudy(Study):
     """A study whose one point is the best candidate; its document has all that was found."""
 
     calibration: Calibration
-
-    def own_outputs(self) -> dict[str, Output]:
-        """Return unit and long name of the cost, and of the parameters that were found."""
-        declared = self.calibration.scene.parameters
-        return {
-            "cost": ("1", "root mean square of the misses, in tolerances"),
-            **{
-                best_of(name): (declared[name].unit, f"{name} that fits best")
-                for name in self.calibration.space.names
-            },
-        }
 
 
 def best_of(parameter: str) -> str:

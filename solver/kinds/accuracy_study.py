@@ -1,5 +1,6 @@
 """The kind ``accuracy-study``: what every method and tolerance costs and buys."""
 
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -14,10 +15,17 @@ from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import LONGEST_ACCURACY_STUDY
 from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import one_point
-from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
+from jointplay.solver.kinds.studies import PlacedPoints, Spans, make_study, place_points
 from jointplay.solver.quantities.roster import NameIn
 from jointplay.solver.quantities.units import quantity
-from jointplay.solver.runs.work_precision.plan import WITHOUT_PERIOD, WorkPrecisionStudy, runs_of
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.work_precision.plan import (
+    OUTPUTS,
+    WITHOUT_PERIOD,
+    WorkPrecisionStudy,
+    runs_of,
+)
+from jointplay.solver.statistics import Output
 
 TOLERANCES = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 
@@ -62,7 +70,7 @@ class AccuracyStudy(Kind[AccuracyStudyJob]):
     """
 
     document = AccuracyStudyJob
-    results: ClassVar = ("accuracy", "figures", "zarr")
+    results: ClassVar = ("points", "accuracy", "figures", "zarr")
 
     def admit(self, job: AccuracyStudyJob) -> WorkPrecisionStudy:
         """Check and fill in; see `Kind.admit`."""
@@ -90,6 +98,10 @@ class AccuracyStudy(Kind[AccuracyStudyJob]):
         placed = place_points(job, one_point(len(runs_of(filled, 1.0))))
         return _study(filled, placed, periods(placed.scenes))
 
+    def outputs(self, study: Study) -> Mapping[str, Output]:
+        """Return costs and errors."""
+        return OUTPUTS
+
 
 def _unit(units: Periods) -> float:
     return WITHOUT_PERIOD if units.notes else float(units.seconds[0])
@@ -98,13 +110,7 @@ def _unit(units: Periods) -> float:
 def _study(filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> WorkPrecisionStudy:
     count = placed.points.count
     period = _unit(units)
-    study = make_study(
-        filled,
-        placed,
-        period=np.full(count, period),
-        offset=np.zeros(count),
-        settle=np.zeros(count),
-        duration=np.full(count, filled["duration"]),
-    )
+    duration = np.full(count, filled["duration"])
+    study = make_study(filled, placed, Spans(np.full(count, period), np.zeros(count), duration))
     own = {"blocks": ((0, count),), "runs": runs_of(filled, period)}
     return WorkPrecisionStudy(**(vars(study) | own))

@@ -46,7 +46,7 @@ class Bifurcation(SectionStudy[BifurcationJob]):
     """A point for each value, or two where a continuation goes both ways."""
 
     document = BifurcationJob
-    results: ClassVar = ("bifurcation", "poincare", "figures", "zarr")
+    results: ClassVar = ("points", "bifurcation", "poincare", "figures", "zarr")
 
     def points(self, job: BifurcationJob) -> Points:
         """Return the values."""

@@ -9,8 +9,12 @@ import sys
 from typing import Any
 
 from jointplay.solver.kinds import KINDS
+from jointplay.solver.kinds.job import Job, MechanismJob
+from jointplay.solver.kinds.section_study import SectionStudyJob
 
 ELSEWHERE = ("kind", "scene")
+SHARED = (Job, SectionStudyJob)
+"""Documents that those of several kinds extend: their fields are nobody's own."""
 
 
 def description() -> dict[str, Any]:
@@ -23,7 +27,7 @@ def description() -> dict[str, Any]:
     found = {}
     for name, kind in KINDS.items():
         schema = kind.document.model_json_schema()
-        own = [field for field in kind.document.__annotations__ if field not in ELSEWHERE]
+        own = _own_fields(kind.document)
         rest = [f for f in schema["properties"] if f not in own and f not in ELSEWHERE]
         found[name] = {
             "help": schema["description"],
@@ -35,6 +39,14 @@ def description() -> dict[str, Any]:
             },
         }
     return found
+
+
+def _own_fields(document: type[MechanismJob]) -> list[str]:
+    """Return the fields that a document does not share with those of its family."""
+    bases = [base for base in reversed(document.__mro__) if issubclass(base, MechanismJob)]
+    own = [base for base in bases if not any(issubclass(one, base) for one in SHARED)]
+    found = dict.fromkeys(name for base in own for name in base.__annotations__)
+    return [name for name in found if name not in ELSEWHERE]
 
 
 def _field(schema: dict[str, Any]) -> dict[str, Any]:

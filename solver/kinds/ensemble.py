@@ -42,7 +42,7 @@ class Ensemble(SectionStudy[EnsembleJob]):
     """A point for each member."""
 
     document = EnsembleJob
-    results: ClassVar = ("poincare", "figures", "zarr")
+    results: ClassVar = ("points", "poincare", "figures", "zarr")
 
     def points(self, job: EnsembleJob) -> Points:
         """Return the members."""

@@ -1,11 +1,13 @@
 """One kind of job: its document, its admission, what it plans and what can be asked of it."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from typing import Any, ClassVar, Generic, TypeVar, get_args
 
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.statistics import Output
 
 J = TypeVar("J", bound=MechanismJob)
 
@@ -14,12 +16,13 @@ class Kind(ABC, Generic[J]):
     """A member of `solver.kinds.KINDS`; `J` is the model of its documents.
 
     A member whose answer is points with sections, extremes, statistics or numbers returns a
-    `Study`, one whose answer is a trajectory an `Admission`; everything after that is shared.
+    `Study`, one whose answer is a trajectory an `Admission`; everything after that is shared. How
+    its points are computed is said by `solver.computations`, under the name of the kind.
     """
 
     document: ClassVar[type[MechanismJob]]
     """The same as `J`. Its field `kind` is a literal, the name of the kind."""
-    results: ClassVar[tuple[str, ...]]
+    results: ClassVar[tuple[str, ...]] = ("points", "figures", "zarr")
     """Parts of a job's address in the service under which its results are read."""
 
     @property
@@ -45,3 +48,7 @@ class Kind(ABC, Generic[J]):
 
         `job` is parsed from `filled`: `Admission.job` or `Study.job`, as it was stored.
         """
+
+    def outputs(self, study: Study) -> Mapping[str, Output]:
+        """Return unit and long name of numbers a point that not every study has, by name."""
+        return {}

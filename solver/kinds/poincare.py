@@ -16,7 +16,7 @@ class Poincare(SectionStudy[PoincareJob]):
     """A single point."""
 
     document = PoincareJob
-    results: ClassVar = ("poincare", "figures", "zarr")
+    results: ClassVar = ("points", "poincare", "figures", "zarr")
 
     def points(self, job: PoincareJob) -> Points:
         """Return the point."""

@@ -1,7 +1,7 @@
 """The points of a study as they are written: which parameters, which values, where they stand."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -35,11 +35,18 @@ class Points:
     """(points, axes) index of each point's value among those written."""
     whole: Callable[[int], str]
     """JSON pointer to what makes a point."""
+    grid: tuple[int, ...] = ()
+    """Values on each axis, where results are kept over the axes; empty: point by point."""
 
     @property
     def count(self) -> int:
         """Number of points."""
         return len(self.written)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape in which results are kept, the first axis varying slowest."""
+        return self.grid or (self.count,)
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -89,6 +96,14 @@ def product(axes: Sequence[Axis], place: str) -> Points:
     """Return the Cartesian product of axes, the first varying slowest."""
     index = np.indices([len(axis.values) for axis in axes], dtype=np.int64)
     return Points(tuple(axes), index.reshape(len(axes), -1).T, lambda _point: place)
+
+
+def plane(y: Axis, x: Axis, place: str) -> Points:
+    """Return the points of a map over two axes, row by row; two of one parameter are refused."""
+    if y.parameter == x.parameter:
+        sentence = f"Both axes are '{x.parameter}'; let another parameter vary along this one."
+        raise InvalidInput.at(y.name_place, sentence)
+    return replace(product((y, x), place), grid=(len(y.values), len(x.values)))
 
 
 def check_parameters(points: Points, scene: Scene) -> None:

@@ -17,7 +17,7 @@ from jointplay.solver.kinds.periods import Periods, crank_offsets, periods
 from jointplay.solver.kinds.points import Points
 from jointplay.solver.kinds.section import ChannelSection, CrankSection, Section
 from jointplay.solver.kinds.section_checks import check_section
-from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
+from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study, place_points
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.plan import Study
@@ -152,18 +152,18 @@ class SectionStudy(Kind[J]):
         offset = np.zeros(placed.points.count)
         if isinstance(job.section, CrankSection):
             offset = crank_offsets(units, job.section.crank_angle)
+        unit = units.seconds
         return make_study(
             filled,
             placed,
-            continuation=self.continuation(job),
-            observables=placed.channels(filled["observables"]),
-            record=job.record,
-            indicators=tuple(filled["indicators"]),
-            period=units.seconds,
-            offset=offset,
-            settle=settle * units.seconds,
-            duration=(settle + recording) * units.seconds + offset,
-            perturbation=self.perturbation(job),
+            Spans(unit, settle * unit, (settle + recording) * unit + offset, offset),
+            Kept(
+                observables=placed.channels(filled["observables"]),
+                record=job.record,
+                indicators=tuple(filled["indicators"]),
+            ),
+            self.continuation(job),
+            self.perturbation(job),
         )
 
 

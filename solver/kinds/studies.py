@@ -72,26 +72,40 @@ def place_points(job: MechanismJob, points: Points) -> PlacedPoints:
     return PlacedPoints(points, declared, scenes, kept, echo)
 
 
+@dataclass(frozen=True, eq=False)
+class Spans:
+    """How long each of the values runs, s; see the same names of `Study`."""
+
+    period: Floats
+    settle: Floats
+    duration: Floats
+    offset: Floats | None = None
+    """None: no section is taken at a crank angle."""
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What is kept of each point; see the same names of `Study`."""
+
+    observables: tuple[Channel, ...] = ()
+    record: int = 0
+    channels: tuple[Channel, ...] = ()
+    statistics: int = 0
+    """Numbers beside sections and extremes."""
+    indicators: tuple[str, ...] = ()
+
+
 def make_study(
     filled: dict[str, Any],
     placed: PlacedPoints,
-    *,
-    period: Floats,
-    offset: Floats,
-    settle: Floats,
-    duration: Floats,
+    spans: Spans,
+    kept: Kept = Kept(),
     continuation: tuple[str, int] = ("none", 1),
-    observables: tuple[Channel, ...] = (),
-    record: int = 0,
-    channels: tuple[Channel, ...] = (),
-    statistics: int = 0,
-    indicators: tuple[str, ...] = (),
     perturbation: Perturbation | None = None,
 ) -> Study:
     """Return the study of a filled-in job.
 
-    `continuation` : the direction, and the number of chains in each; `statistics` : numbers a
-    point beside sections and extremes; the others as in `Study`, one for each of the values.
+    `continuation` : the direction, and the number of chains in each.
     """
     direction, segments = continuation
     points = placed.points
@@ -101,31 +115,33 @@ def make_study(
     for index, chain in enumerate(chains):
         chain_of[list(chain)] = index
     row = np.arange(total) % points.count  # the values once more for the other direction
+    offset = np.zeros(points.count) if spans.offset is None else spans.offset
     declared = placed.declared.parameters
-    numbers = record * (len(observables) + 1) + 4 * len(channels) + statistics
+    numbers = kept.record * (len(kept.observables) + 1) + 4 * len(kept.channels) + kept.statistics
     return Study(
         kind=filled["kind"],
         job=filled,
         digest=documents.digest(filled),
         parameters=points.parameters,
         parameter_units=tuple(declared[name].unit for name in points.parameters),
-        observables=observables,
-        record=record,
-        channels=channels,
-        indicators=indicators,
+        observables=kept.observables,
+        record=kept.record,
+        channels=kept.channels,
+        indicators=kept.indicators,
         perturbation=perturbation,
         blocks=(
             independent_blocks(total)
             if direction == "none"
             else chained_blocks(chains, points.count)
         ),
+        shape=points.shape if total == points.count else (total,),
         chain_of=chain_of,
         chain_order=chains,
         structure=placed.structure[row],
-        period=period[row],
+        period=spans.period[row],
         offset=offset[row],
-        settle=settle[row],
-        duration=duration[row],
+        settle=spans.settle[row],
+        duration=spans.duration[row],
         stored_bytes=int(total * (BYTES_PER_VALUE * numbers + BYTES_PER_POINT)),
         scenes=placed.scenes.at_rows(row),
     )

@@ -177,6 +177,8 @@ class StudyBlock:
             self._part.peaks[place] = end.peaks
         for group, numbers in ((STATISTICS, end.statistics), (INDICATORS, end.indicators)):
             for name, value in numbers.items():
+                if name in self._layout.coordinates:
+                    raise InvalidAppend(f"{name!r} is an axis of the map, and no number of a point")
                 self._part.column(f"{group}/{name}")[place] = value
         if end.reason:
             self._part.reasons[end.point] = end.reason

@@ -15,7 +15,8 @@ from jointplay.records.peak import PEAK
 from jointplay.records.point import PointStatus
 from jointplay.storage.results import metadata
 from jointplay.storage.results.metadata import DOUBLE, Document
-from jointplay.storage.studies.layout import CHUNK_VALUES, STUDY_SCHEMA, StudyLayout
+from jointplay.storage.studies.cut import chunk_shape
+from jointplay.storage.studies.layout import StudyLayout
 
 _STATUS: Final = {
     "long_name": "what became of the point",
@@ -24,14 +25,9 @@ _STATUS: Final = {
 }
 
 
-def point_chunk(layout: StudyLayout, width: int = 1) -> int:
-    """Points in one chunk of an array with `width` numbers a point."""
-    return max(min(layout.points, CHUNK_VALUES // max(width, 1)), 1)
-
-
 def running(layout: StudyLayout) -> dict[str, Document]:
     """Make the documents of a store that is being filled: groups only, the root's last."""
-    found = _documents(layout, _values(layout) | _sections(layout), {"complete": False})
+    found = _documents(layout, _values(layout, ()) | _sections(layout), {"complete": False})
     return metadata.groups_among(found)
 
 
@@ -49,12 +45,11 @@ def sealed(
     attributes
         Root attributes that the layout does not know.
     """
-    points = [layout.points]
-    chunk = [point_chunk(layout)]
+    chunk = chunk_shape(layout)
     byte, integer = np.dtype("u1"), np.dtype("<i4")
 
     def column(dtype: np.dtype[Any], attributes: Mapping[str, Any]) -> Document:
-        return metadata.array(points, chunk, dtype, ["point"], attributes)
+        return metadata.array(layout.shape, chunk, dtype, layout.dimensions, attributes)
 
     arrays = {
         "status": column(byte, _STATUS),
@@ -68,21 +63,40 @@ def sealed(
         arrays[path] = column(DOUBLE, output.attributes)
     if layout.channels:
         width = len(layout.channels)
-        shape, cut = [layout.points, width], [point_chunk(layout, width), width]
+        shape, cut = [*layout.shape, width], [*chunk_shape(layout, width), width]
         for name, attributes_of in PEAK.items():
             arrays[f"peaks/{name}"] = metadata.array(
-                shape, cut, DOUBLE, ["point", "channel"], attributes_of
+                shape, cut, DOUBLE, [*layout.dimensions, "channel"], attributes_of
             )
-    return _documents(layout, _values(layout) | _sections(layout) | arrays, attributes)
+    return _documents(layout, _values(layout, names) | _sections(layout) | arrays, attributes)
 
 
-def _values(layout: StudyLayout) -> dict[str, Document]:
-    chunk = [point_chunk(layout)]
+def places_of_values(layout: StudyLayout, names: Sequence[str]) -> list[str]:
+    """Return before which names the values of parameters stand: in each group of a map's numbers.
+
+    So each group has its coordinates, whichever of them is opened.
+    """
+    if not layout.coordinates:
+        return ["values/"]
+    groups = dict.fromkeys(f"{path.partition('/')[0]}/" for path in names)
+    return ["", *groups, *(["peaks/"] if layout.channels else [])]
+
+
+def _values(layout: StudyLayout, names: Sequence[str]) -> dict[str, Document]:
+    if not layout.coordinates:
+        chunk = chunk_shape(layout)
+        return {
+            f"values/{spec.name}": metadata.array(
+                [layout.points], chunk, DOUBLE, ["point"], spec.attributes
+            )
+            for spec in layout.parameters
+        }
     return {
-        f"values/{spec.name}": metadata.array(
-            [layout.points], chunk, DOUBLE, ["point"], spec.attributes
+        place + axis: metadata.array(
+            values.shape, values.shape, DOUBLE, [axis], {**spec.attributes, "parameter": spec.name}
         )
-        for spec in layout.parameters
+        for place in places_of_values(layout, names)
+        for axis, (spec, values) in layout.coordinates.items()
     }
 
 
@@ -106,9 +120,10 @@ def _documents(
     layout: StudyLayout, arrays: Mapping[str, Document], attributes: Mapping[str, Any]
 ) -> dict[str, Document]:
     about = {
-        "study_schema": STUDY_SCHEMA,
+        "study_schema": layout.schema,
         "layout": layout.digest,
         "points": layout.points,
+        **({"shape": layout.shape} if layout.coordinates else {}),
         "record": layout.record,
         "blocks": layout.blocks,
         "parameters": layout.parameters,
@@ -116,6 +131,9 @@ def _documents(
         "channels": layout.channels,
     }
     own = {"peaks": {"channels": [spec.name for spec in layout.channels]}}
-    groups = dict.fromkeys(key.partition("/")[0] for key in arrays if "/" in key)
-    nodes = {group: metadata.group(own.get(group, {}), {}) for group in groups}
-    return metadata.documents({**layout.attributes, **about, **attributes}, {**nodes, **arrays})
+    groups = list(dict.fromkeys(key.rpartition("/")[0] for key in arrays))
+    nodes = {group: metadata.group(own.get(group, {}), {}) for group in groups if group}
+    # zarr finds no more of a group than what stands together
+    together = sorted(arrays.items(), key=lambda item: groups.index(item[0].rpartition("/")[0]))
+    nodes |= dict(together)
+    return metadata.documents({**layout.attributes, **about, **attributes}, nodes)

@@ -53,6 +53,7 @@ def examined_study(source: Ranges, layout: StudyLayout, *, same: bool) -> Docume
         return root
     names = [key.removesuffix(f"/{FILE}") for key in files if key.startswith(_NUMBERS)]
     names = [name for name in names if f"{name}/{FILE}" in files.entries and name.count("/") == 1]
+    names = [name for name in names if name.partition("/")[2] not in layout.coordinates]
     if len(names) > _MOST_NUMBERS:
         raise CorruptStore(f"{source} has more numbers of a point than there can be")
     expected = json.loads(metadata.serialise(documents.sealed(layout, (), {})[FILE]["attributes"]))

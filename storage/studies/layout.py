@@ -1,6 +1,7 @@
 """Layout of a study's store: many points, and for each its sections, peaks and numbers."""
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,9 +15,10 @@ from jointplay.records.channel import TIME, Channel
 from jointplay.storage.errors import InvalidLayout
 from jointplay.storage.results.layout import check_attributes, check_names
 
-STUDY_SCHEMA: Final = 1
-CHUNK_VALUES: Final = 16_384
-"""Most values that are compressed together."""
+STUDY_SCHEMAS: Final = (1, 2)
+"""Schema of a store whose points lie on one axis, and of one whose points are a map over two."""
+_CHUNK_VALUES: Final = 16_384
+"""Most values of sections that are compressed together."""
 CHUNK_SECTIONS: Final = 4096
 """Most sections of one point in a chunk: what waits for its chunk is rewritten every second."""
 
@@ -46,12 +48,15 @@ class StudyLayout:
         JSON document for the root group: the filled-in job, the scene, versions, code tables.
     outputs
         Units and long names of statistics and indicators, by name, as far as they are known.
+    shape
+        Lengths of the axes of what has one number a point: all points, or (y, x) where they are a
+        map over two parameters, of which the first varies slowest.
 
     Raises
     ------
     InvalidLayout
-        A name that a store cannot hold or that occurs twice, blocks that leave points out, or
-        attributes that JSON cannot carry.
+        A name that a store cannot hold or that occurs twice, blocks that leave points out, points
+        that do not fill the shape, or attributes that JSON cannot carry.
     """
 
     parameters: tuple[Channel, ...]
@@ -62,8 +67,11 @@ class StudyLayout:
     blocks: tuple[tuple[int, int], ...]
     attributes: dict[str, Any] = field(default_factory=dict)
     outputs: Mapping[str, Channel] = field(default_factory=dict)
+    shape: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
+        if not self.shape:
+            object.__setattr__(self, "shape", (self.points,))
         if self.values.ndim != 2 or self.values.shape[1] != len(self.parameters):
             raise InvalidLayout(
                 f"values of {len(self.parameters)} parameters need as many columns, not the shape"
@@ -82,12 +90,41 @@ class StudyLayout:
             reached += count
         if reached != self.points:
             raise InvalidLayout(f"the blocks hold {reached} of {self.points} points")
+        if self.shape != (self.points,) and not self._is_map():
+            raise InvalidLayout(f"{self.points} points are no map of the shape {self.shape}")
         check_attributes(self.attributes)
 
     @property
     def points(self) -> int:
         """Number of points."""
         return int(self.values.shape[0])
+
+    def _is_map(self) -> bool:
+        if not (
+            len(self.shape) == len(self.parameters) == 2 and math.prod(self.shape) == self.points
+        ):
+            return False
+        found = on_map(*(column for _, column in self.coordinates.values()))
+        return np.array_equal(found, self.values, equal_nan=True)
+
+    @property
+    def schema(self) -> int:
+        """Schema of the store."""
+        return STUDY_SCHEMAS[len(self.shape) - 1]
+
+    @property
+    def dimensions(self) -> list[str]:
+        """Names of the axes of what has one number a point."""
+        return ["point"] if len(self.shape) == 1 else ["y", "x"]
+
+    @cached_property
+    def coordinates(self) -> dict[str, tuple[Channel, NDArray[np.float64]]]:
+        """The parameter along each axis of a map, with its values; none on one axis."""
+        if len(self.shape) == 1:
+            return {}
+        table = self.values.reshape(*self.shape, 2)
+        along_y, along_x = self.parameters
+        return {"y": (along_y, table[:, 0, 0]), "x": (along_x, table[0, :, 1])}
 
     @cached_property
     def chunk(self) -> tuple[int, int]:
@@ -99,7 +136,7 @@ class StudyLayout:
         otherwise each would wait for the slowest of them.
         """
         sections = max(min(self.record, CHUNK_SECTIONS), 1)
-        most = CHUNK_VALUES // sections if self.record <= sections else 1
+        most = _CHUNK_VALUES // sections if self.record <= sections else 1
         most = max(min(most, self.points), 1)
         begins = np.array([first for first, _ in self.blocks[1:]], dtype=np.int64)
         if not len(begins):
@@ -113,11 +150,17 @@ class StudyLayout:
     def digest(self) -> str:
         """SHA-256 over arrays, values and attributes: stores of one digest are one store."""
         shape = [
-            STUDY_SCHEMA,
+            self.schema,
             [self.parameters, self.observables, self.channels],
             self.record,
             self.blocks,
             sha256(np.ascontiguousarray(self.values, dtype="<f8").tobytes()).hexdigest(),
             self.attributes,
+            *([self.shape] if self.coordinates else []),
         ]
         return sha256(json.dumps(shape).encode()).hexdigest()
+
+
+def on_map(y: NDArray[np.float64], x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (points, 2) the values at each point of a map, row by row."""
+    return np.column_stack([np.repeat(y, len(x)), np.tile(x, len(y))])

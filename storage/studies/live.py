@@ -4,7 +4,7 @@ Finished chunks are served as they are; here is made what only the sealed store 
 of all arrays, and the chunks of what is still in the parts of blocks.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -75,13 +75,25 @@ class LiveStudy:
         if any(first >= size for first, size in zip(begin, shape, strict=True)):
             return None
         dtype = np.dtype(array["data_type"])
-        points = slice(begin[0], min(begin[0] + chunk[0], shape[0]))
-        rows = self._rows(path, points)
-        if len(shape) == 2:
-            rows = rows[:, begin[1] : begin[1] + chunk[1]]
+        ends = [
+            min(first + size, most) for first, size, most in zip(begin, chunk, shape, strict=True)
+        ]
+        inside = [slice(*window) for window in zip(begin, ends, strict=True)]
+        rows = self._rows(path, inside[0], shape)[(slice(None), *inside[1:])]
         return shards.compress(shards.filled(np.asarray(rows, dtype), chunk))
 
-    def _rows(self, path: str, points: slice) -> NDArray[Any]:
+    def _rows(self, path: str, rows: slice, shape: Sequence[int]) -> NDArray[Any]:
+        """Values of an array at a range of its first axis."""
+        axis = path.rpartition("/")[2]
+        if len(shape) == 1 and axis in self._layout.coordinates:
+            return self._layout.coordinates[axis][1][rows]
+        if not self._layout.coordinates or path.startswith("sections/"):
+            return self._points(path, rows)
+        across = self._layout.shape[1]
+        found = self._points(path, slice(rows.start * across, rows.stop * across))
+        return found.reshape(-1, *shape[1:])
+
+    def _points(self, path: str, points: slice) -> NDArray[Any]:
         """Values of an array at a range of points."""
         group, _, name = path.rpartition("/")
         reader = self._reader

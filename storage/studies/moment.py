@@ -20,7 +20,7 @@ from jointplay.storage.results.metadata import FILE
 from jointplay.storage.results.store_reader import StoreReader
 from jointplay.storage.studies import part
 from jointplay.storage.studies.block import lost, place_of
-from jointplay.storage.studies.layout import STUDY_SCHEMA, StudyLayout
+from jointplay.storage.studies.layout import STUDY_SCHEMAS, StudyLayout, on_map
 from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.points import INDICATORS, STATISTICS, Points, together
 from jointplay.storage.studies.store import FAILURES, REASONS, RESULTS
@@ -54,11 +54,14 @@ class StudyMoment(StoreReader):
             schema = self.attributes.get("study_schema")
         except (FileNotFoundError, ValueError, KeyError, TypeError, AttributeError) as error:
             raise NotAStore("there is no store of a study") from error
-        if schema != STUDY_SCHEMA:
-            raise NotAStore(f"this has study schema {schema}; this version reads {STUDY_SCHEMA}")
+        if schema not in STUDY_SCHEMAS:
+            known = " and ".join(map(str, STUDY_SCHEMAS))
+            raise NotAStore(f"this has study schema {schema}; this version reads {known}")
         self.complete = bool(self.attributes["complete"])
         """Every point has ended; False while it runs and when it failed or was cancelled."""
         self.points = int(self.attributes["points"])
+        self.shape = tuple(int(one) for one in self.attributes.get("shape", (self.points,)))
+        """Lengths of the axes of what has one number a point: all points, or (y, x) of a map."""
         self.record = int(self.attributes["record"])
         """Sections that a point records at most."""
         self.parameters = _specs(self.attributes["parameters"])
@@ -71,6 +74,9 @@ class StudyMoment(StoreReader):
     @cached_property
     def values(self) -> Floats:
         """(points, parameters), in the units of the parameters."""
+        if len(self.shape) == 2:
+            y, x = (np.asarray(self._array(axis)[:], np.float64) for axis in ("y", "x"))
+            return on_map(y, x)
         columns = [self._array(f"values/{spec.name}")[:] for spec in self.parameters]
         return np.asarray(columns, dtype=np.float64).reshape(len(columns), self.points).T
 
@@ -130,6 +136,7 @@ class StudyMoment(StoreReader):
             record=self.record,
             channels=self.channels,
             blocks=self.blocks,
+            shape=self.shape,
         )
 
     def require(self, ended: Mapping[int, int]) -> None:
@@ -160,17 +167,18 @@ class StudyMoment(StoreReader):
             return together(parts.get, self.blocks, len(self.channels), 0, self.points)
         groups = [(group, self._root.get(group)) for group in (STATISTICS, INDICATORS)]
         return Points(
-            np.asarray(self._array("status")[:], np.uint8),
-            np.asarray(self._array("count")[:], np.int32),
+            np.asarray(self._array("status")[:], np.uint8).ravel(),
+            np.asarray(self._array("count")[:], np.int32).ravel(),
             np.empty((0, 0, 4)),
             self._failures(),
             self._reasons(),
             self._documents(),
             {
-                f"{group}/{name}": np.asarray(array[:], np.float64)
+                f"{group}/{name}": np.asarray(array[:], np.float64).ravel()
                 for group, members in groups
                 if isinstance(members, zarr.Group)
                 for name, array in members.arrays()
+                if name not in self.layout.coordinates
             },
         )
 

@@ -92,7 +92,7 @@ class StudyReader(StudyMoment):
             return PeakColumns(*known.peaks[:, column, :].T)
         return PeakColumns(
             *(
-                np.asarray(self._array(f"peaks/{name}")[:, column], np.float64)
+                np.asarray(self._array(f"peaks/{name}")[..., column], np.float64).ravel()
                 for name in PeakColumns._fields
             )
         )

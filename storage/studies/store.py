@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any, Final
@@ -27,6 +27,7 @@ from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata, shards
 from jointplay.storage.studies import documents, part
 from jointplay.storage.studies.block import chunk_files, written_chunks
+from jointplay.storage.studies.cut import Band, bands, chunk_shape, chunks
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.points import Points, failure_codes, ordered, together
@@ -158,7 +159,7 @@ def _files(
 
     names, failures, reasons, found, ended = _survey(part_of, layout)
     codes = failure_codes(failures)
-    yield from _values(layout)
+    yield from _values(layout, names)
     yield from _columns(part_of, layout, names, codes)
     for index in range(len(finals)):
         yield from written_chunks(files, layout, part_of(index))
@@ -204,20 +205,21 @@ def _columns(
     """Every chunk of the arrays with one number, or one of each channel, a point."""
     width = len(layout.channels)
 
-    def window(first: int, size: int) -> Points:
-        stop = min(first + size, layout.points)
-        return together(part_of, layout.blocks, width, first, stop)
+    def window(band: Band) -> Points:
+        return together(part_of, layout.blocks, width, band.first, band.stop)
 
-    size = documents.point_chunk(layout)
-    for chunk, first in enumerate(range(0, layout.points, size)):
-        for name, column in window(first, size).scalars(first, names, codes).items():
-            yield f"{name}/c/{chunk}", _encoded(column, size)
+    shape = chunk_shape(layout)
+    for band in bands(layout):
+        for name, column in window(band).scalars(band.first, names, codes).items():
+            for place, chunk in chunks(layout, band, column):
+                yield f"{name}/c/{place}", _encoded(chunk, shape)
     if width:
-        size = documents.point_chunk(layout, width)
-        for chunk, first in enumerate(range(0, layout.points, size)):
-            peaks = window(first, size).peaks
+        shape = [*chunk_shape(layout, width), width]
+        for band in bands(layout, width):
+            peaks = window(band).peaks
             for position, name in enumerate(PEAK):
-                yield f"peaks/{name}/c/{chunk}/0", _encoded(peaks[:, :, position], size)
+                for place, chunk in chunks(layout, band, peaks[:, :, position], width):
+                    yield f"peaks/{name}/c/{place}/0", _encoded(chunk, shape)
 
 
 def _as_json(failures: dict[int, Failure]) -> dict[str, tuple[str, str, float | None]]:
@@ -246,14 +248,17 @@ def _boundary_chunks(
             yield from chunk_files(layout, key, waiting.pop(key))
 
 
-def _values(layout: StudyLayout) -> Iterator[tuple[str, bytes]]:
-    size = documents.point_chunk(layout)
-    for position, spec in enumerate(layout.parameters):
-        for chunk, first in enumerate(range(0, layout.points, size)):
-            column = layout.values[first : first + size, position]
-            yield f"values/{spec.name}/c/{chunk}", _encoded(column.astype("<f8"), size)
+def _values(layout: StudyLayout, names: Sequence[str] = ()) -> Iterator[tuple[str, bytes]]:
+    """Give every chunk of the values of parameters; `names` are those of the points' numbers."""
+    for place in documents.places_of_values(layout, names):
+        for axis, (_, values) in layout.coordinates.items():
+            yield f"{place}{axis}/c/0", _encoded(values.astype("<f8"), [len(values)])
+    for position, spec in enumerate(() if layout.coordinates else layout.parameters):
+        for band in bands(layout):
+            column = layout.values[band.first : band.stop, position].astype("<f8")
+            yield f"values/{spec.name}/c/{band.row}", _encoded(column, chunk_shape(layout))
 
 
-def _encoded(column: NDArray[Any], size: int) -> bytes:
-    """Compress a chunk of `size` points, the last one of an array filled up."""
-    return shards.compress(shards.filled(column, [size, *column.shape[1:]]))
+def _encoded(chunk: NDArray[Any], shape: Sequence[int]) -> bytes:
+    """Compress a chunk of this shape, the last one of an array filled up."""
+    return shards.compress(shards.filled(chunk, shape))

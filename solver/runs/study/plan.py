@@ -9,8 +9,6 @@ from jointplay.solver.integrators import method_for
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.pairs import has_play, pairs_of
-from jointplay.solver.statistics import Output, outputs_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +38,8 @@ class Study:
     blocks: tuple[tuple[int, int], ...]
     """(first, count) of contiguous points. Without continuation whole bundles, 64 points at most,
     the last one shorter; with it up to eight whole chains of one direction, of any length."""
+    shape: tuple[int, ...]
+    """Lengths of the axes over which results are kept: of one, all points; of two, y and x."""
     chain_of: Integers
     """(points,) index of each point's chain; a point without continuation is its own chain."""
     chain_order: tuple[tuple[int, ...], ...]
@@ -87,15 +87,6 @@ class Study:
     def method(self) -> str:
         """Name of the integration method, of `solver.integrators.METHODS`."""
         return method_for(self.job["method"], self.tolerance)
-
-    def own_outputs(self) -> dict[str, Output]:
-        """Return unit and long name of numbers a point that not every study has."""
-        joints = self.point_scene(0).joints
-        sizes = (leaf.path for leaf in self.scenes.leaves if leaf.path.endswith("_clearance"))
-        varied = {path.split("/")[2] for path in sizes}
-        loose = [name for name, joint in joints.items() if has_play(joint) or name in varied]
-        pairs = tuple(pair.name for name in loose for pair in pairs_of(name, joints[name]))
-        return outputs_of(self.statistics, self.channels, pairs)
 
     def attributes(self) -> dict[str, Any]:
         """Return facts that a store keeps of this study beside its job and scene."""

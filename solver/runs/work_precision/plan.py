@@ -6,7 +6,6 @@ from typing import Any
 
 from jointplay.solver.integrators import AUTO, COARSE, METHODS
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.statistics import Output
 
 REFERENCES = (AUTO.name, COARSE.name)
 """Methods of the two reference runs: those of highest order."""
@@ -85,10 +84,6 @@ class WorkPrecisionStudy(Study):
 
     runs: tuple[Run, ...]
     """By point; the first are the references."""
-
-    def own_outputs(self) -> dict[str, Output]:
-        """Return unit and long name of costs and errors."""
-        return dict(OUTPUTS)
 
     def attributes(self) -> dict[str, Any]:
         """Return the runs as a store keeps them."""

@@ -1,5 +1,7 @@
 """Studies to be stored: noise, because any bit may matter, in the order in which lanes compute."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from jointplay.records.channel import Channel
@@ -26,6 +28,17 @@ def made_up_layout(points=20, record=7, blocks=None, observables=2, channels=3, 
         else attributes,
         outputs={"energy_residual": Channel("energy_residual", "J", "what the ledger lacks")},
     )
+
+
+def made_up_map(rows, columns, **fields):
+    """Return the layout of points over two axes, the first of which falls."""
+    points = rows * columns
+    y, x = np.geomspace(0.2, 0.1, rows), np.linspace(-3.0, 3.0, columns)
+    values = np.column_stack([np.repeat(y, columns), np.tile(x, rows)])
+    (clearance,) = made_up_layout(points=points).parameters
+    parameters = (Channel("friction", "1", "coefficient of friction"), clearance)
+    plain = made_up_layout(points=points, **fields)
+    return replace(plain, parameters=parameters, values=values, shape=(rows, columns))
 
 
 def octets(points):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import zarr
-from made_up_studies import MadeUpStudy, made_up_layout
+from made_up_studies import MadeUpStudy, made_up_layout, made_up_map
 from zarr.storage import ZipStore
 
 from jointplay.records.channel import Channel
@@ -34,11 +34,16 @@ SHAPES = {
     "no sections": {"record": 0},
     "no peaks": {"channels": 0},
 }
+LAYOUTS = {name: made_up_layout(**fields) for name, fields in SHAPES.items()} | {
+    "a map": made_up_map(3, 5),
+    "a map wider than a chunk": made_up_map(2, 300, record=0),
+    "a map higher than a chunk": made_up_map(300, 2, blocks=((0, 513), (513, 87))),
+}
 
 
-@pytest.fixture(params=SHAPES)
+@pytest.fixture(params=LAYOUTS)
 def study(request):
-    return MadeUpStudy(made_up_layout(**SHAPES[request.param]))
+    return MadeUpStudy(LAYOUTS[request.param])
 
 
 def assert_equal(reader, study):

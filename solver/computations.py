@@ -1,0 +1,45 @@
+"""How the points of each kind of job are computed: what a worker needs, and the API never loads.
+
+What jobs of a kind are, their axes and outputs stands in `solver.kinds`, under the same names.
+"""
+
+from collections.abc import Callable, Iterator
+from typing import Any, Protocol
+
+from jointplay.records.point import StudySlice
+from jointplay.solver.calibration.run import CalibrationRun
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.run import StudyRun
+from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
+
+
+class Computation(Protocol):
+    """One block of a study, computed in slices."""
+
+    seconds: float
+    """Spent computing by this process since this object was made, without compiling."""
+
+    @property
+    def steps(self) -> float:
+        """Accepted steps since this object was made."""
+
+    def slices(self) -> Iterator[StudySlice]:
+        """Yield what each slice computed, until every point of the block has ended."""
+
+    def checkpoint(self) -> bytes:
+        """Return a restart point, from which the same bits follow; valid between slices."""
+
+
+COMPUTATIONS: dict[str, Callable[[Any, int, bytes | None], Computation]] = {
+    "accuracy-study": WorkPrecisionRun,
+    "calibration": CalibrationRun,
+}
+"""By kind, of those whose points are no runs of one mechanism each, eight lanes side by side."""
+
+
+def computation_of(study: Study, block: int, checkpoint: bytes | None = None) -> Computation:
+    """Return the computation of a block, from where a restart point was made if there is one.
+
+    LimitExceeded: the scene's equations are too long to compile.
+    """
+    return COMPUTATIONS.get(study.kind, StudyRun)(study, block, checkpoint)

@@ -1,0 +1,170 @@
+"""The kinds whose points are looked at as a whole: extremes and statistics of channels."""
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from typing import Annotated, Any, TypeVar
+
+import numpy as np
+from pydantic import Field
+
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.kinds import documents
+from jointplay.solver.kinds.checked_points import check_points
+from jointplay.solver.kinds.job import ChannelChoice, Job
+from jointplay.solver.kinds.kind import Kind
+from jointplay.solver.kinds.limits import check_size
+from jointplay.solver.kinds.methods import check_study
+from jointplay.solver.kinds.observables import chosen, coordinate_channels, peak_channels
+from jointplay.solver.kinds.periods import Periods, periods
+from jointplay.solver.kinds.points import Points
+from jointplay.solver.kinds.statistics import (
+    StatisticName,
+    check_samples,
+    check_statistics,
+    statistic_count,
+)
+from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study, place_points
+from jointplay.solver.quantities.units import quantity
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.scene.pairs import has_play, pairs_of
+from jointplay.solver.statistics import Output, outputs_of
+
+
+class ExtremesStudyJob(Job):
+    """A study of peaks and statistics at each point; one of `duration` and `periods`."""
+
+    duration: Annotated[
+        float | None, quantity("s", ge=1e-9, le=1e12, description="simulated time")
+    ] = None
+    periods: Annotated[
+        float | None,
+        quantity(
+            "periods", gt=0.0, le=1e12, description="or simulated time in periods of each point"
+        ),
+    ] = None
+    settle: Annotated[
+        float,
+        quantity(
+            "s or periods",
+            ge=0.0,
+            le=1e12,
+            description=(
+                "what comes before does not count in peaks and statistics; in the unit of the"
+                " duration"
+            ),
+        ),
+    ] = 0.0
+    channels: Annotated[
+        ChannelChoice | None,
+        Field(
+            description=(
+                "channels whose peaks and statistics are kept, names or globs; default: the"
+                " declared outputs, and normal force and penetration of each joint with clearance"
+            )
+        ),
+    ] = None
+    statistics: Annotated[
+        list[StatisticName],
+        Field(
+            max_length=16,
+            description=(
+                "kept beside the peaks, over the time after settling; impacts (beginnings of"
+                " contact), largest_impact_force (N) and contact_share (0 to 1) are of each joint"
+                " with clearance, the others of each channel, in its unit"
+            ),
+            examples=[["mean", "root_mean_square"]],
+        ),
+    ] = []
+    samples_per_period: Annotated[
+        int,
+        quantity(
+            "1",
+            ge=16,
+            le=4096,
+            description=(
+                "samples in a period that statistics of channels are made of; they are equally"
+                " spaced, of the dense output, in the scene's own time scale if the drivers have"
+                " no period"
+            ),
+        ),
+    ] = 256
+
+    @property
+    def named_channels(self) -> list[str]:
+        """See `MechanismJob.named_channels`."""
+        return self.channels or []
+
+
+J = TypeVar("J", bound=ExtremesStudyJob)
+
+
+class ExtremesStudy(Kind[J]):
+    """A kind of extremes and statistics, as `sweep`; a member has its points."""
+
+    @abstractmethod
+    def points(self, job: J) -> Points:
+        """Return the points of a job; see `Kind.admit` for how they are refused."""
+
+    def outputs(self, study: Study) -> Mapping[str, Output]:
+        """Return the statistics of channels and contacts that the job chose."""
+        joints = study.point_scene(0).joints
+        sizes = (leaf.path for leaf in study.scenes.leaves if leaf.path.endswith("_clearance"))
+        varied = {path.split("/")[2] for path in sizes}
+        loose = [name for name, joint in joints.items() if has_play(joint) or name in varied]
+        pairs = tuple(pair.name for name in loose for pair in pairs_of(name, joints[name]))
+        return outputs_of(study.statistics, study.channels, pairs)
+
+    def admit(self, job: J) -> Study:
+        """Check and fill in; see `Kind.admit`."""
+        check_study(job, tangents=False)
+        _check_length(job)
+        points = self.points(job)
+        checked = check_points(job, points)
+        default = peak_channels(checked) or coordinate_channels(checked)
+        channels = chosen(checked, job.channels, default, "/channels")
+        units = periods(checked.scenes)
+        if job.periods is not None and units.notes:
+            raise InvalidInput(
+                Problem("/periods", f"{points.name(at, checked.declared)}{note} Give a 'duration'.")
+                for at, note in units.notes.items()
+            )
+        check_statistics(job.statistics, checked.pairs(), len(channels))
+        names = [channel.name for channel in channels]
+        filled = documents.filled(job, checked.document, checked.echo, channels=names)
+        study = _study(job, filled, checked, units)
+        if job.statistics:
+            check_samples(study, job.samples_per_period)
+        longest = float((study.duration / study.period).max())
+        check_size(study, longest, "/periods" if job.periods is not None else "/duration")
+        return study
+
+    def plan(self, job: J, filled: dict[str, Any]) -> Study:
+        """Return what `admit` returned; see `Kind.plan`."""
+        placed = place_points(job, self.points(job))
+        return _study(job, filled, placed, periods(placed.scenes))
+
+
+def _study(
+    job: ExtremesStudyJob, filled: dict[str, Any], placed: PlacedPoints, units: Periods
+) -> Study:
+    unit = units.seconds if job.periods is not None else np.ones(placed.points.count)
+    length = job.duration if job.periods is None else job.periods
+    channels = placed.channels(filled["channels"])
+    statistics = statistic_count(job.statistics, len(channels), len(placed.pairs()))
+    spans = Spans(units.seconds, job.settle * unit, (length or 0.0) * unit)
+    return make_study(filled, placed, spans, Kept(channels=channels, statistics=statistics))
+
+
+def _check_length(job: ExtremesStudyJob) -> None:
+    """Refuse a job that does not say once how long each point runs, or settles for all of it."""
+    given = [length for length in (job.duration, job.periods) if length is not None]
+    if len(given) != 1:
+        sentence = "Give one of 'duration' (s) and 'periods'" + (", not both." if given else ".")
+        raise InvalidInput.at("/duration", sentence)
+    if job.settle >= given[0]:
+        unit = "s" if job.periods is None else "periods"
+        sentence = (
+            f"Settling for {job.settle:g} {unit} leaves nothing of {given[0]:g} {unit} to look at;"
+            " it must be shorter."
+        )
+        raise InvalidInput.at("/settle", sentence)
