@@ -52,6 +52,10 @@ class StudySource(Protocol):
         """Number of points."""
 
     @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of the axes of the points: all points, or (y, x) of a map, row by row."""
+
+    @property
     def record(self) -> int:
         """Sections that a point records at most."""
 
@@ -126,6 +130,8 @@ class StudyDataset:
         By channel.
     recorded
         (points,) sections that were recorded, where `times` has a window of them.
+    grid
+        Lengths of both axes, y and x, of points that are a map.
     """
 
     attributes: Mapping[str, Any]
@@ -145,6 +151,7 @@ class StudyDataset:
     reasons: Mapping[int, str] = field(default_factory=dict)
     documents: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
     recorded: NDArray[np.int64] | None = None
+    grid: tuple[int, ...] = ()
 
     @property
     def kind(self) -> str:
@@ -155,6 +162,11 @@ class StudyDataset:
     def points(self) -> int:
         """Number of points."""
         return len(self.status)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of the axes of the points."""
+        return self.grid or (self.points,)
 
     @property
     def record(self) -> int:

@@ -1,4 +1,4 @@
-"""How the points of each kind of job are computed: what a worker needs, and the API never loads.
+"""Computations of the points of each kind of job: what a worker needs, and the API never loads.
 
 What jobs of a kind are, their axes and outputs stands in `solver.kinds`, under the same names.
 """

@@ -1,8 +1,8 @@
 """From a study's store to the columns that the API shows."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,14 @@ from jointplay.records.point import PointStatus
 from jointplay.service.results.queries import chosen_channels
 from jointplay.service.results.schemas import Series
 from jointplay.service.studies import schemas
-from jointplay.service.studies.queries import BifurcationQuery, SectionRange, SweepQuery, page
+from jointplay.service.studies.queries import (
+    BifurcationQuery,
+    PointRange,
+    PointsQuery,
+    SectionRange,
+    SweepQuery,
+    page,
+)
 from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies.reader import StudyReader
 
@@ -24,51 +31,88 @@ VERDICT = "verdict"
 _READ = 4_000_000
 
 
+class Shown(NamedTuple):
+    """Parts of a study that are shown beside the numbers of its points."""
+
+    sections: tuple[Channel, ...] = ()
+    """At the sections: `TIME`, observables."""
+    window: range = range(0)
+    """Range of the sections of each point."""
+    extremes: tuple[Channel, ...] = ()
+    """Channels."""
+
+    @property
+    def width(self) -> int:
+        """Values of each point."""
+        return len(self.sections) * len(self.window) + 5 * len(self.extremes)
+
+
+def points(store: StudyReader, query: PointsQuery) -> schemas.Points:
+    """Return all that a study has of a range of points."""
+    observables = query.taken(store)
+    window = query.sections(store) if observables else range(0)
+    shown = Shown((TIME, *observables) if observables else (), window, query.of_channels(store))
+    return _points(store, query, shown)
+
+
 def bifurcation(store: StudyReader, query: BifurcationQuery) -> schemas.Bifurcation:
-    """Return an observable over the parameter."""
+    """Return an observable over the parameter: a view of `points`."""
     observable = query.taken(store)
-    window = query.sections(store)
-    points, following = page(query.points(store), len(window) + _columns(store))
+    found = _points(store, query, Shown((observable,), query.sections(store)))
     (parameter,) = store.parameters
     directions: list[Any] | None = None
     if store.attributes["job"]["continuation"] == "both":
-        half = store.points // 2
-        directions = ["forward" if point < half else "backward" for point in points]
+        half, first = store.points // 2, found.start
+        every = range(first, first + len(found.status))
+        directions = ["forward" if point < half else "backward" for point in every]
     return schemas.Bifurcation.model_construct(
-        **_judged(store, points, following),
-        parameter=parameter.name,
-        directions=directions,
-        observable=observable.name,
-        sections=_rows(store, points, window, [observable])[observable.name],
+        **vars(found)
+        | {
+            "parameter": parameter.name,
+            "directions": directions,
+            "observable": observable.name,
+            "sections": found.sections[observable.name],
+        }
     )
 
 
 def sections(store: StudyReader, query: SectionRange, chosen: str | None) -> schemas.Sections:
-    """Return times and channels at the sections of points."""
-    names = chosen_channels(chosen, store.observables)
-    window = query.sections(store)
-    width = (len(names) + 1) * len(window) + _columns(store)
-    points, following = page(query.points(store), width)
+    """Return times and channels at the sections of points: a view of `points`."""
     described = by_name(store.observables)
-    rows = _rows(store, points, window, [described[name] for name in names])
-    return schemas.Sections.model_construct(
-        **_judged(store, points, following), time=rows.pop(""), channels=rows
-    )
+    observables = [described[name] for name in chosen_channels(chosen, store.observables)]
+    found = _points(store, query, Shown((TIME, *observables), query.sections(store)))
+    return schemas.Sections.model_construct(**vars(found) | {"channels": found.sections})
 
 
 def sweep(store: StudyReader, query: SweepQuery) -> schemas.Sweep:
-    """Return extremes over the parameters."""
-    names = chosen_channels(query.channel, store.channels, "channel")
-    points, following = page(query.points(store), 5 * len(names) + _columns(store))
+    """Return extremes over the parameters: a view of `points`."""
+    found = _points(store, query, Shown(extremes=query.of_channels(store)))
+    return schemas.Sweep.model_construct(**vars(found))
+
+
+def _points(store: StudyReader, query: PointRange, shown: Shown) -> schemas.Points:
+    part, following = page(query.points(store), shown.width + _columns(store))
+    names = {one.name for one in shown.extremes}
+    rows = _rows(store, part, shown.window, shown.sections)
+    return schemas.Points.model_construct(
+        **_judged(store, part, following, by_name(store.channels).keys() - names),
+        shape=list(store.shape),
+        axes=[
+            schemas.Axis.of(one, name=axis, parameter=one.name, values=values)
+            for axis, (one, values) in store.coordinates.items()
+        ],
+        time=rows.pop(TIME.name, None),
+        sections=rows,
+        peaks={one.name: _peaks(store, one, part) for one in shown.extremes},
+        runs=store.attributes.get("runs", []),
+    )
+
+
+def _peaks(store: StudyReader, channel: Channel, points: range) -> schemas.PeakColumns:
     part = slice(points.start, points.stop)
-    described = by_name(store.channels)
-    peaks = {}
-    for name in names:
-        found = PeakColumns(*(column[part] for column in store.peaks(name)))
-        ranges = found.maximum - found.minimum
-        peaks[name] = schemas.PeakColumns.of(described[name], range=ranges, **found._asdict())
-    left_out = described.keys() - set(names)
-    return schemas.Sweep.model_construct(**_points(store, points, following, left_out), peaks=peaks)
+    found = PeakColumns(*(column[part] for column in store.peaks(channel.name)))
+    ranges = found.maximum - found.minimum
+    return schemas.PeakColumns.of(channel, range=ranges, **found._asdict())
 
 
 def _columns(store: StudyReader) -> int:
@@ -76,10 +120,11 @@ def _columns(store: StudyReader) -> int:
     return len(store.parameters) + len(store.statistics) + len(store.indicators) + 3
 
 
-def _points(
-    store: StudyReader, points: range, following: int | None, left_out: Collection[str] = ()
+def _judged(
+    store: StudyReader, points: range, following: int | None, left_out: Collection[str]
 ) -> dict[str, Any]:
     """Return what every study has; without statistics of the channels that are left out."""
+    codes, names = store.verdicts, store.verdict_names
     part = slice(points.start, points.stop)
     return {
         "complete": store.complete,
@@ -107,14 +152,6 @@ def _points(
             },
             part,
         ),
-    }
-
-
-def _judged(store: StudyReader, points: range, following: int | None) -> dict[str, Any]:
-    part = slice(points.start, points.stop)
-    codes, names = store.verdicts, store.verdict_names
-    return {
-        **_points(store, points, following),
         "counts": store.counts[part].tolist(),
         "indicators": _described(store, store.indicators, part),
         "verdicts": None
@@ -134,20 +171,19 @@ def _described(store: StudyReader, columns: Mapping[str, Floats], part: slice) -
 
 
 def _rows(
-    store: StudyReader, points: range, window: range, observables: list[Channel]
+    store: StudyReader, points: range, window: range, columns: Sequence[Channel]
 ) -> dict[str, schemas.Rows]:
-    """Return times, under the name "", and observables at sections that were recorded."""
-    names = [one.name for one in observables]
+    """Return columns at the sections that were recorded: `TIME` and observables."""
+    names = [one.name for one in columns if one is not TIME]
     values: dict[str, list[Any]] = {}
-    if len(points) == 1:  # of a long record, only the window is read
-        time, columns = store.point_sections(points[0], names, window.start, window.stop)
-        values = {name: [column] for name, column in {"": time, **columns}.items()}
+    if len(points) == 1 and columns:  # of a long record, only the window is read
+        time, found = store.point_sections(points[0], names, window.start, window.stop)
+        values = {name: [column] for name, column in {TIME.name: time, **found}.items()}
     else:
-        for name in ("", *names):
-            read = partial(store.sections, name) if name else store.section_times
-            values[name] = list(_recorded(store, points, window, read))
-    described = {"": TIME, **by_name(observables)}
-    return {name: schemas.Rows.of(described[name], values=rows) for name, rows in values.items()}
+        for one in columns:
+            read = store.section_times if one is TIME else partial(store.sections, one.name)
+            values[one.name] = list(_recorded(store, points, window, read))
+    return {one.name: schemas.Rows.of(one, values=values[one.name]) for one in columns}
 
 
 def _recorded(

@@ -1,4 +1,8 @@
-"""``/v1/jobs/{id}/bifurcation``, ``/sweep``, ``/accuracy``, ``/calibration``, ``/poincare``."""
+"""``/v1/jobs/{id}/points``: the points of any study.
+
+``/bifurcation``, ``/sweep``, ``/accuracy`` and ``/poincare`` show parts of it, ``/calibration``
+what a search found.
+"""
 
 from typing import Annotated
 
@@ -13,7 +17,12 @@ from jointplay.service.results.stores import ResultsOfThePath, StudyOfThePath
 from jointplay.service.results.streaming import as_json
 from jointplay.service.studies import answers, schemas
 from jointplay.service.studies.calibration_schema import Calibration
-from jointplay.service.studies.queries import BifurcationQuery, PoincareQuery, SweepQuery
+from jointplay.service.studies.queries import (
+    BifurcationQuery,
+    PoincareQuery,
+    PointsQuery,
+    SweepQuery,
+)
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 
 router = APIRouter(
@@ -21,6 +30,17 @@ router = APIRouter(
     tags=["studies"],
     responses=problems(*kinds.OF_RESULTS),
 )
+
+
+@router.get("/points", response_model=schemas.Points)
+def show_points(study: StudyOfThePath, query: Annotated[PointsQuery, Query()]) -> Response:
+    """Return all that a study of any kind has of its points, also while it runs.
+
+    `status` says of every point whether it waits, is computed, is done or has failed.  A map has
+    its points row by row, as `shape` and `axes` say.  `next_start` leads to the points that did not
+    fit into the answer.
+    """
+    return as_json(answers.points(study, query))
 
 
 @router.get("/bifurcation", response_model=schemas.Bifurcation)

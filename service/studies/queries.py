@@ -58,6 +58,14 @@ class BifurcationQuery(SectionRange):
         return described[chosen_channels(self.observable, store.observables, "observable")[0]]
 
 
+def _of_channels(store: StudyReader, names: str | None, parameter: str) -> tuple[Channel, ...]:
+    """Return the channels whose extremes are meant, or refuse others."""
+    described = by_name(store.channels)
+    if names is None:
+        return tuple(store.channels)
+    return tuple(described[name] for name in chosen_channels(names, store.channels, parameter))
+
+
 class SweepQuery(PointRange):
     """Extremes of channels at a range of points."""
 
@@ -66,6 +74,38 @@ class SweepQuery(PointRange):
         max_length=20_000,
         description="Names or globs of channels, separated by commas; default: all.",
     )
+
+    def of_channels(self, store: StudyReader) -> tuple[Channel, ...]:
+        """Return the channels that are meant, or refuse others."""
+        return _of_channels(store, self.channel, "channel")
+
+
+class PointsQuery(SectionRange):
+    """All that is known of a range of points."""
+
+    channels: str | None = Field(
+        default=None,
+        max_length=20_000,
+        description="Names or globs of channels whose extremes to show, separated by commas; "
+        "default: all.",
+    )
+    observables: str | None = Field(
+        default=None,
+        max_length=20_000,
+        description="The same of channels that were taken at the sections; default: none.",
+    )
+
+    def of_channels(self, store: StudyReader) -> tuple[Channel, ...]:
+        """Return the channels whose extremes are meant, or refuse others."""
+        return _of_channels(store, self.channels, "channels")
+
+    def taken(self, store: StudyReader) -> tuple[Channel, ...]:
+        """Return the observables that are meant, or refuse others."""
+        if self.observables is None:
+            return ()
+        described = by_name(store.observables)
+        names = chosen_channels(self.observables, store.observables, "observables")
+        return tuple(described[name] for name in names)
 
 
 class PoincareQuery(TimeOrPoints):

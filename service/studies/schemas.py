@@ -97,6 +97,30 @@ class Sweep(StudyPoints):
     peaks: dict[str, PeakColumns]
 
 
+class Axis(Described):
+    """One axis of a map."""
+
+    name: Literal["y", "x"]
+    parameter: str
+    values: Values
+
+
+class Points(JudgedPoints):
+    """All that is known of points; other addresses show parts of it."""
+
+    shape: list[int] = Field(
+        description="Points along each axis: of one, all; of a map, along y and x. The first "
+        "varies slowest."
+    )
+    axes: list[Axis] = Field(description="Of a map, y and x; empty: the points are on one axis.")
+    time: Rows | None = Field(description="Of the sections; null: no observables were asked for.")
+    sections: dict[str, Rows] = Field(description="By observable.")
+    peaks: dict[str, PeakColumns] = Field(description="By channel whose extremes were kept.")
+    runs: list[dict[str, str | float | bool | None]] = Field(
+        description="Of an accuracy-study, method, tolerance and step of every point of the study."
+    )
+
+
 class AccuracyPoint(BaseModel):
     """One run of an accuracy-study."""
 

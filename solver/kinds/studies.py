@@ -74,7 +74,7 @@ def place_points(job: MechanismJob, points: Points) -> PlacedPoints:
 
 @dataclass(frozen=True, eq=False)
 class Spans:
-    """How long each of the values runs, s; see the same names of `Study`."""
+    """Times of the run of each value, s; see the same names of `Study`."""
 
     period: Floats
     settle: Floats
@@ -85,7 +85,7 @@ class Spans:
 
 @dataclass(frozen=True)
 class Kept:
-    """What is kept of each point; see the same names of `Study`."""
+    """Results that are kept of each point; see the same names of `Study`."""
 
     observables: tuple[Channel, ...] = ()
     record: int = 0

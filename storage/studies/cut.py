@@ -1,4 +1,4 @@
-"""How arrays with a number a point, or some, are cut into chunks: along one axis, or over two."""
+"""Chunks of arrays with a number a point, or some: cut along one axis, or over two."""
 
 import math
 from collections.abc import Iterator

@@ -139,6 +139,11 @@ class StudyMoment(StoreReader):
             shape=self.shape,
         )
 
+    @property
+    def coordinates(self) -> Mapping[str, tuple[Channel, Floats]]:
+        """The parameter along each axis of a map, with its values; none on one axis."""
+        return self.layout.coordinates if len(self.shape) == 2 else {}
+
     def require(self, ended: Mapping[int, int]) -> None:
         """Compare a growing store with what its blocks were known to have computed.
 
@@ -178,7 +183,7 @@ class StudyMoment(StoreReader):
                 for group, members in groups
                 if isinstance(members, zarr.Group)
                 for name, array in members.arrays()
-                if name not in self.layout.coordinates
+                if name not in self.coordinates
             },
         )
 

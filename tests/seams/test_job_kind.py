@@ -35,7 +35,7 @@ class Line(SectionStudy[LineJob]):
     """A point for each step along the line."""
 
     document = LineJob
-    results: ClassVar = ("poincare", "figures", "zarr")
+    results: ClassVar = ("points", "poincare", "figures", "zarr")
 
     def points(self, job: LineJob) -> Points:
         written = np.arange(job.count)

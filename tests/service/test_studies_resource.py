@@ -23,12 +23,49 @@ def column_of(http: httpx.Client, job: str, observable: str) -> int:
         ("finished_study", "poincare", schemas.Sections),
         ("finished_sweep", "sweep", schemas.Sweep),
         ("finished_accuracy", "accuracy", schemas.Accuracy),
+        ("finished_study", "points?observables=*", schemas.Points),
+        ("finished_sweep", "points", schemas.Points),
+        ("finished_accuracy", "points", schemas.Points),
     ],
 )
 def test_answers_are_as_the_openapi_document_says(http, request, study, result, model):
     answer = http.get(f"/v1/jobs/{request.getfixturevalue(study)}/{result}")
     document = model.model_validate_json(answer.content, strict=True)
     assert document.model_dump(mode="json") == answer.json()  # nothing more, nothing less
+
+
+@pytest.mark.parametrize(
+    ("study", "view", "shown", "asked"),
+    [
+        ("finished_study", "bifurcation", {}, {"observables": OBSERVED}),
+        ("finished_study", "bifurcation", {"section_start": 2}, {"observables": OBSERVED}),
+        ("finished_study", "poincare", {"start": 3, "stop": 9}, {"observables": "*"}),
+        ("finished_sweep", "sweep", {"start": 2}, {}),
+        ("finished_sweep", "sweep", {"channel": "A.*"}, {"channels": "A.*"}),
+    ],
+)
+def test_every_view_is_part_of_the_points(http, request, study, view, shown, asked):
+    job = request.getfixturevalue(study)
+    observed = {"observable": OBSERVED} if view == "bifurcation" else {}
+    seen = get(http, f"/v1/jobs/{job}/{view}", **shown, **observed)
+    window = {name: value for name, value in shown.items() if name != "channel"}
+    whole = get(http, f"/v1/jobs/{job}/points", **window, **asked)
+    assert (whole["shape"], whole["axes"]) == ([whole["points"]], [])
+    for name, value in seen.items():
+        if name == "sections":  # of one observable
+            assert value == whole["sections"][OBSERVED]
+        elif name == "channels":
+            assert value == whole["sections"]
+        elif name not in ("parameter", "directions", "observable"):
+            assert value == whole[name], name
+
+
+def test_points_of_an_accuracy_study_say_which_run_each_is(http, finished_accuracy):
+    points = get(http, f"/v1/jobs/{finished_accuracy}/points", stop=4)
+    assert points["time"] is None
+    assert [run["reference"] for run in points["runs"]][:3] == [True, True, False]
+    found = get(http, f"/v1/jobs/{finished_accuracy}/accuracy")["points"]
+    assert points["statistics"]["error"]["values"][2:] == [one["error"] for one in found[:2]]
 
 
 def test_a_diagram_has_values_status_sections_verdicts_and_failures(http, finished_study):

@@ -97,11 +97,11 @@ class HttpResults:
         self, observables: Names, channels: Names, sections: tuple[int, int] | None
     ) -> StudyDataset:
         """Return the points of a study, fetched as they are now."""
-        if "sweep" in self._job.links:
-            return studies.with_extremes(self._job, partial(self._get, "sweep", channel=channels))
-        fetch = partial(self._get, "poincare", channels=observables)
-        window = sections or (0, int(self._job.job["record"]))
-        return studies.with_sections(self._job, fetch, window)
+        record = int(self._job.job.get("record", 0))
+        taken = (observables or ["*"]) if record else None
+        kept = channels if self._job.job.get("channels") else None
+        fetch = partial(self._get, "points", channels=kept, observables=taken)
+        return studies.study_of(self._job, fetch, (sections or (0, record)) if record else (0, 0))
 
     def source(self, query: WindowQuery) -> Dataset:
         """Return the samples of a window, fetched."""

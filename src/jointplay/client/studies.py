@@ -18,53 +18,54 @@ from jointplay.records.study import StudyDataset
 Document = dict[str, Any]
 
 
-def with_sections(
+def study_of(
     job: JobRecord, fetch: Callable[..., Document], sections: tuple[int, int]
 ) -> StudyDataset:
-    """Return a study with times and observables at its sections.
+    """Return a study with the extremes of channels, and times and observables at its sections.
 
     Parameters
     ----------
     job
         The study.
     fetch
-        Asks for sections, with `start`, `section_start` and `section_stop`.
+        Asks for points, with `start`, `section_start` and `section_stop`.
     sections
         First section, and the one before which to end.
     """
 
     def pages_of(window: tuple[int, int]) -> list[Document]:
-        ranges = {"section_start": window[0], "section_stop": window[1]}
+        first, last = window
+        ranges = {"section_start": first, "section_stop": last} if last else {}
         return list(_pages(partial(fetch, **ranges)))
 
     def table(name: str) -> Floats:
         parts = []
         for (first, last), pages in windows:
-            rows = [page["channels"][name] if name else page["time"] for page in pages]
-            values = list(chain.from_iterable(one["values"] for one in rows))
+            rows = [page["sections"][name] if name else page["time"] for page in pages]
+            values = list(chain.from_iterable(one["values"] for one in rows if one))
             parts.append(_table(values, last - first))
         return np.concatenate(parts, axis=1)
 
     windows = list(parts_that_fit(pages_of, sections, _halves))
     _, pages = windows[0]
-    channels = pages[0]["channels"]
-    found = {name: table(name) for name in channels}
-    observables = _channels(channels)
-    recorded = np.array([count for page in pages for count in page["counts"]], np.int64)
-    sections_found: dict[str, Any] = {"section_values": found, "recorded": recorded}
-    return _study(job, pages, observables=observables, times=table(""), **sections_found)
-
-
-def with_extremes(job: JobRecord, fetch: Callable[..., Document]) -> StudyDataset:
-    """Return a sweep with the extremes of channels; `fetch` asks for them, with `start`."""
-    pages = list(_pages(fetch))
-    channels = pages[0]["peaks"]
+    shape = tuple(pages[0]["shape"])
+    observables, channels = pages[0]["sections"], pages[0]["peaks"]
     extremes = {}
     for name in channels:
         peaks = [page["peaks"][name] for page in pages]
         columns = [_joined([one[part] for one in peaks]) for part in PeakColumns._fields]
         extremes[name] = PeakColumns(*columns)
-    return _study(job, pages, channels=_channels(channels), extremes=extremes)
+    return _study(
+        job,
+        pages,
+        observables=_channels(observables),
+        channels=_channels(channels),
+        times=table(""),
+        section_values={name: table(name) for name in observables},
+        recorded=np.array([count for page in pages for count in page["counts"]], np.int64),
+        extremes=extremes,
+        grid=shape if len(shape) > 1 else (),
+    )
 
 
 def _halves(sections: tuple[int, int]) -> tuple[tuple[int, int], tuple[int, int]] | None:

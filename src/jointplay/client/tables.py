@@ -105,15 +105,17 @@ class TabledJob(JobRecord, ABC):
     @property
     def peaks(self) -> "pd.DataFrame":
         """Signed extremes with their times, one row a channel; of a sweep of each point."""
-        self._insist("extremes", "peaks", "sweep")
+        self._insist("extremes", "peaks", "points")
         if not self.is_study:
             found = self.results.peaks()
             every = found.values()
             table: dict[str, Any] = {"channel": list(found), "unit": [peak.unit for peak in every]}
             table |= {name: np.array([getattr(peak, name) for peak in every]) for name in PEAK}
             return _table(table, {}, "channel")
-        study = self.results.study(None, None, None)
+        study = self.results.study(None, None, (0, 1))
         names = [channel.name for channel in study.channels]
+        if not names:
+            self._insist("extremes")
         extremes = [study.peaks(name) for name in names]
         columns: dict[str, Any] = {
             "point": np.repeat(np.arange(study.points), len(names)),
@@ -139,7 +141,7 @@ class TabledJob(JobRecord, ABC):
         """Values, status, verdict and its reason, indicators, statistics: one row a point."""
         self._insist_on_points()
         # one section of each: they are not in this table
-        study = self.results.study(None, None, None if "sweep" in self.links else (0, 1))
+        study = self.results.study(None, None, (0, 1))
         columns = _values(study)
         if study.observables:
             columns["sections"] = study.counts
@@ -163,7 +165,7 @@ class TabledJob(JobRecord, ABC):
             raise NotFound(sentence, problem="wrong-kind")
 
     def _insist_on_points(self) -> None:
-        self._insist("points", *(("sweep", "poincare") if self.is_study else ()))
+        self._insist("points", "points")
 
     def _open(self, store: Store, group: str) -> "xr.Dataset":
         try:

@@ -147,7 +147,7 @@ def _results_of(source: "ResultReader | StudyReader") -> list[str]:
     if not isinstance(source, StudyReader):
         return ["history", "peaks", "poincare", "impacts", "statistics", "certificate"]
     if "runs" in source.attributes:
-        return ["accuracy"]
+        return ["points", "accuracy"]
     if source.kind == "calibration":
-        return ["calibration"]
-    return ["poincare"] if source.record else ["sweep"]
+        return ["points", "calibration"]
+    return ["points", "poincare" if source.record else "sweep"]
