@@ -1,6 +1,7 @@
-"""Reads functions that are made by functions, such as `jointplay.jobs.sweep`, for the reference.
+"""Reads functions that are made by functions, such as `Client.jobs`, for the reference.
 
-Sources show an assignment; what is assigned has the signature and the documentation.
+Sources show an assignment, or of the functions of kinds of jobs a loop; what is assigned has the
+signature and the documentation.
 """
 
 import inspect
@@ -8,7 +9,10 @@ from typing import Any
 
 import griffe
 
-MAKERS = ("_described(", "_submitting(", "awaited(", "changing(", "iterated(")
+from jointplay.client import Client
+from jointplay.jobs import functions
+
+MAKERS = ("awaited(", "changing(", "iterated(")
 
 
 class MadeFunctions(griffe.Extension):
@@ -18,16 +22,29 @@ class MadeFunctions(griffe.Extension):
         """Replace an attribute by the function that it is."""
         if attr.parent is None or not str(attr.value).startswith(MAKERS):
             return
-        made = griffe.dynamic_import(attr.path)
-        parameters = map(_parameter, inspect.signature(made).parameters.values())
-        function = griffe.Function(
-            attr.name,
-            lineno=attr.lineno,
-            parameters=griffe.Parameters(*parameters),
-            docstring=griffe.Docstring(inspect.getdoc(made) or "", parser="numpy"),
-            parent=attr.parent,
-        )
-        attr.parent.set_member(attr.name, function)
+        _put(attr.parent, attr.name, griffe.dynamic_import(attr.path))
+
+    def on_module_members(self, *, mod: griffe.Module, **_: Any) -> None:
+        """Add the functions of all kinds of jobs."""
+        if mod.path == "jointplay.jobs":
+            for name, made in functions().items():
+                _put(mod, name, made)
+
+    def on_class_members(self, *, cls: griffe.Class, **_: Any) -> None:
+        """Add the methods of all kinds of jobs."""
+        if cls.path == "jointplay.client.client.Client":
+            for name in functions():
+                _put(cls, name, getattr(Client, name))
+
+
+def _put(parent: griffe.Module | griffe.Class, name: str, made: Any) -> None:
+    function = griffe.Function(
+        name,
+        parameters=griffe.Parameters(*map(_parameter, inspect.signature(made).parameters.values())),
+        docstring=griffe.Docstring(inspect.getdoc(made) or "", parser="numpy"),
+        parent=parent,
+    )
+    parent.set_member(name, function)
 
 
 def _parameter(one: inspect.Parameter) -> griffe.Parameter:

@@ -6,6 +6,7 @@ the package `jointplay`.
 
 import json
 import sys
+from collections.abc import Mapping
 from typing import Any
 
 from jointplay.solver.kinds import KINDS
@@ -21,24 +22,50 @@ def description() -> dict[str, Any]:
     """Return kinds by name, each with a sentence and its fields, those of its own first.
 
     A field has its ``help``, the ``form`` of its values (number, integer, flag, text, names,
-    numbers or other), and where there are any its ``unit``, ``choices``, and ``words`` that may
-    stand in place of such a value; ``own`` fields are those of no other kind's documents.
+    numbers, values, grid, axis or other), and where there are any its ``unit``, ``choices``, and
+    ``words`` that may stand in place of such a value; ``own`` fields are those of no other kind's
+    documents.  A kind that can be asked for by one option of a command line has its ``option``: the
+    ``fields`` that it stands for and the ``form`` in which they are typed.
     """
-    found = {}
+    found: dict[str, Any] = {}
     for name, kind in KINDS.items():
         schema = kind.document.model_json_schema()
         own = _own_fields(kind.document)
         rest = [f for f in schema["properties"] if f not in own and f not in ELSEWHERE]
+        fields = {
+            field: _field(schema["properties"][field])
+            | ({"own": True} if field in own else {})
+            | ({"required": True} if field in schema["required"] else {})
+            for field in own + rest
+        }
+        option = _option({field: fields[field] for field in own})
         found[name] = {
             "help": schema["description"],
-            "fields": {
-                field: _field(schema["properties"][field])
-                | ({"own": True} if field in own else {})
-                | ({"required": True} if field in schema["required"] else {})
-                for field in own + rest
-            },
+            **({} if option is None else {"option": option}),
+            "fields": fields,
         }
     return found
+
+
+def _option(own: Mapping[str, dict[str, Any]]) -> dict[str, Any] | None:
+    """Return the option by which a kind is asked for, given its own fields.
+
+    It stands for what a document must have: values by parameter, a parameter and its values, the
+    first of several axes, a number of points, or nothing. None: that cannot be typed.
+    """
+    forms = {name: field["form"] for name, field in own.items()}
+    needed = [name for name, field in own.items() if "required" in field]
+    grids = [name for name, form in forms.items() if form == "grid"]
+    asked = [forms[name] for name in needed]
+    if grids and not needed:
+        return {"fields": grids[:1], "form": "grid"}
+    if asked == ["text", "values"]:
+        return {"fields": needed, "form": "values"}
+    if asked and {*asked} == {"axis"}:
+        return {"fields": needed[:1], "form": "axis"}
+    if asked in ([], ["integer"]):
+        return {"fields": needed, "form": "integer" if needed else "flag"}
+    return None
 
 
 def _own_fields(document: type[MechanismJob]) -> list[str]:
@@ -56,11 +83,16 @@ def _field(schema: dict[str, Any]) -> dict[str, Any]:
     (form, *others) = [form for form in forms if "const" not in form]
     items = form.get("items", {})
     kind = "other"
-    if not others:
+    if _is(form, "Range"):
+        kind = "values"
+    elif not others:
         kind = {"number": "number", "integer": "integer", "boolean": "flag", "string": "text"}.get(
             form.get("type", ""), "other"
         )
         kind = {"string": "names", "number": "numbers"}.get(items.get("type", ""), kind)
+        kind = "axis" if _is(form, "Along") else kind
+        values = [one.get("oneOf", [{}])[0] for one in form.get("patternProperties", {}).values()]
+        kind = "grid" if any(_is(one, "Range") for one in values) else kind
     facts = {
         "unit": schema.get("unit", items.get("unit")),
         "choices": [one for one in form.get("enum", items.get("enum", [])) if one not in words],
@@ -68,6 +100,10 @@ def _field(schema: dict[str, Any]) -> dict[str, Any]:
     }
     found = {"help": schema.get("description", ""), "form": kind}
     return found | {name: fact for name, fact in facts.items() if fact not in (None, [], "1")}
+
+
+def _is(schema: dict[str, Any], model: str) -> bool:
+    return str(schema.get("$ref", "")).rpartition("/")[2] == model
 
 
 if __name__ == "__main__":

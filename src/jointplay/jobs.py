@@ -82,10 +82,19 @@ def _plain(value: Any) -> Any:
     return [_plain(one) for one in value] if isinstance(value, list | tuple | range) else value
 
 
-simulate = _described("simulate")
-bifurcation = _described("bifurcation")
-sweep = _described("sweep")
-poincare = _described("poincare")
-ensemble = _described("ensemble")
-accuracy_study = _described("accuracy-study")
-calibration = _described("calibration")
+def functions() -> dict[str, Callable[..., Document]]:
+    """Return the function of every kind, by its name."""
+    return {kind.replace("-", "_"): _described(kind) for kind in KINDS}
+
+
+def __getattr__(name: str) -> Callable[..., Document]:
+    """Return the function of a kind, which makes its documents."""
+    found = functions()
+    if name not in found:
+        raise AttributeError(f"module 'jointplay.jobs' has no attribute {name!r}")
+    globals().update(found)
+    return found[name]
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *functions()})

@@ -41,6 +41,9 @@ def test_the_reference_has_what_the_client_can_do(site: Path) -> None:
     reference = (site / "reference.html").read_text()
     for name in ("client.client.Client.submit", "client.job.Job.figure", "local.running.run"):
         assert f'id="jointplay.{name}"' in reference
+    for kind in ("simulate", "accuracy_study"):  # whatever makes these functions
+        for name in (f"jobs.{kind}", f"client.client.Client.{kind}"):
+            assert f'id="jointplay.{name}"' in reference
     assert "Draw a figure" in reference
 
 

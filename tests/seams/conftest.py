@@ -21,13 +21,20 @@ class Platform:
 
     def computed(self, document: dict[str, Any]) -> Job:
         """Submit a job, have its blocks run, and return it as the client sees it at its end."""
-        job = self.client.submit(document | {"cache": False})
+        return self.finished(self.client.submit(document | {"cache": False}))
+
+    def finished(self, job: Job) -> Job:
+        """Have the blocks of a job run, and return it at its end."""
         while not job.refresh().is_finished:
             for block in self.catalogue.blocks(job.id):
-                claim = self.catalogue.claim_block(block.id, "this process", 60.0)
-                if claim is not None:
-                    BlockRun(self.catalogue, self.settings, claim, threading.Event()).run()
+                self.compute(block.id)
         return job
+
+    def compute(self, block: str) -> None:
+        """Run one block, unless it has been."""
+        claim = self.catalogue.claim_block(block, "this process", 60.0)
+        if claim is not None:
+            BlockRun(self.catalogue, self.settings, claim, threading.Event()).run()
 
 
 @pytest.fixture(scope="session")

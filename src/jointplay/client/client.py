@@ -5,7 +5,7 @@ from contextlib import suppress
 from datetime import UTC, datetime
 from functools import partial
 from inspect import Parameter, signature
-from typing import Any, Concatenate, ParamSpec, Self
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self
 
 import httpx
 
@@ -97,13 +97,9 @@ class Client:
         """Close the connection."""
         self._connection.network.close()
 
-    simulate = _submitting(documents.simulate)
-    bifurcation = _submitting(documents.bifurcation)
-    sweep = _submitting(documents.sweep)
-    poincare = _submitting(documents.poincare)
-    ensemble = _submitting(documents.ensemble)
-    accuracy_study = _submitting(documents.accuracy_study)
-    calibration = _submitting(documents.calibration)
+    if TYPE_CHECKING:  # a method of each kind, see below
+
+        def __getattr__(self, kind: str) -> Callable[..., Job]: ...
 
     def submit(self, document: Mapping[str, Any], *, idempotency_key: str | None = None) -> Job:
         """Queue a job that is given as a document; `Refused` names every field that is wrong.
@@ -295,3 +291,7 @@ class Client:
 def _text(moment: datetime | None) -> str | None:
     """Return a moment as the service takes it; one without a zone is this machine's."""
     return None if moment is None else moment.astimezone(UTC).isoformat()
+
+
+for _name, _describe in documents.functions().items():
+    setattr(Client, _name, _submitting(_describe))

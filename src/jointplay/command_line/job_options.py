@@ -12,24 +12,17 @@ from jointplay.job_fields import KINDS, help_of
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
+_OPTIONS: Final = {name: kind["option"] for name, kind in KINDS.items() if "option" in kind}
+"""By kind, the option that asks for it; simulate is what is meant without one."""
+_RANGE: Final = "NAME=FROM:TO:COUNT"
 _SHORT: Final[dict[str, tuple[Any, str | None, str]]] = {
-    "bifurcation": (
-        list[str],  # to refuse it twice
-        "NAME=FROM:TO:COUNT",
-        "A bifurcation diagram over a parameter; append `:log` for equal ratios.",
-    ),
-    "sweep": (
-        list[str],
-        "NAME=FROM:TO:COUNT",
-        "Extremes over a parameter, or NAME=A,B,C; repeat it for every combination.",
-    ),
-    "poincare": (bool, None, "Poincaré sections over many periods."),
-    "ensemble": (int, "MEMBERS", "Sections of many perturbed starts."),
-    "accuracy-study": (bool, None, "What every method and tolerance costs and buys."),
+    "values": (list[str], _RANGE, "; append `:log` for equal ratios."),  # to refuse it twice
+    "axis": (list[str], _RANGE, "; append `:log` for equal ratios."),
+    "grid": (list[str], _RANGE, "; or NAME=A,B,C; repeat it for every combination."),
+    "integer": (int, None, "."),
+    "flag": (bool, None, "."),
 }
-"""By kind: type, metavar and help of the option that asks for it, with what it must have."""
-_IN_SHORT: Final = ("parameter", "values", "grid", "points", "members")
-"""Fields that those options stand for, or that only a document can give, as it can flags."""
+"""Type, metavar and end of the help of the option that asks for a kind, by its form."""
 _HELP: Final = {
     "settle": (
         "Leave out what comes before: of a simulation's peaks, in seconds; of a study's sections or"
@@ -37,7 +30,9 @@ _HELP: Final = {
     ),
     "section": "Where: crank_angle=RAD, onset=JOINT, or of a study CHANNEL=VALUE:up (or down).",
 }
-_METAVARS: Final = {"names": "A,B", "numbers": "X,Y"}
+_METAVARS: Final = {"names": "A,B", "numbers": "X,Y", "axis": _RANGE}
+_IN_DOCUMENTS: Final = ("flag", "values", "grid", "other")
+"""Forms of fields that only a document can give."""
 _METAVAR_OF: Final = {"settle": "SECONDS|PERIODS"}
 _UNITS: Final = {"s": "SECONDS", "periods": "PERIODS"}
 _TYPES: Final = {"number": float, "integer": int}
@@ -47,10 +42,11 @@ def _fields() -> dict[str, dict[str, Any]]:
     """Return the fields of all kinds; of one that several have, the form that takes any of them."""
     found: dict[str, dict[str, Any]] = {}
     for name, kind in KINDS.items():
-        if name == "calibration":  # a document: `jointplay calibrate` makes one of options
+        if name not in ("simulate", *_OPTIONS):  # a document: `jointplay calibrate` makes one
             continue
+        option = kind.get("option", {}).get("fields", ())
         for field, one in kind["fields"].items():
-            if field in _IN_SHORT or one["form"] == "flag":
+            if field in option or (one["form"] in _IN_DOCUMENTS and field != "section"):
                 continue
             seen = found.setdefault(field, one | {"kinds": []})
             seen["kinds"].append(name)
@@ -62,8 +58,11 @@ FIELDS: Final = _fields()
 
 
 def _short_option(kind: str) -> Any:
-    form, metavar, text = _SHORT[kind]
+    option = _OPTIONS[kind]
+    form, metavar, end = _SHORT[option["form"]]
     names = [f"--{kind}"] if form is bool else []  # without one, typer adds the contrary
+    text = KINDS[kind]["help"].removesuffix(".").partition("; ")[0] + end
+    metavar = metavar or "".join(option["fields"]).upper() or None
     return Annotated[form | None, typer.Option(*names, metavar=metavar, help=text)]
 
 
@@ -85,7 +84,7 @@ def with_job_options(*only: str) -> Callable[[Command], Command]:
 
     They come as keywords; `fields_of` makes fields of a job of them.
     """
-    chosen = {} if only else {kind.replace("-", "_"): _short_option(kind) for kind in _SHORT}
+    chosen = {} if only else {kind.replace("-", "_"): _short_option(kind) for kind in _OPTIONS}
     chosen |= {name: _option(name) for name in (only or FIELDS)}
 
     def extend(command: Command) -> Command:
@@ -105,18 +104,30 @@ def with_job_options(*only: str) -> Callable[[Command], Command]:
 def fields_of(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return options as fields of a job, without those that were not given."""
     given = {name: value for name, value in options.items() if value not in (None, [], False)}
-    kinds = [kind for kind in _SHORT if kind.replace("-", "_") in given]
+    kinds = [kind for kind in _OPTIONS if kind.replace("-", "_") in given]
     if len(kinds) > 1:
         raise Stopped(f"--{kinds[0]} and --{kinds[1]} are two jobs; give one.")
     found: dict[str, Any] = {"kind": kinds[0]} if kinds else {}
-    if "bifurcation" in given:
-        found["parameter"], found["values"] = _diagram(given["bifurcation"])
-    if "sweep" in given:
-        found["grid"] = once("--sweep", (_values("--sweep", text) for text in given["sweep"]))
-    if "ensemble" in given:
-        found["members"] = given["ensemble"]
+    for kind in kinds:
+        found |= _asked(kind, given[kind.replace("-", "_")])
     named = {name: value for name, value in options.items() if name in FIELDS and value is not None}
     return found | {name: _value(name, value) for name, value in named.items()}
+
+
+def _asked(kind: str, given: Any) -> dict[str, Any]:
+    """Return the fields that the option of a kind stands for."""
+    option, fields, form = f"--{kind}", _OPTIONS[kind]["fields"], _OPTIONS[kind]["form"]
+    if form == "grid":
+        return {fields[0]: once(option, (_values(option, text) for text in given))}
+    if form in ("values", "axis"):
+        parameter, values = _one(option, given)
+        one = {"parameter": parameter, "values": values}
+        return (
+            dict(zip(fields, (parameter, values), strict=True))
+            if form == "values"
+            else {fields[0]: one}
+        )
+    return dict.fromkeys(fields, given)
 
 
 def once(option: str, pairs: Iterable[tuple[str, object]]) -> dict[str, object]:
@@ -136,6 +147,8 @@ def _value(name: str, given: Any) -> Any:
         return given
     if name == "section":
         return _section(given)
+    if form == "axis":
+        return dict(zip(("parameter", "values"), _values(option, given), strict=True))
     if form in ("number", "integer"):
         return _number(option, given)
     parts = listed(given) or []
@@ -144,15 +157,15 @@ def _value(name: str, given: Any) -> Any:
     return parts if form == "names" else given
 
 
-def _diagram(texts: list[str]) -> tuple[str, object]:
-    """Return the one parameter that a bifurcation diagram is over, and its values."""
+def _one(option: str, texts: list[str]) -> tuple[str, object]:
+    """Return the one parameter that an option is about, and its values."""
     if len(texts) > 1:
         sweep = " ".join(f"--sweep {text}" for text in texts)
         raise Stopped(
-            "--bifurcation is given twice: a diagram is over one parameter. Keep one, or ask for"
+            f"{option} is given twice: a diagram is over one parameter. Keep one, or ask for"
             f" extremes over all of them: {sweep}"
         )
-    return _values("--bifurcation", texts[0])
+    return _values(option, texts[0])
 
 
 def _values(option: str, text: str) -> tuple[str, object]:

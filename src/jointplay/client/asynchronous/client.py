@@ -1,10 +1,12 @@
 """`AsyncClient`: jobs, batches and scenes of one service, for event loops."""
 
+from collections.abc import Callable, Coroutine
 from functools import partial
-from typing import Self
+from typing import TYPE_CHECKING, Any, Self
 
 import httpx
 
+from jointplay import jobs as documents
 from jointplay.client.asynchronous.batch import AsyncBatch
 from jointplay.client.asynchronous.job import AsyncJob
 from jointplay.client.asynchronous.network import AwaitedNetwork
@@ -56,13 +58,9 @@ class AsyncClient:
 
     close = awaited(Client.close)
 
-    simulate = awaited(Client.simulate, AsyncJob)
-    bifurcation = awaited(Client.bifurcation, AsyncJob)
-    sweep = awaited(Client.sweep, AsyncJob)
-    poincare = awaited(Client.poincare, AsyncJob)
-    ensemble = awaited(Client.ensemble, AsyncJob)
-    accuracy_study = awaited(Client.accuracy_study, AsyncJob)
-    calibration = awaited(Client.calibration, AsyncJob)
+    if TYPE_CHECKING:  # a method of each kind, see below
+
+        def __getattr__(self, kind: str) -> Callable[..., Coroutine[Any, Any, AsyncJob]]: ...
 
     submit = awaited(Client.submit, AsyncJob)
     submit_batch = awaited(Client.submit_batch, AsyncBatch)
@@ -80,3 +78,7 @@ class AsyncClient:
     scenes = awaited(Client.scenes)
     scene = awaited(Client.scene)
     laws = awaited(Client.laws)
+
+
+for _name in documents.functions():
+    setattr(AsyncClient, _name, awaited(getattr(Client, _name), AsyncJob))
