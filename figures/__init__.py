@@ -19,6 +19,7 @@ from jointplay.figures.animation import ANIMATION, Pace, film
 from jointplay.figures.bifurcation import BIFURCATION
 from jointplay.figures.calibration import CALIBRATION
 from jointplay.figures.certificate import CERTIFICATE
+from jointplay.figures.chart import CHART
 from jointplay.figures.contact_force import CONTACT_FORCE
 from jointplay.figures.energy import ENERGY
 from jointplay.figures.exponents import EXPONENTS
@@ -98,7 +99,7 @@ ROSTER: Final[dict[str, RunFigure]] = {
 """Figures of one run, in the order of lists."""
 STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
     figure.name: figure
-    for figure in (BIFURCATION, EXPONENTS, SWEEP, SECTION, WORK_PRECISION, CALIBRATION)
+    for figure in (BIFURCATION, CHART, EXPONENTS, SWEEP, SECTION, WORK_PRECISION, CALIBRATION)
 }
 """Figures of a study."""
 

@@ -114,6 +114,9 @@ def _logarithmic(source: StudySource, name: str, values: Floats) -> bool:
     asked = job.get("grid", {}).get(name)
     if asked is None and job.get("parameter") == name:
         asked = job.get("values")
+    for axis in (job.get("along"), job.get("by")):
+        if isinstance(axis, Mapping) and axis.get("parameter") == name:
+            asked = axis.get("values")
     if isinstance(asked, Mapping):
         return bool(asked.get("spacing") == "log")
     steps, ratios = _unevenness(np.diff(values)), _unevenness(np.diff(np.log(values)))

@@ -7,6 +7,7 @@ from importlib.metadata import version
 from fastapi import FastAPI
 
 import jointplay.service.batches.endpoints
+import jointplay.service.charts.endpoints
 import jointplay.service.jobs.endpoints
 import jointplay.service.page.endpoints
 import jointplay.service.problems.endpoints
@@ -72,6 +73,7 @@ _BEHIND_THE_DOOR = (
     (jointplay.service.batches.endpoints, _JOBS),
     (jointplay.service.scenes.looks, needs("jobs:write")),
     (jointplay.service.scenes.poses, needs("jobs:read")),
+    (jointplay.service.charts.endpoints, _RESULTS),
     (jointplay.service.studies.endpoints, _RESULTS),
     (jointplay.service.results.endpoints, _RESULTS),
     (jointplay.service.results.figures, _RESULTS),

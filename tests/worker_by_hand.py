@@ -55,6 +55,15 @@ SWEEP: dict[str, Any] = {
     "periods": 1,
     "statistics": ["mean", "contact_share"],
 }
+CHART: dict[str, Any] = {
+    "kind": "chart",
+    "along": {"parameter": "clearance", "values": {"from": 1e-4, "to": 1e-3, "count": 300}},
+    "by": {"parameter": "friction", "values": [0.0, 0.02, 0.05, 0.1, 0.15]},
+    "settle": 2,
+    "record": 3,
+    "indicators": ["recurrence"],
+}
+"""Two tiles wide, five points high."""
 ACCURACY_STUDY: dict[str, Any] = {
     "kind": "accuracy-study",
     "duration": 0.003,
@@ -193,7 +202,7 @@ class Worker:
         for point in range(first, last):
             going = sections is not None and point == last - 1
             recorded = sections if going else 3 if point in failing else study.record
-            if study.record:
+            if study.observables:
                 time = 100.0 + np.arange(float(recorded))
                 columns = np.arange(len(study.observables))
                 values = known_section(point, columns[None, :], np.arange(recorded)[:, None])

@@ -49,7 +49,7 @@ def layout_of_study(study: Study) -> StudyLayout:
         ),
         values=study.values,
         observables=study.observables,
-        record=study.record,
+        record=study.record if study.observables else 0,
         channels=study.channels,
         blocks=study.blocks,
         shape=study.shape,

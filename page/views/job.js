@@ -14,6 +14,7 @@ import { get, pause, post } from "../requests/service.js";
 const TABS = {
   watch: ["Watch", () => import("./job/watch.js"), ["history"]],
   diagram: ["Diagram", () => import("./job/diagram.js"), ["bifurcation"]],
+  chart: ["Chart", () => import("./job/chart.js"), ["chart"]],
   sweep: ["Sweep", () => import("./job/sweep.js"), ["sweep"]],
   sections: ["Sections", () => import("./job/sections.js"), ["poincare"]],
   accuracy: ["Accuracy", () => import("./job/accuracy.js"), ["certificate", "accuracy"]],

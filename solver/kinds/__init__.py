@@ -16,6 +16,7 @@ from jointplay.solver.calibration.problem import Calibration
 from jointplay.solver.kinds.accuracy_study import AccuracyStudy
 from jointplay.solver.kinds.bifurcation import Bifurcation
 from jointplay.solver.kinds.calibration import CalibrationKind
+from jointplay.solver.kinds.chart import Chart
 from jointplay.solver.kinds.documents import job_of, kind_of
 from jointplay.solver.kinds.ensemble import Ensemble
 from jointplay.solver.kinds.kind import Kind
@@ -33,6 +34,7 @@ KINDS: dict[str, Kind[Any]] = {
         Simulate(),
         Bifurcation(),
         Sweep(),
+        Chart(),
         Poincare(),
         Ensemble(),
         AccuracyStudy(),

@@ -18,16 +18,17 @@ from jointplay.solver.kinds.observables import chosen, coordinate_channels, peak
 from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import Points
 from jointplay.solver.kinds.statistics import (
-    StatisticName,
+    SamplesPerPeriod,
+    StatisticChoice,
     check_samples,
     check_statistics,
     statistic_count,
+    statistic_outputs,
 )
 from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study, place_points
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.scene.pairs import has_play, pairs_of
-from jointplay.solver.statistics import Output, outputs_of
+from jointplay.solver.statistics import Output
 
 
 class ExtremesStudyJob(Job):
@@ -63,31 +64,8 @@ class ExtremesStudyJob(Job):
             )
         ),
     ] = None
-    statistics: Annotated[
-        list[StatisticName],
-        Field(
-            max_length=16,
-            description=(
-                "kept beside the peaks, over the time after settling; impacts (beginnings of"
-                " contact), largest_impact_force (N) and contact_share (0 to 1) are of each joint"
-                " with clearance, the others of each channel, in its unit"
-            ),
-            examples=[["mean", "root_mean_square"]],
-        ),
-    ] = []
-    samples_per_period: Annotated[
-        int,
-        quantity(
-            "1",
-            ge=16,
-            le=4096,
-            description=(
-                "samples in a period that statistics of channels are made of; they are equally"
-                " spaced, of the dense output, in the scene's own time scale if the drivers have"
-                " no period"
-            ),
-        ),
-    ] = 256
+    statistics: StatisticChoice = []
+    samples_per_period: SamplesPerPeriod = 256
 
     @property
     def named_channels(self) -> list[str]:
@@ -107,12 +85,7 @@ class ExtremesStudy(Kind[J]):
 
     def outputs(self, study: Study) -> Mapping[str, Output]:
         """Return the statistics of channels and contacts that the job chose."""
-        joints = study.point_scene(0).joints
-        sizes = (leaf.path for leaf in study.scenes.leaves if leaf.path.endswith("_clearance"))
-        varied = {path.split("/")[2] for path in sizes}
-        loose = [name for name, joint in joints.items() if has_play(joint) or name in varied]
-        pairs = tuple(pair.name for name in loose for pair in pairs_of(name, joints[name]))
-        return outputs_of(study.statistics, study.channels, pairs)
+        return statistic_outputs(study)
 
     def admit(self, job: J) -> Study:
         """Check and fill in; see `Kind.admit`."""

@@ -19,10 +19,14 @@ DEFAULT_SAMPLES = 2000
 
 MOST_POINTS = 100_000
 """Points of a study."""
+MOST_OF_A_CHART = 4_000_000
+"""Points of a chart, which keeps a few numbers of each."""
 MOST_GEOMETRIES = 2000
 """Geometries or structures of a study: each takes about two milliseconds to put together."""
 MOST_PERIODS = 1e8
 """Periods of all points of a study together."""
+MOST_PERIODS_OF_A_CHART = 4e9
+"""Periods of all points of a chart together."""
 LONGEST_SETTLING = 2000
 """Periods after which "settle": "auto" stops waiting."""
 EVENT_PATIENCE = 20
@@ -37,20 +41,25 @@ BYTES_PER_POINT = 512.0
 """Bytes of a study beside sections and peaks: status, statistics, indicators."""
 
 
-def check_count(count: int, pointer: str) -> None:
+BYTES_PER_BRIEF_POINT = 96.0
+"""The same where ledgers and grounds of verdicts are not kept."""
+
+
+def check_count(count: int, pointer: str, most: int = MOST_POINTS) -> None:
     """Refuse (LimitExceeded) more points than a study may have, before any is made."""
-    if count > MOST_POINTS:
+    if count > most:
         raise LimitExceeded.at(
             pointer,
-            f"These are {count:.6g} points; the limit of a study is {MOST_POINTS}. Ask for"
-            " fewer, or divide them among several jobs.",
+            f"These are {count:.7g} points; the limit is {most}. Ask for fewer, or divide them"
+            " among several jobs.",
         )
 
 
-def check_size(study: Study, run: float, place: str) -> None:
+def check_size(study: Study, run: float, place: str, most: float = MOST_PERIODS) -> None:
     """Refuse (LimitExceeded) what takes too long or too much space.
 
-    `run` : periods of the longest run of a point; `place` : JSON pointer to where the job says so.
+    `run` : periods of the longest run of a point; `place` : JSON pointer to where the job says so;
+    `most` : periods that all points may take together.
     """
     points, problems = study.points, []
     if not run <= LONGEST_RUN:
@@ -58,10 +67,10 @@ def check_size(study: Study, run: float, place: str) -> None:
             f"A point runs for up to {run:.7g} periods; the limit is {LONGEST_RUN:g}. Ask for"
             " fewer."
         )
-    elif run * points > MOST_PERIODS:
+    elif run * points > most:
         problems.append(
             f"{points} points of up to {run:.3g} periods are {run * points:.3g} periods; the"
-            f" limit of a study is {MOST_PERIODS:g}. Ask for fewer points or periods."
+            f" limit is {most:g}. Ask for fewer points or periods."
         )
     if study.stored_bytes > MOST_BYTES:
         problems.append(

@@ -1,11 +1,12 @@
 """The points of a study as they are written: which parameters, which values, where they stand."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from jointplay.records.arrays import Floats, Integers
+from jointplay.records.coarse_to_fine import coarse_to_fine
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Parameter, Scene
@@ -45,7 +46,7 @@ class Points:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape in which results are kept, the first axis varying slowest."""
+        """Shape in which results are kept; of a map the numbers of values along y and x."""
         return self.grid or (self.count,)
 
     @property
@@ -99,11 +100,16 @@ def product(axes: Sequence[Axis], place: str) -> Points:
 
 
 def plane(y: Axis, x: Axis, place: str) -> Points:
-    """Return the points of a map over two axes, row by row; two of one parameter are refused."""
+    """Return the points of a map over two axes, coarse to fine.
+
+    InvalidInput: both axes are of one parameter.
+    """
     if y.parameter == x.parameter:
         sentence = f"Both axes are '{x.parameter}'; let another parameter vary along this one."
         raise InvalidInput.at(y.name_place, sentence)
-    return replace(product((y, x), place), grid=(len(y.values), len(x.values)))
+    shape = len(y.values), len(x.values)
+    written = np.stack(np.divmod(coarse_to_fine(shape), shape[1]), axis=1)
+    return Points((y, x), written, lambda _point: place, grid=shape)
 
 
 def check_parameters(points: Points, scene: Scene) -> None:

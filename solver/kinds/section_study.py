@@ -70,23 +70,14 @@ IndicatorChoice = Annotated[
 ]
 
 
-class SectionStudyJob(Job):
-    """A study of Poincare sections: after settling, `record` sections of each point are kept."""
+class SectionsJob(Job):
+    """A study that takes `record` sections of each point after settling."""
 
     settle: Settle = 100
     record: Annotated[
-        int, quantity("periods", ge=1, le=10**12, description="sections kept per point")
+        int, quantity("periods", ge=1, le=10**12, description="sections taken per point")
     ] = 50
     section: Section = CrankSection()
-    observables: Annotated[
-        ChannelChoice | None,
-        Field(
-            description=(
-                "channels kept at sections, names or globs; default: the generalised coordinates"
-                " and the eccentricities, with their rates"
-            )
-        ),
-    ] = None
     indicators: IndicatorChoice = []
 
     @property
@@ -98,8 +89,26 @@ class SectionStudyJob(Job):
     @property
     def named_channels(self) -> list[str]:
         """See `MechanismJob.named_channels`."""
-        section = [self.section.channel] if isinstance(self.section, ChannelSection) else []
-        return [*(self.observables or []), *section]
+        return [self.section.channel] if isinstance(self.section, ChannelSection) else []
+
+
+class SectionStudyJob(SectionsJob):
+    """A study whose sections are kept."""
+
+    observables: Annotated[
+        ChannelChoice | None,
+        Field(
+            description=(
+                "channels kept at sections, names or globs; default: the generalised coordinates"
+                " and the eccentricities, with their rates"
+            )
+        ),
+    ] = None
+
+    @property
+    def named_channels(self) -> list[str]:
+        """See `MechanismJob.named_channels`."""
+        return [*(self.observables or []), *super().named_channels]
 
 
 J = TypeVar("J", bound=SectionStudyJob)
@@ -137,7 +146,7 @@ class SectionStudy(Kind[J]):
             indicators=list(indicators),
         )
         study = self._study(job, filled, checked, units)
-        settle, recording = _most_periods(job)
+        settle, recording = most_periods(job)
         place = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
         check_size(study, settle + recording, place)
         return study
@@ -148,33 +157,39 @@ class SectionStudy(Kind[J]):
         return self._study(job, filled, placed, periods(placed.scenes))
 
     def _study(self, job: J, filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
-        settle, recording = _most_periods(job)
-        offset = np.zeros(placed.points.count)
-        if isinstance(job.section, CrankSection):
-            offset = crank_offsets(units, job.section.crank_angle)
-        unit = units.seconds
+        kept = Kept(
+            observables=placed.channels(filled["observables"]),
+            record=job.record,
+            indicators=tuple(filled["indicators"]),
+        )
         return make_study(
             filled,
             placed,
-            Spans(unit, settle * unit, (settle + recording) * unit + offset, offset),
-            Kept(
-                observables=placed.channels(filled["observables"]),
-                record=job.record,
-                indicators=tuple(filled["indicators"]),
-            ),
+            section_spans(job, units),
+            kept,
             self.continuation(job),
             self.perturbation(job),
         )
 
 
-def _most_periods(job: SectionStudyJob) -> tuple[int, int]:
+def section_spans(job: SectionsJob, units: Periods) -> Spans:
+    """Return how long points run until they have settled and their sections are taken."""
+    settle, recording = most_periods(job)
+    offset = np.zeros(len(units.seconds))
+    if isinstance(job.section, CrankSection):
+        offset = crank_offsets(units, job.section.crank_angle)
+    unit = units.seconds
+    return Spans(unit, settle * unit, (settle + recording) * unit + offset, offset)
+
+
+def most_periods(job: SectionsJob) -> tuple[int, int]:
     """Return the most periods that settling takes, and recording after it."""
     settle = LONGEST_SETTLING if job.settle == "auto" else job.settle
     turning = isinstance(job.section, CrankSection)
     return settle, job.record if turning else EVENT_PATIENCE * job.record
 
 
-def indicators_of(job: SectionStudyJob) -> tuple[str, ...]:
+def indicators_of(job: SectionsJob) -> tuple[str, ...]:
     """Return the indicators that a job asks for, in their own order."""
     return tuple(
         name

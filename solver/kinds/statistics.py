@@ -3,19 +3,58 @@
 from collections.abc import Collection, Iterator, Sequence
 from typing import Annotated
 
+from pydantic import Field
+
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.kinds.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATISTICS
 from jointplay.solver.quantities.roster import NameIn
+from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.statistics import OF_CONTACTS, STATISTICS
+from jointplay.solver.scene.pairs import has_play, pairs_of
+from jointplay.solver.statistics import OF_CONTACTS, STATISTICS, Output, outputs_of
 
 StatisticName = Annotated[str, NameIn(STATISTICS)]
+StatisticChoice = Annotated[
+    list[StatisticName],
+    Field(
+        max_length=16,
+        description=(
+            "kept beside the peaks, over the time after settling; impacts (beginnings of"
+            " contact), largest_impact_force (N) and contact_share (0 to 1) are of each joint"
+            " with clearance, the others of each channel, in its unit"
+        ),
+        examples=[["mean", "root_mean_square"]],
+    ),
+]
+SamplesPerPeriod = Annotated[
+    int,
+    quantity(
+        "1",
+        ge=16,
+        le=4096,
+        description=(
+            "samples in a period that statistics of channels are made of; they are equally"
+            " spaced, of the dense output, in the scene's own time scale if the drivers have"
+            " no period"
+        ),
+    ),
+]
 
 
 def statistic_count(names: Sequence[str], channels: int, pairs: int) -> int:
     """Return how many numbers a point has of the statistics of channels and contact pairs."""
     of_contacts = sum(name in OF_CONTACTS for name in names)
     return (len(names) - of_contacts) * channels + of_contacts * pairs
+
+
+def statistic_outputs(study: Study) -> dict[str, Output]:
+    """Return unit and long name of the statistics of channels and contacts that a job chose."""
+    joints = study.point_scene(0).joints
+    sizes = (leaf.path for leaf in study.scenes.leaves if leaf.path.endswith("_clearance"))
+    varied = {path.split("/")[2] for path in sizes}
+    loose = [name for name, joint in joints.items() if has_play(joint) or name in varied]
+    pairs = tuple(pair.name for name in loose for pair in pairs_of(name, joints[name]))
+    return outputs_of(study.statistics, study.channels, pairs)
 
 
 def check_statistics(names: Sequence[str], pairs: Collection[str], channels: int) -> None:

@@ -11,7 +11,7 @@ from jointplay.records.arrays import Floats, Integers
 from jointplay.records.channel import Channel
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.job import MechanismJob
-from jointplay.solver.kinds.limits import BYTES_PER_POINT, BYTES_PER_VALUE
+from jointplay.solver.kinds.limits import BYTES_PER_BRIEF_POINT, BYTES_PER_POINT, BYTES_PER_VALUE
 from jointplay.solver.kinds.mechanism import Echo, written
 from jointplay.solver.kinds.points import Points
 from jointplay.solver.runs.starts import Perturbation
@@ -93,6 +93,7 @@ class Kept:
     statistics: int = 0
     """Numbers beside sections and extremes."""
     indicators: tuple[str, ...] = ()
+    brief: bool = False
 
 
 def make_study(
@@ -110,14 +111,19 @@ def make_study(
     direction, segments = continuation
     points = placed.points
     chains = chains_of(points.count, direction, segments)
-    total = sum(len(chain) for chain in chains)
-    chain_of = np.empty(total, np.int64)
-    for index, chain in enumerate(chains):
-        chain_of[list(chain)] = index
+    total = len(chains)
+    chain_of = np.arange(total)
+    if direction != "none":
+        total = sum(len(chain) for chain in chains)
+        chain_of = np.empty(total, np.int64)
+        for index, chain in enumerate(chains):
+            chain_of[list(chain)] = index
     row = np.arange(total) % points.count  # the values once more for the other direction
     offset = np.zeros(points.count) if spans.offset is None else spans.offset
     declared = placed.declared.parameters
-    numbers = kept.record * (len(kept.observables) + 1) + 4 * len(kept.channels) + kept.statistics
+    sections = kept.record * (len(kept.observables) + 1) if kept.observables else 0
+    own = BYTES_PER_BRIEF_POINT if kept.brief else BYTES_PER_POINT
+    numbers = sections + 4 * len(kept.channels) + kept.statistics
     return Study(
         kind=filled["kind"],
         job=filled,
@@ -128,6 +134,7 @@ def make_study(
         record=kept.record,
         channels=kept.channels,
         indicators=kept.indicators,
+        brief=kept.brief,
         perturbation=perturbation,
         blocks=(
             independent_blocks(total)
@@ -142,6 +149,6 @@ def make_study(
         offset=offset[row],
         settle=spans.settle[row],
         duration=spans.duration[row],
-        stored_bytes=int(total * (BYTES_PER_VALUE * numbers + BYTES_PER_POINT)),
+        stored_bytes=int(total * (BYTES_PER_VALUE * numbers + own)),
         scenes=placed.scenes.at_rows(row),
     )

@@ -4,8 +4,10 @@ import math
 from collections.abc import Iterator
 from typing import Any, Final, NamedTuple
 
+import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Integers
 from jointplay.storage.studies.layout import StudyLayout
 
 CHUNK_VALUES: Final = 16_384
@@ -18,8 +20,10 @@ class Band(NamedTuple):
     """One row of chunks: its place along the first axis, and the points in it."""
 
     row: int
-    first: int
-    stop: int
+    points: tuple[slice, ...]
+    """Runs of consecutive points: one along one axis, of a map one of each level."""
+    places: Integers
+    """Place of each of these points in the band, row by row."""
 
 
 def chunk_shape(layout: StudyLayout, width: int = 1) -> list[int]:
@@ -34,10 +38,18 @@ def chunk_shape(layout: StudyLayout, width: int = 1) -> list[int]:
 def bands(layout: StudyLayout, width: int = 1) -> Iterator[Band]:
     """Yield the rows of chunks, in order."""
     height, *_ = chunk_shape(layout, width)
-    whole, *others = layout.shape
-    across = math.prod(others)
+    if len(layout.shape) == 1:
+        for row, begin in enumerate(range(0, layout.points, height)):
+            count = min(height, layout.points - begin)
+            yield Band(row, (slice(begin, begin + count),), np.arange(count))
+        return
+    whole, across = layout.shape
     for row, begin in enumerate(range(0, whole, height)):
-        yield Band(row, begin * across, min(begin + height, whole) * across)
+        places = layout.order - begin * across
+        members = np.flatnonzero((places >= 0) & (places < height * across))
+        runs = np.split(members, np.flatnonzero(np.diff(members) > 1) + 1)
+        points = tuple(slice(int(run[0]), int(run[-1]) + 1) for run in runs)
+        yield Band(row, points, places[members])
 
 
 def chunks(
@@ -45,13 +57,15 @@ def chunks(
 ) -> Iterator[tuple[str, NDArray[Any]]]:
     """Yield the place, such as ``3`` or ``3/0``, and the numbers of each chunk of a band.
 
-    `numbers` : (points of the band, ...).
+    `numbers` : (points of the band, ...), in the order of the points.
     """
     if len(layout.shape) == 1:
         yield str(band.row), numbers
         return
     _, across = layout.shape
     _, step = chunk_shape(layout, width)
-    table = numbers.reshape(-1, across, *numbers.shape[1:])
+    table = np.empty_like(numbers)
+    table[band.places] = numbers
+    table = table.reshape(-1, across, *numbers.shape[1:])
     for column, begin in enumerate(range(0, across, step)):
         yield f"{band.row}/{column}", table[:, begin : begin + step]

@@ -11,7 +11,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Integers
 from jointplay.records.channel import TIME, Channel
+from jointplay.records.coarse_to_fine import coarse_to_fine, over_axes
 from jointplay.storage.errors import InvalidLayout
 from jointplay.storage.results.layout import check_attributes, check_names
 
@@ -104,7 +106,8 @@ class StudyLayout:
             len(self.shape) == len(self.parameters) == 2 and math.prod(self.shape) == self.points
         ):
             return False
-        found = on_map(*(column for _, column in self.coordinates.values()))
+        y, x = (column for _, column in self.coordinates.values())
+        found = on_map(y, x, self.order)
         return np.array_equal(found, self.values, equal_nan=True)
 
     @property
@@ -118,11 +121,16 @@ class StudyLayout:
         return ["point"] if len(self.shape) == 1 else ["y", "x"]
 
     @cached_property
+    def order(self) -> Integers:
+        """(points,) place of each point of a map in arrays over (y, x), row by row."""
+        return coarse_to_fine(self.shape)
+
+    @cached_property
     def coordinates(self) -> dict[str, tuple[Channel, NDArray[np.float64]]]:
         """The parameter along each axis of a map, with its values; none on one axis."""
         if len(self.shape) == 1:
             return {}
-        table = self.values.reshape(*self.shape, 2)
+        table = over_axes(self.values, self.order, self.shape)
         along_y, along_x = self.parameters
         return {"y": (along_y, table[:, 0, 0]), "x": (along_x, table[0, :, 1])}
 
@@ -161,6 +169,7 @@ class StudyLayout:
         return sha256(json.dumps(shape).encode()).hexdigest()
 
 
-def on_map(y: NDArray[np.float64], x: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return (points, 2) the values at each point of a map, row by row."""
-    return np.column_stack([np.repeat(y, len(x)), np.tile(x, len(y))])
+def on_map(y: NDArray[np.float64], x: NDArray[np.float64], order: Integers) -> NDArray[np.float64]:
+    """Return (points, 2) the values of y and x at each point of a map; see `StudyLayout.order`."""
+    rows, columns = np.divmod(order, len(x))
+    return np.column_stack([y[rows], x[columns]])

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
+from jointplay.records.coarse_to_fine import over_axes
 from jointplay.records.names import TIME
 from jointplay.storage.results import shards
 from jointplay.storage.results.metadata import FILE, serialise
@@ -89,9 +90,8 @@ class LiveStudy:
             return self._layout.coordinates[axis][1][rows]
         if not self._layout.coordinates or path.startswith("sections/"):
             return self._points(path, rows)
-        across = self._layout.shape[1]
-        found = self._points(path, slice(rows.start * across, rows.stop * across))
-        return found.reshape(-1, *shape[1:])
+        points = self._points(path, slice(0, self._layout.points))
+        return over_axes(points, self._layout.order, self._layout.shape)[rows]
 
     def _points(self, path: str, points: slice) -> NDArray[Any]:
         """Values of an array at a range of points."""

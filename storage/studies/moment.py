@@ -9,8 +9,10 @@ from typing import Any
 
 import numpy as np
 import zarr
+from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
+from jointplay.records.coarse_to_fine import coarse_to_fine
 from jointplay.records.point import Failure
 from jointplay.records.run import Floats
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore, LostObject, NotAStore
@@ -76,7 +78,7 @@ class StudyMoment(StoreReader):
         """(points, parameters), in the units of the parameters."""
         if len(self.shape) == 2:
             y, x = (np.asarray(self._array(axis)[:], np.float64) for axis in ("y", "x"))
-            return on_map(y, x)
+            return on_map(y, x, coarse_to_fine(self.shape))
         columns = [self._array(f"values/{spec.name}")[:] for spec in self.parameters]
         return np.asarray(columns, dtype=np.float64).reshape(len(columns), self.points).T
 
@@ -172,20 +174,25 @@ class StudyMoment(StoreReader):
             return together(parts.get, self.blocks, len(self.channels), 0, self.points)
         groups = [(group, self._root.get(group)) for group in (STATISTICS, INDICATORS)]
         return Points(
-            np.asarray(self._array("status")[:], np.uint8).ravel(),
-            np.asarray(self._array("count")[:], np.int32).ravel(),
+            self._by_point(self._array("status"), np.uint8),
+            self._by_point(self._array("count"), np.int32),
             np.empty((0, 0, 4)),
             self._failures(),
             self._reasons(),
             self._documents(),
             {
-                f"{group}/{name}": np.asarray(array[:], np.float64).ravel()
+                f"{group}/{name}": self._by_point(array, np.float64)
                 for group, members in groups
                 if isinstance(members, zarr.Group)
                 for name, array in members.arrays()
                 if name not in self.coordinates
             },
         )
+
+    def _by_point(self, array: Any, dtype: type[np.generic]) -> NDArray[Any]:
+        """Return an array with a number a point, (points,), in the order of the points."""
+        values = np.asarray(array[:], dtype).ravel()
+        return values if len(self.shape) == 1 else values[self.layout.order]
 
     def _failures(self) -> dict[int, Failure]:
         try:

@@ -90,12 +90,8 @@ class StudyReader(StudyMoment):
         known = self.known
         if not self.sealed:
             return PeakColumns(*known.peaks[:, column, :].T)
-        return PeakColumns(
-            *(
-                np.asarray(self._array(f"peaks/{name}")[..., column], np.float64).ravel()
-                for name in PeakColumns._fields
-            )
-        )
+        arrays = (self._array(f"peaks/{name}")[..., column] for name in PeakColumns._fields)
+        return PeakColumns(*(self._by_point(values, np.float64) for values in arrays))
 
     def section_times(self, start: int = 0, stop: int | None = None) -> Floats:
         """Give (stop - start, record) times [s] of the sections of points, NaN-filled."""

@@ -205,18 +205,22 @@ def _columns(
     """Every chunk of the arrays with one number, or one of each channel, a point."""
     width = len(layout.channels)
 
-    def window(band: Band) -> Points:
-        return together(part_of, layout.blocks, width, band.first, band.stop)
+    def numbers(band: Band) -> dict[str, NDArray[Any]]:
+        runs = [window(run).scalars(run.start, names, codes) for run in band.points]
+        return {name: np.concatenate([run[name] for run in runs]) for name in runs[0]}
+
+    def window(run: slice) -> Points:
+        return together(part_of, layout.blocks, width, run.start, run.stop)
 
     shape = chunk_shape(layout)
     for band in bands(layout):
-        for name, column in window(band).scalars(band.first, names, codes).items():
+        for name, column in numbers(band).items():
             for place, chunk in chunks(layout, band, column):
                 yield f"{name}/c/{place}", _encoded(chunk, shape)
     if width:
         shape = [*chunk_shape(layout, width), width]
         for band in bands(layout, width):
-            peaks = window(band).peaks
+            peaks = np.concatenate([window(run).peaks for run in band.points])
             for position, name in enumerate(PEAK):
                 for place, chunk in chunks(layout, band, peaks[:, :, position], width):
                     yield f"peaks/{name}/c/{place}/0", _encoded(chunk, shape)
@@ -255,7 +259,7 @@ def _values(layout: StudyLayout, names: Sequence[str] = ()) -> Iterator[tuple[st
             yield f"{place}{axis}/c/0", _encoded(values.astype("<f8"), [len(values)])
     for position, spec in enumerate(() if layout.coordinates else layout.parameters):
         for band in bands(layout):
-            column = layout.values[band.first : band.stop, position].astype("<f8")
+            column = layout.values[band.points[0], position].astype("<f8")
             yield f"values/{spec.name}/c/{band.row}", _encoded(column, chunk_shape(layout))
 
 

@@ -25,7 +25,7 @@ class Relief(ExtremesStudy[ReliefJob]):
     document: ClassVar = ReliefJob
 
     def points(self, job: ReliefJob) -> Points:
-        """Return the map, row by row."""
+        """Return the map, coarse to fine."""
         return points_of_map(job)
 
 

@@ -16,6 +16,7 @@ import xarray
 
 from jointplay.client import Refused
 from jointplay.local import run
+from jointplay.records.coarse_to_fine import coarse_to_fine, over_axes
 from jointplay.solver.kinds import KINDS, Study, admit, parse
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, Progress
@@ -44,6 +45,8 @@ RELIEF: dict[str, Any] = {
 }
 MANY = {"from": 1e-4, "to": 2e-4, "count": 10**6}
 MEAN = "A.normal_force.mean"
+ORDER = coarse_to_fine((3, 4))
+"""Place of each point in the map, row by row."""
 
 
 @pytest.fixture(autouse=True)
@@ -73,7 +76,7 @@ def test_a_map_is_computed_block_by_block_and_read_while_it_grows(
     for block, (first, count) in zip(platform.catalogue.blocks(job.id), blocks, strict=False):
         platform.compute(block.id)
         known = first + count
-        there = (np.arange(12) < known).reshape(3, 4)
+        there = over_axes(np.arange(12) < known, ORDER, (3, 4))
         mean = statistics()[MEAN]
         assert mean.dims == ("y", "x")
         assert np.array_equal(mean, np.where(there, heights, np.nan), equal_nan=True)
@@ -88,7 +91,9 @@ def test_a_map_is_computed_block_by_block_and_read_while_it_grows(
         ]
         assert points["axes"][0]["values"] == FRICTIONS
         assert points["status"] == ["done"] * known + ["waiting"] * (12 - known)
-        assert points["statistics"][MEAN]["values"][:known] == heights.ravel()[:known].tolist()
+        assert (
+            points["statistics"][MEAN]["values"][:known] == heights.ravel()[ORDER[:known]].tolist()
+        )
     assert platform.finished(job).state == "succeeded"
     assert http.get(f"/v1/jobs/{job.id}/points").json() == points | {"complete": True}
     peaks = xarray.open_zarr(address, group="peaks")["maximum"]
@@ -99,8 +104,8 @@ def test_a_map_is_computed_block_by_block_and_read_while_it_grows(
 def job_of_clients(job: Any, heights: np.ndarray[Any, Any]) -> None:
     """Look at a job as the client has it, of a service or here and now."""
     assert job.study().shape == (3, 4)
-    assert job.points[MEAN].tolist() == heights.ravel().tolist()
-    assert job.points["friction"].tolist() == np.repeat(FRICTIONS, 4).tolist()
+    assert job.points[MEAN].tolist() == heights.ravel()[ORDER].tolist()
+    assert job.points["friction"].tolist() == np.repeat(FRICTIONS, 4)[ORDER].tolist()
     assert job.dataset[MEAN].transpose("friction", "clearance").values.tolist() == heights.tolist()
     assert len(job.peaks) == 12
     assert job.figures == ["sweep"]
@@ -185,7 +190,7 @@ def test_the_command_line_and_the_client_are_made_of_its_document(
 
     shown = " ".join(program("run", "--help").replace("│", " ").split())
     assert "--relief NAME=FROM:TO:COUNT Peaks and statistics over two parameters" in shown
-    assert "--by NAME=FROM:TO:COUNT Of a relief: what varies along y" in shown
+    assert "--by NAME=FROM:TO:COUNT Of a study: what varies along y" in shown
     out = tmp_path / "OUT"
     options = "--set speed=100 --relief clearance=2e-4:5e-4:4 --by friction=0,0.05,0.1 --periods 1"
     options += " --channels A.normal_force --statistics mean --tolerance 1e-5 --processes 1"
@@ -194,7 +199,7 @@ def test_the_command_line_and_the_client_are_made_of_its_document(
     program("export", str(out), "--table", "points", "-o", str(table))
     header, *rows = [row for row in table.read_text().splitlines() if not row.startswith("#")]
     column = header.split(",").index(f"{MEAN} [N]")
-    assert [float(row.split(",")[column]) for row in rows] == heights.ravel().tolist()
+    assert [float(row.split(",")[column]) for row in rows] == heights.ravel()[ORDER].tolist()
     made = subprocess.run(
         [sys.executable, "-c", CLIENT], cwd=ROOT, capture_output=True, text=True, check=True
     )

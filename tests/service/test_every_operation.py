@@ -25,7 +25,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
-from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker
+from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION, CHART, SWEEP, Worker
 
 CHECKS = (
     not_a_server_error,
@@ -54,6 +54,7 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Known
             worker.finished_study(**BIFURCATION),
             worker.finished_study(**SWEEP),
             worker.finished_study(**ACCURACY_STUDY),
+            worker.finished_study(**CHART),
         )
         failed = worker.start(worker.submit())
         worker.finish(failed, BlockState.failed, JobError("solver", "x", "X."))
@@ -75,6 +76,10 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Known
                 "invalid-job",
             ),
             "form": ("png", "svg"),
+            "quantity": ("motion", "steps"),
+            "z": ("0", "1"),
+            "x": ("0", "1"),
+            "y": ("0",),
         }
         spare = worker.finished(), worker.submit()
         yield url, {**names, "job_id": kept}, {**names, "job_id": spare}

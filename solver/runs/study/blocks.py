@@ -3,16 +3,21 @@
 Nothing here depends on the workers: the same study always has the same chains and blocks.
 """
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import accumulate, pairwise
+from typing import overload
 
 from jointplay.solver.kernels.layout import BUNDLE
 
 MOST_POINTS = 64
-"""Points of a block without continuation: eight bundles."""
+"""Points of a block without continuation, eight bundles, as long as that makes few blocks."""
+MOST_BLOCKS = 2048
+"""Blocks without continuation: of more points each has more than 64."""
 BLOCKS = 8
 """That a study is cut into while its blocks are smaller than that."""
 
-Chains = tuple[tuple[int, ...], ...]
+Chains = Sequence[Sequence[int]]
 Blocks = tuple[tuple[int, int], ...]
 
 
@@ -22,7 +27,7 @@ def independent_blocks(points: int) -> Blocks:
     The longer ones come first, so that workers finish at about the same time.
     """
     bundles = -(-points // BUNDLE)
-    count = min(bundles, max(BLOCKS, -(-bundles * BUNDLE // MOST_POINTS)))
+    count = min(bundles, max(BLOCKS, -(-bundles * BUNDLE // MOST_POINTS)), MOST_BLOCKS)
     ends = [BUNDLE * part.stop for part in segments(bundles, count)]
     return tuple((first, min(end, points) - first) for first, end in pairwise([0, *ends]))
 
@@ -35,6 +40,25 @@ def segments(values: int, count: int) -> list[range]:
     return [range(first, last) for first, last in pairwise(ends)]
 
 
+@dataclass(frozen=True)
+class Alone(Sequence[Sequence[int]]):
+    """Chains of points of which each is its own; a million of them take no memory."""
+
+    points: int
+
+    def __len__(self) -> int:
+        return self.points
+
+    @overload
+    def __getitem__(self, index: int) -> Sequence[int]: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Sequence[int]]: ...
+    def __getitem__(self, index: int | slice) -> Sequence[int] | Sequence[Sequence[int]]:
+        """Return a chain, or several."""
+        points = range(self.points)[index]
+        return [(point,) for point in points] if isinstance(points, range) else (points,)
+
+
 def chains_of(values: int, continuation: str, count: int) -> Chains:
     """Return the points of each chain in the order of computing.
 
@@ -42,7 +66,7 @@ def chains_of(values: int, continuation: str, count: int) -> Chains:
     backward ones follow all forward ones, again in the order of the values.
     """
     if continuation == "none":
-        return tuple((point,) for point in range(values))
+        return Alone(values)
     found: list[tuple[int, ...]] = []
     if continuation in ("forward", "both"):
         found += [tuple(segment) for segment in segments(values, count)]

@@ -49,6 +49,8 @@ def judged(study: Study, bundle: Bundle, run: PointRun) -> PointEnd:
     found, verdict = indicators_of(
         study.indicators, states, scales, angles, *growths, period, run.settled
     )
+    if study.brief:
+        return replace(run.ended, indicators=found)
     sections, periods = len(states[:MOST_SECTIONS]), len(growths[0])
     remarks = limits(study.point_scene(run.point), found, sections, periods)
     reason = "; ".join(filter(None, [verdict.reason, run.lasting, *remarks]))

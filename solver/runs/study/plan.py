@@ -7,6 +7,7 @@ from jointplay.records.arrays import Floats, Integers
 from jointplay.records.channel import Channel
 from jointplay.solver.integrators import method_for
 from jointplay.solver.runs.starts import Perturbation
+from jointplay.solver.runs.study.blocks import Chains
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene
 
@@ -29,20 +30,23 @@ class Study:
     observables: tuple[Channel, ...]
     """Columns of the sections; none in a sweep."""
     record: int
-    """Sections recorded per point; 0 in a sweep."""
+    """Sections recorded per point; 0 in a sweep. Without observables they are not kept."""
     channels: tuple[Channel, ...]
     """Channels whose peaks are kept per point; may be none."""
     indicators: tuple[str, ...]
+    brief: bool
+    """Only steps, onsets and what the job chose are kept of a point's statistics, and no grounds of
+    its verdict."""
     perturbation: Perturbation | None
     """Perturbation of starts of points that differ in nothing else; none: the start rule."""
     blocks: tuple[tuple[int, int], ...]
-    """(first, count) of contiguous points. Without continuation whole bundles, 64 points at most,
-    the last one shorter; with it up to eight whole chains of one direction, of any length."""
+    """(first, count) of contiguous points. Without continuation whole bundles, the last one
+    shorter; with it up to eight whole chains of one direction, of any length."""
     shape: tuple[int, ...]
     """Lengths of the axes over which results are kept: of one, all points; of two, y and x."""
     chain_of: Integers
     """(points,) index of each point's chain; a point without continuation is its own chain."""
-    chain_order: tuple[tuple[int, ...], ...]
+    chain_order: Chains
     """Points of each chain in the order of computing."""
     structure: Integers
     """(points,) points with the same number have the same kernel; numbered by first appearance."""

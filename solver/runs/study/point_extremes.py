@@ -25,7 +25,7 @@ STATE = (f"{_NAME}/record", f"{_NAME}/book")
 
 def lanes_that_keep_steps(study: Study) -> int:
     """Return how many lanes of a bundle hand out their steps: all where points settle."""
-    wanted = study.record == 0 and bool(study.channels) and bool(np.any(study.settle > 0.0))
+    wanted = bool(study.channels) and bool(np.any(study.settle > 0.0))
     return BUNDLE if wanted else 0
 
 
@@ -58,7 +58,7 @@ class PointExtremes:
 
     def _settles(self, run: PointRun) -> bool:
         study = self._study
-        return study.record == 0 and bool(self._names) and bool(study.settle[run.point] > 0.0)
+        return bool(self._names) and bool(study.settle[run.point] > 0.0)
 
     def _of_point(self, run: PointRun) -> SettledPeaks:
         """Return what seeks the extremes of a point, from where it was taken up."""

@@ -15,6 +15,7 @@ from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun, begin_tallies, window_of
+from jointplay.solver.statistics import OF_CHANNELS
 
 ENDLESS = 2**62
 """More sections than any run takes."""
@@ -33,22 +34,16 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
         run.reached = 0
         run.settled = 0
         duration = float(study.duration[point])
-        step, samples, first = duration, 0, 0
-        if study.statistics:
-            begin_tallies(study, run, len(kernel.pairs))
-            window = window_of(study, point)
-            step, first = window.step, window.first
-            samples = first + window.grid.samples + 1  # the last one is taken at the end
+        sampled = _sampled(study, kernel, run, duration)
         return LaneProblem(
             scene,
             duration,
             study.tolerance,
-            step,
-            samples,
+            *sampled[:2],
             0,
             0.0,
             start=start,
-            first_sample=first,
+            first_sample=sampled[2],
         )
     event = _event(study, kernel, point)
     waits = study.job["settle"] == "auto"
@@ -61,18 +56,34 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
         sections = first + study.record
     if event is not None:
         first, sections = 0, ENDLESS if waits else study.record
+    step, samples, first_sample = _sampled(study, kernel, run, duration)
     return LaneProblem(
         scene,
         duration,
         study.tolerance,
-        duration,
-        0,
+        step,
+        samples,
         sections,
         float(study.offset[point]),
         first,
         event,
         start,
+        first_sample=first_sample,
     )
+
+
+def _sampled(
+    study: Study, kernel: Kernel, run: PointRun, duration: float
+) -> tuple[float, int, int]:
+    """Return step, number and first of the samples that statistics need; begin their tallies."""
+    if not study.statistics:
+        return duration, 0, 0
+    begin_tallies(study, run, len(kernel.pairs))
+    if OF_CHANNELS.keys().isdisjoint(study.statistics):
+        return duration, 0, 0
+    window = window_of(study, run.point)
+    samples = window.first + window.grid.samples + 1  # the last one is taken at the end
+    return window.step, samples, window.first
 
 
 def scales_of(study: Study, kernel: Kernel, point: int) -> tuple[Floats, Flags]:

@@ -20,6 +20,10 @@ from jointplay.solver.runs.study.point_run import (
     take_samples,
 )
 
+BRIEF = ("steps", "onsets")
+OF_SETTLING = ("settled_periods", "settling")
+"""Statistics that a brief study keeps, the latter where settling is waited for."""
+
 
 class Recording:
     """Takes what the lanes of a bundle hand out of the points of a study."""
@@ -69,14 +73,16 @@ class Recording:
         rows = bundle.rows(SECTIONS, lane)
         if not len(rows):
             return []
-        times = bundle.kernel.row.times(rows, float(self._study.period[run.point]))
         if run.settled < 0 or (self._study.indicators and run.taken < MOST_SECTIONS):
             run.seen.append(bundle.kernel.row.states(rows).copy())
         if run.settled < 0:
             return []
-        values = bundle.observe(lane, rows, self._observed)
         first = run.taken
         run.taken += len(rows)
+        if not len(self._observed):
+            return []  # sections are looked at, and not kept
+        times = bundle.kernel.row.times(rows, float(self._study.period[run.point]))
+        values = bundle.observe(lane, rows, self._observed)
         return [SectionRows(run.point, first, times, values)]
 
     def _tally(self, lane: int, run: PointRun) -> None:
@@ -101,6 +107,9 @@ class Recording:
             "settling": run.settling.result.code if run.settling and run.settling.result else 0,
             "from_neighbour": float(run.start is not None),
         }
+        if self._study.brief:
+            kept = BRIEF if self._study.job["settle"] != "auto" else (*BRIEF, *OF_SETTLING)
+            found = {name: found[name] for name in kept}
         if run.tallies and whole:
             found |= statistics_in(self._study, run, self._bundle.kernel.pairs)
         return {name: float(value) for name, value in found.items()}

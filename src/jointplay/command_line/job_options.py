@@ -162,8 +162,9 @@ def _one(option: str, texts: list[str]) -> tuple[str, object]:
     if len(texts) > 1:
         sweep = " ".join(f"--sweep {text}" for text in texts)
         raise Stopped(
-            f"{option} is given twice: a diagram is over one parameter. Keep one, or ask for"
-            f" extremes over all of them: {sweep}"
+            f"{option} is given twice: it is over one parameter. Keep one, ask for a map of the"
+            f" motion over two of them: --chart {texts[0]} --by {texts[1]}, or for extremes over"
+            f" all of them: {sweep}"
         )
     return _values(option, texts[0])
 

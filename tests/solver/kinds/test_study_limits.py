@@ -36,7 +36,7 @@ TOO_LARGE: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         "/grid",
         "1e+18 points",
     ),
-    "members": (ENSEMBLE, {"members": 10**9}, "/members", "the limit of a study is 100000"),
+    "members": (ENSEMBLE, {"members": 10**9}, "/members", "the limit is 100000"),
     "periods of a point": (POINCARE, {"settle": 10**7}, "/settle", "1.000005e+07 periods"),
     "sections of a point": (POINCARE, {"record": 2 * 10**6}, "/record", "the limit is 1e+06"),
     "periods of all points": (

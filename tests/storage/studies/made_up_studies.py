@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from jointplay.records.channel import Channel
+from jointplay.records.coarse_to_fine import coarse_to_fine
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.layout import StudyLayout
@@ -31,10 +32,11 @@ def made_up_layout(points=20, record=7, blocks=None, observables=2, channels=3, 
 
 
 def made_up_map(rows, columns, **fields):
-    """Return the layout of points over two axes, the first of which falls."""
+    """Return the layout of points over two axes, coarse to fine; the first axis falls."""
     points = rows * columns
     y, x = np.geomspace(0.2, 0.1, rows), np.linspace(-3.0, 3.0, columns)
     values = np.column_stack([np.repeat(y, columns), np.tile(x, rows)])
+    values = values[coarse_to_fine((rows, columns))]
     (clearance,) = made_up_layout(points=points).parameters
     parameters = (Channel("friction", "1", "coefficient of friction"), clearance)
     plain = made_up_layout(points=points, **fields)

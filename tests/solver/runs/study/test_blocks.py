@@ -93,7 +93,7 @@ def test_a_chain_goes_from_neighbour_to_neighbour_in_its_direction() -> None:
 
 def test_without_continuation_every_point_is_its_own_chain() -> None:
     found = study(BIFURCATION)
-    assert found.chain_order == ((0,), (1,), (2,))
+    assert list(found.chain_order) == [(0,), (1,), (2,)]
     assert found.chain_of.tolist() == [0, 1, 2]
 
 

@@ -1,0 +1,147 @@
+"""Chart: the kind of motion, or a quantity, over two parameters."""
+
+import numpy as np
+
+from jointplay.figures import colours, page
+from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
+from jointplay.figures.parameter_axis import ParameterAxis
+from jointplay.figures.quantity import scale
+from jointplay.records.arrays import Floats
+from jointplay.records.channel import Channel
+from jointplay.records.motion import WAITING, Labels, colour_of, motions, name_of
+from jointplay.records.pyramid import averaged, in_majority
+from jointplay.records.study import StudySource
+
+MOTION = "motion"
+_HEIGHT = 70.0  # mm
+_MOST_NAMED = 12
+"""Labels in the legend: those of most points."""
+_MOST_CELLS = 1000
+"""Along each axis; more would not be seen."""
+UNITS = {"lyapunov": ("1/s", "largest Lyapunov exponent"), "period": ("1", "period in sections")}
+_SHARE = 2.0
+"""Per cent of the values beyond each end of the colours."""
+
+
+def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    if source.kind != "chart":
+        raise NotDrawable("A chart is drawn of a job of kind chart.")
+    offered = _offered(source)
+    names = at_most(1, selection.channels, "quantities")
+    if unknown := [name for name in names if name not in offered]:
+        sentence = f"There is no quantity {unknown[0]!r}; there are {', '.join(offered)}."
+        raise NotDrawable(sentence, "channels")
+    return names or (offered[0],)
+
+
+def _offered(source: StudySource) -> list[str]:
+    motion = [] if source.verdicts is None else [MOTION]
+    numbers = [name for name in (*source.indicators, *source.statistics) if name != "verdict"]
+    return [*motion, *numbers]
+
+
+def _draw(source: StudySource, selection: Selection) -> page.Figure:
+    (name,) = _chosen(source, selection)
+    up, across = (ParameterAxis(source, column, slice(0, source.points)) for column in (0, 1))
+    places = tuple(np.searchsorted(axis.values, axis.shown) for axis in (up, across))
+    shape = len(up.values), len(across.values)
+    stride = -(-max(shape) // _MOST_CELLS)
+    labels = _motions(source) if name == MOTION else np.zeros(0, np.uint8)
+    entries = _legend(labels)
+    height = _HEIGHT + page.AXIS_HEIGHT + page.legend_rows(entries) * page.LEGEND_HEIGHT
+    figure, ((axes,),) = page.panels(1, 1, height)
+    axes.set_facecolor(colours.UNKNOWN)
+    edges = _edges(across, stride), _edges(up, stride)
+    if name == MOTION:
+        table = np.full(shape, WAITING, np.uint8)
+        table[places] = labels
+        _draw_labels(axes, edges, in_majority(table, stride))
+    else:
+        values = np.full(shape, np.nan)
+        values[places] = {**source.statistics, **source.indicators}[name]
+        _draw_values(figure, axes, edges, averaged(values, stride), _described(source, name))
+    for axis, parameter in ((axes.xaxis, across), (axes.yaxis, up)):
+        parameter.ticks(axis, 5)
+    if across.logarithmic:
+        axes.set_xscale("log")
+    if up.logarithmic:
+        axes.set_yscale("log")
+    axes.tick_params(which="both", direction="out", top=False, right=False)
+    axes.set_xlabel(across.label)
+    axes.set_ylabel(up.label)
+    page.legend_of_marks(figure, entries)
+    return figure
+
+
+def _motions(source: StudySource) -> Labels:
+    period = source.indicators.get("period", np.full(source.points, np.nan))
+    verdict = source.indicators["verdict"]
+    return motions(source.status, verdict, period, source.verdict_names)
+
+
+def _legend(labels: Labels) -> dict[str, tuple[str, str]]:
+    """Return marker and colour of the labels that most points have."""
+    counts = np.bincount(labels, minlength=256)
+    counts[WAITING] = 0
+    often = np.argsort(-counts, kind="stable")[:_MOST_NAMED]
+    return {
+        name_of(int(code)): ("s", colour_of(int(code))) for code in sorted(often) if counts[code]
+    }
+
+
+def _edges(axis: ParameterAxis, stride: int) -> Floats:
+    """Return the edges of cells of several points."""
+    inner = axis.edges[:-1:stride]
+    return np.append(inner, axis.edges[-1])
+
+
+def _draw_labels(axes: page.Axes, edges: tuple[Floats, Floats], table: Labels) -> None:
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+
+    codes = np.unique(table)
+    codes = codes[codes != WAITING]
+    if not len(codes):
+        return
+    places = np.ma.masked_array(np.searchsorted(codes, table), mask=table == WAITING)
+    shades = ListedColormap([colour_of(int(code)) for code in codes])
+    norm = BoundaryNorm(np.arange(len(codes) + 1) - 0.5, len(codes))
+    axes.pcolormesh(*edges, places, cmap=shades, norm=norm, rasterized=True)
+
+
+def _draw_values(
+    figure: page.Figure,
+    axes: page.Axes,
+    edges: tuple[Floats, Floats],
+    table: Floats,
+    described: Channel,
+) -> None:
+    shown = scale(described.unit, table[np.isfinite(table)])
+    values = table / shown.factor
+    known = values[np.isfinite(values)]
+    low, high = np.percentile(known, (_SHARE, 100.0 - _SHARE)) if len(known) else (0.0, 1.0)
+    drawn = axes.pcolormesh(
+        *edges,
+        np.ma.masked_invalid(values),
+        cmap=colours.MAP,
+        vmin=low,
+        vmax=high,
+        rasterized=True,
+    )
+    bar = figure.colorbar(drawn, ax=axes, location="top", aspect=25.0, extend="both")
+    bar.ax.set_gid(page.WITHOUT_SCALE)
+    bar.set_label(shown.label(described.long_name))
+
+
+def _described(source: StudySource, name: str) -> Channel:
+    meanings = source.attributes.get("meanings", {})
+    unit, long_name = meanings.get(name) or UNITS.get(name, ("1", name.replace("_", " ")))
+    return Channel(name, unit, long_name)
+
+
+CHART = StudyFigure(
+    name="chart",
+    title="Chart: the kind of motion, or a quantity, over two parameters",
+    uses=("channels",),
+    channels=_chosen,
+    draw=_draw,
+)

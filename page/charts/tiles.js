@@ -1,0 +1,63 @@
+/** Tiles of a chart: asked for once, a few at a time, and kept while they are likely to be wanted. */
+
+import { getBytes, withQuery } from "../requests/service.js";
+
+const TOGETHER = 6; // requests on their way
+const KEPT = 300; // tiles, of 256 kB each
+
+export class Tiles {
+  /**
+   * @param path of the quantity's tiles
+   * @param query of all of them
+   * @param arrived called when a tile has come
+   */
+  constructor(path, query, signal, arrived) {
+    Object.assign(this, { path, query, signal, arrived, underWay: 0 });
+    this.known = new Map(); // pictures by name, the one that was used last at the end; null: on its way
+    this.wanted = [];
+    this.next = [];
+  }
+
+  /** Returns a tile's picture if it is there; else it is asked for. */
+  get(z, x, y) {
+    const name = `${z}/${x}/${y}`;
+    const picture = this.known.get(name);
+    if (picture === undefined) this.wanted.push(name);
+    if (!picture) return null;
+    this.known.delete(name);
+    this.known.set(name, picture);
+    return picture;
+  }
+
+  /** Returns how many tiles of those that were wanted last have not come. */
+  waiting() {
+    return this.underWay + this.next.length;
+  }
+
+  /** Sends for what was wanted since the last call, and for nothing that was wanted before. */
+  send() {
+    const [now, names] = [this.wanted, new Set()];
+    this.wanted = [];
+    for (const name of now) names.add(name);
+    this.next = [...names];
+    while (this.underWay < TOGETHER && this.next.length) this.fetch(this.next.shift());
+  }
+
+  async fetch(name) {
+    this.underWay += 1;
+    this.known.set(name, null);
+    try {
+      const bytes = await getBytes(withQuery(`${this.path}/${name}.png`, this.query), "image/png", this.signal);
+      this.known.set(name, await createImageBitmap(new Blob([bytes], { type: "image/png" })));
+      for (const old of this.known.keys()) {
+        if (this.known.size <= KEPT) break;
+        if (this.known.get(old)) this.known.delete(old);
+      }
+    } catch {
+      return; // it is not asked for again before the chart has grown
+    } finally {
+      this.underWay -= 1;
+    }
+    this.arrived();
+  }
+}

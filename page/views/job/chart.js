@@ -1,0 +1,112 @@
+/** A chart: the motion, or a quantity, over two parameters, while it is computed and after. */
+
+import { ChartMap } from "../../charts/map.js";
+import { Tiles } from "../../charts/tiles.js";
+import { element, fill } from "../../interface/element.js";
+import { short, unitText, withUnit } from "../../interface/numbers.js";
+import { note } from "../../interface/place.js";
+import { offer } from "../../interface/point_of_study.js";
+import { whenThere } from "../../interface/when_there.js";
+import { get } from "../../requests/service.js";
+
+export async function show(room, context) {
+  const chart = new Chart(context);
+  await whenThere(room, context, context.job.links.chart, {}, async (answer) => {
+    if (!chart.element.isConnected) fill(room, chart.element);
+    chart.take(answer);
+  });
+}
+
+class Chart {
+  constructor({ job, query, signal }) {
+    Object.assign(this, { job, signal, wanted: query.get("quantity") });
+    this.filters = element("div", { class: "filters" });
+    this.place = element("div");
+    this.legend = element("ul", { class: "legend" });
+    this.under = element("p", { class: "quiet small" });
+    this.chosen = element("div", { role: "status" });
+    this.element = element("section", { class: "panel" },
+      this.filters, this.place, this.legend, this.under, this.chosen);
+  }
+
+  /** Takes what the chart holds by now. */
+  take(answer) {
+    const grown = this.answer?.ended !== answer.ended;
+    this.answer = answer;
+    if (!this.map) {
+      this.map = new ChartMap(answer, this.signal, (point) => this.pick(point), (point) => this.hover(point));
+      fill(this.place, this.map.canvas);
+    }
+    const { quantities, ended, points } = answer;
+    if (!quantities.some(({ name }) => name === this.wanted)) this.wanted = quantities[0].name;
+    this.offerQuantities();
+    this.tell();
+    this.under.textContent = ended < points
+      ? `${short(ended, 7)} of ${short(points, 7)} points are computed; others show the nearest that is.`
+      : `${short(points, 7)} points. Drag to move, scroll to scale, double click for all of it.`;
+    if (grown) this.showTiles();
+  }
+
+  get quantity() {
+    return this.answer.quantities.find(({ name }) => name === this.wanted);
+  }
+
+  offerQuantities() {
+    const made = element("select", { id: "chart-quantity", onchange: () => {
+      this.wanted = made.value;
+      note({ quantity: this.wanted });
+      this.tell();
+      this.showTiles();
+    } }, this.answer.quantities.map(({ name, long_name: words }) =>
+      element("option", { value: name, selected: name === this.wanted }, words)));
+    fill(this.filters, element("div", { class: "field" }, element("label", { for: made.id }, "Shown"), made));
+  }
+
+  showTiles() {
+    const { name, low, high } = this.quantity;
+    const query = { ended: this.answer.ended, ...(low === null ? {} : { low, high }) };
+    const path = `${this.job.links.self}/tiles/${encodeURIComponent(name)}`;
+    this.tiles = new Tiles(path, query, this.signal, () => this.map.draw());
+    this.map.show(this.tiles);
+  }
+
+  /** Says what the colours mean. */
+  tell() {
+    const { labels, unit, low, high, shades } = this.quantity;
+    const mark = (colour) => {
+      const made = element("span", { class: "swatch" });
+      made.style.background = colour;
+      return made;
+    };
+    if (labels) {
+      fill(this.legend, labels.map(({ name, colour, points }) =>
+        element("li", {}, mark(colour), `${name} (${short(points, 7)})`)));
+      return;
+    }
+    fill(this.legend, low === null ? element("li", {}, "No value is known yet.") : [
+      element("li", {}, withUnit(low, unit, 3)),
+      ...shades.map((colour) => element("li", {}, mark(colour))),
+      element("li", {}, `${withUnit(high, unit, 3)} ${unit === "1" ? "" : `(${unitText(unit)})`}`),
+    ]);
+  }
+
+  values([column, row]) {
+    const { x, y } = this.answer;
+    return { [x.name]: [x.values[column], x.unit], [y.name]: [y.values[row], y.unit] };
+  }
+
+  hover(point) {
+    this.map.canvas.title = point === null ? "" : Object.entries(this.values(point)).map(
+      ([name, [value, unit]]) => `${name} = ${withUnit(value, unit, 5)}`).join(", ");
+  }
+
+  async pick(point) {
+    const [column, row] = point;
+    const found = await get(`${this.job.links.chart}/point`, { column, row }, this.signal);
+    const words = found.status !== "done" ? found.detail || found.status : Object.entries(found.quantities)
+      .filter(([, { value }]) => value !== null)
+      .map(([, { long_name: name, value, unit, label }]) => `${name} ${label ?? withUnit(value, unit, 4)}`)
+      .join(", ");
+    offer(this.chosen, this.job, this.values(point), words, "");
+  }
+}

@@ -1,0 +1,48 @@
+"""The order in which the points of a grid of two axes are computed: coarse to fine.
+
+Every 64th point of both axes comes first, then what every 32nd adds, and so on: after a 64th of the
+work a picture of an eighth of the resolution stands. Points of one level come tile by tile, so that
+those of a tile are near one another in the order.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.arrays import Integers
+
+COARSEST = 6
+"""Level of the points that come first: they are 2^6 apart."""
+TILE = 256
+"""Points along each side of a tile."""
+
+
+def over_axes(values: NDArray[Any], order: Integers, shape: tuple[int, ...]) -> NDArray[Any]:
+    """Return values of points in the order of computing, (points, ...), as (y, x, ...)."""
+    laid = np.empty_like(values)
+    laid[order] = values
+    return laid.reshape(*shape, *values.shape[1:])
+
+
+def levels(y: Integers, x: Integers) -> Integers:
+    """Return the level of points: the largest k, at most 6, for which 2^k divides both indices."""
+    either = y | x | (1 << COARSEST)
+    return np.asarray(np.log2(either & -either), np.int64)  # of a power of two, exactly
+
+
+def coarse_to_fine(shape: tuple[int, ...]) -> Integers:
+    """Return (points,) the flat index, y * width + x, of each point in the order of computing.
+
+    Parameters
+    ----------
+    shape
+        (height, width): numbers of values along y and x.
+    """
+    height, width = shape
+    y, x = (each.ravel() for each in np.indices(shape, dtype=np.int64))
+    across = -(-width // TILE)
+    level = COARSEST - levels(y, x)
+    tile = (y // TILE) * across + x // TILE
+    tiles = across * -(-height // TILE)
+    return np.argsort((level * tiles + tile) * len(y) + y * width + x)

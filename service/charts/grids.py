@@ -1,0 +1,125 @@
+"""Quantities of a chart as arrays over both axes, at any resolution, kept while they are asked for.
+
+Key of what is kept is how many points had ended: as a chart grows, its pictures do.
+"""
+
+from collections import OrderedDict
+from threading import Lock
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records import pyramid
+from jointplay.records.arrays import Flags, Floats
+from jointplay.records.channel import Channel
+from jointplay.records.coarse_to_fine import over_axes
+from jointplay.records.motion import WAITING, Labels, motions
+from jointplay.records.point import PointStatus
+from jointplay.service.results.stores import ResultsOfJob
+from jointplay.solver.runs.study.outputs import OUTPUTS
+from jointplay.storage.studies.reader import StudyReader
+
+MOTION = "motion"
+"""The quantity that is a label; all others are values."""
+_VERDICT = "verdict"
+_EXTREMES = ("minimum", "maximum")
+_MOST_BYTES = 128_000_000
+_TURNS = 16
+
+
+def quantities(store: StudyReader) -> dict[str, Channel]:
+    """Return what the points of a chart have, by name, with units; the motion first."""
+    outputs = {**OUTPUTS, **store.own_outputs}
+    found = {}
+    if store.verdicts is not None:
+        found[MOTION] = Channel(MOTION, "1", "kind of motion")
+    for name in (*store.indicators, *store.statistics):
+        if name != _VERDICT:
+            found[name] = Channel(name, *outputs.get(name, ("1", name)))
+    for one in store.channels:
+        for end in _EXTREMES:
+            name = f"{one.name}.{end}"
+            found[name] = Channel(name, one.unit, f"{end} of {one.long_name}")
+    return found
+
+
+def column(store: StudyReader, name: str) -> NDArray[Any]:
+    """Return a quantity of all points in the order of computing, labels as bytes."""
+    if name == MOTION:
+        period = store.indicators.get("period", np.full(store.points, np.nan))
+        verdict = store.indicators[_VERDICT]
+        return motions(store.status, verdict, period, store.verdict_names)
+    channel, _, end = name.rpartition(".")
+    if end in _EXTREMES and channel in {one.name for one in store.channels}:
+        return np.asarray(getattr(store.peaks(channel), end))
+    return {**store.statistics, **store.indicators}[name]
+
+
+def has_ended(store: StudyReader) -> Flags:
+    """Return (points,) which points have."""
+    return np.isin(store.status, (PointStatus.done, PointStatus.failed))
+
+
+class Grids:
+    """The quantities that were asked for last, by job, points that had ended, and resolution."""
+
+    def __init__(self) -> None:
+        self._kept: OrderedDict[tuple[str, int, str, int], NDArray[Any]] = OrderedDict()
+        self._lock = Lock()
+        self._turns = tuple(Lock() for _ in range(_TURNS))
+        """One for each job, more or less: who asks second finds what the first has made."""
+
+    def has(self, job: str, ended: int, name: str) -> bool:
+        """Whether a quantity is kept at full resolution."""
+        return (job, ended, name, 1) in self._kept
+
+    def of(self, results: ResultsOfJob, ended: int, name: str, stride: int) -> Labels | Floats:
+        """Return a quantity over (y, x) in cells of `stride` points along each side.
+
+        `ended` : points that had ended when the caller looked; what is kept is as old as that.
+        """
+        key = (results.job.id, ended, name, stride)
+        with self._turns[hash(results.job.id) % _TURNS]:
+            found = self._kept.get(key)
+            if found is None:
+                found = self._made(results, key)
+                self._keep(key, found)
+            with self._lock:
+                if key in self._kept:
+                    self._kept.move_to_end(key)
+        return found
+
+    def _made(self, results: ResultsOfJob, key: tuple[str, int, str, int]) -> NDArray[Any]:
+        job, count, name, stride = key
+        if stride > 1:
+            fine = self._kept.get((job, count, name, 1))
+            if fine is None:
+                fine = self._made(results, (job, count, name, 1))
+                self._keep((job, count, name, 1), fine)
+            if fine.dtype == np.uint8:
+                return pyramid.in_majority(np.asarray(fine, np.uint8), stride)
+            return pyramid.averaged(np.asarray(fine, np.float64), stride).astype(np.float32)
+        store = results.study()
+        order = store.layout.order
+        values = over_axes(column(store, name), order, store.shape)
+        known = over_axes(has_ended(store), order, store.shape)
+        if not known.all():
+            values = pyramid.filled_in(values, np.asarray(known, np.bool_))
+        return values if values.dtype == np.uint8 else values.astype(np.float32)
+
+    def _keep(self, key: tuple[str, int, str, int], values: NDArray[Any]) -> None:
+        with self._lock:
+            self._kept[key] = values
+            while sum(one.nbytes for one in self._kept.values()) > _MOST_BYTES:
+                self._kept.popitem(last=False)
+
+
+GRIDS = Grids()
+
+
+def counted(labels: Labels) -> dict[int, int]:
+    """Return how many points have each label, without those that wait."""
+    counts = np.bincount(labels.ravel(), minlength=256)
+    counts[WAITING] = 0
+    return {int(label): int(counts[label]) for label in np.flatnonzero(counts)}

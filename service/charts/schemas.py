@@ -1,0 +1,74 @@
+"""Charts as the API shows them."""
+
+from pydantic import BaseModel, Field
+
+from jointplay.service.results.schemas import Described, Series, Values
+from jointplay.service.studies.schemas import Status
+
+
+class Axis(Series):
+    """One axis: its values in the order of the points along it."""
+
+    name: str
+
+
+class Label(BaseModel):
+    """A label that points have."""
+
+    code: int = Field(description="As in `values` of the quantity.")
+    name: str = Field(description="Such as period-2, chaotic, undecided or failed.")
+    colour: str = Field(description="In the tiles, as #rrggbb.")
+    points: int = Field(description="Points that have it so far.")
+
+
+class Quantity(Described):
+    """One quantity of the points."""
+
+    name: str
+    labels: list[Label] | None = Field(description="null: its points have values, not labels.")
+    low: float | None = Field(
+        description="Below it are 2 % of the values that are known; null: none is, or labels."
+    )
+    high: float | None = Field(description="Above it are 2 % of them.")
+    shades: list[str] = Field(description="Colours of the tiles from low to high, as #rrggbb.")
+
+
+class Chart(BaseModel):
+    """A chart's axes and quantities, as far as it is computed."""
+
+    complete: bool
+    points: int
+    ended: int = Field(description="Points that are done or have failed.")
+    x: Axis
+    y: Axis
+    levels: int = Field(
+        description="Levels of tiles: of level z one has 256 cells a side, of"
+        " 2^(levels - 1 - z) points each."
+    )
+    quantities: list[Quantity]
+
+
+class PointQuantity(Described):
+    """A quantity of one point."""
+
+    value: float | None
+    label: str | None = Field(description="Of a label, in words.")
+
+
+class ChartPoint(BaseModel):
+    """One point of a chart."""
+
+    status: Status
+    detail: str = Field(description="Why it failed, or the grounds of its verdict; may be empty.")
+    quantities: dict[str, PointQuantity]
+
+
+class Rectangle(BaseModel):
+    """A quantity in a rectangle of a chart, row by row from its lower left corner."""
+
+    unit: str
+    columns: list[int] = Field(description="Index along x of the first point of each cell.")
+    rows: list[int] = Field(description="Index along y of the first point of each cell.")
+    values: list[Values] = Field(
+        description="A row for each of `rows`; labels as codes; null: nothing is known."
+    )

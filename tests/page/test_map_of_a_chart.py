@@ -1,0 +1,98 @@
+"""Charts on the page: a map that is moved and scaled, its legend, and one point of it."""
+
+import json
+import re
+
+import pytest
+
+from tests.page.browsing import barriers, expect
+from tests.page.conftest import submitted
+
+CHART = {
+    "kind": "chart",
+    "scene": {"preset": "impact-oscillator"},
+    "along": {"parameter": "speed", "values": {"from": 10.0, "to": 40.0, "count": 12}},
+    "by": {"parameter": "amplitude", "values": {"from": 1e-3, "to": 2e-2, "count": 8}},
+    "settle": 4,
+    "record": 4,
+    "tolerance": 1e-5,
+    "indicators": ["recurrence"],
+}
+MAP = "amplitude over speed; arrows move, plus and minus scale"
+PAINTED = """label => {
+  const { dataset } = document.querySelector(`canvas[aria-label="${label}"]`) ?? {};
+  return dataset?.waiting === "0" && JSON.parse(dataset.view);
+}"""
+COLOURS = """label => {
+  const canvas = document.querySelector(`canvas[aria-label="${label}"]`);
+  const { width, height } = canvas;
+  const { data } = canvas.getContext("2d").getImageData(width / 2, height / 2, 1, 1);
+  return [...data];
+}"""
+
+
+@pytest.fixture(scope="module")
+def chart(url):
+    return submitted(url, CHART)
+
+
+def painted(page):
+    """Return the view once all of its tiles are there."""
+    return page.wait_for_function(PAINTED, arg=MAP).json_value()
+
+
+def test_a_chart_is_moved_and_scaled_like_a_map(browsing, url, chart, artifacts):
+    with browsing.page(f"{url}/#/job/{chart}") as page:
+        whole = painted(page)
+        page.get_by_text("96 points. Drag to move").wait_for()
+        assert whole["corner"] == [0, 0]
+        page.screenshot(path=artifacts / "chart.png")
+        place = page.get_by_label(MAP).bounding_box()
+        middle = place["x"] + place["width"] / 2, place["y"] + place["height"] / 2
+        page.mouse.move(*middle)
+        page.mouse.wheel(0, -100)
+        page.wait_for_function(f"label => ({PAINTED})(label)?.corner[0] > 0", arg=MAP)
+        near = painted(page)
+        assert near["scale"][0] == pytest.approx(1.25 * whole["scale"][0])
+        page.mouse.down()
+        page.mouse.move(middle[0] + 20, middle[1])
+        page.mouse.up()
+        page.wait_for_function(
+            f"([label, before]) => ({PAINTED})(label)?.corner[0] < before",
+            arg=[MAP, near["corner"][0]],
+        )
+        page.mouse.dblclick(*middle)
+        page.wait_for_function(f"label => ({PAINTED})(label)?.corner[0] === 0", arg=MAP)
+        assert barriers(page) == []
+
+
+def test_a_legend_says_what_the_colours_mean_and_a_click_offers_the_run(browsing, url, chart):
+    with browsing.page(f"{url}/#/job/{chart}") as page:
+        painted(page)
+        legend = page.locator(".legend li")
+        expect(legend.filter(has_text="period-1 (")).to_have_count(1)
+        swatch = legend.first.locator(".swatch").evaluate("one => getComputedStyle(one).background")
+        assert "rgb(" in swatch
+        page.get_by_label("Shown").select_option("onsets")
+        expect(page).to_have_url(re.compile("quantity=onsets"))
+        painted(page)
+        shade = page.evaluate(COLOURS, MAP)
+        assert shade[3] == 255
+        place = page.get_by_label(MAP).bounding_box()
+        page.mouse.click(place["x"] + place["width"] / 2, place["y"] + place["height"] / 2)
+        page.get_by_role("button", name="Run this simulation").wait_for()
+        page.get_by_role("status").filter(has_text="kind of motion ").wait_for()
+
+
+def test_a_map_is_moved_with_keys(browsing, url, chart):
+    with browsing.page(f"{url}/#/job/{chart}") as page:
+        painted(page)
+        page.get_by_label(MAP).focus()
+        page.keyboard.press("+")
+        page.wait_for_function(f"label => ({PAINTED})(label)?.corner[0] > 0", arg=MAP)
+        before = painted(page)["corner"]
+        page.keyboard.press("ArrowRight")
+        page.wait_for_function(
+            f"([label, before]) => ({PAINTED})(label)?.corner[0] > before", arg=[MAP, before[0]]
+        )
+        assert json.dumps(painted(page)) != json.dumps(before)

@@ -1,0 +1,88 @@
+"""Charts: what is refused, and how their points are planned."""
+
+import numpy as np
+import pytest
+
+from jointplay.records.failure import InvalidInput, LimitExceeded
+from jointplay.solver.kinds import admit, parse
+from jointplay.solver.runs.study.blocks import MOST_BLOCKS
+
+CHART = {
+    "kind": "chart",
+    "scene": {"preset": "impact-oscillator"},
+    "along": {"parameter": "speed", "values": {"from": 10.0, "to": 40.0, "count": 9}},
+    "by": {"parameter": "amplitude", "values": {"from": 1e-3, "to": 2e-2, "count": 7}},
+    "settle": 3,
+    "record": 4,
+}
+
+
+def across(count, parameter="speed"):
+    return {"parameter": parameter, "values": {"from": 10.0, "to": 40.0, "count": count}}
+
+
+@pytest.mark.parametrize(
+    ("changes", "pointer", "words"),
+    [
+        ({"by": across(4)}, "/by/parameter", "Both axes are 'speed'"),
+        ({"by": across(4, "weight")}, "/by/parameter", "weight"),
+        ({"along": across(0)}, "/along/values/count", "at least 1"),
+        ({"along": across(1)}, "/along/values/count", "cannot reach"),
+        ({"along": {"parameter": "speed", "values": []}}, "/along/values", "at least 1"),
+        ({"settle": "auto", "statistics": ["impacts"]}, "/settle", "not 'auto'"),
+        ({"settle": "auto", "channels": ["*.x"]}, "/settle", "not 'auto'"),
+        ({"statistics": ["impact"]}, "/statistics/0", "impacts"),
+        ({"observables": ["*"]}, "/observables", "no field 'observables'"),
+    ],
+)
+def test_a_chart_that_cannot_be_is_refused_at_its_field(changes, pointer, words):
+    with pytest.raises(InvalidInput) as refused:
+        admit(CHART | changes)
+    (problem,) = refused.value.problems
+    assert problem.pointer == pointer
+    assert words in problem.detail
+
+
+@pytest.mark.parametrize(
+    ("changes", "pointer", "words"),
+    [
+        ({"along": across(600_000)}, "/by/values", "4200000 points; the limit is 4000000"),
+        ({"along": across(1000), "record": 900_000}, "/record", "the limit is 4e+09"),
+    ],
+)
+def test_what_is_too_large_is_told_with_what_fits(changes, pointer, words):
+    by = {"parameter": "amplitude", "values": {"from": 1e-3, "to": 2e-2, "count": 7}}
+    with pytest.raises(LimitExceeded) as refused:
+        admit(CHART | {"by": by} | changes)
+    (problem,) = refused.value.problems
+    assert problem.pointer == pointer
+    assert words in problem.detail
+
+
+def test_points_come_coarse_to_fine_and_cover_the_grid():
+    study = admit(CHART)
+    assert study.shape == (7, 9)
+    assert study.parameters == ("amplitude", "speed")
+    assert study.values[0].tolist() == [1e-3, 10.0]
+    pairs = {tuple(pair) for pair in study.values}
+    assert len(pairs) == 63
+    assert {y for y, _ in pairs} == set(np.linspace(1e-3, 2e-2, 7))
+    assert {x for _, x in pairs} == set(np.linspace(10.0, 40.0, 9))
+
+
+def test_a_planned_chart_is_the_one_that_was_admitted():
+    admitted = admit(CHART | {"channels": ["stop.penetration"], "statistics": ["impacts", "mean"]})
+    planned = parse(admitted.job)
+    assert planned.digest == admitted.digest
+    np.testing.assert_array_equal(planned.values, admitted.values)
+    assert planned.blocks == admitted.blocks
+    assert planned.shape == admitted.shape
+
+
+def test_a_large_chart_has_few_blocks_and_no_python_object_a_point():
+    study = admit(CHART | {"along": across(60_000)})
+    assert study.points == 420_000
+    assert len(study.blocks) <= MOST_BLOCKS
+    assert sum(count for _, count in study.blocks) == study.points
+    assert not isinstance(study.chain_order, tuple)
+    assert study.chain_order[1234] == (1234,)
