@@ -46,7 +46,7 @@ export function jobAsText(document) {
 
 /** What a job of each kind has found, as the client calls it; of others the extremes. */
 const FOUND = {
-  bifurcation: "points", sweep: "points", ensemble: "points", poincare: "poincare", "accuracy-study": "accuracy",
+  bifurcation: "points", sweep: "points", chart: "dataset", ensemble: "points", poincare: "poincare", "accuracy-study": "accuracy",
   calibration: "calibration",
 };
 const FORMS = {

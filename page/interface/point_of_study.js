@@ -14,15 +14,16 @@ import { post } from "../requests/service.js";
  * @param values `{parameter: [value, unit]}`
  * @param words what is known of the point
  * @param beside what stands beside the button, in short
+ * @param others further jobs that are offered: `{title: document of the scene with these values}`
  */
-export function offer(room, study, values, words, beside) {
+export function offer(room, study, values, words, beside, others = {}) {
   const named = (digits) => Object.entries(values).map(([name, [value, unit]]) =>
     `${name} = ${withUnit(value, unit, digits)}`).join(", ");
-  const run = async ({ target }) => {
+  const plain = Object.fromEntries(Object.entries(values).map(([name, [value]]) => [name, value]));
+  const submitting = (made) => async ({ target }) => {
     target.disabled = true;
     try {
-      const plain = Object.fromEntries(Object.entries(values).map(([name, [value]]) => [name, value]));
-      const job = await post("/v1/jobs", { ...(await simulation(study.job, plain)), label: named(4) });
+      const job = await post("/v1/jobs", { ...(await made()), label: named(4) });
       go(["job", job.id]);
     } catch (error) {
       fill(room, element("div", { class: "notice bad" }, error.message));
@@ -31,18 +32,27 @@ export function offer(room, study, values, words, beside) {
   fill(room, element("div", { class: "notice" },
     element("p", {}, element("strong", {}, named(6)), `: ${words}`),
     element("div", { class: "buttons" },
-      element("button", { type: "button", class: "main", onclick: run }, "Run this simulation"),
+      element("button", {
+        type: "button", class: "main", onclick: submitting(() => simulation(study.job, plain)),
+      }, "Run this simulation"),
+      Object.entries(others).map(([title, document]) =>
+        element("button", { type: "button", onclick: submitting(() => document(plain)) }, title)),
       element("span", { class: "quiet small" }, beside))));
 }
 
 /** Returns the document of the run of a study's scene with these values. */
 async function simulation({ scene: given, tolerance, method, duration }, values) {
   const document = await sceneOf({ scene: given });
+  const long = typeof duration === "number" ? duration : await proposedDuration(document);
+  return { kind: "simulate", scene: sceneWith(given, values), duration: long, tolerance, method };
+}
+
+/** Returns the scene of a job's document with these values of its parameters. */
+export function sceneWith(given, values) {
   const declared = given.parameters ?? {};
   const set = given.preset
     ? { ...Object.fromEntries(Object.entries(declared).filter(([, value]) => value !== null)), ...values }
     : { ...declared, ...Object.fromEntries(Object.entries(values).map(([name, value]) =>
         [name, { ...declared[name], default: value }])) };
-  const long = typeof duration === "number" ? duration : await proposedDuration(document);
-  return { kind: "simulate", scene: { ...given, parameters: set }, duration: long, tolerance, method };
+  return { ...given, parameters: set };
 }

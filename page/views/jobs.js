@@ -21,7 +21,7 @@ const MOST_COMPARED = 4;
 const MOST_ASKED = 12; // jobs that are looked at again one by one
 const STATES = ["queued", "running", "cancelling", "succeeded", "failed", "cancelled"];
 const KINDS = [
-  "simulate", "bifurcation", "sweep", "poincare", "ensemble", "accuracy-study", "calibration",
+  "simulate", "bifurcation", "sweep", "chart", "poincare", "ensemble", "accuracy-study", "calibration",
 ];
 
 export async function show(room, { query, signal }) {

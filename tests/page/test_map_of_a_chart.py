@@ -96,3 +96,29 @@ def test_a_map_is_moved_with_keys(browsing, url, chart):
             f"([label, before]) => ({PAINTED})(label)?.corner[0] > before", arg=[MAP, before[0]]
         )
         assert json.dumps(painted(page)) != json.dumps(before)
+
+
+def test_a_line_of_a_chart_is_cut_as_a_diagram(browsing, url, chart):
+    with browsing.page(f"{url}/#/job/{chart}") as page:
+        painted(page)
+        place = page.get_by_label(MAP).bounding_box()
+        page.mouse.click(place["x"] + place["width"] / 2, place["y"] + place["height"] / 2)
+        page.get_by_role("button", name="Diagram over speed").click()
+        page.get_by_role("heading", name="bifurcation").wait_for()
+        page.get_by_text("speed 10 rad/s … 40 rad/s, amplitude").wait_for()
+
+
+def test_a_chart_is_asked_for_in_the_form(browsing, url):
+    with browsing.page(f"{url}/#/new/impact-oscillator?kind=chart") as page:
+        page.get_by_label("Across", exact=True).select_option("speed")
+        page.get_by_label("Up", exact=True).select_option("amplitude")
+        for label, value in (("From", 10), ("To", 40), ("Values", 3)):
+            page.get_by_label(label, exact=True).fill(str(value))
+        for label, value in (("from", 0.001), ("to", 0.002), ("values", 2)):
+            page.get_by_label(f"Up: {label}", exact=True).fill(str(value))
+        page.get_by_label("Periods to settle").fill("2")
+        page.get_by_label("Periods looked at").fill("4")
+        page.get_by_label("Exponents", exact=True).select_option("no")
+        page.get_by_role("button", name="Run", exact=True).click()
+        page.get_by_text("6 points. Drag to move").wait_for()
+        painted(page)

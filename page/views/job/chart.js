@@ -5,7 +5,7 @@ import { Tiles } from "../../charts/tiles.js";
 import { element, fill } from "../../interface/element.js";
 import { short, unitText, withUnit } from "../../interface/numbers.js";
 import { note } from "../../interface/place.js";
-import { offer } from "../../interface/point_of_study.js";
+import { offer, sceneWith } from "../../interface/point_of_study.js";
 import { whenThere } from "../../interface/when_there.js";
 import { get } from "../../requests/service.js";
 
@@ -100,6 +100,14 @@ class Chart {
       ([name, [value, unit]]) => `${name} = ${withUnit(value, unit, 5)}`).join(", ");
   }
 
+  /** Returns the diagrams along both lines through a point, as jobs of its values. */
+  cuts() {
+    const { along, by, scene, settle, record, section, tolerance, method } = this.job.job;
+    const shared = { kind: "bifurcation", settle, record, section, tolerance, method };
+    return Object.fromEntries([along, by].map(({ parameter, values }) => [`Diagram over ${parameter}`,
+      ({ [parameter]: _, ...held }) => ({ ...shared, scene: sceneWith(scene, held), parameter, values })]));
+  }
+
   async pick(point) {
     const [column, row] = point;
     const found = await get(`${this.job.links.chart}/point`, { column, row }, this.signal);
@@ -107,6 +115,6 @@ class Chart {
       .filter(([, { value }]) => value !== null)
       .map(([, { long_name: name, value, unit, label }]) => `${name} ${label ?? withUnit(value, unit, 4)}`)
       .join(", ");
-    offer(this.chosen, this.job, this.values(point), words, "");
+    offer(this.chosen, this.job, this.values(point), words, "", this.cuts());
   }
 }
