@@ -17,6 +17,7 @@ ALL = (
     "exponent",
     "double_pendulum",
     "sweep",
+    "chart",
     "joined",
     "bucket",
     "restitution",
