@@ -45,16 +45,19 @@ class Watch:
         self.latest = status
         self._changed.set()
 
+    async def change(self, seconds: float) -> JobStatus | None:
+        """Return the job once it has changed, at first as it is; none after so many seconds."""
+        try:
+            await asyncio.wait_for(self._changed.wait(), seconds)
+        except TimeoutError:
+            return None
+        self._changed.clear()
+        return self.latest
+
     async def changes(self, quiet: float) -> AsyncIterator[JobStatus | None]:
         """Yield the job whenever it has changed, at first as it is, and none after `quiet` s."""
         while True:
-            try:
-                await asyncio.wait_for(self._changed.wait(), quiet)
-            except TimeoutError:
-                yield None
-                continue
-            self._changed.clear()
-            yield self.latest
+            yield await self.change(quiet)
 
 
 class Watcher:
@@ -83,14 +86,15 @@ class Watcher:
 
     async def finished(self, job_id: str, seconds: float) -> bool:
         """Return as soon as a job is finished, or after `seconds`; the answer is whether it is."""
-        try:
-            async with asyncio.timeout(seconds):
-                with self.watching(job_id) as watch:
-                    async for status in watch.changes(seconds):
-                        if status is not None and status.state.terminal:
-                            return True
-        except TimeoutError:
-            pass
+        # no timeout around that of `change`: where a change comes as it ends, `wait_for` of Python
+        # 3.11 swallows the cancellation, which does not come again
+        loop = asyncio.get_running_loop()
+        until = loop.time() + seconds
+        with self.watching(job_id) as watch:
+            while (left := until - loop.time()) > 0:
+                status = await watch.change(left)
+                if status is not None and status.state.terminal:
+                    return True
         return False
 
     async def _look(self) -> None:

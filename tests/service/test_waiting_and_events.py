@@ -1,5 +1,6 @@
 """Waiting for a job: long polls, preferences, the stream of its events."""
 
+import asyncio
 import json
 import threading
 import time
@@ -8,8 +9,9 @@ import httpx
 import pytest
 
 from jointplay.records.job import JobError
+from jointplay.service.jobs.waiting import Watcher
 from jointplay.storage.catalogue.records import BlockState
-from tests.waiting import until
+from tests.waiting import PATIENCE, until
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
 SOON = 1.0  # s in which an answer comes on a busy machine that looks every 25 to 100 ms
@@ -53,6 +55,26 @@ def test_waiting_ends_after_its_time(http, worker):
     assert http.get(f"/v1/jobs/{job_id}", params={"wait": 0.3}).json()["state"] == "queued"
     assert 0.3 <= time.monotonic() - began < 0.3 + SOON
     assert http.get(f"/v1/jobs/{job_id}", params={"wait": 0}).json()["state"] == "queued"
+
+
+def test_waiting_ends_where_a_change_comes_as_its_time_ends(catalogue, worker):
+    job_id = worker.submit()
+
+    async def waited():
+        watcher = Watcher(catalogue)
+
+        def show_late():
+            time.sleep(0.2)  # the time is over by now, which the loop has not seen
+            for watch in watcher._watches[job_id]:
+                watch.show(watch.latest)
+
+        waiting = asyncio.create_task(watcher.finished(job_id, 0.3))
+        asyncio.get_running_loop().call_later(0.25, show_late)
+        done, _ = await asyncio.wait([waiting], timeout=PATIENCE)
+        waiting.cancel()
+        return done == {waiting} and not waiting.result()
+
+    assert asyncio.run(waited())
 
 
 def test_a_submission_may_be_waited_for(http, worker, catalogue):
