@@ -7,6 +7,7 @@ import threading
 import time
 from contextlib import closing
 from functools import lru_cache
+from multiprocessing import get_context
 from typing import Any
 
 from billiard.process import active_children
@@ -72,11 +73,24 @@ def _set_up_no_other_logs(**_: Any) -> None:
 
 @worker_init.connect  # type: ignore[untyped-decorator]
 def _prepare(**_: Any) -> None:
-    """Before the fork: wait until an API or a relay has brought the schema up to date."""
+    """Before the fork: wait until an API or a relay has brought the schema up to date.
+
+    Another process looks at the files: what has asked a bucket has threads that no fork takes
+    along, and the children would wait for them for ever.
+    """
     settings = Settings()
     with closing(Catalogue(settings.catalogue_url)) as catalogue:
         while not _is_migrated(catalogue):
             time.sleep(_LOOK_AGAIN)
+    looking = get_context("fork").Process(target=_look_at_files, args=(settings,))
+    looking.start()
+    looking.join()
+    if looking.exitcode:
+        raise SystemExit(1)
+
+
+def _look_at_files(settings: Settings) -> None:
+    with closing(Catalogue(settings.catalogue_url)) as catalogue:
         try:
             require_own_files(settings, catalogue)
         except (OtherFiles, Unavailable) as error:
