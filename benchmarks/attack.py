@@ -11,30 +11,25 @@ and while it lasts.
 
 import asyncio
 import os
-import select
-import socket
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, closing, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
-from typing import Any, Final, NamedTuple, Self
-from urllib.parse import urlsplit
+from typing import Any, Final, NamedTuple
 
 import httpx
 
 from benchmarks.memory import anonymous
 from benchmarks.submission import at_full_speed, different
+from jointplay.chaos.held_connections import HALF_A_HEAD, MANY_ANSWERS, NOTHING, HeldConnections
 from jointplay.chaos.inside import FOLDER_VARIABLE
 from jointplay.chaos.processes import running
 from jointplay.service.processes import running_service
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.settings import Settings
-from tests.postgresql_server import running_server
-from tests.seaweedfs_server import BUCKET, running_store
+from tests.places import places, settings_at
 
 KINDS: Final = ("folder", "bucket")
 """SQLite and a folder; PostgreSQL and a bucket."""
@@ -45,8 +40,6 @@ OWNERS: Final = {
     "lab": ["worker"],
 }
 IDLE, HALF, READERS, BODIES = 1000, 500, 200, 100
-_PAUSE: Final = 5.0  # s
-_GET: Final = b"GET /openapi.json HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"
 _BODY: Final = (
     "POST /v1/batches HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
     "Authorization: Bearer {key}\r\nContent-Length: 33000000\r\n\r\n["
@@ -67,81 +60,32 @@ class Attacked(NamedTuple):
         return httpx.Client(base_url=self.url, headers=head, trust_env=False, timeout=60.0)
 
 
-class Attack(threading.Thread):
-    """Holds connections, and looks how much memory the API takes, until it is told to end."""
+class Attack(HeldConnections):
+    """Holds connections, and looks how much memory the API takes."""
 
     def __init__(self, attacked: Attacked) -> None:
-        super().__init__()
-        parts = urlsplit(attacked.url)
-        self._address, self._api = (str(parts.hostname), int(parts.port or 80)), attacked.api
         body = _BODY.format(key=attacked.keys["eve"]).encode() + b" " * 4_000_000
-        self._sent = [b""] * IDLE + [_GET[:-2] + b"X-Half: "] * HALF
-        self._sent += [20 * _GET] * READERS + [body] * BODIES
-        self._held: dict[int, tuple[socket.socket, bytes]] = {}
-        self._ended = select.poll()
-        self.begun, self.over = threading.Event(), threading.Event()
-        self.again, self.largest = 0, 0.0
+        sent = [NOTHING] * IDLE + [HALF_A_HEAD] * HALF + [MANY_ANSWERS] * READERS + [body] * BODIES
+        super().__init__(attacked.url, sent)
+        self._api, self.largest = attacked.api, 0.0
 
-    def run(self) -> None:
-        """Open all, and what is closed again."""
-        for sent in self._sent:
-            self._open(sent)
-        self.begun.set()
-        due = time.monotonic() + _PAUSE
-        while not self.over.wait(0.1):
-            self.largest = max(self.largest, anonymous(self._api))
-            if time.monotonic() > due:
-                self._open_again()
-                due = time.monotonic() + _PAUSE
-        for one, _ in self._held.values():
-            one.close()
-
-    def _open_again(self) -> None:
-        for number, _ in self._ended.poll(0):
-            self.again += 1
-            self._ended.unregister(number)
-            one, sent = self._held.pop(number)
-            one.close()
-            self._open(sent)
-
-    def _open(self, sent: bytes) -> None:
-        one = socket.socket()
-        if sent.startswith(b"GET"):
-            one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-        one.settimeout(10.0)
-        with suppress(OSError):  # it may be closed at once
-            one.connect(self._address)
-            one.setblocking(False)
-            one.send(sent)
-        self._held[one.fileno()] = one, sent
-        self._ended.register(one, select.POLLRDHUP)
-
-    def __enter__(self) -> Self:
-        self.start()
-        self.begun.wait()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.over.set()
-        self.join()
+    def look(self) -> None:
+        """Remember the most memory."""
+        self.largest = max(self.largest, anonymous(self._api))
 
 
 @contextmanager
 def service(kind: str, folder: Path) -> Iterator[Attacked]:
     """Run a service that requires keys, and a worker that joined it."""
     with ExitStack() as stack:
-        places = {"JOINTPLAY_KEYS": "required", FOLDER_VARIABLE: str(folder)}
-        if kind == "bucket":
-            endpoint = stack.enter_context(running_store())
-            places["JOINTPLAY_CATALOGUE_URL"] = stack.enter_context(running_server()).new()
-            places["JOINTPLAY_RESULTS_URL"] = f"s3://{BUCKET}/attacked?endpoint={endpoint}"
+        variables = {"JOINTPLAY_KEYS": "required", FOLDER_VARIABLE: str(folder)}
+        variables |= stack.enter_context(places(kind))
         data = folder / "data"
         data.mkdir()
-        url = places.get("JOINTPLAY_CATALOGUE_URL") or Settings(data=data).catalogue_url
-        with closing(Catalogue(url)) as catalogue:
+        with closing(Catalogue(settings_at(data, variables).catalogue_url)) as catalogue:
             catalogue.migrate()
             keys = {one: catalogue.make_key(one, OWNERS[one], "", None)[0] for one in OWNERS}
-        url = stack.enter_context(running_service(data, 0, places))
+        url = stack.enter_context(running_service(data, 0, variables))
         (api,) = running(folder, "api")
         command = [sys.executable, "-P", "-m", "jointplay", "worker", "--join", url]
         worker = subprocess.Popen(

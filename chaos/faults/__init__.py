@@ -6,10 +6,12 @@ from jointplay.chaos.faults.backends_terminated import BackendsTerminated
 from jointplay.chaos.faults.broker_wiped import BrokerWiped
 from jointplay.chaos.faults.catalogue_locked import CatalogueLocked
 from jointplay.chaos.faults.clock_set import ClockSet
+from jointplay.chaos.faults.connections_held import ConnectionsHeld
 from jointplay.chaos.faults.cut_off import CutOff
 from jointplay.chaos.faults.damaged import Damaged
 from jointplay.chaos.faults.disk_full import DiskFull
 from jointplay.chaos.faults.fault import Fault
+from jointplay.chaos.faults.garbage_handed_in import GarbageHandedIn
 from jointplay.chaos.faults.killed import Killed
 from jointplay.chaos.faults.power_lost import PowerLost
 from jointplay.chaos.faults.stopped import Stopped
@@ -31,6 +33,8 @@ FAULTS: Final[dict[str, Fault]] = {
     "damaged": Damaged(),
     "clock-set": ClockSet(),
     "wake-ups": WakeUps(),
+    "connections-held": ConnectionsHeld(),
+    "garbage-handed-in": GarbageHandedIn(),
 }
 """By name; the names are those of `jointplay chaos --fault`."""
 
