@@ -6,13 +6,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from jobs import IMPATIENT, api_of, catalogue_of, ended, in_mid_block, standing, submit
 
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState, JobState
-from jointplay.storage.settings import Settings
+from tests.places import PLACES, places, settings_at
 from tests.waiting import until
 
 LONG = {
@@ -26,14 +27,18 @@ HOLDS = 4
 """More than losses after which a block is given up."""
 
 
-def test_a_service_that_is_away_for_longer_than_leases_ends_no_job(tmp_path: Path) -> None:
-    settings = Settings(data=tmp_path / "data")
+@pytest.mark.parametrize("kind", PLACES)
+def test_a_service_that_is_away_for_longer_than_leases_ends_no_job(
+    tmp_path: Path, kind: str
+) -> None:
+    data = tmp_path / "data"
     environment = IMPATIENT | {"JOINTPLAY_MAX_ATTEMPTS": "3"}
     with (
-        catalogue_of(settings) as catalogue,
-        running_service(settings.data, workers=0, environment=environment) as url,
+        places(kind) as variables,
+        catalogue_of(settings_at(data, variables)) as catalogue,
+        running_service(data, 0, environment | variables) as url,
     ):
-        (api,) = api_of(settings.data)
+        (api,) = api_of(data)
         worker = subprocess.Popen(
             [sys.executable, "-P", "-m", "jointplay", "worker", "--join", url],
             env={name: one for name, one in os.environ.items() if name[:10] != "JOINTPLAY_"},
