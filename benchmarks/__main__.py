@@ -34,6 +34,7 @@ ALL = (
     "memory",
     "hostile",
     "attack",
+    "single_attacks",
     "start",
     "first_hour",
     "compilation",
