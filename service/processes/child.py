@@ -111,8 +111,9 @@ class Child:
         deadline = time.monotonic() + patience
         while not answers():
             if not self.alive:
-                last = "\n".join(self.log.read_text(errors="replace").splitlines()[-12:])
-                raise StartFailed(f"the {self.name} ended at once:\n{last}")
+                last = self.log.read_text(errors="replace").splitlines()[-12:]
+                told = "\n".join(line for line in last if not line[:1].isspace())  # no traceback's
+                raise StartFailed(f"the {self.name} ended at once:\n{told}")
             if time.monotonic() > deadline:
                 raise StartFailed(f"the {self.name} did not answer in {patience:g} s: {self.log}")
             pause(_POLL)

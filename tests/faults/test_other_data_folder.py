@@ -2,10 +2,13 @@
 
 import os
 import shutil
+import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
+import httpx
 import pytest
 
 from jointplay.service.processes import StartFailed, running_service
@@ -15,6 +18,8 @@ from jointplay.storage.settings import Settings
 from tests.postgresql_server import running_server
 from tests.seaweedfs_server import BUCKET, running_store
 
+ROOT = Path(__file__).resolve().parents[2]
+
 
 def test_a_service_with_another_data_folder_does_not_start(tmp_path: Path) -> None:
     first, second = tmp_path / "first", tmp_path / "second"
@@ -22,10 +27,11 @@ def test_a_service_with_another_data_folder_does_not_start(tmp_path: Path) -> No
         pass
     shared = {"JOINTPLAY_CATALOGUE_URL": Settings(data=first).catalogue_url}
     with (
-        pytest.raises(StartFailed, match="new to this catalogue"),
+        pytest.raises(StartFailed, match="new to this catalogue") as refused,
         running_service(second, workers=0, environment=shared),
     ):
         pass
+    assert 'File "' not in str(refused.value)  # of a traceback
     own = {"JOINTPLAY_DATA": str(second), "JOINTPLAY_REDIS_URL": "redis://127.0.0.1:9/0"}
     for program in ("relay", ""):
         command = [sys.executable, "-P", "-m", f"jointplay.worker.{program}".rstrip(".")]
@@ -44,6 +50,26 @@ def test_a_service_with_another_data_folder_does_not_start(tmp_path: Path) -> No
     shutil.move(first, tmp_path / "moved")
     with running_service(tmp_path / "moved", workers=0):  # with the catalogue in it
         pass
+
+
+def test_a_copy_that_is_made_as_the_page_says_is_served(tmp_path: Path) -> None:
+    first, copy = tmp_path / ".jointplay", tmp_path / "copy"
+    with running_service(first, workers=0):
+        pass
+    page = (ROOT / "docs/operating.md").read_text()
+    copied = next(line.split()[2:-1] for line in page.splitlines() if "rsync -a" in line)
+    assert f"{first.name}/results" in copied
+    copy.mkdir()
+    name = "catalogue.sqlite"
+    with (
+        closing(sqlite3.connect(first / name)) as one,
+        closing(sqlite3.connect(copy / name)) as two,
+    ):
+        one.backup(two)
+    for path in filter(Path.exists, map(tmp_path.joinpath, copied)):
+        (shutil.copytree if path.is_dir() else shutil.copy)(path, copy / path.name)
+    with running_service(copy, workers=0) as url:
+        assert httpx.get(f"{url}/readyz", trust_env=False).status_code == 200
 
 
 def test_another_bucket_is_refused_and_another_machine_is_not(tmp_path: Path) -> None:
