@@ -31,6 +31,7 @@ ALL = (
     "catalogue",
     "submission",
     "latency",
+    "poses",
     "memory",
     "hostile",
     "attack",

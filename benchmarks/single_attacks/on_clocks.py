@@ -16,7 +16,10 @@ def late(service: Attacked) -> str:
     redis = f"unix://{service.folder / 'data' / 'broker' / 'redis.sock'}"
     job = service.submit(_LONG)
     own = service.environment | {"JOINTPLAY_REDIS_URL": redis} | clock.environment
-    worker = subprocess.Popen([sys.executable, "-P", "-m", "jointplay.worker"], env=own)
+    command = [sys.executable, "-P", "-m", "jointplay.worker"]
+    worker = subprocess.Popen(
+        command, env=own, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
     try:
         ended = service.ended(job)
     finally:

@@ -71,16 +71,16 @@ def damaged_store(service: Attacked) -> str:
 
 @contextmanager
 def _unwritable(service: Attacked) -> Iterator[None]:
-    """Let nobody write the catalogue: its files are immutable, or the database reads only."""
+    """Let nobody write the catalogue: its files are immutable, or its database lets nobody in."""
     if url := service.variables.get("JOINTPLAY_CATALOGUE_URL"):
         server, _, name = url.rpartition("/")
         with psycopg.connect(f"{server}/postgres", autocommit=True) as connection:
-            alter = f"ALTER DATABASE {name} SET default_transaction_read_only = ".encode()
+            alter = f"ALTER DATABASE {name} ALLOW_CONNECTIONS ".encode()
             end = f"SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = '{name}'"
-            for value in (b"on", b"off"):
+            for value in (b"false", b"true"):
                 connection.execute(alter + value)
                 connection.execute(end.encode())
-                if value == b"on":
+                if value == b"false":
                     yield
         return
     files = [str(path) for path in (service.folder / "data").glob("catalogue.sqlite*")]

@@ -68,8 +68,8 @@ def uploads(service: Attacked) -> str:
         statuses = sorted(one.result() for one in sent)
     service.submit(SWING)
     held, taken, some = service.claim(2), 0, bytes(20 * _MEGABYTE)
-    while taken < 40 and service.put(held, f"a1/rows/{taken}", some) == 204:
+    while taken < 40 and (last := service.put(held, f"a1/rows/{taken}", some)) == 204:
         taken += 1
         left = min(left, room())
-    told = ", ".join(map(str, statuses))
-    return f"{told}; then {taken} of 40 of 20 MB; at least {left // _MEGABYTE} MB left"
+    told = f"{', '.join(map(str, statuses))}; then {taken} of 40 of 20 MB"
+    return f"{told}{f', then {last}' if taken < 40 else ''}; at least {left // _MEGABYTE} MB left"
