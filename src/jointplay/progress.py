@@ -1,6 +1,7 @@
 """Progress on stderr: a bar on a terminal, a line now and then anywhere else."""
 
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -42,24 +43,44 @@ def _bar(title: str) -> Iterator[Callable[[float, str], None]]:
 
 @contextmanager
 def _lines(title: str) -> Iterator[Callable[[float, str], None]]:
-    last = time.monotonic()
-    latest = ""
-    pace = Pace()
+    """Tell the last report every few seconds, also while none comes, as when a kernel compiles."""
+    lines, pace, over = _Lines(), Pace(), threading.Event()
 
     def report(fraction: float, note: str) -> None:
-        nonlocal last, latest
-        now = time.monotonic()
         pace.saw(fraction)
         left = pace.seconds_left(fraction) if fraction < 1 else None
         line = f"{title}: {fraction:4.0%} {note}".rstrip()
-        line += "" if left is None else f", {duration(left)} left"
-        finished = fraction >= 1 and line != latest
-        if finished or now - last >= _QUIET:
-            sys.stderr.write(line + "\n")
-            sys.stderr.flush()
-            last, latest = now, line
+        lines.latest = line + ("" if left is None else f", {duration(left)} left")
+        if fraction >= 1:
+            lines.tell()
 
-    yield report
+    def tell_now_and_then() -> None:
+        while not over.wait(_QUIET):
+            lines.tell()
+
+    telling = threading.Thread(target=tell_now_and_then, daemon=True)
+    telling.start()
+    try:
+        yield report
+    finally:
+        over.set()
+        telling.join()
+
+
+class _Lines:
+    """The latest line, which is told once."""
+
+    def __init__(self) -> None:
+        self.latest = self._told = ""
+        self._lock = threading.Lock()
+
+    def tell(self) -> None:
+        """Write the latest line, unless it was."""
+        with self._lock:
+            if self.latest != self._told:
+                sys.stderr.write(self.latest + "\n")
+                sys.stderr.flush()
+                self._told = self.latest
 
 
 class Pace:

@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 from jointplay.progress import progress
+from tests.waiting import until
 
 
 def test_without_a_terminal_only_the_end_of_something_quick_is_told(capsys):
@@ -13,6 +14,17 @@ def test_without_a_terminal_only_the_end_of_something_quick_is_told(capsys):
         for step in range(1000):
             report(step / 1000, f"step {step}")
         report(1.0, "all of it")
+    assert capsys.readouterr().err == "work: 100% all of it\n"
+
+
+def test_what_takes_long_without_a_word_is_told_meanwhile(capsys, monkeypatch):
+    monkeypatch.setattr("jointplay.progress._QUIET", 0.01)
+    with progress("work") as report:
+        report(0.0, "preparing the kernel")
+        found = []
+        until(lambda: found.append(capsys.readouterr().err) or any(found))
+        report(1.0, "all of it")
+    assert "".join(found) == "work:   0% preparing the kernel\n"
     assert capsys.readouterr().err == "work: 100% all of it\n"
 
 
