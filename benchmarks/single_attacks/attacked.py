@@ -139,7 +139,9 @@ class Attacked(NamedTuple):
     def joined(self) -> Iterator[None]:
         """Keep a worker running that has joined."""
         command = [sys.executable, "-P", "-m", "jointplay", "worker", "--join", self.url]
-        own = self.environment | {"JOINTPLAY_KEY": self.keys.get("lab", "")}
+        own = self.environment
+        if "lab" in self.keys:
+            own["JOINTPLAY_KEY"] = self.keys["lab"]
         worker = subprocess.Popen(
             command, env=own, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
         )

@@ -1,6 +1,7 @@
 """Attacks by who has a key for workers."""
 
 import shutil
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 from benchmarks.single_attacks.attacked import SWING, Attacked, Held
@@ -65,6 +66,7 @@ def uploads(service: Attacked) -> str:
         sent = [threads.submit(service.put, held, f"a1/rows/{n}", big) for n in range(6)]
         while not all(one.done() for one in sent):
             left = min(left, room())
+            time.sleep(0.01)
         statuses = sorted(one.result() for one in sent)
     service.submit(SWING)
     held, taken, some = service.claim(2), 0, bytes(20 * _MEGABYTE)
