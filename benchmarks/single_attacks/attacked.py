@@ -45,6 +45,10 @@ class Held(NamedTuple):
     job: str
     index: int
 
+    def rows(self, number: int) -> str:
+        """Return the name of a file of its attempt."""
+        return f"a{self.path.rpartition('/')[2]}/rows/{number}"
+
 
 class Attacked(NamedTuple):
     """A service and its keys."""

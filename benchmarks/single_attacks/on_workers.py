@@ -63,14 +63,14 @@ def uploads(service: Attacked) -> str:
     service.submit(SWING)
     held, big, left = service.claim(), bytes(200 * _MEGABYTE), room()
     with ThreadPoolExecutor(6) as threads:
-        sent = [threads.submit(service.put, held, f"a1/rows/{n}", big) for n in range(6)]
+        sent = [threads.submit(service.put, held, held.rows(n), big) for n in range(6)]
         while not all(one.done() for one in sent):
             left = min(left, room())
             time.sleep(0.01)
         statuses = sorted(one.result() for one in sent)
     service.submit(SWING)
     held, taken, some = service.claim(2), 0, bytes(20 * _MEGABYTE)
-    while taken < 40 and (last := service.put(held, f"a1/rows/{taken}", some)) == 204:
+    while taken < 40 and (last := service.put(held, held.rows(taken), some)) == 204:
         taken += 1
         left = min(left, room())
     told = f"{', '.join(map(str, statuses))}; then {taken} of 40 of 20 MB"
