@@ -1,4 +1,4 @@
-"""What a worker does before it forks leaves its children able to ask a bucket."""
+"""Children of a worker can ask a bucket: nothing that asks one runs in the worker before it forks."""
 
 import os
 import subprocess
