@@ -1,4 +1,4 @@
-"""Children of a worker can ask a bucket: nothing that asks one runs in the worker before it forks."""
+"""Children of a worker can ask a bucket: the worker itself has not when it forks."""
 
 import os
 import subprocess
