@@ -25,7 +25,7 @@ import jointplay.service.workers.files
 import jointplay.service.workers.present
 import jointplay.service.zarr.endpoints
 import jointplay.service.zarr.whole
-from jointplay.service import estimates, events, health, laws, metrics, problems, schemas
+from jointplay.service import estimates, events, health, kinds, laws, metrics, problems, schemas
 from jointplay.service.access import links, needs, quotas
 from jointplay.service.access.door import Door
 from jointplay.service.access.signed import SignedLinks
@@ -91,6 +91,7 @@ _BEHIND_THE_DOOR = (
 )
 _OPEN = (
     jointplay.service.scenes.endpoints,
+    kinds,
     laws,
     schemas,
     health,

@@ -44,9 +44,9 @@ export function jobAsText(document) {
   return { element: element("div", { class: "stacked" }, row, text), refresh };
 }
 
-/** What a job of each kind has found, as the client calls it; of others the extremes. */
+/** What a job of each kind has found, as the client calls it; of all others their points. */
 const FOUND = {
-  bifurcation: "points", sweep: "points", chart: "dataset", ensemble: "points", poincare: "poincare", "accuracy-study": "accuracy",
+  simulate: "peaks", poincare: "poincare", chart: "dataset", "accuracy-study": "accuracy",
   calibration: "calibration",
 };
 const FORMS = {
@@ -64,7 +64,7 @@ function python(job) {
 with jointplay.Client("${location.origin}") as client:
     job = client.submit(${literal(job, 4)})
     job.wait(progress=True)
-    print(job.${FOUND[job.kind] ?? "peaks"})`;
+    print(job.${FOUND[job.kind] ?? "points"})`;
 }
 
 function literal(value, indent) {

@@ -11,15 +11,16 @@ export async function declaredFor({ scene }) {
 
 /** Returns the words of a job's document. */
 export function jobWords(document, declared) {
-  const { kind, duration, parameter, values, grid, along, by, parameters } = document;
+  const { kind, duration, grid, parameters } = document;
   const over = (name, all) => {
     const [from, to] = Array.isArray(all) ? [all[0], all.at(-1)] : [all.from, all.to];
     return `${name} ${[from, to].map((one) => withUnit(one, declared[name]?.unit ?? "1")).join(" … ")}`;
   };
-  const varied = kind === "bifurcation" ? [over(parameter, values)]
-    : kind === "sweep" ? Object.entries(grid ?? {}).map(([name, all]) => over(name, all))
-    : kind === "chart" ? [along, by].map((one) => over(one.parameter, one.values))
-    : kind === "calibration" ? [`finds ${Object.keys(parameters).join(", ")}`] : [];
+  const axes = [document, ...Object.values(document)].filter((one) => one?.parameter && one.values);
+  const varied = kind === "calibration" ? [`finds ${Object.keys(parameters).join(", ")}`] : [
+    ...axes.map((one) => over(one.parameter, one.values)),
+    ...Object.entries(grid ?? {}).map(([name, all]) => over(name, all)),
+  ];
   return [...varied, duration && withUnit(duration, "s"), parameterWords(document, declared)]
     .filter(Boolean).join(", ");
 }

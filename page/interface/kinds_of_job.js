@@ -1,10 +1,12 @@
 /** Kinds of jobs as the page offers them: fields, and the document that they make. */
 
 import { CalibrationFields } from "./calibration_fields.js";
+import { formOfKind } from "./form_of_kind.js";
 import { linesOf } from "./measured_table.js";
 import { ParameterFields } from "./parameter_fields.js";
 import { bounds } from "../mechanism/bounds.js";
 import { withParameters } from "../mechanism/parameters.js";
+import { describedKinds } from "../requests/kinds.js";
 import { poses } from "../requests/poses.js";
 import { Problem } from "../requests/service.js";
 
@@ -210,23 +212,34 @@ export const KINDS = {
   },
 };
 
+/** Returns the kinds by name: those above, and of all others those that can be typed. */
+export async function kindsOfJobs(signal) {
+  for (const [name, described] of Object.entries(await describedKinds(signal))) {
+    if (described.option) KINDS[name] ??= formOfKind(name, described, { axis, ends });
+  }
+  return KINDS;
+}
+
 /** Returns the fields of a kind; `given` are values by name, as an address keeps them. */
 export function fieldsOf(kind, document, duration, given, onchange) {
   if (kind === "calibration") return new CalibrationFields(document, given, onchange);
   return new ParameterFields(KINDS[kind].fields(document, duration), given, onchange, "");
 }
 
-function varied(document, name, title, count = 48) {
-  const choices = choice(document);
+function varied(document, name, title, count = 48, help = "What is varied.", before = "", nth = 0) {
+  const choices = choice(document, [], nth);
   const first = document.parameters?.[choices.default];
   const middle = first?.default || 1;
+  const part = (end) => (before ? `${before}_${end}` : end);
   return {
-    [name]: { ...choices, title, help: "What is varied." },
-    from: {
+    [name]: { ...choices, title, help },
+    [part("from")]: {
       title: "From", help: "", unit: "1", required: true, default: rounded(middle * 0.5),
     },
-    to: { title: "To", help: "", unit: "1", required: true, default: rounded(middle * 1.5) },
-    count: { title: "Values", help: "", unit: "1", minimum: 1, maximum: 100000, default: count },
+    [part("to")]: { title: "To", help: "", unit: "1", required: true, default: rounded(middle * 1.5) },
+    [part("count")]: {
+      title: "Values", help: "", unit: "1", minimum: 1, maximum: 100000, default: count,
+    },
   };
 }
 
@@ -244,17 +257,22 @@ function second(document) {
   };
 }
 
+/** Returns the fields of the `nth` of several axes: each proposes another parameter. */
+function axis(document, name, title, help, nth) {
+  return varied(document, name, title, 24, help, name, nth);
+}
+
 /** Returns from, to and count of values that are given so, or one by one. */
 function ends(values) {
   if (!Array.isArray(values)) return { from: values.from, to: values.to, count: values.count };
   return { from: values[0], to: values.at(-1), count: values.length };
 }
 
-function choice(document, before = []) {
+function choice(document, before = [], nth = 0) {
   const names = Object.entries(document.parameters ?? {})
     .filter(([, { choices }]) => !choices)
     .map(([name]) => name);
-  const likely = names.find((name) => document.parameters[name].default > 0) ?? names[0];
+  const likely = names.filter((name) => document.parameters[name].default > 0)[nth] ?? names[nth];
   return { unit: "1", choices: [...before, ...names], default: likely };
 }
 

@@ -4,7 +4,7 @@ import { deleteJob, mayDelete, retriable, retryJob } from "../interface/acting.j
 import { element, fill } from "../interface/element.js";
 import { ago, withUnit } from "../interface/numbers.js";
 import { declaredFor, jobWords } from "../interface/job_words.js";
-import { KINDS } from "../interface/kinds_of_job.js";
+import { KINDS, kindsOfJobs } from "../interface/kinds_of_job.js";
 import { address, go } from "../interface/place.js";
 import { progressWords, sceneName, stateMark } from "../interface/state.js";
 import { whyQueued, workers } from "../interface/workers.js";
@@ -28,7 +28,9 @@ const PATIENCE = 1500; // ms in the queue after which is asked who is there to c
 export async function show(room, { parts, query, signal }) {
   const [id, wanted] = parts;
   TABS[wanted ?? "watch"]?.[1]().catch(() => {}); // its modules come along with the job
-  const job = await get(`/v1/jobs/${encodeURIComponent(id ?? "")}`, {}, signal);
+  const [job] = await Promise.all([
+    get(`/v1/jobs/${encodeURIComponent(id ?? "")}`, {}, signal), kindsOfJobs(signal),
+  ]);
   const tabs = Object.entries(TABS).filter(([, [, , links]]) => links.some((one) => job.links[one]));
   const tab = tabs.find(([name]) => name === wanted) ?? tabs[0];
   const name = job.label || sceneName(job.job).replaceAll("-", " ");

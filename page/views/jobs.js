@@ -10,6 +10,7 @@ import { address, note } from "../interface/place.js";
 import { whyQueued, workers } from "../interface/workers.js";
 import { trouble } from "../interface/trouble.js";
 import { TERMINAL } from "../requests/following.js";
+import { describedKinds } from "../requests/kinds.js";
 import { Unreachable, get, pause } from "../requests/service.js";
 
 const FIRST_PAGE = 50; // more are asked for as soon as the list is scrolled
@@ -20,19 +21,17 @@ const BEYOND = 8; // rows above and below what is seen
 const MOST_COMPARED = 4;
 const MOST_ASKED = 12; // jobs that are looked at again one by one
 const STATES = ["queued", "running", "cancelling", "succeeded", "failed", "cancelled"];
-const KINDS = [
-  "simulate", "bifurcation", "sweep", "chart", "poincare", "ensemble", "accuracy-study", "calibration",
-];
 
 export async function show(room, { query, signal }) {
-  const list = new JobList(query, signal);
+  const kinds = Object.keys(await describedKinds(signal).catch(() => ({}))); // the list says what is wrong
+  const list = new JobList(query, kinds, signal);
   fill(room, list.element);
   await list.begin();
 }
 
 class JobList {
-  constructor(query, signal) {
-    Object.assign(this, { signal, jobs: null, next: null, chosen: new Map(), rows: new Map() });
+  constructor(query, kinds, signal) {
+    Object.assign(this, { kinds, signal, jobs: null, next: null, chosen: new Map(), rows: new Map() });
     this.filters = Object.fromEntries(["state", "kind", "scene", "label"].map((name) =>
       [name, query.get(name) ?? ""]));
     this.inside = element("div", { class: "inside", role: "list", "aria-label": "Jobs" });
@@ -67,7 +66,7 @@ class JobList {
       onchange: (event) => this.filter(name, event.target.value.trim()),
     }));
     return element("div", { class: "filters", role: "search" },
-      select("state", "State", STATES), select("kind", "Kind", KINDS),
+      select("state", "State", STATES), select("kind", "Kind", this.kinds),
       text("scene", "Mechanism"), text("label", "Label"),
       element("label", { class: "all", for: "choose-all" }, this.all, "All shown"));
   }

@@ -3,7 +3,7 @@
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { jobAsText } from "../interface/job_as_text.js";
-import { KINDS, fieldsOf, proposedDuration } from "../interface/kinds_of_job.js";
+import { KINDS, fieldsOf, kindsOfJobs, proposedDuration } from "../interface/kinds_of_job.js";
 import { ParameterFields } from "../interface/parameter_fields.js";
 import { go, note } from "../interface/place.js";
 import { fields as wrongFields } from "../interface/trouble.js";
@@ -18,7 +18,7 @@ export async function show(room, { parts, query, signal }) {
   document.title = `${name} · jointplay`;
   const given = numbersOf(query, document_.parameters ?? {});
   const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
-  const duration = await proposedDuration(document_, signal);
+  const [duration] = await Promise.all([proposedDuration(document_, signal), kindsOfJobs(signal)]);
   const form = new JobForm(document_, query.get("kind") ?? "simulate", given, duration, signal);
   const sketch = new Sketch(canvas, { labels: true }, signal);
   const redraw = () => {

@@ -27,6 +27,7 @@ OPEN = {
     "/readyz",
     "/problems",
     "/problems/{name}",
+    "/v1/kinds",
     "/v1/laws",
     "/v1/scenes",
     "/v1/scenes/{name}",

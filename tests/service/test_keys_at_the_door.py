@@ -20,7 +20,7 @@ from jointplay.storage.catalogue.keys import Key
 from tests.postgresql_server import running_server
 from tests.service.guarded import SWING, Guarded
 
-OPEN = ("/healthz", "/readyz", "/v1/scenes", "/v1/laws", "/v1/schemas", "/problems")
+OPEN = ("/healthz", "/readyz", "/v1/scenes", "/v1/kinds", "/v1/laws", "/v1/schemas", "/problems")
 
 
 def test_nothing_but_what_is_the_same_for_all_opens_without_a_key(guarded: Guarded) -> None:

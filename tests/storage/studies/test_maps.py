@@ -12,12 +12,18 @@ from zarr.core.buffer import default_buffer_prototype
 from zarr.storage import MemoryStore
 
 from jointplay.records.coarse_to_fine import coarse_to_fine
-from jointplay.storage.errors import InvalidAppend, InvalidLayout
-from jointplay.storage.packed import Running
+from jointplay.storage.errors import CorruptStore, InvalidAppend, InvalidLayout
+from jointplay.storage.packed import Running, pack
+from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
+from jointplay.storage.results import manifest
 from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.examined_part import require_part
+from jointplay.storage.studies.examined_study import examined_study
 from jointplay.storage.studies.live import LiveStudy
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import create
+from tests.stores import files_of
 
 ROWS, COLUMNS = 3, 300
 HALF = 512  # points of the first block: it ends within a row
@@ -115,3 +121,17 @@ def test_a_map_is_another_study_than_its_points_alone():
     flat = replace(made_up_map(3, 5), shape=())
     assert flat.shape == (15,)
     assert flat.digest != made_up_map(3, 5).digest
+
+
+def test_a_map_that_was_handed_in_is_taken_for_what_the_job_gives_and_no_other(tmp_path, study):
+    store, layout = study.write(tmp_path / "whole"), study.layout
+    for index in range(len(layout.blocks)):
+        require_part(Running(tmp_path / "whole", owner=layout.digest), layout, index)
+    for same in (True, False):
+        examined_study(StoredObject(Folder(str(tmp_path)), store.name), layout, same=same)
+    files = {name: content for name, content in files_of(store).items() if name != "MANIFEST.json"}
+    files["statistics/x/c/0"] = files["peaks/x/c/0"] = files["statistics/y/c/0"]
+    moved = StoredObject(Folder(str(tmp_path)), "moved.zip")
+    moved.put(pack(manifest.listed(files.items())))
+    with pytest.raises(CorruptStore, match="statistics/x"):
+        examined_study(moved, layout, same=True)

@@ -1,0 +1,64 @@
+/** The form of a kind of job, made of what the service says of its fields. */
+
+/** Fields that other parts of the form ask for, or whose values nobody types. */
+const ELSEWHERE = new Set(["label", "tolerance", "method", "step", "formulation"]);
+const TYPED = new Set(["number", "integer"]);
+
+/**
+ * Returns the title and help of a kind, its fields, the parts of the document that are made of their
+ * values, and the values that a document gives; as the kinds that are written here.
+ *
+ * @param described what `/v1/kinds` says of it
+ * @param axis      makes the fields of a parameter that varies, and of its values
+ */
+export function formOfKind(name, described, { axis, ends }) {
+  const shown = Object.entries(described.fields).filter(([field, { form, choices }]) =>
+    !ELSEWHERE.has(field) && (form === "axis" || TYPED.has(form) || (form === "text" && choices.length)));
+  const axes = shown.filter(([, { form }]) => form === "axis").map(([field]) => field);
+  const others = shown.filter(([, { form }]) => form !== "axis");
+  return {
+    title: titled(name),
+    help: described.help,
+    fields: (document) => Object.assign(
+      {},
+      ...axes.map((field, nth) =>
+        axis(document, field, `${titled(field)}: parameter`, sentence(described.fields[field].help), nth)),
+      Object.fromEntries(others.map(([field, one]) => [field, ofField(field, one)])),
+    ),
+    made: (all) => ({
+      ...Object.fromEntries(axes.map((field) => [field, {
+        parameter: all[field],
+        values: { from: all[`${field}_from`], to: all[`${field}_to`], count: all[`${field}_count`] },
+      }])),
+      ...Object.fromEntries(others.map(([field]) => [field, all[field]])
+        .filter(([, value]) => value !== null && value !== STANDARD)),
+    }),
+    given: (document) => Object.assign(
+      {},
+      ...axes.filter((field) => document[field]).map((field) => ({
+        [field]: document[field].parameter,
+        ...Object.fromEntries(Object.entries(ends(document[field].values))
+          .map(([part, value]) => [`${field}_${part}`, value])),
+      })),
+      Object.fromEntries(others.map(([field]) => [field, document[field]])
+        .filter(([, value]) => value !== undefined && value !== null)),
+    ),
+  };
+}
+
+const STANDARD = "as usual";
+
+function ofField(name, { help, unit, choices, required }) {
+  const shown = { title: titled(name), help: sentence(help), unit: unit ?? "1" };
+  if (choices.length) return { ...shown, choices: [STANDARD, ...choices], default: STANDARD };
+  return { ...shown, default: null, empty: STANDARD, required };
+}
+
+function titled(name) {
+  const words = name.replaceAll(/[_-]/g, " ");
+  return words[0].toUpperCase() + words.slice(1);
+}
+
+function sentence(text) {
+  return text ? `${text[0].toUpperCase()}${text.slice(1)}.` : "";
+}

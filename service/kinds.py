@@ -1,0 +1,65 @@
+"""``/v1/kinds``: the kinds of jobs and the fields of their documents, for forms."""
+
+from functools import cache
+from typing import Literal
+
+from fastapi import APIRouter
+from pydantic import BaseModel, Field
+
+from jointplay.solver.kinds import KINDS
+from jointplay.solver.kinds.description import description
+
+router = APIRouter(prefix="/v1/kinds", tags=["jobs"])
+Form = Literal[
+    "number", "integer", "flag", "text", "names", "numbers", "values", "grid", "axis", "other"
+]
+
+
+class JobField(BaseModel):
+    """A field of a job's document."""
+
+    help: str
+    form: Form = Field(
+        description="Of its value; values: a list or a range, grid: values by parameter, axis: a "
+        "parameter and its values."
+    )
+    unit: str | None = None
+    choices: list[str] = Field(default=[], description="Values that there are.")
+    words: list[str] = Field(default=[], description="Words that may stand in place of a value.")
+    own: bool = Field(default=False, description="Whether kinds that are alike do not have it.")
+    required: bool = False
+
+
+class JobOption(BaseModel):
+    """One option of a command line that asks for a kind."""
+
+    fields: list[str] = Field(description="Fields that it stands for.")
+    form: Form
+
+
+class JobKind(BaseModel):
+    """A kind of job."""
+
+    help: str
+    option: JobOption | None = Field(default=None, description="null: its document is given whole.")
+    fields: dict[str, JobField]
+    results: list[str] = Field(description="Parts of a job's address where its results are.")
+
+
+class KindList(BaseModel):
+    """All kinds, by name."""
+
+    kinds: dict[str, JobKind]
+
+
+@router.get("")
+def list_kinds() -> KindList:
+    """List the kinds of jobs: what each is, the fields of its document, where its results are."""
+    return _list(tuple(KINDS))
+
+
+@cache
+def _list(names: tuple[str, ...]) -> KindList:
+    described = description()
+    kinds = {name: described[name] | {"results": KINDS[name].results} for name in names}
+    return KindList.model_validate({"kinds": kinds})
