@@ -34,6 +34,12 @@ MADE = {
         [{"targets": [{"channel": "P.normal_force", "to": 0.1, "value": np.float64(100.0)}]}],
         tolerance=1e-5,
     ),
+    "chart": jobs.chart(
+        "slider-crank",
+        {"parameter": "clearance", "values": np.array([1e-4, 2e-4])},
+        {"parameter": "friction", "values": (0.0, 0.1)},
+        record=20,
+    ),
     "ensemble": jobs.ensemble("slider-crank", 4, seed=3, observables=["P.eccentricity_x"]),
 }
 
