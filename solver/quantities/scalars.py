@@ -155,10 +155,14 @@ def power(x: Scalar, exponent: Scalar) -> Scalar:
 
 
 def logarithm(x: Scalar) -> Scalar:
-    """Natural logarithm of x > 0."""
+    """Natural logarithm of x > 0. Zero and below: ValueError, and NaN in an array."""
     if isinstance(x, float | int):
+        if x <= 0.0:
+            raise ValueError("math domain error")
         return elementary.log(float(x))
-    return elementary.log(x) if isinstance(x, type_of_array) else x.logarithm()
+    if isinstance(x, type_of_array):
+        return elementary.log(np.where(x > 0.0, x, math.nan))
+    return x.logarithm()
 
 
 def exponential(x: Scalar) -> Scalar:

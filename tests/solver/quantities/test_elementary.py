@@ -121,6 +121,16 @@ def test_sines_keep_what_is_no_number_and_refuse_the_infinite() -> None:
         scalars.sine_cosine(math.inf)
 
 
+def test_there_is_no_logarithm_of_nothing() -> None:
+    for x in (0.0, -0.0, -1.0):
+        with pytest.raises(ValueError, match="math domain error"):
+            scalars.logarithm(x)
+    found = scalars.logarithm(np.array([0.0, -1.0, math.nan, 1.0]))
+    assert np.isnan(found[:3]).all()
+    assert found[3] == 0.0
+    assert math.isnan(scalars.logarithm(math.nan))
+
+
 def test_the_direction_of_the_negative_axis_is_pi() -> None:
     for zero in (0.0, -0.0):
         assert scalars.direction_angle(-1.0, zero) == math.pi
