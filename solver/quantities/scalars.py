@@ -5,8 +5,8 @@ and on recorded expressions (`solver.kernels.record.recorder`), which become ker
 """
 
 import math
-from collections.abc import Sequence
-from functools import lru_cache
+from collections.abc import Iterable, Sequence
+from functools import lru_cache, reduce
 from typing import Any
 
 import numpy as np
@@ -107,6 +107,25 @@ def minimum(x: Scalar, y: Scalar) -> Scalar:
 def maximum(x: Scalar, y: Scalar) -> Scalar:
     """Return the larger of x and y."""
     return select_positive(x - y, x, y)
+
+
+def least(numbers: Iterable[Scalar], none: Scalar = math.inf) -> Scalar:
+    """Return the smallest of some numbers and `none`."""
+    return reduce(minimum, numbers, none)
+
+
+def greatest(numbers: Iterable[Scalar], none: Scalar = 0.0) -> Scalar:
+    """Return the largest of some numbers and `none`."""
+    return reduce(maximum, numbers, none)
+
+
+def exact_sum(numbers: Sequence[Scalar]) -> Scalar:
+    """Return the sum of floats or arrays, rounded once."""
+    if any(isinstance(number, type_of_array) for number in numbers):
+        return np.array(
+            [math.fsum(each) for each in zip(*np.broadcast_arrays(*numbers), strict=True)]
+        )
+    return math.fsum(numbers)
 
 
 def clamp_to_unit(x: Scalar) -> Scalar:

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.lane import aligned_zeros
 from jointplay.solver.linear_algebra.spectral_radius import spectral_radius
 
 SQUARINGS = 10

@@ -99,7 +99,7 @@ def has_play(joint: Joint) -> bool:
     """Tell whether the bodies of a joint act on each other by contact, not by a constraint."""
     if isinstance(joint, Fixed) or joint.clearance is None:
         return False
-    return play_of(joint.clearance) > 0.0
+    return bool(play_of(joint.clearance) > 0.0)
 
 
 def pairs_of(name: str, joint: Joint) -> tuple[ContactPair, ...]:

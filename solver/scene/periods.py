@@ -8,6 +8,7 @@ from functools import lru_cache
 
 from jointplay.solver.laws.force import ForceElement
 from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.quantities.scalars import Scalar, greatest, sqrt
 from jointplay.solver.scene.clocks import timed, turns
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
@@ -137,15 +138,15 @@ def _whole_numbers(ratio: float) -> Fraction:
     return Fraction(ratio).limit_denominator(LARGEST_RATIO)
 
 
-def characteristic_time(scene: Scene, length: float) -> float:
+def characteristic_time(scene: Scene, length: float) -> Scalar:
     """Return a time scale, s: the shortest driver period, else that of a pendulum, else 1 s."""
     speeds = [speed for driver in scene.drivers.values() for speed in _speeds(scene, driver)]
     speeds += [speed for element in scene.forces.values() for speed in _paces(scene, element)]
     turning = [speed for speed in speeds if speed >= SLOWEST]
     if turning:
-        return 2.0 * math.pi / max(turning)
-    gravity = math.sqrt(sum(part * part for part in scene.gravity))
-    return 2.0 * math.pi * math.sqrt(length / gravity) if gravity > 0.0 else 1.0
+        return 2.0 * math.pi / greatest(turning)
+    gravity = sqrt(sum(part * part for part in scene.gravity))
+    return 2.0 * math.pi * sqrt(length / gravity) if gravity > 0.0 else 1.0
 
 
 def quickest_driver(scene: Scene, length: float) -> float:

@@ -22,8 +22,12 @@ CLOSING_STEPS = 8
 """Newton steps that close the loops of a given start."""
 
 
-def begin(lane: Lane, problem: LaneProblem) -> None:
-    """Evaluate a lane's start: first slopes, contacts that begin closed, first records."""
+def begin(lane: Lane, problem: LaneProblem, resting: Floats) -> None:
+    """Evaluate a lane's start: first slopes, contacts that begin closed, first records.
+
+    Or that of all lanes of a work array; then `resting`, m/s as `resting_rates` returns them, is
+    (pairs, lanes).
+    """
     module, start = lane.kernel.module, problem.start
     lane["stage"] = lane["y"]
     if start is not None and not start.closed and lane.kernel.equations.loops is not None:
@@ -32,7 +36,7 @@ def begin(lane: Lane, problem: LaneProblem) -> None:
     lane["mode"], lane["impact_rate"] = 0.0, floor
     module.right_hand_side(lane.work)
     rate, closed = lane["gap_rate"], lane["gap"] > 0.0
-    latched: Floats = np.maximum(rate, _resting_rates(problem.scene))
+    latched: Floats = np.maximum(rate, resting)
     if start is not None and start.contact is not None and start.impact_rate is not None:
         latched = np.where(start.contact, start.impact_rate, rate)
     lane["mode"], lane["impact_rate"] = 1.0 * closed, np.maximum(latched, floor)
@@ -56,11 +60,15 @@ def begin(lane: Lane, problem: LaneProblem) -> None:
         _start_tangent(lane, problem.scene)
 
 
-def _resting_rates(scene: Scene) -> Floats:
-    """Return the least impact rate of each pair that touches from the start on, (pairs,) m/s."""
+def resting_rates(scene: Scene) -> Floats:
+    """Return the least impact rate of each pair that touches from the start on, m/s.
+
+    (pairs,), or (pairs, points) if the scene has the numbers of many points.
+    """
     length = shortest_link(scene)
     pairs = contact_pairs(scene).values()
-    return np.array([resting_rate(scene, pair, length) for pair in pairs], np.float64)
+    rates = [resting_rate(scene, pair, length) for pair in pairs]
+    return np.array(np.broadcast_arrays(*rates), np.float64) if rates else np.zeros(0)
 
 
 def _close_loops(lane: Lane) -> None:
@@ -80,7 +88,9 @@ def _start_tangent(lane: Lane, scene: Scene) -> None:
     Where a law jumps there is none: the tangent is NaN, and so is its growth.
     """
     assert lane.tangents is not None  # noqa: S101  (asked before)
-    start_tangent(lane.index, lane.places[0], lane.work)
+    columns = range(lane.work.shape[1])
+    for index in columns[lane.index] if isinstance(lane.index, slice) else (lane.index,):
+        start_tangent(index, lane.places[0], lane.work)
     lane.tangents.module.kinks(lane.work)
     lane["kink_start"] = lane["kink_end"]
     if lane.kernel.equations.loops is not None:

@@ -1,20 +1,26 @@
-"""Sets a lane's numbers: those of its scene, its error scales, its clock and its counters."""
+"""Sets numbers of a lane: those of its scene, its error scales, its clock and its counters.
+
+Or of many lanes of one structure at once, whose scene has `Varied` numbers and whose problem has
+(lanes,) where they differ: the same arithmetic, so the same bits.
+"""
 
 import math
 
 import numpy as np
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.enclosure import HELD, SKIN
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.periods import PACE_STEPS, set_clock
+from jointplay.solver.kernels.loop.periods import PACE_STEPS, set_clock, set_clocks
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem
-from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SectionKind
+from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, SectionKind
 from jointplay.solver.kernels.loop.start import mechanism_size, start_state
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.impact_floors import impact_floor
+from jointplay.solver.quantities.scalars import greatest, least, minimum, sqrt
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
@@ -62,22 +68,25 @@ def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
     _clock(lane, problem, period.seconds or unit, common)
     _limit(lane, problem, length, unit)
     _scale(lane, problem, length, unit)
-    if problem.start is None:
-        assembly = assemble(scene)
-        state = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
-    else:
-        state = problem.start.state
-    lane["y"] = state
+    state = own_start(kernel, scene) if problem.start is None else problem.start.state
+    lane["y"].T[:] = state.T  # (states,) of all lanes, or (states, lanes)
     count = len(kernel.coordinates)
-    shares = np.abs(state[count : 2 * count]) * lane["weight"][count : 2 * count]
+    shares = np.abs(lane["y"][count : 2 * count]) * lane["weight"][count : 2 * count]
     full = 1.0 / problem.tolerance
     lane["full"] = full
-    lane["fastest"] = min(max(STRICTEST * full * full, *shares), full)
+    lane["fastest"] = np.minimum(np.max(shares, axis=0, initial=STRICTEST * full * full), full)
+
+
+def own_start(kernel: Kernel, scene: Scene) -> Floats:
+    """Return the states of a scene's own start, (states,)."""
+    assembly = assemble(scene)
+    return start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
 
 
 def number(lane: Lane, compiled: Kernel | Tangents, scene: Scene) -> None:
     """Evaluate what compiled functions need that depends on the scene's numbers alone."""
-    lane.work[compiled.fixed.slots, lane.index] = compiled.fixed.values(scene)
+    for slot, value in zip(compiled.fixed.slots, compiled.fixed.values(scene), strict=True):
+        lane.work[slot, lane.index] = value
 
 
 def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None:
@@ -85,29 +94,29 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     kernel, scene = lane.kernel, problem.scene
     count = len(kernel.coordinates)
     pairs = contact_pairs(scene).values()
-    finest = min((pair.play for pair in pairs), default=math.inf)
+    finest = least(pair.play for pair in pairs)
     reach = mechanism_size(scene, length)
     radian = unit / (2.0 * math.pi)
-    gravity = math.sqrt(sum(part * part for part in scene.gravity))
+    gravity = sqrt(sum(part * part for part in scene.gravity))
     acceleration = gravity + length / (radian * radian)
-    crossing = ACROSS * math.sqrt(acceleration * finest) / length
+    crossing = ACROSS * sqrt(acceleration * finest) / length
     laws = [pair.clearance.friction for pair in pairs]
     full = [law.full_slip_speed for law in laws if law is not None and not law.is_off]
-    steepest = RESOLVED * min(full, default=math.inf)
+    steepest = RESOLVED * least(full)
     for i, name in enumerate(kernel.coordinates):
         angle = name.endswith(".theta")
         scale = 1.0 if angle else length
-        close = min(scale, finest / reach if angle else finest)
+        close = minimum(scale, finest / reach if angle else finest)
         lane["weight"][i] = 1.0 / (problem.tolerance * close)
-        slow = scale * min(1.0 / radian, crossing)
-        slow = min(slow, steepest / problem.tolerance / (reach if angle else 1.0))
+        slow = scale * minimum(1.0 / radian, crossing)
+        slow = minimum(slow, steepest / problem.tolerance / (reach if angle else 1.0))
         lane["weight"][count + i] = 1.0 / (problem.tolerance * slow)
     inner = (state for states in inner_states(scene).values() for state in states)
     for i, state in enumerate(inner, start=2 * count):
         lane["weight"][i] = 1.0 / (problem.tolerance * state.scale)
     for j, pair in enumerate(pairs):
         lane["impact_floor"][j] = impact_floor(scene, pair, length)
-        lane["abrupt"][j] = float(pair.clearance.contact.jumps_at_onset)
+        lane["abrupt"][j] = pair.clearance.contact.jumps_at_onset
         restart = RESTART * pair.play if problem.step is None else math.inf
         lane["restart"][j] = restart
 
@@ -123,19 +132,22 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     lane["largest_step"] = problem.step or unit / STEPS_IN_A_PERIOD
     sliders = [pair.size for pair in contact_pairs(scene).values() if not pair.is_journal]
     travel = driven_travel(scene, unit, problem.duration)  # farther, maybe, than bodies are long
-    lane["lever"] = max([mechanism_size(scene, length), travel, *sliders])
+    lever = greatest([mechanism_size(scene, length), travel, *sliders])
+    lane["lever"] = lever
     lane["bend"] = math.inf
-    lane["driven_speed"] = driven_speed(scene, lane.number("lever"), problem.duration)
+    lane["driven_speed"] = driven_speed(scene, lever, problem.duration)
     for j, (name, pair) in enumerate(contact_pairs(scene).items()):
         lane["inner"][j] = (1.0 - SKIN) * pair.play
         lane["outer"][j] = (1.0 + HELD * problem.tolerance) * pair.play
         law = pair.clearance.friction
         if law is not None and not law.is_off:
-            lane["bend"][BENDS * j : BENDS * (j + 1)] = law.bends
+            for k, bend in enumerate(law.bends, start=BENDS * j):
+                lane["bend"][k] = bend
         for quantity, slot in ROWS.items():
             lane[slot][j] = lane.kernel.rows.watched_row(f"{name}.{quantity}")
     inner = [f"{pair}.{one.name}" for pair, own in inner_states(scene).items() for one in own]
-    lane["inner_row"] = np.array([lane.kernel.rows.watched_row(name) for name in inner])
+    for k, name in enumerate(inner):
+        lane["inner_row"][k] = lane.kernel.rows.watched_row(name)
 
 
 def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> None:
@@ -163,10 +175,13 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     run["periods"], run["pace_time"] = periods, periods * period + since
     run["duration"], run["output_step"] = problem.duration, problem.output_step
     run["smallest_step"] = SMALLEST_STEP * period
-    run["next"] = problem.first_sample, problem.first_section
-    run["stop"] = problem.samples, problem.sections
+    run["next"][..., SAMPLES], run["stop"][..., SAMPLES] = problem.first_sample, problem.samples
+    run["next"][..., SECTIONS], run["stop"][..., SECTIONS] = problem.first_section, problem.sections
     run["section_kind"], run["section_place"] = event.kind, event.place
     run["section_value"], run["section_sense"] = event.value, event.sense
     run["section_turn"] = event.turn
     run["section_from"], run["section_offset"] = event.not_before, problem.section_offset
-    set_clock(lane.index, run, lane.places[0], lane.work)
+    if isinstance(lane.index, slice):
+        set_clocks(lane.places, lane.work, run)
+    else:
+        set_clock(lane.index, run, lane.places[0], lane.work)

@@ -14,12 +14,13 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
 from jointplay.solver.kernels.loop.advance import advance
-from jointplay.solver.kernels.loop.beginning import begin
+from jointplay.solver.kernels.loop.beginning import begin, resting_rates
 from jointplay.solver.kernels.loop.binding import FIRST_STEP, bind, number
 from jointplay.solver.kernels.loop.dense_rows import observe_rows
-from jointplay.solver.kernels.loop.lane import Lane
+from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
 from jointplay.solver.kernels.loop.periods import look_ahead, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
+from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, Buffers, Status
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.scene.document import Scene
@@ -31,7 +32,6 @@ ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
 STEPS_AT_ONCE = 32_768
 """The same of accepted steps, of all lanes that keep them: some 50 ms of computing."""
-ENERGIES = ("energy.kinetic", "energy.potential", "stored")
 
 
 @dataclass
@@ -117,18 +117,30 @@ class Bundle:
         """Give a lane that does not run a problem to compute; the other lanes do not notice.
 
         `like` is a lane that has the problem's scene already, which saves looking at it again.
-
-        Lanes that never had one repeat this one's numbers: harmless, unlike zeros.
         """
         lane = self.lane(i)
         bind(lane, problem, None if like is None else self.lane(like))
-        fresh = self.groups[i // self.width].runs["status"] == Status.IDLE
-        fresh[lane.index] = False
-        lane.work[:, fresh] = lane.work[:, [lane.index]]
-        lane.work[self.kernel.layout["active"], fresh] = 0.0
-        begin(lane, problem)
+        self._repeat(i)
+        begin(lane, problem, resting_rates(problem.scene))
         self.set_going(i)
         self.first_energy[:, i] = self.energy(i)
+
+    def load_ready(self, i: int, ready: ReadyLanes, k: int) -> None:
+        """Give a lane that does not run the k-th of problems that were made ready; as `load`."""
+        group, index = divmod(i, self.width)
+        self.groups[group].work[:, index] = ready.work[k]
+        self._repeat(i)
+        self.runs[i] = ready.runs[k]
+        self.first_energy[:, i] = ready.first_energy[k]
+
+    def _repeat(self, i: int) -> None:
+        """Give lanes that never had a problem the numbers of this one: harmless, unlike zeros."""
+        group, index = self.groups[i // self.width], i % self.width
+        fresh = group.runs["status"] == Status.IDLE
+        fresh[index] = False
+        if fresh.any():
+            group.work[:, fresh] = group.work[:, [index]]
+            group.work[self.kernel.layout["active"], fresh] = 0.0
 
     def number_like(self, other: Bundle, i: int, scene: Scene) -> None:
         """Give the first lane the numbers of a scene that a lane of another bundle has already."""
@@ -282,11 +294,3 @@ class Bundle:
         works = np.split(saved[f"{name}/work"], BUNDLE // self.width, axis=1)
         for group, work in zip(self.groups, works, strict=True):
             group.work[:] = work
-
-
-def aligned_zeros(slots: int, columns: int) -> Floats:
-    """Return zeros (slots, columns) that begin on a cache line: else rows straddle two."""
-    line, size = 64, slots * columns
-    padded = np.zeros(size + line // 8)
-    skip = (-padded.ctypes.data % line) // 8
-    return padded[skip : skip + size].reshape(slots, columns)

@@ -21,10 +21,10 @@ class Lane:
     tangents: Tangents | None
     work: Floats
     """(slots, lanes) of all lanes beside it, too."""
-    index: int
-    """Column of the work array."""
+    index: int | slice
+    """Column of the work array; or all of them: then blocks are (slots, lanes)."""
     run: Any
-    """Record of the lane's run, of type `Run`; its fields can be set by name."""
+    """Record of the lane's run, of type `Run`, or (lanes,); its fields can be set by name."""
 
     @property
     def places(self) -> NDArray[np.void]:
@@ -72,3 +72,11 @@ class Lane:
         clock = np.array([float(self.run["periods"]), self.number("time")])
         state = (self[name] for name in ("phase", "wound", "y", "mode", "impact_rate"))
         return np.concatenate([clock, *state])[None]
+
+
+def aligned_zeros(slots: int, columns: int) -> Floats:
+    """Return zeros (slots, columns) that begin on a cache line: else rows straddle two."""
+    line, size = 64, slots * columns
+    padded = np.zeros(size + line // 8)
+    skip = (-padded.ctypes.data % line) // 8
+    return padded[skip : skip + size].reshape(slots, columns)

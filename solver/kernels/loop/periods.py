@@ -3,11 +3,20 @@
 import math
 
 import numpy as np
+from numba import void
 
 from jointplay.solver.kernels import compensated
-from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import inner_kernel, kernel
-from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Run, SectionKind, Status
+from jointplay.solver.kernels.emit.functions import WORK
+from jointplay.solver.kernels.emit.places import PLACES, Places
+from jointplay.solver.kernels.jit import deferred, inner_kernel, kernel
+from jointplay.solver.kernels.loop.runs import (
+    RUNS,
+    SAMPLES,
+    SECTIONS,
+    Run,
+    SectionKind,
+    Status,
+)
 
 PACE_STEPS, SLOWEST_PACE = 200_000, 1e-5
 """Fewer periods of the fastest driver than SLOWEST_PACE in PACE_STEPS steps are no progress: the
@@ -77,6 +86,15 @@ def set_clock(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
         turns = travel if run.common else math.floor(travel)
         work[at.wound + k, lane] = turn * turns
         work[at.phase + k, lane] = start + turn * (travel - turns)
+
+
+@deferred(void(PLACES, WORK, RUNS))
+def set_clocks(places: np.ndarray, work: np.ndarray, runs: np.ndarray) -> None:
+    """Set the clocks of all lanes as they are in their present periods; note what is due next."""
+    for lane in range(len(runs)):
+        set_clock(lane, runs[lane], places[0], work)
+        for kind in range(2):
+            look_ahead(kind, lane, runs[lane], places[0], work)
 
 
 @kernel()

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
-from jointplay.records.arrays import Floats
-from jointplay.solver.kernels.record.operations import OPERATIONS
+from jointplay.solver.kernels.record.operations import operate
 from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 
 
@@ -27,12 +27,12 @@ class FixedNumbers:
         ]
         self._arguments = [[places[a.index] for a in node.arguments] for node in self._nodes]
 
-    def values(self, scene: Scene) -> Floats:
-        """Return the numbers of a scene in the order of `slots`.
+    def values(self, scene: Scene) -> list[Scalar]:
+        """Return the numbers of a scene in the order of `slots`; (points,) where they vary.
 
         The scene must have the structure that the kernel was compiled for.
         """
-        found: list[float] = []
+        found: list[Scalar] = []
         for node, pointer, arguments in zip(
             self._nodes, self._pointers, self._arguments, strict=True
         ):
@@ -41,9 +41,8 @@ class FixedNumbers:
             elif node.operation == "constant":
                 found.append(node.value)
             else:
-                operands = [found[i] for i in arguments]
-                found.append(OPERATIONS[node.operation].on_floats(*operands))
-        return np.array([found[i] for i in self._wanted], np.float64)
+                found.append(operate(node.operation, [found[i] for i in arguments]))
+        return [found[i] for i in self._wanted]
 
 
 def _in_order(nodes: Iterable[Expression]) -> list[Expression]:
@@ -58,7 +57,7 @@ def _in_order(nodes: Iterable[Expression]) -> list[Expression]:
     return [found[index] for index in sorted(found)]  # nodes are recorded behind their arguments
 
 
-def _number_at(scene: Scene, pointer: Sequence[str]) -> float:
+def _number_at(scene: Scene, pointer: Sequence[str]) -> Scalar:
     """Return the number at the parts of a JSON pointer."""
     place: Any = scene
     for part in pointer:
@@ -66,4 +65,4 @@ def _number_at(scene: Scene, pointer: Sequence[str]) -> float:
             place = getattr(place, part)
         else:
             place = place[int(part) if isinstance(place, list) else part]
-    return float(place)
+    return place if isinstance(place, np.ndarray) else float(place)

@@ -9,10 +9,13 @@ so that the depth of a contact, x sqrt(x), has derivative 0 at its onset and not
 
 import math
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from jointplay.solver.quantities import elementary
 from jointplay.solver.quantities.elementary import HIGHEST, LOWEST, ON_FLOATS
 from jointplay.solver.quantities.scalars import exponential, logarithm, power, sine_cosine
 
@@ -204,3 +207,27 @@ OPERATIONS: dict[str, Operation] = {
     "exp": Operation(exponential, lambda node, rates: node * rates[0]),
 }
 """Every operation by its name on tapes."""
+
+
+def _powers(x: Any, exponent: Any) -> Any:
+    """Return powers with exponents of which some may be the one that has a form of its own."""
+    x, exponent = np.broadcast_arrays(x, exponent)
+    return np.where(exponent == 1.5, x * np.sqrt(x), power(x, exponent))
+
+
+ON_ARRAYS: dict[str, Callable[..., Any]] = {
+    **elementary.ON_ARRAYS,
+    "sqrt": np.sqrt,
+    "sin": lambda x: sine_cosine(x + 0.0)[0],
+    "cos": lambda x: sine_cosine(x + 0.0)[1],
+    "pow": _powers,
+}
+"""Operations that take other ways on arrays; with the bits of `on_floats`."""
+
+
+def operate(name: str, operands: Sequence[Any]) -> Any:
+    """Return what an operation gives of numbers, of which some may be arrays, (points,)."""
+    function: Callable[..., Any] = OPERATIONS[name].on_floats
+    if any(isinstance(operand, np.ndarray) for operand in operands):
+        function = ON_ARRAYS.get(name, function)
+    return function(*operands)

@@ -9,15 +9,19 @@ from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.study.finer import COST, periods_of
 from jointplay.solver.runs.study.judge import judged, looks_again, looks_longer
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_extremes import lanes_that_keep_steps
 from jointplay.solver.runs.study.point_run import PointRun
-from jointplay.solver.runs.study.problem import problem_of
+from jointplay.solver.runs.study.problem import begin_point, problem_of, ready
 from jointplay.solver.runs.study.record import Recording
 from jointplay.solver.runs.study.settle import goes_on
+
+AT_ONCE = 64
+"""Points that are made ready together."""
 
 Collected = tuple[list[SectionRows], list[PointEnd], list[PointRun]]
 """Sections, points that ended, and those that may follow them."""
@@ -38,6 +42,7 @@ class LaneGroup:
         self.bundle = Bundle(kernel, watch=watch, tangents=tangents, keep_steps=keep_steps)
         self.recording = Recording(study, self.bundle)
         self.lanes: list[PointRun | None] = [None] * BUNDLE
+        self._ready: dict[int, tuple[ReadyLanes, int]] = {}
 
     @property
     def busy(self) -> bool:
@@ -76,11 +81,26 @@ class LaneGroup:
             run = next(fitting, None)
             if run is None:
                 break
+            self._load(lane, run, waiting)
             waiting.remove(run)
             self.lanes[lane] = run
-            self.bundle.load(lane, problem_of(self.study, self.bundle.kernel, run))
             started.append(run.point)
         return tuple(started)
+
+    def _load(self, lane: int, run: PointRun, waiting: list[PointRun]) -> None:
+        """Give a free lane a waiting point; those that wait beside it are made ready together."""
+        study, kernel, point = self.study, self.bundle.kernel, run.point
+        begin_point(study, kernel, run)
+        if run.start is not None:
+            scene = study.point_scene(point)
+            self.bundle.load(lane, problem_of(study, kernel, point, scene, run.start))
+            return
+        if point not in self._ready:
+            alike = (one for one in waiting if study.structure[one.point] == self.structure)
+            points = [one.point for one in alike if one.start is None][:AT_ONCE]
+            lanes = ready(study, kernel, self.bundle.tangents, points)
+            self._ready = {one: (lanes, k) for k, one in enumerate(points)}
+        self.bundle.load_ready(lane, *self._ready.pop(point))
 
     def collect(self) -> Collected:
         """Take the rows of all lanes and free those whose points are over."""

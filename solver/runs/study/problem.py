@@ -8,13 +8,15 @@ import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.tangents import Tangents
+from jointplay.solver.kernels.loop.binding import own_start
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
+from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes, make_ready
 from jointplay.solver.kernels.loop.runs import SectionKind
-from jointplay.solver.kernels.loop.start import start_state
-from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun, begin_tallies, window_of
+from jointplay.solver.scene.document import Scene
 from jointplay.solver.statistics import OF_CHANNELS
 
 ENDLESS = 2**62
@@ -23,40 +25,58 @@ WINDOW = 16
 """Periods between two looks at whether a point has settled."""
 
 
-def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
+def begin_point(study: Study, kernel: Kernel, run: PointRun) -> None:
+    """Note how far the first leg of a point goes, and give it its tallies."""
+    if study.statistics:
+        begin_tallies(study, run, len(kernel.pairs))
+    if study.record == 0:
+        run.reached = run.settled = 0
+    elif study.job["settle"] == "auto":
+        run.reached = min(WINDOW, most_settling(study, run.point))
+    else:
+        run.settled = int(study.job["settle"])
+
+
+def ready(study: Study, kernel: Kernel, tangents: Tangents | None, points: list[int]) -> ReadyLanes:
+    """Return lanes of points of one structure that have no neighbour to follow."""
+    scenes = study.scenes.at_rows(np.array(points))
+    scene = scenes.together()
+    problems = [problem_of(study, kernel, point, scene) for point in points]
+    return make_ready(kernel, tangents, problems, scenes.scene)
+
+
+def problem_of(
+    study: Study, kernel: Kernel, point: int, scene: Scene, start: LaneStart | None = None
+) -> LaneProblem:
     """Return what a lane computes first of a point: all of it, or the time until it settles."""
-    point, period = run.point, float(study.period[run.point])
-    scene = study.point_scene(point)
-    start = run.start
+    period = float(study.period[point])
     if study.perturbation is not None:
         start = _perturbed(study, kernel, point, study.perturbation)
     if study.record == 0:
-        run.reached = 0
-        run.settled = 0
         duration = float(study.duration[point])
-        sampled = _sampled(study, kernel, run, duration)
+        step, samples, first_sample = _sampled(study, point, duration)
         return LaneProblem(
             scene,
             duration,
             study.tolerance,
-            *sampled[:2],
+            step,
+            samples,
             0,
             0.0,
             start=start,
-            first_sample=sampled[2],
+            first_sample=first_sample,
         )
     event = _event(study, kernel, point)
     waits = study.job["settle"] == "auto"
     if waits:
-        run.reached = min(WINDOW, most_settling(study, point))
-        duration, sections, first = run.reached * period, ENDLESS, 1
+        reached = min(WINDOW, most_settling(study, point))
+        duration, sections, first = reached * period, ENDLESS, 1
     else:
-        run.settled = int(study.job["settle"])
-        duration, first = float(study.duration[point]), run.settled + 1
+        duration, first = float(study.duration[point]), int(study.job["settle"]) + 1
         sections = first + study.record
     if event is not None:
         first, sections = 0, ENDLESS if waits else study.record
-    step, samples, first_sample = _sampled(study, kernel, run, duration)
+    step, samples, first_sample = _sampled(study, point, duration)
     return LaneProblem(
         scene,
         duration,
@@ -72,16 +92,11 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
     )
 
 
-def _sampled(
-    study: Study, kernel: Kernel, run: PointRun, duration: float
-) -> tuple[float, int, int]:
-    """Return step, number and first of the samples that statistics need; begin their tallies."""
-    if not study.statistics:
-        return duration, 0, 0
-    begin_tallies(study, run, len(kernel.pairs))
+def _sampled(study: Study, point: int, duration: float) -> tuple[float, int, int]:
+    """Return step, number and first of the samples that statistics of channels need."""
     if OF_CHANNELS.keys().isdisjoint(study.statistics):
         return duration, 0, 0
-    window = window_of(study, run.point)
+    window = window_of(study, point)
     samples = window.first + window.grid.samples + 1  # the last one is taken at the end
     return window.step, samples, window.first
 
@@ -120,8 +135,7 @@ def _event(study: Study, kernel: Kernel, point: int) -> Event | None:
 
 def _perturbed(study: Study, kernel: Kernel, point: int, perturbation: Perturbation) -> LaneStart:
     """Return the start of a member of an ensemble."""
-    scene = study.point_scene(point)
-    assembly = assemble(scene)
-    state = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
+    scene = study.point_scene(point)  # that of all members
+    state = own_start(kernel, scene)
     scales = start_scales(scene, kernel.coordinates, float(study.period[point]))
     return LaneStart(perturbed_start(state, scales, perturbation, point))

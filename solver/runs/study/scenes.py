@@ -14,6 +14,7 @@ import numpy as np
 from pydantic import BaseModel
 
 from jointplay.records.arrays import Floats, Integers
+from jointplay.solver.quantities.varied import together
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import value_at
 
@@ -59,16 +60,24 @@ class PointScenes:
 
     def scene(self, point: int) -> Scene:
         """Return the scene of a point; whether its numbers are admissible is not checked."""
+        row = self.values[point].tolist()
+        return self._with([row[leaf.column] * leaf.factor for leaf in self.leaves])
+
+    def together(self) -> Scene:
+        """Return one scene with the numbers of all points, of one structure; see `Varied`."""
+        return self._with([together(self.column(leaf).tolist()) for leaf in self.leaves])
+
+    def _with(self, numbers: Sequence[Any]) -> Scene:
+        """Return the scene with these numbers at the leaves."""
         if not self.leaves:
             return self.base
-        row = self.values[point].tolist()
         branches: Branches = {}
-        for leaf in self.leaves:
+        for leaf, number in zip(self.leaves, numbers, strict=True):
             *parents, last = leaf.path.strip("/").split("/")
             at = branches
             for key in parents:
                 at = at.setdefault(key, {})
-            at[last] = row[leaf.column] * leaf.factor
+            at[last] = number
         changed: Scene = _changed(self.base, branches)
         return changed
 

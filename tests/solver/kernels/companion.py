@@ -8,7 +8,8 @@ that end on its onsets.
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.lane import aligned_zeros
 from jointplay.solver.kernels.target import own_target
 
 LANES = own_target().lanes

@@ -16,7 +16,7 @@ from jointplay.solver.kernels.emit.judging import RELEASE
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.places import DTYPE
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.bundle import aligned_zeros
+from jointplay.solver.kernels.loop.lane import aligned_zeros
 from jointplay.solver.kernels.loop.openings import dip, falling_root
 from jointplay.solver.kernels.loop.runs import DTYPE as RUN
 from jointplay.solver.kernels.loop.step import Step

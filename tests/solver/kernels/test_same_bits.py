@@ -14,7 +14,8 @@ from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.emit.tapes import Tapes
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS, Layout
-from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.lane import aligned_zeros
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.record.recorder import Recorder
 from jointplay.solver.kernels.target import Target, own_target

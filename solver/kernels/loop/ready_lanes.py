@@ -1,0 +1,121 @@
+"""Lanes made ready to run, many at once: a lane by itself takes Python a hundred times as long."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.tangents import Tangents
+from jointplay.solver.kernels.loop.beginning import begin, resting_rates
+from jointplay.solver.kernels.loop.binding import bind, own_start
+from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
+from jointplay.solver.kernels.loop.periods import set_clocks
+from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
+from jointplay.solver.kernels.loop.runs import DTYPE, Status
+from jointplay.solver.kernels.target import own_target
+from jointplay.solver.quantities.varied import REFUSALS, together
+from jointplay.solver.scene.document import Scene
+
+ENERGIES = ("energy.kinetic", "energy.potential", "stored")
+DIFFERING = (
+    "duration",
+    "output_step",
+    "samples",
+    "sections",
+    "section_offset",
+    "first_section",
+    "first_sample",
+)
+"""Numbers of a problem that may differ between those that are made ready together."""
+
+SceneOf = Callable[[int], Scene]
+
+
+@dataclass(frozen=True)
+class ReadyLanes:
+    """Lanes that have their numbers and their start; `Bundle.load_ready` sets one going."""
+
+    work: Floats
+    """(lanes, slots)."""
+    runs: NDArray[np.void]
+    """(lanes,) records of their runs."""
+    first_energy: Floats
+    """(lanes, 3) J: kinetic, potential and stored elastic energy."""
+
+
+def make_ready(
+    kernel: Kernel, tangents: Tangents | None, problems: Sequence[LaneProblem], scene_of: SceneOf
+) -> ReadyLanes:
+    """Return lanes of problems that all have one scene, with the numbers of all (`Varied`).
+
+    A lane has the bits that it would have alone.
+
+    Parameters
+    ----------
+    kernel, tangents
+        Of the lanes' structure.
+    problems
+        Alike but for scenes' numbers, `DIFFERING`, starts' states and when events count; starts
+        are without contacts.
+    scene_of
+        Returns the scene of a lane, for what cannot take all numbers at once.
+    """
+    size = (kernel.layout if tangents is None else tangents.layout).size
+    work, runs = np.zeros((size, len(problems))), np.zeros(len(problems), DTYPE)
+    problem = _joined(kernel, problems, scene_of)
+    try:
+        with np.errstate(divide="raise", invalid="raise"):
+            bind(Lane(kernel, tangents, work, slice(None), runs), problem)
+            resting = resting_rates(problem.scene)
+    except REFUSALS:
+        resting = np.zeros((len(kernel.pairs), len(problems)))
+        places = kernel.places if tangents is None else tangents.places
+        for i, problem in enumerate(problems):
+            problem = replace(problem, scene=scene_of(i))
+            bind(Lane(kernel, tangents, work, i, runs[i]), problem)
+            resting[:, i] = resting_rates(problem.scene)
+        set_clocks(places, work, runs)
+    resting = np.broadcast_to(resting.T, (len(problems), len(kernel.pairs))).T
+    energies = np.empty((len(ENERGIES), len(problems)))
+    columns = [kernel.rows.index(name) for name in ENERGIES]
+    width = own_target().lanes
+    group = aligned_zeros(size, width)
+    for first in range(0, len(problems), width):
+        own = np.minimum(np.arange(first, first + width), len(problems) - 1)
+        group[:] = work[:, own]
+        lanes = Lane(kernel, tangents, group, slice(None), runs[own])
+        begin(lanes, problems[0], resting[:, own])
+        work[:, own] = group
+        kernel.module.observe_rest(group)
+        energies[:, own] = lanes["channel"][columns]
+    runs["status"] = Status.RUNNING
+    for name, value in (("active", 1.0), ("next_due", -np.inf)):
+        work[kernel.layout.block(name)] = value
+    return ReadyLanes(np.ascontiguousarray(work.T), runs, np.ascontiguousarray(energies.T))
+
+
+def _joined(kernel: Kernel, problems: Sequence[LaneProblem], scene_of: SceneOf) -> LaneProblem:
+    """Return the problem of all lanes, whose numbers differ by lane."""
+    one = problems[0]
+    numbers = {name: together(getattr(problem, name) for problem in problems) for name in DIFFERING}
+    event = one.event
+    if event is not None:
+        late = together(problem.event.not_before for problem in problems if problem.event)
+        event = replace(event, not_before=late)
+    if one.start is not None:
+        states = np.stack([p.start.state for p in problems if p.start is not None], axis=1)
+        start = replace(one.start, state=states)
+    else:
+        start = LaneStart(_own_starts(kernel, one.scene, len(problems), scene_of), closed=True)
+    return replace(one, event=event, start=start, **numbers)
+
+
+def _own_starts(kernel: Kernel, scene: Scene, count: int, scene_of: SceneOf) -> Floats:
+    """Return the states of the scenes' own starts: (states,), or (states, lanes) if they differ."""
+    try:
+        return own_start(kernel, scene)
+    except REFUSALS:
+        return np.stack([own_start(kernel, scene_of(i)) for i in range(count)], axis=1)
