@@ -16,6 +16,7 @@ from functools import cached_property
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.quantities.scalars import Scalar
 
 KNOWN = 1e-4
 """Share of a column's square down to which differences tell what is left of it."""
@@ -34,16 +35,25 @@ class _Reflection:
         self.vector.insert(0, (places[0], first - self.image))
         self.factor = 1.0 / (size * (size + abs(first)))
 
-    def of(self, column: list[float]) -> bool:
+    def of(self, column: list[Scalar]) -> bool:
         """Reflect a column in place; return whether that changed it."""
         share = 0.0
         for i, entry in self.vector:
             share += entry * column[i]
+        if isinstance(share, np.ndarray):
+            return self._of_points(column, share)
         if share == 0.0:
             return False
         share *= self.factor
         for i, entry in self.vector:
             column[i] -= share * entry
+        return True
+
+    def _of_points(self, column: list[Scalar], share: Floats) -> bool:
+        """Reflect a column whose entries are (points,), each point as it would be alone."""
+        kept, share = share == 0.0, share * self.factor
+        for i, entry in self.vector:
+            column[i] = np.where(kept, column[i], column[i] - share * entry)
         return True
 
 
@@ -101,18 +111,21 @@ class Decomposition:
         return found, rows
 
     def least_squares(self, right: Floats) -> Floats:
-        """Return the smallest x, (columns,), with the smallest A x - b, for b (rows,)."""
-        found: list[float] = right.tolist()
+        """Return the smallest x, (columns,), with the smallest A x - b, for b (rows,).
+
+        Or (columns, points) for (rows, points), each with the bits that it has alone.
+        """
+        found: list[Scalar] = right.tolist() if right.ndim == 1 else list(right)
         for reflection in self._left:
             reflection.of(found)
         reflections, rows = self._right
-        x = [0.0] * len(self._columns)
+        x: list[Scalar] = [0.0] * len(self._columns)
         for k in range(self.rank - 1, -1, -1):
             total, row = found[k], rows[k]
             for j in range(k + 1, self.rank):
                 total -= row[j] * x[j]
             x[k] = total / row[k]
-        return self._placed(reflections, x)
+        return self._placed(reflections, x, right.shape[1:])
 
     def inverse(self) -> Floats:
         """Return the pseudoinverse, (columns, rows)."""
@@ -127,12 +140,14 @@ class Decomposition:
         basis = [self._placed(reflections, unit) for unit in np.eye(count)[self.rank :].tolist()]
         return np.array(basis, np.float64).reshape(count - self.rank, count).T
 
-    def _placed(self, reflections: list[_Reflection], x: list[float]) -> Floats:
+    def _placed(
+        self, reflections: list[_Reflection], x: list[Scalar], points: tuple[int, ...] = ()
+    ) -> Floats:
         """Return x in the places of the columns, reflected back."""
         for reflection in reversed(reflections):
             reflection.of(x)
-        found = np.empty(len(x))
-        found[self._order] = x
+        found = np.empty((len(x), *points))
+        found[self._order] = np.broadcast_arrays(*x) if points else x
         return found
 
 

@@ -168,6 +168,21 @@ def assemble(scene: Scene) -> Assembly:
     return found.closed if pose is None else _assembly(found.places, found.places.loose, pose)
 
 
+def start_of(scene: Scene, one: Scene) -> tuple[Floats, Floats]:
+    """Return the pose, (3 bodies,), and the rates, (3 bodies, points), at the start of many points.
+
+    They differ in speeds of drivers; `one` is the scene of one of them. ValueError or TypeError
+    where more differs that poses depend on, or rates are given, which hold or not by point.
+    """
+    play = {"joints": {"__all__": {"clearance"}}}
+    scene.model_dump_json(include=GEOMETRY, exclude=play | {"drivers": {"__all__": {"speed"}}})
+    pose = assemble(one).pose
+    rates, given = start_rates(Places.of(scene, shortest_link(scene)), pose)
+    if given:
+        raise ValueError("rates are given")
+    return pose, rates
+
+
 def _geometry(scene: Scene) -> str:
     """Return, as text, what an assembly depends on: no mass, no clearance, no law of contact."""
     found = scene.model_dump_json(include=GEOMETRY, exclude={"joints": {"__all__": {"clearance"}}})

@@ -18,7 +18,7 @@ from jointplay.solver.kernels.loop.periods import PACE_STEPS, set_clock, set_clo
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, SectionKind
 from jointplay.solver.kernels.loop.start import mechanism_size, start_state
-from jointplay.solver.mechanics.assembly import assemble, shortest_link
+from jointplay.solver.mechanics.assembly import assemble, shortest_link, start_of
 from jointplay.solver.mechanics.impact_floors import impact_floor
 from jointplay.solver.quantities.scalars import greatest, least, minimum, sqrt
 from jointplay.solver.scene.clocks import clocks
@@ -77,8 +77,14 @@ def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
     lane["fastest"] = np.minimum(np.max(shares, axis=0, initial=STRICTEST * full * full), full)
 
 
-def own_start(kernel: Kernel, scene: Scene) -> Floats:
-    """Return the states of a scene's own start, (states,)."""
+def own_start(kernel: Kernel, scene: Scene, one: Scene | None = None) -> Floats:
+    """Return the states of a scene's own start, (states,).
+
+    (states, points) if the drivers' speeds are those of many points, of which `one` is the scene of
+    one.
+    """
+    if one is not None:
+        return start_state(scene, kernel.coordinates, *start_of(scene, one))
     assembly = assemble(scene)
     return start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
 

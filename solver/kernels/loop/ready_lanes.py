@@ -115,7 +115,9 @@ def _joined(kernel: Kernel, problems: Sequence[LaneProblem], scene_of: SceneOf) 
 
 def _own_starts(kernel: Kernel, scene: Scene, count: int, scene_of: SceneOf) -> Floats:
     """Return the states of the scenes' own starts: (states,), or (states, lanes) if they differ."""
-    try:
-        return own_start(kernel, scene)
-    except REFUSALS:
-        return np.stack([own_start(kernel, scene_of(i)) for i in range(count)], axis=1)
+    for one in (None, scene_of(0)):
+        try:
+            return own_start(kernel, scene, one)
+        except REFUSALS:
+            continue
+    return np.stack([own_start(kernel, scene_of(i)) for i in range(count)], axis=1)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
+from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.joints import Prismatic
 from jointplay.solver.scene.references import inner_states
@@ -20,6 +21,7 @@ Floats = NDArray[np.float64]
 def start_state(scene: Scene, coordinates: Sequence[str], pose: Floats, velocity: Floats) -> Floats:
     """Return the states of the start, (states,), from absolute poses (3 bodies,) and their rates.
 
+    (states, points) from rates (3 bodies, points).
     Coordinates, then their speeds, then inner states of friction laws in the order of pairs.
     """
     bodies = list(scene.bodies)
@@ -30,14 +32,14 @@ def start_state(scene: Scene, coordinates: Sequence[str], pose: Floats, velocity
         if kind == "s":
             at, rate = travel(scene, body, pose, velocity)
         else:
-            at, rate = (float(a[i + ("x", "y", "theta").index(kind)]) for a in (pose, velocity))
+            at, rate = (a[i + ("x", "y", "theta").index(kind)] for a in (pose, velocity))
         position.append(at)
         speed.append(rate)
     inner = [state.start for states in inner_states(scene).values() for state in states]
-    return np.array([*position, *speed, *inner])
+    return np.array(np.broadcast_arrays(*position, *speed, *inner), np.float64)
 
 
-def travel(scene: Scene, body: str, pose: Floats, velocity: Floats) -> tuple[float, float]:
+def travel(scene: Scene, body: str, pose: Floats, velocity: Floats) -> tuple[Scalar, Scalar]:
     """Return the displacement along a prismatic joint that carries a body, m, and its rate."""
     numbers = view(scene)
     mechanism = AbsoluteMechanism(scene, numbers, close_play=False)
@@ -47,7 +49,7 @@ def travel(scene: Scene, body: str, pose: Floats, velocity: Floats) -> tuple[flo
     between = mechanism.ends((joint.guide, joint.slider), pose, velocity)
     gap, rate, (spin, _) = between.gap, between.rate, between.spins
     turned = spin * (-uy * gap[0] + ux * gap[1])
-    return float(ux * gap[0] + uy * gap[1]), float(ux * rate[0] + uy * rate[1] + turned)
+    return ux * gap[0] + uy * gap[1], ux * rate[0] + uy * rate[1] + turned
 
 
 def mechanism_size(scene: Scene, least: float) -> float:

@@ -22,6 +22,14 @@ HALVINGS = 8
 """Times that a step is halved at most, until it brings what is given nearer."""
 
 
+def off(rows: Rows, step: Floats) -> Floats:
+    """Return what rows are off by after a step, (rows,); after those of points, (rows, points)."""
+    if step.ndim == 1:
+        return rows.value + applied(rows.jacobian, step)
+    value = rows.value if rows.value.ndim > 1 else rows.value[:, None]
+    return value + product(rows.jacobian, step)
+
+
 class Steps:
     """The smallest changes, (3 bodies,), that do for each level what they can.
 
@@ -42,12 +50,16 @@ class Steps:
             free = product(free, left.free) if self._levels[1:] else left.free
 
     def step(self, values: Sequence[Floats]) -> Floats:
-        """Return the change that levels off by these values want."""
-        step = np.zeros(len(self._scale))
+        """Return the change that levels off by these values want.
+
+        values : (rows,) each, or (rows, points): then the changes are (3 bodies, points).
+        """
+        points = max((value.shape[1:] for value in values), key=len)
+        step = np.zeros((len(self._scale), *points))
         for i, scaled, free, left in self._levels:
-            wanted = left.least_squares(-(values[i] + applied(scaled, step)))
-            step = step + applied(free, wanted)
-        return np.asarray(self._scale * step)
+            wanted = left.least_squares(-off(Rows(values[i], scaled), step))
+            step = step + off(Rows(np.zeros(len(free)), free), wanted)
+        return np.asarray((self._scale * step.T).T)
 
 
 def step_of(levels: Sequence[Rows], scale: Floats) -> Floats:

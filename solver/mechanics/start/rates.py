@@ -14,8 +14,9 @@ from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.start.given import Given, Rows, given_rates, without_rounding
-from jointplay.solver.mechanics.start.levels import Steps, step_of
+from jointplay.solver.mechanics.start.levels import Steps, off, step_of
 from jointplay.solver.mechanics.start.pose import KEPT, Places
+from jointplay.solver.quantities.scalars import greatest
 from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.references import ends
 
@@ -24,7 +25,10 @@ HOLDS = 1e-12
 
 
 def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
-    """Return the rates of a pose, (3 bodies,), and what is given of them."""
+    """Return the rates of a pose, (3 bodies,), and what is given of them.
+
+    Where nothing is, drivers may have the speeds of many points: then (3 bodies, points).
+    """
     given = given_rates(places.closed, places.length)
     still = np.zeros_like(pose)
     rows = places.closed.rows(pose.tolist(), still.tolist(), places.driven)
@@ -32,7 +36,8 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     soft = [row for row in rows if not _is_hard(places, row) and _moves_along(places, row)]
     held = _rates(hard, pose)
     wanted = {one.pointer: one.rows(pose, still) for one in given}
-    size = max(float(np.abs(rows.value).max(initial=0.0)) for rows in [held, *wanted.values()])
+    every = [held, *wanted.values()]
+    size = greatest(np.abs(rows.value).max(axis=0, initial=0.0) for rows in every)
     rest: list[Rows] = []
     together = _joined([held, *wanted.values()], pose)
     if len(wanted) > 1 and _hold(together, places.scale, size):
@@ -47,7 +52,7 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     steps = Steps([rows.jacobian for rows in levels], places.scale)
     velocity = steps.step([rows.value for rows in levels])
     # once more, from there: what is left is the rounding of the first
-    left = [rows.value + applied(rows.jacobian, velocity) for rows in levels]
+    left = [off(rows, velocity) for rows in levels]
     velocity = velocity + steps.step(left)
     without_rounding(given, velocity, HOLDS * size)
     return velocity, given
@@ -62,7 +67,8 @@ def _hold(rows: Rows, scale: Floats, size: float) -> bool:
 def _rates(rows: list[Row], pose: Floats) -> Rows:
     """Return the rates at which rows are violated at rest, and how they change."""
     _, jacobian = arrays(rows, len(pose))
-    return Rows(np.array([row.rate for row in rows], np.float64), jacobian)
+    rates = np.broadcast_arrays(*(row.rate for row in rows))
+    return Rows(np.array(rates, np.float64), jacobian)
 
 
 def _is_hard(places: Places, row: Row) -> bool:

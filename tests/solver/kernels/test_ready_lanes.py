@@ -99,12 +99,18 @@ def test_a_start_is_looked_for_once_where_nothing_varies_that_it_depends_on(
 ) -> None:
     starts: list[Scene] = []
     whole = ready_lanes.own_start
-    monkeypatch.setattr(ready_lanes, "own_start", lambda k, s: (starts.append(s), whole(k, s))[1])
-    for path, count in ((CLEARANCE + "radial_clearance", 1), ("/bodies/rod/mass", 1)):
+
+    def noted(kernel: Any, scene: Scene, one: Scene | None = None) -> Any:
+        starts.append(scene)
+        return whole(kernel, scene, one)
+
+    monkeypatch.setattr(ready_lanes, "own_start", noted)
+    masses = (CLEARANCE + "radial_clearance", "/bodies/rod/mass")
+    for path, count in (*((path, 1) for path in masses), ("/drivers/motor/speed", 2)):
         scenes = scenes_of("slider-crank", [path])
         starts.clear()
         readied(scenes, kernel_of(scenes))
-        assert len(starts) == count
+        assert len(starts) == count  # of speeds it is asked for of one point, too
 
 
 @pytest.mark.parametrize(
