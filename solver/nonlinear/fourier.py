@@ -5,11 +5,15 @@ a chirp (Van Loan 1992, Computational Frameworks for the Fast Fourier Transform,
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.quantities.scalars import sine_cosine
+
+SHORT = 256
+"""Numbers of a row below which a loop over them takes longer to begin than to run."""
 
 Complex = tuple[Floats, Floats]
 """Real and imaginary parts."""
@@ -63,15 +67,30 @@ def padded(z: Complex, size: int) -> Complex:
 def _by_halves(z: Complex) -> Complex:
     """Return the transform for a length that is a power of two."""
     n, columns = z[0].shape
-    sine, cosine = sine_cosine((2.0 * math.pi / n) * np.arange(n // 2)[:, None, None])
     half, stride = n // 2, 1
     while half:  # transforms of 2 half places each are put together of those of even and odd ones
-        (a, b), (c, d) = (part.reshape(2, half, stride, columns) for part in z)
-        turn = cosine[::stride], -sine[::stride]
-        joined = np.empty((2, half, 2, stride, columns))
+        (a, b), (c, d) = (part.reshape(2, half, stride * columns) for part in z)
+        cosine, sine = _turns(n, half, columns if stride * columns < SHORT else 1)
+        joined = np.empty((2, half, 2, stride * columns))
         np.add(a, b, out=joined[0, :, 0])
         np.add(c, d, out=joined[1, :, 0])
-        joined[0, :, 1], joined[1, :, 1] = times((a - b, c - d), turn)
+        a, c = a - b, c - d
+        np.multiply(a, cosine, out=joined[0, :, 1])
+        joined[0, :, 1] -= c * sine
+        np.multiply(a, sine, out=joined[1, :, 1])
+        joined[1, :, 1] += c * cosine
         z = joined[0], joined[1]
         half, stride = half // 2, 2 * stride
     return z[0].reshape(n, columns), z[1].reshape(n, columns)
+
+
+@lru_cache(maxsize=64)  # as many as a few lengths have of stages
+def _turns(n: int, half: int, columns: int) -> Complex:
+    """Return exp(-2πi j/2 half) for j below half, from the turns of a transform of length n.
+
+    (half, 1) each; with `columns` repeated for each number of a row, (half, stride columns), for
+    loops over short rows take longer than what they compute.
+    """
+    sine, cosine = sine_cosine((2.0 * math.pi / n) * np.arange(n // 2)[:: n // (2 * half), None])
+    times_over = 1 if columns == 1 else n // (2 * half) * columns
+    return np.repeat(cosine, times_over, axis=1), np.repeat(-sine, times_over, axis=1)

@@ -14,7 +14,6 @@ from jointplay.solver.nonlinear.fourier import (
     Complex,
     conjugate,
     inverse,
-    padded,
     power_of_two,
     times,
     transformed,
@@ -25,6 +24,9 @@ FREQUENCIES = 100
 """Random frequencies c, whose median is taken: near a line of the spectrum K is not 0 or 1."""
 AT_ONCE = 2**16
 """Samples that are transformed together: what a processor has at hand."""
+REACHES = 3
+"""Length of a transform, in the longest displacement at least: a longer one has more stages, a
+shorter one more samples twice."""
 LOWEST, HIGHEST = math.pi / 5.0, 4.0 * math.pi / 5.0
 FEWEST_SAMPLES = 30
 FEWEST_TELLING = 300
@@ -82,40 +84,83 @@ def zero_one_test(series: Floats, seed: int = 0, resolution: float | Floats = 0.
 def _correlations(driving: Floats, seed: int) -> Floats:
     """Return K_c (columns, FREQUENCIES) for driving series (columns, n) of mean zero."""
     columns, n = driving.shape
-    reach = n // 10
     generator = np.random.default_rng(seed)
     frequencies = LOWEST + (HIGHEST - LOWEST) * generator.random(FREQUENCIES)
     counted = np.arange(1.0, n + 1.0)[:, None, None]
+    spectra = _spectra(driving.T)
     together = max(AT_ONCE // driving.size, 1)
     found = []
     for c in np.split(frequencies, range(together, FREQUENCIES, together)):
-        turning = sine_cosine(c[:, None] * counted)
-        q, p = (
-            np.add.accumulate(driving.T[:, None] * part, axis=0).reshape(n, -1) for part in turning
-        )
-        displacement = _mean_square_displacement((p, q), reach).T
-        found.append(_correlation_with_time(displacement).reshape(len(c), columns))
+        sine, cosine = sine_cosine(c[:, None] * counted)
+        displacement = _mean_square_displacement(driving.T, spectra, (cosine, sine))
+        by_row = np.ascontiguousarray(displacement.reshape(len(displacement), -1).T)
+        found.append(_correlation_with_time(by_row).reshape(len(c), columns))
     return np.concatenate(found).T
 
 
-def _mean_square_displacement(translation: Complex, reach: int) -> Floats:
-    """Return M_c(n), (reach, columns), for n = 1..reach: over the first starts.
+def _blocks(n: int) -> tuple[int, int, int]:
+    """Return a block's starts, how many blocks have them all, and the length of a transform.
 
-    |z_{j+n} - z_j|² = |z_{j+n}|² + |z_j|² - 2 Re z̄_j z_{j+n}; the last sum over j is a correlation,
-    done by Fourier transforms.
+    It is long enough for the samples that a block's starts reach, so that none is met twice.
     """
-    p, q = translation
-    n, columns = p.shape
+    reach = n // 10
+    size = power_of_two(REACHES * reach)
+    return size - reach, -(-(n - reach) // (size - reach)), size
+
+
+def _spectra(driving: Floats) -> Complex:
+    """Return the transforms (size, blocks, 1, columns) of what each block's starts reach."""
+    n, columns = driving.shape
+    length, blocks, size = _blocks(n)
+    behind = np.zeros(((blocks - 1) * length + size, columns))
+    behind[:n] = driving[: len(behind)]
+    parts = [behind[length * b : length * b + size] for b in range(blocks)]
+    reached = np.concatenate(parts, axis=1)
+    real, imaginary = transformed((reached, np.zeros_like(reached)))
+    shape = size, blocks, 1, columns
+    return real.reshape(shape), imaginary.reshape(shape)
+
+
+def _mean_square_displacement(driving: Floats, spectra: Complex, turning: Complex) -> Floats:
+    """Return M_c(n), (reach, frequencies, columns), for n = 1..reach: over the first starts.
+
+    |z_{j+n} - z_j|² = |z_{j+n}|² + |z_j|² - 2 Re z̄_j z_{j+n}. From n - 1 to n the sum of the last
+    over j grows by e^{icn} Σ_j z̄_j e^{icj} φ_{j+n}: correlations with the series itself, whose
+    transforms are the same for all frequencies. They are taken block by block of starts.
+
+    driving : (n, columns). turning : (n, frequencies, 1) e^{icj} for j = 1..n.
+    """
+    n = len(driving)
+    reach = n // 10
     starts = n - reach
-    squares = np.zeros((n + 1, columns))
-    np.add.accumulate(p * p + q * q, axis=0, out=squares[1:])
+    length, blocks, size = _blocks(n)
+    z = _accumulated(times(turning, (driving[:, None], np.zeros(1))))
+    squares = np.zeros((n + 1, *z[0].shape[1:]))
+    np.add.accumulate(z[0] * z[0] + z[1] * z[1], axis=0, out=squares[1:])
+    back = times(z, conjugate(turning))
+    cut = []
+    for part in back:
+        whole = np.zeros((blocks * length, *part.shape[1:]))
+        whole[:starts] = part[:starts]
+        block = np.zeros((size, blocks, *part.shape[1:]))
+        block[:length] = whole.reshape(blocks, length, *part.shape[1:]).swapaxes(0, 1)
+        cut.append(block)
+    flat = transformed((cut[0].reshape(size, -1), cut[1].reshape(size, -1)))
+    ahead = conjugate((flat[0].reshape(cut[0].shape), flat[1].reshape(cut[0].shape)))
+    summed = [part.sum(axis=1) for part in times(ahead, spectra)]
+    grown = inverse((summed[0].reshape(size, -1), summed[1].reshape(size, -1)))
     shifts = np.arange(1, reach + 1)
-    size = power_of_two(n)  # no wrap-around: j + n stays below the record's length
-    first = transformed(padded((p[:starts], q[:starts]), size))
-    correlation, _ = inverse(times(conjugate(first), transformed(padded(translation, size))))
+    shape = reach, *z[0].shape[1:]
+    gains = grown[0][shifts].reshape(shape), grown[1][shifts].reshape(shape)
+    turns = turning[0][:reach], turning[1][:reach]
+    correlation = squares[starts] + _accumulated(times(turns, gains))[0]
     arriving = squares[starts + shifts] - squares[shifts]
-    total = arriving + squares[starts] - 2.0 * correlation[shifts]
-    return np.asarray(total / starts, np.float64)
+    return np.asarray((arriving + squares[starts] - 2.0 * correlation) / starts, np.float64)
+
+
+def _accumulated(z: Complex) -> Complex:
+    """Return the sums of all rows up to each."""
+    return np.add.accumulate(z[0], axis=0), np.add.accumulate(z[1], axis=0)
 
 
 def _correlation_with_time(displacement: Floats) -> Floats:

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from jointplay.solver.nonlinear import fourier
 from jointplay.solver.nonlinear.zero_one import FREQUENCIES, zero_one_test
 from tests.solver.nonlinear.exponents import agrees
 from tests.solver.nonlinear.textbook import (
@@ -60,6 +61,22 @@ def test_it_is_the_published_formula(series: np.ndarray) -> None:
     # Fourier transforms round to 1e-16 of the sum of squares, which exceeds what is left of it
     # after the cancellation by less than the number of samples squared
     assert found.value == pytest.approx(expected, abs=1e-9)
+
+
+def test_transforms_are_no_longer_than_displacements_need(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Displacements go up to 500 of 5000 samples: a transform of them all would have 8192."""
+    found: list[tuple[int, int]] = []
+    original = fourier._by_halves
+
+    def counted(z: fourier.Complex) -> fourier.Complex:
+        found.append(z[0].shape)
+        return original(z)
+
+    monkeypatch.setattr(fourier, "_by_halves", counted)
+    zero_one_test(LOGISTIC_4.orbit(5000))
+    assert {size for size, _ in found} == {2048}
+    # three blocks of starts and one way back for each frequency, and the series itself
+    assert sum(columns for _, columns in found) == 4 * FREQUENCIES + 3
 
 
 def test_a_mean_that_is_kept_would_be_taken_out_by_the_oscillating_term() -> None:
