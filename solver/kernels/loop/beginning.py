@@ -14,19 +14,21 @@ from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.mechanics.impact_floors import resting_rate
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.references import tangent_obstacle
 
 Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 CLOSING_STEPS = 8
 """Newton steps that close the loops of a given start."""
 
 
-def begin(lane: Lane, problem: LaneProblem, resting: Floats) -> None:
+def begin(
+    lane: Lane, problem: LaneProblem, resting: Floats, obstructed: bool | Flags = False
+) -> None:
     """Evaluate a lane's start: first slopes, contacts that begin closed, first records.
 
     Or that of all lanes of a work array; then `resting`, m/s as `resting_rates` returns them, is
-    (pairs, lanes).
+    (pairs, lanes), and `obstructed`, where no tangent can follow, (lanes,).
     """
     module, start = lane.kernel.module, problem.start
     lane["stage"] = lane["y"]
@@ -57,7 +59,7 @@ def begin(lane: Lane, problem: LaneProblem, resting: Floats) -> None:
     lane["change"] = math.nan
     lane["lowest"][rows - len(floor) :] = -math.inf
     if lane.tangents is not None:
-        _start_tangent(lane, problem.scene)
+        _start_tangent(lane, obstructed)
 
 
 def resting_rates(scene: Scene) -> Floats:
@@ -82,7 +84,7 @@ def _close_loops(lane: Lane) -> None:
     lane["stage"] = lane["y"]
 
 
-def _start_tangent(lane: Lane, scene: Scene) -> None:
+def _start_tangent(lane: Lane, obstructed: bool | Flags) -> None:
     """Give a lane its first tangent; its state is in the stage still.
 
     Where a law jumps there is none: the tangent is NaN, and so is its growth.
@@ -100,5 +102,4 @@ def _start_tangent(lane: Lane, scene: Scene) -> None:
         lane["accept"] = 1.0
         lane.tangents.module.hold_tangent(lane.work)
         accepting[:] = others
-    if tangent_obstacle(scene):
-        lane["tangent"] = math.nan
+    lane["tangent"] = np.where(obstructed, math.nan, lane["tangent"])

@@ -25,6 +25,7 @@ from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed
+from jointplay.solver.scene.references import tangent_obstacle
 
 Floats = NDArray[np.float64]
 
@@ -121,7 +122,8 @@ class Bundle:
         lane = self.lane(i)
         bind(lane, problem, None if like is None else self.lane(like))
         self._repeat(i)
-        begin(lane, problem, resting_rates(problem.scene))
+        obstructed = bool(tangent_obstacle(problem.scene))
+        begin(lane, problem, resting_rates(problem.scene), obstructed)
         self.set_going(i)
         self.first_energy[:, i] = self.energy(i)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.arrays import Floats
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.loop.beginning import begin, resting_rates
@@ -18,6 +18,7 @@ from jointplay.solver.kernels.loop.runs import DTYPE, Status
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.quantities.varied import REFUSALS, together
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import tangent_obstacle
 
 ENERGIES = ("energy.kinetic", "energy.potential", "stored")
 DIFFERING = (
@@ -78,6 +79,7 @@ def make_ready(
             bind(Lane(kernel, tangents, work, i, runs[i]), problem)
             resting[:, i] = resting_rates(problem.scene)
         set_clocks(places, work, runs)
+    obstructed = _obstructed(problems, scene_of)
     resting = np.broadcast_to(resting.T, (len(problems), len(kernel.pairs))).T
     energies = np.empty((len(ENERGIES), len(problems)))
     columns = [kernel.rows.index(name) for name in ENERGIES]
@@ -87,7 +89,7 @@ def make_ready(
         own = np.minimum(np.arange(first, first + width), len(problems) - 1)
         group[:] = work[:, own]
         lanes = Lane(kernel, tangents, group, slice(None), runs[own])
-        begin(lanes, problems[0], resting[:, own])
+        begin(lanes, problems[0], resting[:, own], obstructed[own])
         work[:, own] = group
         kernel.module.observe_rest(group)
         energies[:, own] = lanes["channel"][columns]
@@ -95,6 +97,14 @@ def make_ready(
     for name, value in (("active", 1.0), ("next_due", -np.inf)):
         work[kernel.layout.block(name)] = value
     return ReadyLanes(np.ascontiguousarray(work.T), runs, np.ascontiguousarray(energies.T))
+
+
+def _obstructed(problems: Sequence[LaneProblem], scene_of: SceneOf) -> Flags:
+    """Return (lanes,) where no tangent can follow the motion."""
+    try:
+        return np.full(len(problems), bool(tangent_obstacle(problems[0].scene)))
+    except REFUSALS:
+        return np.array([bool(tangent_obstacle(scene_of(i))) for i in range(len(problems))])
 
 
 def _joined(kernel: Kernel, problems: Sequence[LaneProblem], scene_of: SceneOf) -> LaneProblem:
