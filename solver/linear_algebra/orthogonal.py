@@ -12,12 +12,14 @@ this takes a third of the time of arrays.
 import math
 from collections.abc import Iterable
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.quantities.scalars import Scalar
 
+Entry = Any
+"""A number, or those of points, (points,)."""
 KNOWN = 1e-4
 """Share of a column's square down to which differences tell what is left of it."""
 
@@ -35,9 +37,9 @@ class _Reflection:
         self.vector.insert(0, (places[0], first - self.image))
         self.factor = 1.0 / (size * (size + abs(first)))
 
-    def of(self, column: list[Scalar]) -> bool:
+    def of(self, column: list[Entry]) -> bool:
         """Reflect a column in place; return whether that changed it."""
-        share = 0.0
+        share: Entry = 0.0
         for i, entry in self.vector:
             share += entry * column[i]
         if isinstance(share, np.ndarray):
@@ -49,7 +51,7 @@ class _Reflection:
             column[i] -= share * entry
         return True
 
-    def _of_points(self, column: list[Scalar], share: Floats) -> bool:
+    def _of_points(self, column: list[Entry], share: Floats) -> bool:
         """Reflect a column whose entries are (points,), each point as it would be alone."""
         kept, share = share == 0.0, share * self.factor
         for i, entry in self.vector:
@@ -115,11 +117,11 @@ class Decomposition:
 
         Or (columns, points) for (rows, points), each with the bits that it has alone.
         """
-        found: list[Scalar] = right.tolist() if right.ndim == 1 else list(right)
+        found: list[Entry] = right.tolist() if right.ndim == 1 else list(right)
         for reflection in self._left:
             reflection.of(found)
         reflections, rows = self._right
-        x: list[Scalar] = [0.0] * len(self._columns)
+        x: list[Entry] = [0.0] * len(self._columns)
         for k in range(self.rank - 1, -1, -1):
             total, row = found[k], rows[k]
             for j in range(k + 1, self.rank):
@@ -141,7 +143,7 @@ class Decomposition:
         return np.array(basis, np.float64).reshape(count - self.rank, count).T
 
     def _placed(
-        self, reflections: list[_Reflection], x: list[Scalar], points: tuple[int, ...] = ()
+        self, reflections: list[_Reflection], x: list[Entry], points: tuple[int, ...] = ()
     ) -> Floats:
         """Return x in the places of the columns, reflected back."""
         for reflection in reversed(reflections):
