@@ -6,7 +6,7 @@ does, and with arrays, as the loops do, which Numba compiles. Calls of loops are
 
 import hashlib
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,7 +26,7 @@ ADDRESS_OF_NUMBERS = _ARRAY_MODEL.get_field_position("data")
 
 
 @dataclass(frozen=True)
-class _Source:
+class Source:
     """A tape and what it goes over; see `solver.kernels.emit.straight_line`."""
 
     name: str
@@ -41,32 +41,53 @@ class _Source:
             return "i64"
         return "double" if "\nreturn " in self.tape else "void"
 
-    def text(self, symbol: Callable[[str], str], lanes: int) -> str:
-        """Return both functions in LLVM's language, and how often loops called the second."""
-        arguments, name = ARGUMENTS[self.over], symbol(self.name)
-        calls = symbol(self.name + CALLS)
-        lines = [
-            f"{calls} = global i64 0",
-            # within another function its numbers would be joined with others to other bits
-            f"define {self.value} {name}({_listed(arguments, ARRAY)}) noinline nounwind {{",
-            "entry:",
-            *write(self.tape, self.over, self.rows, self.value, symbol, lanes),
-            "}",
-            f"define {self.value} {symbol(self.name + OF_ARRAYS)}("
-            f"{_listed(arguments, ARRAY_IN_LOOPS)}) nounwind {{",
-            f"%before = load i64, ptr {calls}",
-            "%now = add i64 %before, 1",
-            f"store i64 %now, ptr {calls}",
-        ]
+    def of_numbers(
+        self, symbol: Callable[[str], str], lanes: int, attributes: str = "noinline nounwind"
+    ) -> str:
+        """Return the function of addresses of numbers in LLVM's language; `attributes` are its own.
+
+        By default it is not written into others, which call it from several places.
+        """
+        return "\n".join(
+            [
+                f"define {self.value} {symbol(self.name)}({_listed(ARGUMENTS[self.over], ARRAY)})"
+                f" {attributes} {{",
+                "entry:",
+                *write(self.tape, self.over, self.rows, self.value, symbol, lanes),
+                "}",
+            ]
+        )
+
+    def of_arrays(self, symbol: Callable[[str], str], before: Sequence[str] = ()) -> str:
+        """Return the function of arrays, which does something `before` it calls the other.
+
+        Loops take an address for the value of a function that has none.
+        """
+        arguments = ARGUMENTS[self.over]
+        value = "ptr" if self.value == "void" else self.value
+        name = symbol(self.name + OF_ARRAYS)
+        lines = [f"define {value} {name}({_listed(arguments, ARRAY_IN_LOOPS)}) nounwind {{"]
+        lines += before
         for argument, kind in arguments.items():
             if kind == ARRAY:
                 part = f"extractvalue {ARRAY_IN_LOOPS} {argument}, {ADDRESS_OF_NUMBERS}"
                 lines.append(f"{argument}.numbers = {part}")
         given = {f"{a}.numbers" if kind == ARRAY else a: kind for a, kind in arguments.items()}
-        call = f"call {self.value} {name}({_listed(given, ARRAY)})"
+        call = f"call {self.value} {symbol(self.name)}({_listed(given, ARRAY)})"
         if self.value == "void":
-            return "\n".join([*lines, call, "ret void", "}"])
+            return "\n".join([*lines, call, "ret ptr null", "}"])
         return "\n".join([*lines, f"%value = {call}", f"ret {self.value} %value", "}"])
+
+    def text(self, symbol: Callable[[str], str], lanes: int) -> str:
+        """Return both functions, and how often loops called the second."""
+        calls = symbol(self.name + CALLS)
+        counted = [
+            f"%before = load i64, ptr {calls}",
+            "%now = add i64 %before, 1",
+            f"store i64 %now, ptr {calls}",
+        ]
+        both = self.of_numbers(symbol, lanes), self.of_arrays(symbol, counted)
+        return "\n".join([f"{calls} = global i64 0", *both])
 
 
 def _listed(arguments: Mapping[str, str], array: str) -> str:
@@ -78,7 +99,7 @@ class Tapes:
     """Functions of one generated module."""
 
     def __init__(self) -> None:
-        self._sources: list[_Source] = []
+        self.sources: list[Source] = []
 
     def add(self, name: str, tape: str, over: str = "lanes", rows: int = 0) -> None:
         """Add a function that does what a tape says.
@@ -88,7 +109,7 @@ class Tapes:
         over, rows
             See `solver.kernels.emit.straight_line`.
         """
-        self._sources.append(_Source(name, f"\n{tape}", over, rows))
+        self.sources.append(Source(name, f"\n{tape}", over, rows))
 
     def compiled(
         self, file: str | None = None, target: Target | None = None
@@ -101,14 +122,14 @@ class Tapes:
             That they are for; by default that of this process.
         """
         target = target or own_target()
-        digest = hashlib.sha256(repr((self._sources, target)).encode()).hexdigest()[:24]
+        digest = hashlib.sha256(repr((self.sources, target)).encode()).hexdigest()[:24]
         prefix = f"jointplay.{digest}"
 
         def symbol(name: str) -> str:
             return f'@"{prefix}.{name}"'
 
         def text() -> str:
-            functions = (one.text(symbol, target.lanes) for one in self._sources)
+            functions = (one.text(symbol, target.lanes) for one in self.sources)
             return "\n".join([*functions, declared(target.lanes)])
 
         load_code(text, target, None if file is None else Path(file))
@@ -116,5 +137,5 @@ class Tapes:
             one.name: Function(
                 one.name, f"{prefix}.{one.name}", one.value, list(ARGUMENTS[one.over].values())
             )
-            for one in self._sources
+            for one in self.sources
         }

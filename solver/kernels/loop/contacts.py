@@ -5,6 +5,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.jit import inner_kernel
+from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.onset import NO_ONSET, first_onset
 from jointplay.solver.kernels.loop.periods import stop
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Status
@@ -167,18 +168,22 @@ def begin_abruptly(j: int, s: Step) -> None:
 
     Those that the step before has left are without it, and no step would be short enough.
     """
-    lane, at, work = s.lane, s.at, s.work
-    kept = work[:, lane].copy()
+    lane, at, work, kept = s.lane, s.at, s.work, s.spare
+    for k in range(len(work)):
+        kept[k // INSTANTS, k % INSTANTS] = work[k, lane]
     behind = 2.0 * LANDED / max(work[at.gap_rate + j, lane], LANDED)
     work[at.stage_time, lane] += behind
     for i in range(at.step_row.coordinates):
         work[at.stage + i, lane] += behind * work[at.k1_ + i, lane]
     functions_at(s.call).right_hand_side(work)
     for i in range(at.states):
-        kept[at.k1_ + i] = work[at.slope + i, lane]
+        k = at.k1_ + i
+        kept[k // INSTANTS, k % INSTANTS] = work[at.slope + i, lane]
     for i in range(at.ledger):
-        kept[at.kledger1_ + i] = work[at.power + i, lane]
-    work[:, lane] = kept
+        k = at.kledger1_ + i
+        kept[k // INSTANTS, k % INSTANTS] = work[at.power + i, lane]
+    for k in range(len(work)):
+        work[k, lane] = kept[k // INSTANTS, k % INSTANTS]
 
 
 @inner_kernel()

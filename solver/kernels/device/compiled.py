@@ -1,0 +1,54 @@
+"""The loop and a kernel's text, linked and compiled: for a device, or to be run here."""
+
+# mypy: disable-error-code="no-untyped-call"
+
+from typing import Any
+
+from llvmlite import binding
+
+from jointplay.solver.kernels.device.kernel_text import ENTRY, LANE
+from jointplay.solver.kernels.device.loop_text import loop_text
+from jointplay.solver.kernels.target import own_target
+
+TRIPLE, OLDEST, DIALECT = "nvptx64-nvidia-cuda", "sm_80", "+ptx71"
+"""Devices since 2020 take code for the oldest of them: the driver makes their own of it."""
+LEVEL = 3
+ROUNDS = 2
+"""Times that the passes run: addresses of functions are known after the first."""
+
+
+def ptx(text: str) -> str:
+    """Return a kernel's text for a device in the language that its driver takes."""
+    binding.initialize_all_targets()
+    binding.initialize_all_asmprinters()
+    target = binding.Target.from_triple(TRIPLE)
+    machine = target.create_target_machine(cpu=OLDEST, features=DIALECT, opt=LEVEL)
+    return str(machine.emit_assembly(_linked(text, machine, TRIPLE, ENTRY)))
+
+
+def host_code(text: str) -> Any:
+    """Return what holds the code of a kernel's text for this processor; `LANE` is its function."""
+    machine = own_target().machine()
+    module = _linked(text, machine, binding.get_process_triple(), LANE)
+    engine = binding.create_mcjit_compiler(module, machine)
+    engine.finalize_object()
+    return engine
+
+
+def _linked(text: str, machine: Any, triple: str, entry: str) -> Any:
+    """Return a module of which only the entry is seen from outside, with all calls known."""
+    module, loop = (binding.parse_assembly(one) for one in (text, loop_text()))
+    for one in (module, loop):
+        one.triple, one.data_layout = triple, str(machine.target_data)
+    module.link_in(loop)
+    for one in (*module.functions, *module.global_variables):
+        if one.name != entry and not one.is_declaration:
+            one.linkage = "internal"
+    module.verify()
+    options = binding.create_pipeline_tuning_options()
+    options.speed_level = LEVEL
+    options.loop_vectorization = options.slp_vectorization = False
+    for _ in range(ROUNDS):
+        builder = binding.create_pass_builder(machine, options)
+        builder.getModulePassManager().run(module, builder)
+    return module

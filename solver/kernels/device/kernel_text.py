@@ -1,0 +1,164 @@
+"""The kernel of a device in LLVM's language: tapes for one lane, and what calls the loop on them."""
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+
+import numpy as np
+
+from jointplay.records.impact import IMPACT
+from jointplay.solver.kernels.device.one_lane import Lanes, Sizes
+from jointplay.solver.kernels.emit import functions
+from jointplay.solver.kernels.emit.function import OF_ARRAYS
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.lane_arithmetic import declared
+from jointplay.solver.kernels.emit.tangents import Tangents
+from jointplay.solver.kernels.emit.tapes import Source
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop import runs
+
+ENTRY, LOOP, LANE, MEET = "advance", "one_lane", "lane", "meet"
+"""Names of functions: the kernel, the loop, a lane's part of a launch, and where threads meet."""
+CALLED = ("states_within", "gaps_within", "weigh", "right_hand_side", "tangent_gaps")
+"""Functions that are called now and then: written in where they are called, they would fill the
+cache of instructions."""
+LIBRARY = """
+define void @NRT_incref(ptr %x) alwaysinline nounwind { ret void }
+define void @NRT_decref(ptr %x) alwaysinline nounwind { ret void }
+declare double @llvm.sqrt.f64(double)
+define double @sqrt(double %x) alwaysinline nounwind {
+  %root = call double @llvm.sqrt.f64(double %x)
+  ret double %root
+}
+define double @numba_frexp(double %x, ptr %exponent) nounwind {
+  %bits = bitcast double %x to i64
+  %shifted = lshr i64 %bits, 52
+  %field = and i64 %shifted, 2047
+  %power = sub i64 %field, 1022
+  %short = trunc i64 %power to i32
+  store i32 %short, ptr %exponent
+  %fraction = and i64 %bits, 4503599627370495
+  %half = or i64 %fraction, 4602678819172646912
+  %mantissa = bitcast i64 %half to double
+  ret double %mantissa
+}
+"""
+"""What the loop calls that is elsewhere on a host: references are not counted here, roots are the
+processor's own, and numbers whose exponent is asked for are positive and not tiny."""
+PARAMETERS = ", ".join(
+    [*(f"ptr %{name}" for name in Lanes._fields), "i64 %size.lanes", "i64 %budget"]
+)
+"""Of the kernel, and, with the lane behind them, of the lane's part."""
+ON_DEVICE = f"""
+declare i32 @llvm.nvvm.read.ptx.sreg.tid.x()
+declare i32 @llvm.nvvm.read.ptx.sreg.ctaid.x()
+declare i32 @llvm.nvvm.read.ptx.sreg.ntid.x()
+define void @{MEET}() alwaysinline convergent nounwind {{
+  call void asm sideeffect "barrier.sync 0;", ""() convergent
+  ret void
+}}
+define ptx_kernel void @{ENTRY}({PARAMETERS}) {{
+  %thread = call i32 @llvm.nvvm.read.ptx.sreg.tid.x()
+  %block = call i32 @llvm.nvvm.read.ptx.sreg.ctaid.x()
+  %threads = call i32 @llvm.nvvm.read.ptx.sreg.ntid.x()
+  %before = mul i32 %block, %threads
+  %index = add i32 %before, %thread
+  %lane = zext i32 %index to i64
+  %there = icmp slt i64 %lane, %size.lanes
+  br i1 %there, label %go, label %end
+go:
+  call void @{LANE}({PARAMETERS}, i64 %lane)
+  br label %end
+end:
+  ret void
+}}
+"""
+ON_HOST = f"define void @{MEET}() alwaysinline nounwind {{ ret void }}\n"
+
+
+def kernel_text(
+    kernel: Kernel, tangents: Tangents | None, capacity: tuple[int, int, int], *, on_host: bool
+) -> str:
+    """Return all but the loop, which `LOOP` stands for.
+
+    Parameters
+    ----------
+    capacity
+        How many rows, impacts and growths a lane hands out in a launch.
+    on_host
+        For this processor, whose `LANE` does what a thread of the device does.
+    """
+    sources = list(kernel.module.tapes.sources)
+    places, slots = kernel.places, kernel.layout.size
+    if tangents is not None:
+        sources += tangents.module.tapes.sources
+        places, slots = tangents.places, tangents.layout.size
+    sizes = Sizes(0, slots, *capacity)
+    return "\n".join(
+        [
+            declared(1),
+            LIBRARY,
+            *_functions(sources),
+            _words("places", places.view(np.int64).reshape(-1)),
+            _lane(sizes, spare_rows(sources, slots) * INSTANTS),
+            ON_HOST if on_host else ON_DEVICE,
+        ]
+    )
+
+
+def spare_rows(sources: Sequence[Source], slots: int) -> int:
+    """Return how many rows of `spare` are used: those that instants are written to.
+
+    All of a lane's numbers have room there, too: see `loop.contacts.begin_abruptly`.
+    """
+    within = [one for one in sources if one.name in ("states_within", "gaps_within")]
+    words = (line.split() for one in within for line in one.tape.strip().splitlines())
+    used = {int(w[1] if w[0] == "store" else w[3]) for w in words if {"store", "given"} & {*w}}
+    return max(*used, -(-slots // INSTANTS)) + 1
+
+
+def _functions(sources: Sequence[Source]) -> Iterator[str]:
+    """Yield the text of all functions, and of a record that has them as the loop finds them."""
+    there = {one.name for one in sources}
+    for one in sources:
+        how = "noinline" if one.name in CALLED else "alwaysinline"
+        yield one.of_numbers(_symbol, 1, f"{how} nounwind")
+        if one.name in functions.SIGNATURES:
+            meeting = [f"call void @{MEET}()"] if one.name == "attempt" else []
+            yield one.of_arrays(_symbol, meeting)
+    addresses = [
+        f"i64 ptrtoint (ptr {_symbol(name + OF_ARRAYS)} to i64)" if name in there else "i64 0"
+        for name in functions.SIGNATURES
+    ]
+    yield f"@functions = internal constant [{len(addresses)} x i64] [{', '.join(addresses)}]"
+
+
+def _symbol(name: str) -> str:
+    return f'@"{name}"'
+
+
+def _words(name: str, words: Collection[int]) -> str:
+    return f"@{name} = internal constant [{len(words)} x i64] [{', '.join(f'i64 {w}' for w in words)}]"
+
+
+def _lane(sizes: Sizes, spare: int) -> str:
+    """Return the function that gives a thread room and has the loop run."""
+    given = ", ".join(
+        [
+            "ptr %value, ptr %failure, ptr @functions, ptr @places",
+            *(f"ptr %{name}" for name in Lanes._fields),
+            "ptr %work, ptr %spare, ptr %run, i64 %size.lanes",
+            *(f"i64 {size}" for size in sizes[1:]),
+            "i64 %lane, i64 %budget",
+        ]
+    )
+    return f"""
+declare i32 @{LOOP}({", ".join(one.split()[0] for one in given.split(", "))})
+define void @{LANE}({PARAMETERS}, i64 %lane) alwaysinline nounwind {{
+  %work = alloca [{sizes.slots} x double], align 16
+  %spare = alloca [{spare} x double], align 16
+  %run = alloca [{runs.DTYPE.itemsize // 8} x i64], align 16
+  %value = alloca i64
+  %failure = alloca [4 x ptr]
+  %code = call i32 @{LOOP}({given}) alwaysinline
+  ret void
+}}
+"""

@@ -1,0 +1,124 @@
+"""The loop for one lane alone: what a thread of a device does in a launch."""
+
+from typing import Any, NamedTuple
+
+from numba import carray, from_dtype, int64, types, void
+
+from jointplay.records.impact import IMPACT
+from jointplay.solver.kernels.emit import functions, places
+from jointplay.solver.kernels.emit.functions import functions_at
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop import runs
+from jointplay.solver.kernels.loop.lanes import attend_lanes, settle_lanes
+from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers
+from jointplay.solver.kernels.loop.step import Group
+from jointplay.solver.kernels.loop.unowned_view import unowned
+
+
+class Lanes(NamedTuple):
+    """Addresses of what all lanes have, one behind the other."""
+
+    columns: Any
+    """All quantities, (slots, lanes): threads side by side read numbers side by side."""
+    runs: Any
+    rows: Any
+    """Samples and sections, (lanes, 2, rows, width)."""
+    impacts: Any
+    """(lanes, impacts)."""
+    growths: Any
+    """(lanes, growths)."""
+    made: Any
+    """Attempts in this launch."""
+
+
+class Room(NamedTuple):
+    """Addresses of a thread's own memory."""
+
+    work: Any
+    spare: Any
+    run: Any
+
+
+class Sizes(NamedTuple):
+    """How much of what there is."""
+
+    lanes: int
+    slots: int
+    rows: int
+    impacts: int
+    growths: int
+    """0: there are no tangents."""
+
+
+def _at(kind: Any) -> Any:
+    return types.CPointer(kind)
+
+
+_NUMBERS, _RUN = _at(types.float64), _at(from_dtype(runs.DTYPE))
+SIGNATURE = void(
+    _at(from_dtype(functions.DTYPE)),
+    _at(from_dtype(places.DTYPE)),
+    types.NamedTuple(
+        [
+            _NUMBERS,
+            _RUN,
+            _NUMBERS,
+            _at(from_dtype(IMPACT)),
+            _at(from_dtype(runs.GROWTH)),
+            _at(types.int64),
+        ],
+        Lanes,
+    ),
+    types.NamedTuple([_NUMBERS, _NUMBERS, _RUN], Room),
+    types.NamedUniTuple(int64, len(Sizes._fields), Sizes),
+    int64,
+    int64,
+)
+
+
+def advance_one_lane(
+    addresses: Any, places: Any, lanes: Lanes, room: Room, sizes: Sizes, lane: int, budget: int
+) -> None:
+    """Make at most `budget` attempts at a step, as `loop.advance` does for lanes side by side.
+
+    Fewer where the lane ends or a buffer is full. Neither extremes nor crossings are sought, and no
+    steps are kept. Numbers are copied into the thread's own memory, which is faster, and back.
+
+    Parameters
+    ----------
+    addresses, places
+        Of the kernel's functions, and where quantities are, as `advance` takes them.
+    lane
+        Column of the lane.
+    """
+    work = unowned(carray(room.work, (sizes.slots, 1)))
+    own, run = unowned(carray(room.run, (1,))), carray(lanes.runs, (sizes.lanes,))[lane]
+    own[0] = run
+    for slot in range(sizes.slots):
+        work[slot, 0] = lanes.columns[slot * sizes.lanes + lane]
+    at, call = carray(places, (1,))[0], carray(addresses, (1,))[0]
+    rows = carray(lanes.rows, (sizes.lanes, 2, 1, sizes.rows, at.row.width))[lane]
+    buffers = Buffers(
+        unowned(rows),
+        unowned(carray(lanes.impacts, (sizes.lanes, 1, sizes.impacts))[lane]),
+        unowned(carray(lanes.growths, (sizes.lanes, 1, sizes.growths))[lane]),
+        unowned(carray(lanes.rows, (0, 1, 1))),
+        unowned(carray(lanes.rows, (0,))),
+    )
+    spare = unowned(carray(room.spare, (sizes.slots, INSTANTS)))
+    group = Group(own, at, work, spare, buffers.table, call)
+    full, made = False, 0
+    while made < budget and work[at.active, 0] > 0.0 and not full:
+        made += 1
+        attempt = functions_at(call).attempt(work)
+        quiet = attempt == 0.0 and own[0].landing == NO_PAIR
+        full = not quiet and attend_lanes(group, buffers.rows)
+        if sizes.growths > 0 and work[at.accept, 0] > 0.0:
+            functions_at(call).tangent_step(work)
+        functions_at(call).take(work)
+        if not quiet:
+            full |= settle_lanes(group, buffers)
+    for slot in range(sizes.slots):
+        lanes.columns[slot * sizes.lanes + lane] = work[slot, 0]
+    carray(lanes.runs, (sizes.lanes,))[lane] = own[0]
+    lanes.made[lane] = made
