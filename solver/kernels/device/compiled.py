@@ -2,12 +2,17 @@
 
 # mypy: disable-error-code="no-untyped-call"
 
+from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from llvmlite import binding
+from numpy.typing import NDArray
 
-from jointplay.solver.kernels.device.kernel_text import ENTRY, LANE
+from jointplay.solver.kernels.device.kernel_text import ENTRY, LANE, LOOP, kernel_text
 from jointplay.solver.kernels.device.loop_text import loop_text
+from jointplay.solver.kernels.device.one_lane import Sizes
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.target import own_target
 
 TRIPLE, OLDEST, DIALECT = "nvptx64-nvidia-cuda", "sm_80", "+ptx71"
@@ -15,6 +20,11 @@ TRIPLE, OLDEST, DIALECT = "nvptx64-nvidia-cuda", "sm_80", "+ptx71"
 LEVEL = 3
 ROUNDS = 2
 """Times that the passes run: addresses of functions are known after the first."""
+
+
+def code(sources: Sequence[Source], places: NDArray[np.void], sizes: Sizes) -> str:
+    """Return a kernel for a device; seconds. See `kernel_text`."""
+    return ptx(kernel_text(sources, places, sizes))
 
 
 def ptx(text: str) -> str:
@@ -38,6 +48,9 @@ def host_code(text: str) -> Any:
 def _linked(text: str, machine: Any, triple: str, entry: str) -> Any:
     """Return a module of which only the entry is seen from outside, with all calls known."""
     module, loop = (binding.parse_assembly(one) for one in (text, loop_text()))
+    for function in loop.functions:
+        if function.name != LOOP and not function.is_declaration:
+            function.add_function_attribute("noinline")
     for one in (module, loop):
         one.triple, one.data_layout = triple, str(machine.target_data)
     module.link_in(loop)

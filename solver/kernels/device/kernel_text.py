@@ -3,14 +3,12 @@
 from collections.abc import Callable, Collection, Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
-from jointplay.records.impact import IMPACT
 from jointplay.solver.kernels.device.one_lane import Lanes, Sizes
 from jointplay.solver.kernels.emit import functions
 from jointplay.solver.kernels.emit.function import OF_ARRAYS
-from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.lane_arithmetic import declared
-from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop import runs
@@ -75,30 +73,28 @@ ON_HOST = f"define void @{MEET}() alwaysinline nounwind {{ ret void }}\n"
 
 
 def kernel_text(
-    kernel: Kernel, tangents: Tangents | None, capacity: tuple[int, int, int], *, on_host: bool
+    sources: Sequence[Source], places: NDArray[np.void], sizes: Sizes, *, on_host: bool = False
 ) -> str:
     """Return all but the loop, which `LOOP` stands for.
 
     Parameters
     ----------
-    capacity
-        How many rows, impacts and growths a lane hands out in a launch.
+    sources
+        Of the kernel, and of its tangents if lanes have some.
+    places
+        Of the kernel, or of its tangents.
+    sizes
+        What a lane has; how many lanes there are is known when they are launched.
     on_host
         For this processor, whose `LANE` does what a thread of the device does.
     """
-    sources = list(kernel.module.tapes.sources)
-    places, slots = kernel.places, kernel.layout.size
-    if tangents is not None:
-        sources += tangents.module.tapes.sources
-        places, slots = tangents.places, tangents.layout.size
-    sizes = Sizes(0, slots, *capacity)
     return "\n".join(
         [
             declared(1),
             LIBRARY,
             *_functions(sources),
             _words("places", places.view(np.int64).reshape(-1)),
-            _lane(sizes, spare_rows(sources, slots) * INSTANTS),
+            _lane(sizes, spare_rows(sources, sizes.slots) * INSTANTS),
             ON_HOST if on_host else ON_DEVICE,
         ]
     )

@@ -81,7 +81,7 @@ def advance_one_lane(
 ) -> None:
     """Make at most `budget` attempts at a step, as `loop.advance` does for lanes side by side.
 
-    Fewer where the lane ends or a buffer is full. Neither extremes nor crossings are sought, and no
+    Fewer where the lane ends or a buffer is full; buffers are empty at the beginning. Neither extremes nor crossings are sought, and no
     steps are kept. Numbers are copied into the thread's own memory, which is faster, and back.
 
     Parameters
@@ -94,6 +94,7 @@ def advance_one_lane(
     work = unowned(carray(room.work, (sizes.slots, 1)))
     own, run = unowned(carray(room.run, (1,))), carray(lanes.runs, (sizes.lanes,))[lane]
     own[0] = run
+    own[0].filled[0] = own[0].filled[1] = own[0].impacts = own[0].growths = 0
     for slot in range(sizes.slots):
         work[slot, 0] = lanes.columns[slot * sizes.lanes + lane]
     at, call = carray(places, (1,))[0], carray(addresses, (1,))[0]

@@ -36,7 +36,7 @@ STEPS_AT_ONCE = 32_768
 
 
 @dataclass
-class _Group:
+class Group:
     """Lanes that a kernel advances at once."""
 
     work: Floats
@@ -84,7 +84,7 @@ class Bundle:
         self.runs["landing"] = NO_PAIR
         self.first_energy = np.zeros((len(ENERGIES), BUNDLE))
         self.groups = [
-            _Group(
+            Group(
                 aligned_zeros(size, width),
                 self.runs[first : first + width],
                 Buffers.of(
@@ -111,8 +111,8 @@ class Bundle:
         return Lane(self.kernel, self.tangents, self.groups[group].work, index, self.runs[i])
 
     def block(self, name: str) -> Floats:
-        """Return a copy of a block of all lanes, (slots, BUNDLE)."""
-        return np.stack([self.lane(i)[name] for i in range(BUNDLE)], axis=1)
+        """Return a copy of a block of all lanes, (slots, lanes)."""
+        return np.stack([self.lane(i)[name] for i in range(len(self.runs))], axis=1)
 
     def load(self, i: int, problem: LaneProblem, like: int | None = None) -> None:
         """Give a lane that does not run a problem to compute; the other lanes do not notice.
@@ -293,6 +293,6 @@ class Bundle:
         """Continue from `state`, bit for bit."""
         self.runs[:] = saved[f"{name}/runs"]
         self.first_energy[:] = saved[f"{name}/first_energy"]
-        works = np.split(saved[f"{name}/work"], BUNDLE // self.width, axis=1)
+        works = np.split(saved[f"{name}/work"], len(self.groups), axis=1)
         for group, work in zip(self.groups, works, strict=True):
             group.work[:] = work

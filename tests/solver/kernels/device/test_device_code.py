@@ -1,0 +1,106 @@
+"""Code for devices: whole, and every operation rounded, so that no driver decides a bit."""
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from jointplay.solver.kernels.device.compiled import code
+from jointplay.solver.kernels.device.kernel_text import spare_rows
+from jointplay.solver.kernels.device.loop_text import loop_text
+from jointplay.solver.kernels.device.one_lane import Sizes
+from jointplay.solver.kernels.device.trimmed import slots_of_energies, with_constants, without
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.tangents import compile_tangents
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from tests.solver.readable_mechanics import preset
+
+OF_FLOATS = re.compile(r"\b(?:add|sub|mul|div|sqrt|fma|mad|rcp)\.(?:\w+\.)*f(?:32|64)\b")
+MOST_SPILLED = 1024
+"""Bytes of registers that the press's loop may keep elsewhere, with 254 registers a thread."""
+EXTERNAL = {"sqrt", "numba_frexp", "NRT_MemInfo_call_dtor"}
+"""What Numba's text may call beside LLVM's own functions, and Python's where a function is null."""
+
+
+@pytest.fixture(scope="module")
+def kernel() -> Kernel:
+    return ready_kernel(preset("seven-bar-press"), "reduced", "tsitouras")
+
+
+@pytest.fixture(scope="module")
+def text(kernel: Kernel) -> str:
+    return code(kernel.module.tapes.sources, kernel.places, Sizes(0, kernel.layout.size, 8, 16, 0))
+
+
+def test_code_is_whole_and_calls_nothing_by_address(text: str) -> None:
+    assert ".visible .entry advance(" in text
+    assert ".extern" not in text
+    assert ".callprototype" not in text
+    assert "barrier.sync" in text
+
+
+def test_every_operation_of_floats_is_rounded_as_written(text: str) -> None:
+    found = set(OF_FLOATS.findall(text))
+    assert {"fma.rn.f64", "mul.rn.f64", "add.rn.f64", "div.rn.f64", "sqrt.rn.f64"} <= found
+    assert not {one for one in found if not one.endswith(".rn.f64")}
+
+
+def test_tangents_are_whole_too(kernel: Kernel) -> None:
+    tangents = compile_tangents(kernel)
+    sources = [*kernel.module.tapes.sources, *tangents.module.tapes.sources]
+    found = code(sources, tangents.places, Sizes(0, tangents.layout.size, 8, 16, 8))
+    assert ".extern" not in found
+    assert ".callprototype" not in found
+
+
+def test_what_a_job_does_not_ask_for_makes_code_shorter(kernel: Kernel, text: str) -> None:
+    sources = kernel.module.tapes.sources
+    sizes = Sizes(0, kernel.layout.size, 8, 16, 0)
+    lean = list(without(slots_of_energies(kernel), sources))
+    shared = dict.fromkeys(kernel.fixed.slots, 1.5)
+    shorter = code(lean, kernel.places, sizes)
+    shortest = code(list(with_constants(shared, lean)), kernel.places, sizes)
+    assert stored(shorter) < stored(text)
+    assert loaded(shortest) < loaded(shorter)
+
+
+def loaded(text: str) -> int:
+    return text.count("ld.local")
+
+
+def stored(text: str) -> int:
+    return text.count("st.local")
+
+
+def test_room_for_instants_is_that_of_the_rows_that_are_used(kernel: Kernel) -> None:
+    rows = spare_rows(kernel.module.tapes.sources, kernel.layout.size)
+    assert kernel.layout.block("impact_rate").stop <= rows < kernel.layout.size // 4
+
+
+@pytest.mark.skipif(shutil.which("ptxas") is None, reason="there is no ptxas")
+def test_the_assembler_takes_it_and_spills_little(text: str, tmp_path: Path) -> None:
+    source = tmp_path / "kernel.ptx"
+    source.write_text(text)
+    done = subprocess.run(
+        ["ptxas", "-v", "-arch=sm_90", "-o", str(tmp_path / "kernel.cubin"), str(source)],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    said = re.search(r"properties for advance\n.*?(\d+) bytes spill stores", done.stderr)
+    assert said is not None, done.stderr
+    assert int(said[1]) <= MOST_SPILLED
+
+
+def test_numbas_text_calls_what_is_known() -> None:
+    called = set(re.findall(r"^declare .*?@([\w.]+)\(", loop_text(), re.MULTILINE))
+    others = {one for one in called if not one.startswith(("llvm.", "Py", "numba_"))}
+    assert others <= EXTERNAL - {"numba_frexp"}
+    assert {one for one in called if one.startswith("numba_")} <= {
+        "numba_frexp",
+        "numba_gil_ensure",
+        "numba_gil_release",
+        "numba_unpickle",
+    }
