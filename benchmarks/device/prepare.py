@@ -1,14 +1,13 @@
-"""`python -m benchmarks.device.prepare FOLDER`: what a device shall compute, and what the CPU found.
+"""`python -m benchmarks.device.prepare FOLDER`: what a device shall compute, and a CPU has found.
 
 The folder is all that `FOLDER/run.py` needs on a machine with a device, beside Python and NumPy.
 """
 
-import hashlib
 import itertools
 import shutil
 import sys
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -61,11 +60,11 @@ def prepare(name: str, folder: Path, side: int) -> None:
         rows += handed
     work, records = np.concatenate(columns, axis=1), np.concatenate(runs)
     last, final = (np.concatenate([e[k] for e in ended], axis=-1) for k in range(2))
+    attempts = ATTEMPTS * len(points)
     print(
         f"{name}: {len(points)} points in {time.perf_counter() - begun:.0f} s, of which"
-        f" {seconds:.1f} s of {ATTEMPTS} attempts each: {seconds / ATTEMPTS / len(points) * 1e9:.0f}"
-        f" ns each; onsets {final['onsets'].sum()}, attended"
-        f" {final['attended'].sum() / ATTEMPTS / len(points):.1%}",
+        f" {seconds:.1f} s of {attempts} attempts: {seconds / attempts * 1e9:.0f} ns each;"
+        f" onsets {final['onsets'].sum()}, attended {final['attended'].sum() / attempts:.1%}",
         flush=True,
     )
     sizes = Sizes(0, kernel.layout.size, *CAPACITY)
@@ -134,17 +133,16 @@ def texts(kernel: Kernel, sizes: Sizes, work: Any) -> dict[str, str]:
     def text(chosen: Sequence[Any]) -> str:
         return kernel_text(chosen, kernel.places, sizes)
 
-    apart = text(constant).replace("call void asm sideeffect \"barrier.sync 0;\", \"\"() convergent", "")
     called = text(constant).replace(
         'define void @"slopes"(ptr %W, i64 %index) alwaysinline',
         'define void @"slopes"(ptr %W, i64 %index) noinline',
     )
+    more = {f"_collect{k}": text(constant).replace("%many, 32", f"%many, {k}") for k in (1, 16, 64)}
     return {
         "": text(sources),
-        "_lean": text(lean),
         "_constant": text(constant),
-        "_apart": apart,
         "_called": called,
+        **more,
     }
 
 

@@ -1,4 +1,4 @@
-"""`python run.py [FOLDER]`: compare a device with what `prepare` has found on a CPU, and time it."""
+"""`python run.py`: compare a device with what `prepare` has found on a CPU, and time it."""
 
 import ast
 import hashlib
@@ -20,7 +20,7 @@ WARM, TIMED = 3000, 4000
 EACH = 500
 """Attempts of a launch while bits are compared."""
 LANES = (16_896, 33_792, 67_584, 135_168)
-VARIANTS = {"": "whole", "_lean": "lean", "_constant": "lean", "_apart": "lean", "_called": "lean"}
+WHOLE, LEAN = "whole", "lean"
 
 
 def digests(work: Any, runs: Any, rows: Sequence[Any]) -> Any:
@@ -52,9 +52,7 @@ class Given:
         self.shape = Shape(slots, int(self.saved["width"]), rows, impacts, growths, *kinds)
         self.attempts = int(self.saved["attempts"])
 
-    def lanes(
-        self, device: Device, code: Code, count: int, block: int = BLOCK
-    ) -> DeviceLanes:
+    def lanes(self, device: Device, code: Code, count: int, block: int = BLOCK) -> DeviceLanes:
         """Return so many lanes at the start of points, one after the other and again."""
         lanes = DeviceLanes(device, code, self.shape, count, block)
         points = np.arange(count) % self.points
@@ -124,7 +122,7 @@ def main(arguments: Sequence[str]) -> None:
         given = Given(folder, name)
         cpu = given.saved["cpu_revolutions"] / given.saved["cpu"]
         print(f"{name}: {given.points} points; one core of the other machine {cpu:.0f} rev/s")
-        for variant in arguments or VARIANTS:
+        for variant in arguments or ("", "_constant"):
             try:
                 measure(given, device, folder / name, variant)
             except DeviceError as error:
@@ -146,7 +144,7 @@ def measure(given: Given, device: Device, path: Path, variant: str) -> None:
         flush=True,
     )
     if not registers:
-        same = equal(given, device, code, VARIANTS[which])
+        same = equal(given, device, code, LEAN if which else WHOLE)
         print(f"  {same} of {given.points} points have the CPU's bits", flush=True)
     for count in LANES if variant == "_constant" else LANES[-1:]:
         revolutions, attempts, attended, seconds = rate(

@@ -128,3 +128,10 @@ def test_a_folder_of_neither_is_refused(jointplay, tmp_path: Path) -> None:
     assert ended.code == 2
     assert "neither a service's data nor the results of a run" in ended.line()
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(shutil.which("nvidia-smi") is not None, reason="there may be a device")
+def test_without_a_device_there_is_a_sentence(jointplay) -> None:
+    ended = jointplay("doctor", "--device")
+    assert ended.code == 1
+    assert ended.line().startswith("jointplay: there is no driver of a device: ")

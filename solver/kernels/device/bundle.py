@@ -86,7 +86,9 @@ class DeviceBundle(Bundle):
         self._lanes = DeviceLanes(device, loaded, shape, count)
         self._changed = True
         self._fetched = True
-        self._rows = self._impacts = self._growths = np.zeros(0)
+        self._rows: NDArray[Any] = np.zeros(0)
+        self._impacts: NDArray[Any] = np.zeros(0)
+        self._growths: NDArray[Any] = np.zeros(0)
 
     def load(self, i: int, problem: LaneProblem, like: int | None = None) -> None:
         """Give a lane that does not run a problem to compute; the other lanes do not notice.
@@ -102,6 +104,14 @@ class DeviceBundle(Bundle):
         self.groups[0].work[:, i] = self._beside.lane(0).work[:, 0]
         self.runs[i] = self._beside.runs[0]
         self.first_energy[:, i] = self._beside.first_energy[:, 0]
+        self._changed = True
+
+    def repeat(self, count: int) -> None:
+        """Let all lanes be like the first ones, in turn."""
+        like = np.arange(self.width) % count
+        for array in (self.groups[0].work, self.first_energy):
+            array[:] = array[:, like]
+        self.runs[:] = self.runs[like]
         self._changed = True
 
     def set_going(self, i: int) -> None:
@@ -147,7 +157,8 @@ class DeviceBundle(Bundle):
 
     def impacts(self, i: int) -> NDArray[np.void]:
         """Return the contacts of a lane that ended in the last call, of dtype `IMPACT`."""
-        return self._impacts[i, : self.runs["impacts"][i]].copy()
+        found: NDArray[np.void] = self._impacts[i, : self.runs["impacts"][i]].copy()
+        return found
 
     def growth(self, i: int) -> Floats:
         """Return how a lane's tangent grew in the last call: (k, 2) ends of time, s, logarithms."""

@@ -70,7 +70,7 @@ class DeviceLanes:
         return self._made.read()
 
     def rows(self, most: int) -> NDArray[np.float64]:
-        """Return the first rows of samples and of sections of all lanes, (lanes, 2, most, width)."""
+        """Return the first samples and sections of all lanes, (lanes, 2, most, width)."""
         width = self.shape.width
         return self._rows.read(most * width).reshape(self.count, 2, most, width)
 

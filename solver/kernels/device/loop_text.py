@@ -14,10 +14,12 @@ from pathlib import Path
 
 import numba
 from filelock import FileLock
+from llvmlite import binding
 
 from jointplay.solver.kernels.cache import cache_folder, without_collection
 from jointplay.solver.kernels.device.kernel_text import LOOP
 from jointplay.solver.kernels.device.one_lane import SIGNATURE, advance_one_lane
+from jointplay.solver.kernels.jit import INNER
 
 SETTINGS = {
     "NUMBA_CPU_NAME": "generic",
@@ -25,6 +27,10 @@ SETTINGS = {
     "NUMBA_LOOP_VECTORIZE": "0",
     "NUMBA_SLP_VECTORIZE": "0",
 }
+
+
+NOWHERE = 16
+"""Address of what the loop calls and the kernel's text defines: nothing of it is run here."""
 
 
 @cache
@@ -46,10 +52,9 @@ def loop_text() -> str:
 def main(path: Path) -> None:
     """Write the text; the loop's name in it is `LOOP`."""
     cache_folder()  # names Numba's cache
+    binding.add_symbol("attention_is_due", NOWHERE)
     with without_collection():
-        compiled = numba.njit(
-            SIGNATURE, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
-        )(advance_one_lane)
+        compiled = numba.njit(SIGNATURE, **(INNER | {"cache": False}))(advance_one_lane)
     (overload,) = compiled.overloads.values()
     text = overload.library.get_llvm_str()
     path.write_text(text.replace(f"@{overload.fndesc.llvm_func_name}(", f"@{LOOP}("))

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -33,6 +34,9 @@ def doctor(
     seed: Annotated[
         int | None, typer.Option(min=0, help="Of the sample of results; default: of the day.")
     ] = None,
+    device: Annotated[
+        bool, typer.Option("--device", help="Only try whether a graphics processor serves.")
+    ] = False,
     as_json: AS_JSON = False,
 ) -> None:
     """Compare catalogue, results and broker with one another, and mend what can be mended.
@@ -43,8 +47,14 @@ def doctor(
     service may run meanwhile: what a worker holds is left alone.  Exit code 0: nothing was found;
     1: something was, and is in the table.
 
+    With --device a mechanism is run on the first graphics processor and here: whether it has the
+    same bits, and how fast it is.  Exit code 0: it serves.
+
     Example: `jointplay doctor .jointplay --dry-run`
     """
+    if device:
+        _try_device(as_json=as_json)
+        return
     from jointplay.progress import progress
     from jointplay.storage.reconciliation.look import Counted, Look
 
@@ -71,6 +81,26 @@ def doctor(
     if found:
         done = "can be mended" if dry_run else "mended"
         raise Stopped(f"findings: {len(found)}, {done}: {mendable}", Exit.CHECK_FAILED)
+
+
+def _try_device(*, as_json: bool) -> None:
+    """Say whether a device serves."""
+    from jointplay.solver.kernels.device.driver import Device, DeviceError
+    from jointplay.solver.runs.device_trial import MECHANISM, try_device
+
+    try:
+        trial = try_device(Device())
+    except DeviceError as error:
+        raise Stopped(f"{error}.", Exit.CHECK_FAILED) from error
+    bits = "the bits of this processor" if trial.same_bits else "OTHER BITS than this processor"
+    lines = [
+        f"{trial.name}: {bits}",
+        f"{MECHANISM}: {trial.revolutions:.3g} revolutions a second",
+        f"single precision is {trial.ratio} times as fast as double",
+    ]
+    tell(asdict(trial) | {"serves": trial.serves}, lines, as_json=as_json)
+    if not trial.serves:
+        raise Stopped(f"{trial.name} does not serve.", Exit.CHECK_FAILED)
 
 
 @contextmanager

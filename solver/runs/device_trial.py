@@ -1,0 +1,95 @@
+"""Whether a device serves: a mechanism's bits there and here, and how fast they come."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.solver.kernels.device.bundle import DeviceBundle
+from jointplay.solver.kernels.device.compiled import code
+from jointplay.solver.kernels.device.driver import Device
+from jointplay.solver.kernels.device.one_lane import Sizes
+from jointplay.solver.kernels.emit.tapes import Source
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.layout import BUNDLE
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kinds import admit
+from jointplay.solver.scene.document import Scene
+
+MECHANISM = "slider-crank"
+CLEARANCES = np.linspace(1e-4, 5e-4, BUNDLE)
+"""Of its joint, m."""
+ATTEMPTS = 2000
+"""Steps that are compared, and then timed: two revolutions each."""
+LANES = 512
+"""Lanes a multiprocessor of the device: two are computed while others wait for memory."""
+HIGHEST_RATIO = 4
+"""A device serves whose rate in double precision is at least a quarter of that in single."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What was found."""
+
+    name: str
+    ratio: int
+    """How many times as many operations it makes in single as in double precision."""
+    same_bits: bool
+    revolutions: float
+    """A second, of the mechanism's crank, in all lanes."""
+
+    @property
+    def serves(self) -> bool:
+        """Whether it has this processor's bits, and is made for double precision."""
+        return self.same_bits and self.ratio <= HIGHEST_RATIO
+
+
+def try_device(
+    device: Device,
+    lanes: int | None = None,
+    write: Callable[[Sequence[Source], NDArray[np.void], Sizes], str] = code,
+) -> Trial:
+    """Run a mechanism on a device and here; some seconds, and the time that compiling takes.
+
+    `lanes`, `write` : see `DeviceBundle`; by default as many lanes as the device is good for.
+
+    Raises
+    ------
+    DeviceError
+        The device does not do it.
+    """
+    problems = [LaneProblem(_scene(c), 1e6, 1e-6, 1e6, 1, 0, 0.0) for c in CLEARANCES]
+    kernel = ready_kernel(problems[0].scene, "reduced")
+    here = Bundle(kernel, problems, watch=False)
+    there = DeviceBundle(device, kernel, lanes or LANES * device.processors, write=write)
+    for i, problem in enumerate(problems):
+        there.load(i, problem)
+    there.repeat(BUNDLE)
+    there.advance(ATTEMPTS)
+    while here.attempts < ATTEMPTS:
+        here.advance(ATTEMPTS - here.attempts)
+    same = all((there.lane(i)["time"] == here.lane(i)["time"]).all() for i in range(BUNDLE))
+    state = there.state("there")["there/work"][kernel.layout.block("y"), :BUNDLE]
+    before, begun = _revolutions(there), time.perf_counter()
+    there.advance(ATTEMPTS)
+    seconds = time.perf_counter() - begun
+    return Trial(
+        device.name,
+        device.ratio,
+        same and bool((state == here.block("y")).all()),
+        (_revolutions(there) - before) / seconds,
+    )
+
+
+def _scene(clearance: float) -> Scene:
+    given = {"preset": MECHANISM, "parameters": {"clearance": float(clearance)}}
+    return Scene.model_validate(admit({"kind": "simulate", "scene": given, "duration": 1.0}).scene)
+
+
+def _revolutions(bundle: DeviceBundle) -> float:
+    times = bundle.groups[0].work[bundle.kernel.layout["time"]]
+    runs = bundle.runs
+    return float(((runs["periods"] * runs["period"] + times) / runs["unit"]).sum())
