@@ -1,1 +1,1 @@
-"""What a graphics processor makes of three mechanisms: its bits, and its revolutions a second."""
+"""Three mechanisms on a graphics processor: their bits, and revolutions a second."""

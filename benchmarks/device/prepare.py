@@ -137,13 +137,7 @@ def texts(kernel: Kernel, sizes: Sizes, work: Any) -> dict[str, str]:
         'define void @"slopes"(ptr %W, i64 %index) alwaysinline',
         'define void @"slopes"(ptr %W, i64 %index) noinline',
     )
-    more = {f"_collect{k}": text(constant).replace("%many, 32", f"%many, {k}") for k in (1, 16, 64)}
-    return {
-        "": text(sources),
-        "_constant": text(constant),
-        "_called": called,
-        **more,
-    }
+    return {"": text(sources), "_constant": text(constant), "_called": called}
 
 
 def main(arguments: Sequence[str]) -> None:

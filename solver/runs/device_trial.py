@@ -16,12 +16,8 @@ from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kinds import admit
 from jointplay.solver.scene.document import Scene
 
-MECHANISM = "slider-crank"
-CLEARANCES = np.linspace(1e-4, 5e-4, BUNDLE)
-"""Of its joint, m."""
 ATTEMPTS = 2000
 """Steps that are compared, and then timed: two revolutions each."""
 LANES = 512
@@ -32,11 +28,11 @@ HIGHEST_RATIO = 4
 
 @dataclass(frozen=True)
 class Trial:
-    """What was found."""
+    """A device that was tried."""
 
     name: str
     ratio: int
-    """How many times as many operations it makes in single as in double precision."""
+    """Operations in single precision that it makes in the time of one in double."""
     same_bits: bool
     revolutions: float
     """A second, of the mechanism's crank, in all lanes."""
@@ -49,19 +45,25 @@ class Trial:
 
 def try_device(
     device: Device,
+    scenes: Sequence[Scene],
     lanes: int | None = None,
     write: Callable[[Sequence[Source], NDArray[np.void], Sizes], str] = code,
 ) -> Trial:
     """Run a mechanism on a device and here; some seconds, and the time that compiling takes.
 
-    `lanes`, `write` : see `DeviceBundle`; by default as many lanes as the device is good for.
+    Parameters
+    ----------
+    scenes
+        Of one structure, as many as a bundle has lanes.
+    lanes, write
+        See `DeviceBundle`; by default as many lanes as the device is good for.
 
     Raises
     ------
     DeviceError
         The device does not do it.
     """
-    problems = [LaneProblem(_scene(c), 1e6, 1e-6, 1e6, 1, 0, 0.0) for c in CLEARANCES]
+    problems = [LaneProblem(scene, 1e6, 1e-6, 1e6, 1, 0, 0.0) for scene in scenes]
     kernel = ready_kernel(problems[0].scene, "reduced")
     here = Bundle(kernel, problems, watch=False)
     there = DeviceBundle(device, kernel, lanes or LANES * device.processors, write=write)
@@ -82,11 +84,6 @@ def try_device(
         same and bool((state == here.block("y")).all()),
         (_revolutions(there) - before) / seconds,
     )
-
-
-def _scene(clearance: float) -> Scene:
-    given = {"preset": MECHANISM, "parameters": {"clearance": float(clearance)}}
-    return Scene.model_validate(admit({"kind": "simulate", "scene": given, "duration": 1.0}).scene)
 
 
 def _revolutions(bundle: DeviceBundle) -> float:

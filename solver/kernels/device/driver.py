@@ -90,12 +90,12 @@ class Device:
 
     @property
     def processors(self) -> int:
-        """How many multiprocessors it has."""
+        """Number of its multiprocessors."""
         return self._attribute(PROCESSORS)
 
     @property
     def ratio(self) -> int:
-        """How many times as many operations it makes in single as in double precision."""
+        """Operations in single precision that it makes in the time of one in double."""
         return self._attribute(RATIO)
 
     @property

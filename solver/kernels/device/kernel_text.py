@@ -13,9 +13,10 @@ from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop import runs
 
-ENTRY, LOOP, LANE = "advance", "one_lane", "lane"
-"""Names of functions: the kernel, the loop, and a lane's part of a launch."""
-CALLED = ("states_within", "gaps_within", "weigh", "right_hand_side", "tangent_gaps")
+ENTRY, LOOP, LANE, MEET = "advance", "one_lane", "lane", "meet"
+"""Names of functions: the kernel, the loop, a lane's part of a launch, and where threads of a block
+meet, attempt by attempt: they share what they fetch of the code."""
+CALLED = ("states_within", "gaps_within", "weigh", "tangent_gaps")
 """Functions that are called now and then: written in where they are called, they would fill the
 cache of instructions."""
 LIBRARY = """
@@ -39,33 +40,19 @@ define double @numba_frexp(double %x, ptr %exponent) nounwind {
   ret double %mantissa
 }
 """
-"""What the loop calls that is elsewhere on a host: references are not counted here, roots are the
-processor's own, and numbers whose exponent is asked for are positive and not tiny."""
+"""Functions that the loop calls and a host has elsewhere: references are not counted here, roots
+are the processor's own, and numbers whose exponent is asked for are positive and not tiny."""
 PARAMETERS = ", ".join(
     [*(f"ptr %{name}" for name in Lanes._fields), "i64 %size.lanes", "i64 %budget"]
 )
-"""Of the kernel, and, with the lane behind them, of the lane's part."""
-COLLECTED = 32
-"""Lanes of a block that wait for attention until all such lanes have it."""
-COUNT = "{ .reg .pred p; setp.ne.u32 p, $1, 0; barrier.red.popc.u32 $0, 0, p; }"  # of waiting lanes
-ANY = (
-    "{ .reg .pred p, q; setp.ne.u32 p, $1, 0; barrier.red.or.pred q, 1, p; selp.u32 $0, 1, 0, q; }"
-)
-"""Threads of a block meet here, attempt by attempt, and so share what they fetch of the code."""
+"""Those of the kernel, and, with the lane behind them, of the lane's part."""
 ON_DEVICE = f"""
 declare i32 @llvm.nvvm.read.ptx.sreg.tid.x()
 declare i32 @llvm.nvvm.read.ptx.sreg.ctaid.x()
 declare i32 @llvm.nvvm.read.ptx.sreg.ntid.x()
-define i64 @attention_is_due(i64 %waiting) alwaysinline convergent nounwind {{
-  %waits = trunc i64 %waiting to i32
-  %many = call i32 asm sideeffect "{COUNT}", "=r,r"(i32 %waits) convergent
-  %runs = xor i32 %waits, 1
-  %running = call i32 asm sideeffect "{ANY}", "=r,r"(i32 %runs) convergent
-  %enough = icmp uge i32 %many, {COLLECTED}
-  %all = icmp eq i32 %running, 0
-  %due = or i1 %enough, %all
-  %word = zext i1 %due to i64
-  ret i64 %word
+define void @{MEET}() alwaysinline convergent nounwind {{
+  call void asm sideeffect "barrier.sync 0;", ""() convergent
+  ret void
 }}
 define ptx_kernel void @{ENTRY}({PARAMETERS}) {{
   %thread = call i32 @llvm.nvvm.read.ptx.sreg.tid.x()
@@ -83,9 +70,7 @@ end:
   ret void
 }}
 """
-ON_HOST = """
-define i64 @attention_is_due(i64 %waiting) alwaysinline nounwind { ret i64 %waiting }
-"""
+ON_HOST = f"define void @{MEET}() alwaysinline nounwind {{ ret void }}\n"
 
 
 def kernel_text(
@@ -134,7 +119,8 @@ def _functions(sources: Sequence[Source]) -> Iterator[str]:
         how = "noinline" if one.name in CALLED else "alwaysinline"
         yield one.of_numbers(_symbol, 1, f"{how} nounwind")
         if one.name in functions.SIGNATURES:
-            yield one.of_arrays(_symbol)
+            meeting = [f"call void @{MEET}()"] if one.name == "attempt" else []
+            yield one.of_arrays(_symbol, meeting)
     addresses = [
         f"i64 ptrtoint (ptr {_symbol(name + OF_ARRAYS)} to i64)" if name in there else "i64 0"
         for name in functions.SIGNATURES

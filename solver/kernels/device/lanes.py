@@ -14,11 +14,11 @@ BLOCK = 256
 
 @dataclass(frozen=True)
 class Shape:
-    """What a lane has."""
+    """Sizes of a lane's parts, and their types."""
 
     slots: int
     width: int
-    """Of a row."""
+    """Numbers of a row."""
     rows: int
     """That a launch hands out at most; further ones in the next."""
     impacts: int

@@ -11,10 +11,10 @@ import subprocess
 import sys
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numba
 from filelock import FileLock
-from llvmlite import binding
 
 from jointplay.solver.kernels.cache import cache_folder, without_collection
 from jointplay.solver.kernels.device.kernel_text import LOOP
@@ -27,10 +27,6 @@ SETTINGS = {
     "NUMBA_LOOP_VECTORIZE": "0",
     "NUMBA_SLP_VECTORIZE": "0",
 }
-
-
-NOWHERE = 16
-"""Address of what the loop calls and the kernel's text defines: nothing of it is run here."""
 
 
 @cache
@@ -52,9 +48,9 @@ def loop_text() -> str:
 def main(path: Path) -> None:
     """Write the text; the loop's name in it is `LOOP`."""
     cache_folder()  # names Numba's cache
-    binding.add_symbol("attention_is_due", NOWHERE)
     with without_collection():
         compiled = numba.njit(SIGNATURE, **(INNER | {"cache": False}))(advance_one_lane)
+    overload: Any
     (overload,) = compiled.overloads.values()
     text = overload.library.get_llvm_str()
     path.write_text(text.replace(f"@{overload.fndesc.llvm_func_name}(", f"@{LOOP}("))

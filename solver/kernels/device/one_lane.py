@@ -42,7 +42,7 @@ class Room(NamedTuple):
 
 
 class Sizes(NamedTuple):
-    """How much of what there is."""
+    """Number of lanes, and how much each has."""
 
     lanes: int
     slots: int
@@ -78,14 +78,6 @@ SIGNATURE = void(
 )
 
 
-attention_is_due = types.ExternalFunction("attention_is_due", int64(int64))
-"""Tell whether lanes that wait for attention have it now, 1 or 0: `waiting` is 1 for one that does.
-
-All threads of a block hear the same. The others wait while some have attention, which takes as long
-for one lane as for many: so lanes are collected. That changes no lane's own steps.
-"""
-
-
 def advance_one_lane(
     addresses: Any, places: Any, lanes: Lanes, room: Room, sizes: Sizes, lane: int, budget: int
 ) -> None:
@@ -119,24 +111,17 @@ def advance_one_lane(
     )
     spare = unowned(carray(room.spare, (sizes.slots, INSTANTS)))
     group = Group(own, at, work, spare, buffers.table, call)
-    full, waiting, made = False, 0, 0
-    while waiting or (made < budget and work[at.active, 0] > 0.0 and not full):
-        if attention_is_due(waiting) != waiting:
-            continue
-        if waiting:
-            full |= attend_lanes(group, buffers.rows)
-        else:
-            made += 1
-            flagged = functions_at(call).attempt(work) != 0.0
-            if flagged or own[0].landing != NO_PAIR:
-                waiting = 1
-                continue
+    full, made = False, 0
+    while made < budget and work[at.active, 0] > 0.0 and not full:
+        made += 1
+        flagged = functions_at(call).attempt(work) != 0.0
+        quiet = not flagged and own[0].landing == NO_PAIR
+        full = not quiet and attend_lanes(group, buffers.rows)
         if sizes.growths > 0 and work[at.accept, 0] > 0.0:
             functions_at(call).tangent_step(work)
         functions_at(call).take(work)
-        if waiting:
+        if not quiet:
             full |= settle_lanes(group, buffers)
-            waiting = 0
     for slot in range(sizes.slots):
         lanes.columns[slot * sizes.lanes + lane] = work[slot, 0]
     carray(lanes.runs, (sizes.lanes,))[lane] = own[0]

@@ -3,14 +3,19 @@
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from jointplay.solver.kernels.device.driver import Device
 from jointplay.solver.kernels.device.kernel_text import kernel_text
+from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.runs.device_trial import try_device
 from tests.solver.kernels.device.driver_by_host import DriverByHost
+from tests.solver.readable_mechanics import preset
 
 
 def trial_by(write: Any) -> Any:
-    return try_device(Device(library=DriverByHost()), 16, write)
+    scenes = [preset("slider-crank", clearance=float(c)) for c in np.linspace(1e-4, 5e-4, BUNDLE)]
+    return try_device(Device(library=DriverByHost()), scenes, 16, write)
 
 
 def test_a_device_with_the_same_bits_serves() -> None:

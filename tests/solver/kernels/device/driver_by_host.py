@@ -1,4 +1,4 @@
-"""What `libcuda` does, done by this processor: memory of its own, and a kernel run lane by lane."""
+"""Stands for `libcuda`: memory of its own, and a kernel that this processor runs lane by lane."""
 
 import ctypes
 from typing import Any

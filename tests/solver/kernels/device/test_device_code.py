@@ -21,7 +21,7 @@ OF_FLOATS = re.compile(r"\b(?:add|sub|mul|div|sqrt|fma|mad|rcp)\.(?:\w+\.)*f(?:3
 MOST_SPILLED = 1024
 """Bytes of registers that the press's loop may keep elsewhere, with 254 registers a thread."""
 EXTERNAL = {"sqrt", "numba_frexp", "NRT_MemInfo_call_dtor"}
-"""What Numba's text may call beside LLVM's own functions, and Python's where a function is null."""
+"""Functions that Numba's text may call, beside LLVM's own, and Python's where one is null."""
 
 
 @pytest.fixture(scope="module")
