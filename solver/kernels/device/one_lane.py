@@ -9,6 +9,7 @@ from numba import carray, from_dtype, int64, types, void
 from jointplay.records.impact import IMPACT
 from jointplay.solver.kernels.emit import functions, places
 from jointplay.solver.kernels.emit.functions import functions_at
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop import runs
 from jointplay.solver.kernels.loop.lanes import attend_lanes, settle_lanes
@@ -78,6 +79,7 @@ SIGNATURE = void(
 )
 
 
+@inner_kernel()
 def advance_one_lane(
     addresses: Any, places: Any, lanes: Lanes, room: Room, sizes: Sizes, lane: int, budget: int
 ) -> None:
