@@ -20,8 +20,9 @@ from jointplay.solver.kernels.device.one_lane import Sizes
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.emit.tapes import Source
-from jointplay.solver.kernels.loop.bundle import ENERGIES, Bundle, Group
+from jointplay.solver.kernels.loop.bundle import Bundle, Group
 from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.ready_lanes import ENERGIES
 from jointplay.solver.kernels.loop.runs import (
     DTYPE,
     GROWTH,
