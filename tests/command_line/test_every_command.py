@@ -110,7 +110,7 @@ def test_what_a_job_has_not_is_one_line(jointplay, service_url, finished_job, fi
 
 
 BY_COMMAND = {
-    "submit": "Client.submit simulate bifurcation sweep poincare ensemble accuracy_study"
+    "submit": "Client.submit simulate bifurcation chart sweep poincare ensemble accuracy_study"
     " calibration estimate",
     "ls": "Client.jobs Batch.jobs",
     "show": "Client.job Job.refresh wait follow check statistics points accuracy"
