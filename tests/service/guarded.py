@@ -15,6 +15,10 @@ from tests.worker_by_hand import Worker
 SWING = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 USUAL = ["jobs:write", "jobs:read", "results:read"]
 IDS = {
+    "quantity": "motion",
+    "z": "0",
+    "x": "0",
+    "y": "0",
     "job_id": "",
     "batch_id": "",
     "key": "zarr.json",

@@ -84,7 +84,7 @@ def test_callers_without_a_key_have_a_part(
 ) -> None:
     async def asked() -> list[int]:
         async with clients_of(create_app(Settings(data=tmp_path, keys=keys))) as clients:
-            return await clients.statuses(most + 2, "/openapi.json")
+            return await clients.statuses(most + 2, "/v1/laws")
 
     assert asyncio.run(asked()) == [200] * most + [503] * 2
 
