@@ -19,7 +19,7 @@ from tests.waiting import processor_time
 
 PULLED: Final = {"four-bar": "crank.B", "jansen-leg": "crank.P", "seven-bar-press": "crank4.pin"}
 POSES, FIRST = 150, 10
-"""Of one turn; the first ones are not counted: a process starts."""
+"""Poses of one turn; the first ones are not counted: a process starts."""
 SHARE: Final = 0.1
 """Radius of the circle, as a share of the mechanism's largest coordinate."""
 

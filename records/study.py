@@ -53,7 +53,7 @@ class StudySource(Protocol):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Lengths of the axes of the points: all points, or (y, x) of a map, row by row."""
+        """Lengths of the axes of the points: all points, or (y, x) of a map, coarse to fine."""
 
     @property
     def record(self) -> int:

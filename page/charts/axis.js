@@ -6,8 +6,8 @@ import { ticks } from "../plots/axes.js";
 const EVEN = 1e-6; // of a step, by which equal steps differ at most
 
 export class Axis {
-  constructor({ name, unit, values }) {
-    Object.assign(this, { name, unit, values, count: values.length });
+  constructor({ parameter, unit, values }) {
+    Object.assign(this, { name: parameter, unit, values, count: values.length });
     const step = (values.at(-1) - values[0]) / Math.max(values.length - 1, 1);
     this.even = values.every((value, i) => Math.abs(value - values[0] - i * step) <= EVEN * Math.abs(step));
     this.step = step;

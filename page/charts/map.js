@@ -3,7 +3,7 @@
 import { element } from "../interface/element.js";
 import { prepared } from "../mechanism/canvas.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
-import { axisFont, letters } from "../plots/axes.js";
+import { axisFont, letters, writeUpward } from "../plots/axes.js";
 import { Axis } from "./axis.js";
 
 const TILE = 256; // points along each side of a tile
@@ -15,7 +15,7 @@ const CLICK = 4; // px within which a drag is a click
 
 export class ChartMap {
   /**
-   * @param axes `{x, y}`, each `{name, unit, values}`
+   * @param axes `{x, y}`, each `{parameter, unit, values}`
    * @param onpoint called with `[column, row]` of a point that was clicked
    * @param onhover called with the point under the pointer, or null
    */
@@ -27,7 +27,7 @@ export class ChartMap {
     this.finest = Math.max(0, Math.ceil(Math.log2(Math.max(...this.size) / TILE)));
     this.canvas = element("canvas", {
       class: "canvas-plot", role: "img", tabindex: "0",
-      "aria-label": `${y.name} over ${x.name}; arrows move, plus and minus scale`,
+      "aria-label": `${y.parameter} over ${x.parameter}; arrows move, plus and minus scale`,
     });
     this.listen(signal);
     onNewColours(() => this.draw(), signal);
@@ -150,12 +150,7 @@ export class ChartMap {
     context.textBaseline = "middle";
     const up = this.y.ticks(visible(1, height), height / (45 * size));
     for (const [index, text] of up.marks) context.fillText(text, left - 8, top + height - pixel(1, index));
-    context.save();
-    context.translate(10 * size, top + height / 2);
-    context.rotate(-Math.PI / 2);
-    context.textAlign = "center";
-    context.fillText(up.label, 0, 0);
-    context.restore();
+    writeUpward(context, up.label, top + height / 2);
   }
 
   /** Returns the point under a pointer, `[column, row]`, or null outside. */

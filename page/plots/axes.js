@@ -76,11 +76,16 @@ export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = tru
     line(context, [left - 5, y], [left, y]);
     context.fillText(short(value, 4), left - 8, y);
   }
+  writeUpward(context, up.label, top + height / 2);
+}
+
+/** Writes the label of a vertical axis at the left edge, about its middle. */
+export function writeUpward(context, label, middle) {
   context.save();
-  context.translate(10 * size, top + height / 2);
+  context.translate(10 * letters(), middle);
   context.rotate(-Math.PI / 2);
   context.textAlign = "center";
-  context.fillText(up.label, 0, 0);
+  context.fillText(label, 0, 0);
   context.restore();
 }
 

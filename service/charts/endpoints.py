@@ -17,6 +17,7 @@ from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results.queries import MOST_VALUES
 from jointplay.service.results.stores import ResultsOfThePath, StudyOfThePath
 from jointplay.service.results.streaming import as_json
+from jointplay.service.studies.answers import axes
 from jointplay.service.studies.schemas import Status
 from jointplay.storage.studies.reader import StudyReader
 
@@ -76,8 +77,7 @@ def show_chart(study: StudyOfThePath, results: ResultsOfThePath) -> Response:
             complete=study.complete,
             points=study.points,
             ended=count,
-            x=_axis(study, "x"),
-            y=_axis(study, "y"),
+            **axes(study),
             levels=_levels(study.shape),
             quantities=[_quantity(study, one) for one in grids.quantities(study).values()],
         )
@@ -208,11 +208,6 @@ def _known(study: StudyReader, quantity: str) -> Channel:
 
 def _levels(shape: tuple[int, ...]) -> int:
     return 1 + max(0, math.ceil(math.log2(max(shape) / TILE)))
-
-
-def _axis(study: StudyReader, name: str) -> schemas.Axis:
-    parameter, values = study.layout.coordinates[name]
-    return schemas.Axis.of(parameter, values=values, name=parameter.name)
 
 
 def _quantity(study: StudyReader, one: Channel) -> schemas.Quantity:

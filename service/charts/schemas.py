@@ -2,14 +2,8 @@
 
 from pydantic import BaseModel, Field
 
-from jointplay.service.results.schemas import Described, Series, Values
-from jointplay.service.studies.schemas import Status
-
-
-class Axis(Series):
-    """One axis: its values in the order of the points along it."""
-
-    name: str
+from jointplay.service.results.schemas import Described, Values
+from jointplay.service.studies.schemas import Axis, Status
 
 
 class Label(BaseModel):

@@ -97,15 +97,20 @@ def _points(store: StudyReader, query: PointRange, shown: Shown) -> schemas.Poin
     return schemas.Points.model_construct(
         **_judged(store, part, following, by_name(store.channels).keys() - names),
         shape=list(store.shape),
-        axes=[
-            schemas.Axis.of(one, name=axis, parameter=one.name, values=values)
-            for axis, (one, values) in store.coordinates.items()
-        ],
+        axes=list(axes(store).values()),
         time=rows.pop(TIME.name, None),
         sections=rows,
         peaks={one.name: _peaks(store, one, part) for one in shown.extremes},
         runs=store.attributes.get("runs", []),
     )
+
+
+def axes(store: StudyReader) -> dict[str, schemas.Axis]:
+    """Return the axes of a map by name, y and x; none of points on one axis."""
+    return {
+        name: schemas.Axis.of(one, name=name, parameter=one.name, values=values)
+        for name, (one, values) in store.coordinates.items()
+    }
 
 
 def _peaks(store: StudyReader, channel: Channel, points: range) -> schemas.PeakColumns:

@@ -37,8 +37,8 @@ def show_points(study: StudyOfThePath, query: Annotated[PointsQuery, Query()]) -
     """Return all that a study of any kind has of its points, also while it runs.
 
     `status` says of every point whether it waits, is computed, is done or has failed.  A map has
-    its points row by row, as `shape` and `axes` say.  `next_start` leads to the points that did not
-    fit into the answer.
+    its points coarse to fine; `values` say where each of them lies, `shape` and `axes` what there
+    is.  `next_start` leads to the points that did not fit into the answer.
     """
     return as_json(answers.points(study, query))
 

@@ -109,8 +109,7 @@ class Points(JudgedPoints):
     """All that is known of points; other addresses show parts of it."""
 
     shape: list[int] = Field(
-        description="Points along each axis: of one, all; of a map, along y and x. The first "
-        "varies slowest."
+        description="Points along each axis: of one, all; of a map, along y and x."
     )
     axes: list[Axis] = Field(description="Of a map, y and x; empty: the points are on one axis.")
     time: Rows | None = Field(description="Of the sections; null: no observables were asked for.")

@@ -13,7 +13,7 @@ from jointplay.storage.studies.layout import StudyLayout
 CHUNK_VALUES: Final = 16_384
 """Most values that are compressed together along one axis."""
 SIDE: Final = 256
-"""Points of a chunk along each of two axes."""
+"""Points of a chunk along each of two axes; of a narrow map as many points in all."""
 
 
 class Band(NamedTuple):
@@ -32,7 +32,9 @@ def chunk_shape(layout: StudyLayout, width: int = 1) -> list[int]:
     if len(layout.shape) == 1:
         return [max(min(layout.points, CHUNK_VALUES // width), 1)]
     side = max(int(SIDE / math.sqrt(width)), 1)
-    return [min(size, side) for size in layout.shape]
+    height, across = layout.shape
+    step = min(across, side)
+    return [min(height, side * side // step), step]  # taller where a map is narrow
 
 
 def bands(layout: StudyLayout, width: int = 1) -> Iterator[Band]:
@@ -44,9 +46,10 @@ def bands(layout: StudyLayout, width: int = 1) -> Iterator[Band]:
             yield Band(row, (slice(begin, begin + count),), np.arange(count))
         return
     whole, across = layout.shape
-    for row, begin in enumerate(range(0, whole, height)):
-        places = layout.order - begin * across
-        members = np.flatnonzero((places >= 0) & (places < height * across))
+    of_band, places = np.divmod(layout.order, height * across)
+    by_band = np.argsort(of_band, kind="stable")  # in each, the points in their order
+    ends = np.minimum(np.arange(1, -(-whole // height) + 1) * height, whole) * across
+    for row, members in enumerate(np.split(by_band, ends[:-1])):
         runs = np.split(members, np.flatnonzero(np.diff(members) > 1) + 1)
         points = tuple(slice(int(run[0]), int(run[-1]) + 1) for run in runs)
         yield Band(row, points, places[members])

@@ -92,7 +92,7 @@ class Chart {
 
   values([column, row]) {
     const { x, y } = this.answer;
-    return { [x.name]: [x.values[column], x.unit], [y.name]: [y.values[row], y.unit] };
+    return { [x.parameter]: [x.values[column], x.unit], [y.parameter]: [y.values[row], y.unit] };
   }
 
   hover(point) {

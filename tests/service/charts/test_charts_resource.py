@@ -53,7 +53,7 @@ def test_axes_and_quantities_are_told(http, chart):
     found = get(http, f"/v1/jobs/{chart}/chart")
     assert (found["complete"], found["points"], found["ended"]) == (True, 1500, 1500)
     assert found["x"]["values"] == np.linspace(1e-4, 1e-3, WIDTH).tolist()
-    assert (found["y"]["name"], found["y"]["unit"]) == ("friction", "1")
+    assert (found["y"]["parameter"], found["y"]["unit"]) == ("friction", "1")
     assert found["levels"] == 2
     motion, *others = found["quantities"]
     counts = {label["name"]: label["points"] for label in motion["labels"]}

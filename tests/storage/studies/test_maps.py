@@ -18,6 +18,7 @@ from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.results import manifest
 from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.cut import bands, chunk_shape, chunks
 from jointplay.storage.studies.examined_part import require_part
 from jointplay.storage.studies.examined_study import examined_study
 from jointplay.storage.studies.live import LiveStudy
@@ -135,3 +136,23 @@ def test_a_map_that_was_handed_in_is_taken_for_what_the_job_gives_and_no_other(t
     moved.put(pack(manifest.listed(files.items())))
     with pytest.raises(CorruptStore, match="statistics/x"):
         examined_study(moved, layout, same=True)
+
+
+@pytest.mark.parametrize(
+    "shape", [(1, 1), (3, 300), (300, 3), (70_000, 1), (2, 40_000), (513, 515)]
+)
+@pytest.mark.parametrize("width", [0, 3])
+def test_every_point_is_in_one_chunk_and_narrow_maps_have_few(shape, width):
+    layout = made_up_map(*shape)
+    numbers = np.arange(layout.points)
+    height, across = chunk_shape(layout, width)
+    laid = np.full(shape, -1)
+    found = list(bands(layout, width))
+    for band in found:
+        own = np.concatenate([numbers[run] for run in band.points])
+        for place, chunk in chunks(layout, band, own, width):
+            row, column = (int(one) for one in place.split("/"))
+            at = row * height, column * across
+            laid[at[0] : at[0] + len(chunk), at[1] : at[1] + chunk.shape[1]] = chunk
+    np.testing.assert_array_equal(laid.ravel()[layout.order], numbers)
+    assert len(found) <= 1 + 4 * layout.points * max(width, 1) / 256**2
