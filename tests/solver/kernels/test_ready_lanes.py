@@ -81,6 +81,31 @@ def test_a_lane_has_the_bits_that_it_has_alone(name: str, paths: list[str]) -> N
         assert bits(beside) == bits(alone)
 
 
+def friction(dynamic: list[float]) -> PointScenes:
+    """Return slider-cranks with friction whose force is full from these slip velocities on."""
+    paths = [CLEARANCE + f"friction/{name}" for name in ("coefficient", "dynamic_velocity")]
+    static = CLEARANCE + "friction/static_velocity"
+    scene = Scene.model_validate(presets.document("slider-crank"))
+    values = np.array([[0.1, float(value_at(scene, static)) * one] for one in dynamic])
+    leaves = tuple(Leaf(path, i, 1.0) for i, path in enumerate(paths))
+    return PointScenes(PointScenes(scene, leaves, values).scene(0), leaves, values)
+
+
+@pytest.mark.parametrize("dynamic", [[1.0, 2.0, 1.0, 3.0], [1.0, 1.0], [2.0, 3.0]])
+def test_no_tangent_follows_a_lane_whose_friction_jumps(dynamic: list[float]) -> None:
+    scenes = friction(dynamic)
+    kernel = kernel_of(scenes)
+    tangents = compile_tangents(kernel)
+    lanes = readied(scenes, kernel, tangents)
+    for point, multiple in enumerate(dynamic):
+        alone, beside = (Bundle(kernel, tangents=tangents) for _ in range(2))
+        alone.load(0, problem(scenes.scene(point), point))
+        beside.load_ready(0, lanes, point)
+        assert bits(beside) == bits(alone)
+        jumps = np.isnan(beside.lane(0)["tangent"])
+        assert jumps.all() if multiple == 1.0 else not jumps.any()
+
+
 @pytest.mark.parametrize(("name", "paths"), CASES)
 def test_a_lane_has_the_same_bits_beside_others(name: str, paths: list[str]) -> None:
     scenes = scenes_of(name, paths)
