@@ -22,7 +22,7 @@ export function formOfKind(name, described, { axis, ends }) {
     fields: (document) => Object.assign(
       {},
       ...axes.map((field, nth) =>
-        axis(document, field, `${titled(field)}: parameter`, sentence(described.fields[field].help), nth)),
+        axis(document, field, titled(field), sentence(described.fields[field].help), nth)),
       Object.fromEntries(others.map(([field, one]) => [field, ofField(field, one)])),
     ),
     made: (all) => ({

@@ -153,41 +153,6 @@ export const KINDS = {
       };
     },
   },
-  chart: {
-    title: "Chart",
-    help: "Which motion there is, over two parameters.",
-    fields: (document) => ({
-      ...varied(document, "along", "Across", 32),
-      ...second(document),
-      settle: {
-        title: "Periods to settle", help: "Before the motion is looked at.", unit: "periods",
-        minimum: 0, default: 40,
-      },
-      record: {
-        title: "Periods looked at", help: "By which the motion is judged.", unit: "periods",
-        minimum: 1, default: 30,
-      },
-      exponents: {
-        title: "Exponents", unit: "1", default: "yes", choices: ["yes", "no"],
-        help: "Largest Lyapunov exponents tell chaos; without them only what recurs is told.",
-      },
-      accuracy: ACCURACY,
-    }),
-    made: (given) => ({
-      along: { parameter: given.along, values: { from: given.from, to: given.to, count: given.count } },
-      by: {
-        parameter: given.by,
-        values: { from: given.by_from, to: given.by_to, count: given.by_count },
-      },
-      settle: given.settle, record: given.record,
-      ...(given.exponents === "no" ? { indicators: ["recurrence"] } : {}), ...accurate(given.accuracy),
-    }),
-    given: ({ along, by, settle, record, indicators, accuracy }) => ({
-      along: along?.parameter, ...ends(along?.values ?? []), by: by?.parameter,
-      ...Object.fromEntries(Object.entries(ends(by?.values ?? [])).map(([name, value]) => [`by_${name}`, value])),
-      settle, record, exponents: !indicators || indicators.includes("lyapunov") ? "yes" : "no", accuracy,
-    }),
-  },
   "accuracy-study": {
     title: "What accuracy costs",
     help: "Every method and tolerance against a reference.",
@@ -231,29 +196,18 @@ function varied(document, name, title, count = 48, help = "What is varied.", bef
   const first = document.parameters?.[choices.default];
   const middle = first?.default || 1;
   const part = (end) => (before ? `${before}_${end}` : end);
+  const titled = (end) => (before ? `${title}, ${end}` : `${end[0].toUpperCase()}${end.slice(1)}`);
   return {
     [name]: { ...choices, title, help },
     [part("from")]: {
-      title: "From", help: "", unit: "1", required: true, default: rounded(middle * 0.5),
+      title: titled("from"), help: "", unit: "1", required: true, default: rounded(middle * 0.5),
     },
-    [part("to")]: { title: "To", help: "", unit: "1", required: true, default: rounded(middle * 1.5) },
+    [part("to")]: {
+      title: titled("to"), help: "", unit: "1", required: true, default: rounded(middle * 1.5),
+    },
     [part("count")]: {
-      title: "Values", help: "", unit: "1", minimum: 1, maximum: 100000, default: count,
+      title: titled("values"), help: "", unit: "1", minimum: 1, maximum: 100000, default: count,
     },
-  };
-}
-
-/** Returns the fields of a second parameter that varies. */
-function second(document) {
-  const choices = choice(document);
-  const others = choices.choices.filter((name) => name !== choices.default);
-  const chosen = others.find((name) => document.parameters[name].default > 0) ?? others[0];
-  const middle = document.parameters?.[chosen]?.default || 1;
-  return {
-    by: { ...choices, default: chosen, title: "Up", help: "What is varied besides." },
-    by_from: { title: "Up: from", help: "", unit: "1", required: true, default: rounded(middle * 0.5) },
-    by_to: { title: "Up: to", help: "", unit: "1", required: true, default: rounded(middle * 1.5) },
-    by_count: { title: "Up: values", help: "", unit: "1", minimum: 1, maximum: 100000, default: 32 },
   };
 }
 

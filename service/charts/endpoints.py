@@ -71,13 +71,14 @@ class TileQuery(BaseModel):
 @router.get("/chart", response_model=schemas.Chart)
 def show_chart(study: StudyOfThePath, results: ResultsOfThePath) -> Response:
     """Return axes and quantities of a chart, also while it is computed."""
-    count = int(grids.has_ended(study).sum())
+    count, of = int(grids.has_ended(study).sum()), axes(study)
     return as_json(
         schemas.Chart.model_construct(
             complete=study.complete,
             points=study.points,
             ended=count,
-            **axes(study),
+            x=of["x"],
+            y=of["y"],
             levels=_levels(study.shape),
             quantities=[_quantity(study, one) for one in grids.quantities(study).values()],
         )

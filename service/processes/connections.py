@@ -12,12 +12,10 @@ import logging
 import resource
 import socket
 import struct
-from collections import Counter, OrderedDict
 from fcntl import ioctl
 from http import HTTPStatus
-from itertools import islice
 from termios import FIONREAD
-from typing import Any, Protocol
+from typing import Any
 
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
@@ -25,104 +23,18 @@ from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 from jointplay.service.content_policy import DEFAULTS
 from jointplay.service.problems import MEDIA_TYPE, ProblemDocument
 from jointplay.service.problems.kinds import NO_REQUEST, UNAVAILABLE, ProblemKind
+from jointplay.service.processes.room import MOST, Room
 
-MOST = 1024
-"""Connections at once, if the system allows twice as many open files."""
-SHARE = 0.75
-"""Part of them that one address may have."""
 HEAD_PATIENCE = 5.0  # s
 READER_PATIENCE = 30.0  # s
 UNSENT = 64 * 1024
 """Bytes of an answer that the system keeps beyond those on their way: it would keep megabytes, and
 say for as long as a slow client takes a third of them that it takes nothing."""
 RETRY = 5  # s, what a refused client is told
-_LOOKED_AT = 64
-"""Idle connections of which one makes room: of many that come at once none was read yet."""
 
 Timer = asyncio.TimerHandle | None
 
 _log = logging.getLogger(__name__)
-
-
-class Guest(Protocol):
-    """A connection that has room."""
-
-    address: str
-
-    @property
-    def asked(self) -> bool:
-        """Whether it has had a request before."""
-
-    @property
-    def unread(self) -> bool:
-        """Whether the client has sent what was not looked at yet."""
-
-    def end(self) -> None:
-        """Leave, and close the connection: it waits for a request."""
-
-
-class Room:
-    """Room for connections: who has how many, and which of them wait for a request."""
-
-    def __init__(self, most: int) -> None:
-        self.most, self.of_one = most, max(1, int(SHARE * most))
-        self._held: Counter[str] = Counter()
-        self._idle: dict[tuple[str, bool], OrderedDict[Guest, None]] = {}
-        """Those that wait, the longest first, by address and whether they were asked before."""
-
-    @property
-    def held(self) -> int:
-        """Connections that are open."""
-        return self._held.total()
-
-    def enter(self, connection: Guest) -> bool:
-        """Take a connection in, if need be in place of an idle one; False: there is no room."""
-        address = connection.address
-        crowded = self._held[address] >= self.of_one
-        if crowded or self.held >= self.most:
-            idle = self._longest_idle(address if crowded else self._crowd())
-            if idle is None:
-                return False
-            idle.end()
-        self._held[address] += 1
-        self.rest(connection)
-        return True
-
-    def leave(self, connection: Guest) -> None:
-        """Forget a connection that was let in."""
-        self.work(connection)
-        self._held[connection.address] -= 1
-        if not self._held[connection.address]:
-            del self._held[connection.address]
-
-    def rest(self, connection: Guest) -> None:
-        """Note that a connection waits for a request."""
-        self.work(connection)
-        whose = connection.address, connection.asked
-        self._idle.setdefault(whose, OrderedDict())[connection] = None
-
-    def work(self, connection: Guest) -> None:
-        """Note that a connection has a request, or is gone."""
-        for asked in (False, True):
-            idle = self._idle.get((connection.address, asked), OrderedDict())
-            idle.pop(connection, None)
-            if not idle:
-                self._idle.pop((connection.address, asked), None)
-
-    def _crowd(self) -> str:
-        """Return the address with most connections, of those that have an idle one."""
-        return max((one for one, _ in self._idle), key=lambda one: self._held[one], default="")
-
-    def _longest_idle(self, address: str) -> Guest | None:
-        """Return one of an address that has waited long; those that wait no more go to the end."""
-        none: OrderedDict[Guest, None] = OrderedDict()
-        new, others = (self._idle.get((address, asked), none) for asked in (False, True))
-        idle = new if len(new) >= len(others) else others
-        for guest in [*islice(idle, _LOOKED_AT)]:
-            if not guest.unread:
-                return guest
-            idle.move_to_end(guest)
-        return None
 
 
 class Connection(H11Protocol):
@@ -132,7 +44,7 @@ class Connection(H11Protocol):
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
-        self.address, self._entered = "", False
+        self.address = ""
         self._head: Timer = None
         self._reader: Timer = None
 
@@ -147,30 +59,24 @@ class Connection(H11Protocol):
         return has_unread(self.transport)
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Let the connection in, or tell it why not."""
+        """Let the connection in, or let it wait at the door."""
         super().connection_made(transport)
         transport.get_extra_info("socket").setsockopt(
             socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT
         )
         self.address = address_of(transport)
-        self._entered = self.room.enter(self)
-        if not self._entered:
-            _log.debug("no room for a connection of %s", self.address)
-            transport.write(REFUSAL)
-            transport.close()
-            return
-        self._await_head()
+        self.flow.pause_reading()
+        self.room.admit(self)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Give its room to others."""
         super().connection_lost(exc)
-        if self._entered:
-            self.room.leave(self)
+        self.room.leave(self)
         self._head, self._reader = _cancel(self._head), _cancel(self._reader)
 
     def data_received(self, data: bytes) -> None:
         """Take what was sent: a head must become whole soon."""
-        if not self._entered:
+        if self not in self.room:
             return
         super().data_received(data)
         self._look()
@@ -214,15 +120,25 @@ class Connection(H11Protocol):
     def end(self) -> None:
         """Close a connection that waits for a request."""
         self.room.leave(self)
-        self._entered = False
         if self.flow.write_paused:
             self._cut_off()
         else:  # nothing is unsent; to end TLS in order would take what the client likes
             self.transport.abort()
 
+    def come_in(self) -> None:
+        """See `Guest`."""
+        self.flow.resume_reading()
+        self._await_head()
+
+    def refuse(self) -> None:
+        """See `Guest`."""
+        _log.debug("no room for a connection of %s", self.address)
+        self.transport.write(REFUSAL)
+        self.transport.close()
+
     def _look(self) -> None:
         """Tell a connection with a request from one that waits for its head, or for any."""
-        if not self._entered:
+        if self not in self.room:
             return
         cycle: RequestResponseCycle | None = self.cycle
         if cycle is not None and not cycle.response_complete:

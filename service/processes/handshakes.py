@@ -38,16 +38,12 @@ class Handshake(asyncio.Protocol):
         self._room = self.made.room
         self._sent = bytearray()
         self._agreeing: asyncio.Task[None] | None = None
-        self._entered = False
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Let the connection in, or close it: nothing can be told to it yet."""
+        """Let the connection in, or let it wait at the door."""
         self._transport, self.address = transport, address_of(transport)
-        self._entered = self._room.enter(self)
-        if self._entered:
-            self._agreeing = asyncio.create_task(self._agree())
-        else:
-            transport.abort()
+        transport.pause_reading()
+        self._room.admit(self)
 
     def data_received(self, data: bytes) -> None:
         """Keep what came with the end of the handshake."""
@@ -58,15 +54,23 @@ class Handshake(asyncio.Protocol):
         """Whether the client goes on with the handshake."""
         return has_unread(self._transport)
 
-    def end(self) -> None:
-        """Make room for others."""
-        self._leave()
+    def come_in(self) -> None:
+        """Agree on TLS."""
+        self._transport.resume_reading()
+        self._agreeing = asyncio.create_task(self._agree())
+
+    def refuse(self) -> None:
+        """Close the connection: nothing can be told to it yet."""
         self._transport.abort()
 
-    def _leave(self) -> None:
-        if self._entered:
-            self._entered = False
-            self._room.leave(self)
+    def end(self) -> None:
+        """Make room for others."""
+        self._room.leave(self)
+        self._transport.abort()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Make room for others: the client has gone."""
+        self._room.leave(self)
 
     async def _agree(self) -> None:
         encrypted: asyncio.Transport | None = None
@@ -79,7 +83,7 @@ class Handshake(asyncio.Protocol):
                 ssl_handshake_timeout=connections.HEAD_PATIENCE,
                 ssl_shutdown_timeout=connections.HEAD_PATIENCE,
             )
-        self._leave()
+        self._room.leave(self)
         if encrypted is None or encrypted.is_closing():
             return
         encrypted.set_protocol(self._connection)

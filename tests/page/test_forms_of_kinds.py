@@ -29,13 +29,13 @@ def test_a_kind_of_two_axes_is_filled_in_submitted_and_changed(browsing, http, s
     with browsing.page(address, expected=lacking) as page:
         expect(page.get_by_label("What to compute")).to_have_value("relief")
         page.get_by_text("Peaks and statistics over two parameters").wait_for()
-        proposed = [page.get_by_label(f"{one}: parameter").input_value() for one in ("Along", "By")]
+        proposed = [page.get_by_label(one, exact=True).input_value() for one in ("Along", "By")]
         assert len({*proposed}) == 2
-        page.get_by_label("Along: parameter").select_option("clearance")
-        page.get_by_label("By: parameter").select_option("friction")
-        for at, (start, stop, count) in enumerate((("2e-4", "4e-4", "3"), ("0", "0.1", "2"))):
-            for title, text in (("From", start), ("To", stop), ("Values", count)):
-                page.get_by_label(title, exact=True).nth(at).fill(text)
+        page.get_by_label("Along", exact=True).select_option("clearance")
+        page.get_by_label("By", exact=True).select_option("friction")
+        for axis, *texts in (("Along", "2e-4", "4e-4", "3"), ("By", "0", "0.1", "2")):
+            for end, text in zip(("from", "to", "values"), texts, strict=True):
+                page.get_by_label(f"{axis}, {end}", exact=True).fill(text)
         page.get_by_label("Periods", exact=True).fill("2")
         page.get_by_role("button", name="JSON").click()
         document = shown_document(page)
@@ -52,8 +52,8 @@ def test_a_kind_of_two_axes_is_filled_in_submitted_and_changed(browsing, http, s
         expect(page).to_have_url(re.compile("#/job/"))
         page.get_by_role("button", name="Cancel").click()
         page.get_by_role("link", name="Run with changes").click()
-        expect(page.get_by_label("By: parameter")).to_have_value("friction")
-        expect(page.get_by_label("Values", exact=True).nth(1)).to_have_value("2")
+        expect(page.get_by_label("By", exact=True)).to_have_value("friction")
+        expect(page.get_by_label("By, values", exact=True)).to_have_value("2")
         page.goto(f"{service_url}/#/jobs?kind=relief")
         expect(page.locator(".row")).to_have_count(1)
         words = re.compile(r"clearance .* … .*, friction 0 … 0.1")

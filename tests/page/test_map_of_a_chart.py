@@ -110,15 +110,19 @@ def test_a_line_of_a_chart_is_cut_as_a_diagram(browsing, url, chart):
 
 def test_a_chart_is_asked_for_in_the_form(browsing, url):
     with browsing.page(f"{url}/#/new/impact-oscillator?kind=chart") as page:
-        page.get_by_label("Across", exact=True).select_option("speed")
-        page.get_by_label("Up", exact=True).select_option("amplitude")
-        for label, value in (("From", 10), ("To", 40), ("Values", 3)):
+        page.get_by_label("Along", exact=True).select_option("speed")
+        page.get_by_label("By", exact=True).select_option("amplitude")
+        for label, value in (
+            ("Along, from", 10),
+            ("Along, to", 40),
+            ("Along, values", 3),
+            ("By, from", 0.001),
+            ("By, to", 0.002),
+            ("By, values", 2),
+            ("Settle", 2),
+            ("Record", 4),
+        ):
             page.get_by_label(label, exact=True).fill(str(value))
-        for label, value in (("from", 0.001), ("to", 0.002), ("values", 2)):
-            page.get_by_label(f"Up: {label}", exact=True).fill(str(value))
-        page.get_by_label("Periods to settle").fill("2")
-        page.get_by_label("Periods looked at").fill("4")
-        page.get_by_label("Exponents", exact=True).select_option("no")
         page.get_by_role("button", name="Run", exact=True).click()
         page.get_by_text("6 points. Drag to move").wait_for()
         painted(page)

@@ -14,8 +14,9 @@ from starlette.types import Receive, Scope, Send
 
 from jointplay.service.access.turns import Turns
 from jointplay.service.pieces import TOGETHER, Pieces
-from jointplay.service.processes import connections
-from jointplay.service.processes.connections import Connection, Room, protocol
+from jointplay.service.processes import connections, room
+from jointplay.service.processes.connections import Connection, protocol
+from jointplay.service.processes.room import Room
 from tests.service_in_thread import Served, in_thread
 from tests.waiting import until
 
@@ -228,15 +229,26 @@ def test_of_many_that_come_at_once_none_is_closed_unheard(
     monkeypatch.setattr(server[0].config.http_protocol_class, "room", Room(8))
     with at_once(server, [asked(1)] * 9) as ones:
         answers = Counter(one.recv(1000)[9:12] for one in ones)
-    assert answers == {b"200": 6, b"503": 4}
+    assert answers == {b"200": 8, b"503": 2}  # six have room, and two wait at the door
+
+
+def test_who_comes_last_of_many_is_heard(
+    server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those before have all sent something that nobody has read yet: halves of heads."""
+    monkeypatch.setattr(server[0].config.http_protocol_class, "room", Room(8))
+    half = b"GET /1 HTTP/1.1\r\nHost: a\r\nX-Half: "
+    with at_once(server, [half] * 40 + [asked(1)]) as (_, *halves, last):
+        assert last.recv(1000)[9:12] == b"200"
+        assert halves[0].recv(1000) == b""
 
 
 def test_what_makes_room_is_found_behind_those_that_are_not_read_yet(
     server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(server[0].config.http_protocol_class, "room", Room(6))
-    monkeypatch.setattr(connections, "_LOOKED_AT", 1)
+    monkeypatch.setattr(room, "LOOKED_AT", 1)
     sent = [asked(1), asked(1), b"", asked(1), asked(1), asked(1)]
     with at_once(server, sent) as ones:
         answers = [one.recv(1000)[9:12] for one in ones]
-    assert answers == [b"200", b"200", b"200", b"", b"503", b"503", b"200"]
+    assert answers == [b"200", b"200", b"200", b"", b"503", b"200", b"200"]  # one waited

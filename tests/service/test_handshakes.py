@@ -11,8 +11,9 @@ from starlette.responses import Response
 from trustme import CA
 
 from jointplay.service.processes import connections
-from jointplay.service.processes.connections import Room, protocol
+from jointplay.service.processes.connections import protocol
 from jointplay.service.processes.handshakes import EncryptedConfig
+from jointplay.service.processes.room import Room
 from tests.service_in_thread import Served, in_thread
 from tests.waiting import until
 

@@ -14,7 +14,7 @@ from jointplay.service import body, fair_queue, owners, pieces
 from jointplay.service.access import turns
 from jointplay.service.app import create_app
 from jointplay.service.body import LARGEST_BATCH, LARGEST_BODY
-from jointplay.service.processes import connections
+from jointplay.service.processes import connections, room
 from jointplay.service.results.queries import MOST_VALUES
 from jointplay.solver.kinds import KINDS
 from jointplay.solver.kinds.limits import (
@@ -171,9 +171,9 @@ def test_the_documentation_gives_the_bounds_of_what_is_done_at_once():
     documentation = (Path(__file__).parents[2] / "docs" / "http.md").read_text()
     _, _, told = documentation.partition("| what | at most at once | beyond it |\n|---|---|---|\n")
     table, _, others = told.partition("\n\n")
-    of_address = int(connections.SHARE * connections.MOST)
+    of_address = int(room.SHARE * room.MOST)
     assert [row.split(" | ")[1] for row in table.splitlines()] == [
-        f"{connections.MOST}, or half as many as the process may have open files",
+        f"{room.MOST}, or half as many as the process may have open files",
         f"three quarters of these: {of_address}",
         f"{turns.MOST}; of these {turns.OF_HEALTH} only for health and readiness, "
         f"{turns.OF_WORKERS} more only for these and for workers with a block",
