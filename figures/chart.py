@@ -1,4 +1,7 @@
-"""Chart: the kind of motion, or a quantity, over two parameters."""
+"""Chart: the kind of motion, the attractor, or a quantity, over two axes."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -7,12 +10,15 @@ from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
+from jointplay.records.attractors import attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.motion import WAITING, Labels, colour_of, motions, name_of
 from jointplay.records.pyramid import averaged, in_majority
 from jointplay.records.study import StudySource
 
-MOTION = "motion"
+MOTION, ATTRACTOR = "motion", "attractor"
+LABELS = (MOTION, ATTRACTOR)
+KINDS = ("chart", "basins")
 _HEIGHT = 70.0  # mm
 _MOST_NAMED = 12
 """Labels in the legend: those of most points."""
@@ -24,8 +30,8 @@ _SHARE = 2.0
 
 
 def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
-    if source.kind != "chart":
-        raise NotDrawable("A chart is drawn of a job of kind chart.")
+    if source.kind not in KINDS:
+        raise NotDrawable(f"A chart is drawn of a job of kind {' or '.join(KINDS)}.")
     offered = _offered(source)
     names = at_most(1, selection.channels, "quantities")
     if unknown := [name for name in names if name not in offered]:
@@ -35,7 +41,8 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
 
 
 def _offered(source: StudySource) -> list[str]:
-    motion = [] if source.verdicts is None else [MOTION]
+    told = [] if source.verdicts is None else [MOTION]
+    motion = [ATTRACTOR, *told] if told and "states" in source.attributes else told
     numbers = [name for name in (*source.indicators, *source.statistics) if name != "verdict"]
     return [*motion, *numbers]
 
@@ -46,16 +53,16 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     places = tuple(np.searchsorted(axis.values, axis.shown) for axis in (up, across))
     shape = len(up.values), len(across.values)
     stride = -(-max(shape) // _MOST_CELLS)
-    labels = _motions(source) if name == MOTION else np.zeros(0, np.uint8)
-    entries = _legend(labels)
+    shown = _labelled(source, name)
+    entries = _legend(shown)
     height = _HEIGHT + page.AXIS_HEIGHT + page.legend_rows(entries) * page.LEGEND_HEIGHT
     figure, ((axes,),) = page.panels(1, 1, height)
     axes.set_facecolor(colours.UNKNOWN)
     edges = _edges(across, stride), _edges(up, stride)
-    if name == MOTION:
+    if name in LABELS:
         table = np.full(shape, WAITING, np.uint8)
-        table[places] = labels
-        _draw_labels(axes, edges, in_majority(table, stride))
+        table[places] = shown.labels
+        _draw_labels(axes, edges, in_majority(table, stride), shown.colour_of)
     else:
         values = np.full(shape, np.nan)
         values[places] = {**source.statistics, **source.indicators}[name]
@@ -73,20 +80,34 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     return figure
 
 
-def _motions(source: StudySource) -> Labels:
+@dataclass(frozen=True)
+class _Labelled:
+    """Labels of the points, and their names and colours."""
+
+    labels: Labels
+    name_of: Callable[[int], str] = name_of
+    colour_of: Callable[[int], str] = colour_of
+
+
+def _labelled(source: StudySource, name: str) -> _Labelled:
+    """Return the labels of a quantity; none of one of numbers."""
+    if name == ATTRACTOR:
+        found = attractors_of(source)
+        return _Labelled(found.labels, found.name_of, colour_of_attractor)
+    if name != MOTION:
+        return _Labelled(np.zeros(0, np.uint8))
     period = source.indicators.get("period", np.full(source.points, np.nan))
     verdict = source.indicators["verdict"]
-    return motions(source.status, verdict, period, source.verdict_names)
+    return _Labelled(motions(source.status, verdict, period, source.verdict_names))
 
 
-def _legend(labels: Labels) -> dict[str, tuple[str, str]]:
+def _legend(shown: _Labelled) -> dict[str, tuple[str, str]]:
     """Return marker and colour of the labels that most points have."""
-    counts = np.bincount(labels, minlength=256)
+    counts = np.bincount(shown.labels, minlength=256)
     counts[WAITING] = 0
     often = np.argsort(-counts, kind="stable")[:_MOST_NAMED]
-    return {
-        name_of(int(code)): ("s", colour_of(int(code))) for code in sorted(often) if counts[code]
-    }
+    codes = [int(code) for code in sorted(often) if counts[code]]
+    return {shown.name_of(code): ("s", shown.colour_of(code)) for code in codes}
 
 
 def _edges(axis: ParameterAxis, stride: int) -> Floats:
@@ -95,7 +116,12 @@ def _edges(axis: ParameterAxis, stride: int) -> Floats:
     return np.append(inner, axis.edges[-1])
 
 
-def _draw_labels(axes: page.Axes, edges: tuple[Floats, Floats], table: Labels) -> None:
+def _draw_labels(
+    axes: page.Axes,
+    edges: tuple[Floats, Floats],
+    table: Labels,
+    colour_of: Callable[[int], str],
+) -> None:
     from matplotlib.colors import BoundaryNorm, ListedColormap
 
     codes = np.unique(table)

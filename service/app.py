@@ -7,6 +7,7 @@ from importlib.metadata import version
 from fastapi import FastAPI
 
 import jointplay.service.batches.endpoints
+import jointplay.service.charts.attractors
 import jointplay.service.charts.endpoints
 import jointplay.service.jobs.endpoints
 import jointplay.service.page.endpoints
@@ -74,6 +75,7 @@ _BEHIND_THE_DOOR = (
     (jointplay.service.scenes.looks, needs("jobs:write")),
     (jointplay.service.scenes.poses, needs("jobs:read")),
     (jointplay.service.charts.endpoints, _RESULTS),
+    (jointplay.service.charts.attractors, _RESULTS),
     (jointplay.service.studies.endpoints, _RESULTS),
     (jointplay.service.results.endpoints, _RESULTS),
     (jointplay.service.results.figures, _RESULTS),

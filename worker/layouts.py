@@ -44,7 +44,7 @@ def layout_of_study(study: Study) -> StudyLayout:
     declared, own = study.point_scene(0).parameters, KINDS[study.kind].outputs(study)
     return StudyLayout(
         parameters=tuple(
-            Channel(name, unit, declared[name].help)
+            Channel(name, unit, declared[name].help if name in declared else "of the start")
             for name, unit in zip(study.parameters, study.parameter_units, strict=True)
         ),
         values=study.values,

@@ -36,7 +36,7 @@ export function formOfKind(name, described, { axis, ends }) {
     given: (document) => Object.assign(
       {},
       ...axes.filter((field) => document[field]).map((field) => ({
-        [field]: document[field].parameter,
+        [field]: document[field].parameter, // a number of the start is typed in the document
         ...Object.fromEntries(Object.entries(ends(document[field].values))
           .map(([part, value]) => [`${field}_${part}`, value])),
       })),

@@ -16,9 +16,9 @@ export function jobWords(document, declared) {
     const [from, to] = Array.isArray(all) ? [all[0], all.at(-1)] : [all.from, all.to];
     return `${name} ${[from, to].map((one) => withUnit(one, declared[name]?.unit ?? "1")).join(" … ")}`;
   };
-  const axes = [document, ...Object.values(document)].filter((one) => one?.parameter && one.values);
+  const axes = [document, ...Object.values(document)].filter((one) => (one?.parameter ?? one?.start) && one.values);
   const varied = kind === "calibration" ? [`finds ${Object.keys(parameters).join(", ")}`] : [
-    ...axes.map((one) => over(one.parameter, one.values)),
+    ...axes.map((one) => over(one.parameter ?? one.start, one.values)),
     ...Object.entries(grid ?? {}).map(([name, all]) => over(name, all)),
   ];
   return [...varied, duration && withUnit(duration, "s"), parameterWords(document, declared)]

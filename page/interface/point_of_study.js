@@ -15,8 +15,9 @@ import { post } from "../requests/service.js";
  * @param words what is known of the point
  * @param beside what stands beside the button, in short
  * @param others further jobs that are offered: `{title: document of the scene with these values}`
+ * @param starts numbers of the start at the point: `{pointer into the scene: value}`
  */
-export function offer(room, study, values, words, beside, others = {}) {
+export function offer(room, study, values, words, beside, others = {}, starts = {}) {
   const named = (digits) => Object.entries(values).map(([name, [value, unit]]) =>
     `${name} = ${withUnit(value, unit, digits)}`).join(", ");
   const plain = Object.fromEntries(Object.entries(values).map(([name, [value]]) => [name, value]));
@@ -33,7 +34,7 @@ export function offer(room, study, values, words, beside, others = {}) {
     element("p", {}, element("strong", {}, named(6)), `: ${words}`),
     element("div", { class: "buttons" },
       element("button", {
-        type: "button", class: "main", onclick: submitting(() => simulation(study.job, plain)),
+        type: "button", class: "main", onclick: submitting(() => simulation(study.job, plain, starts)),
       }, "Run this simulation"),
       Object.entries(others).map(([title, document]) =>
         element("button", { type: "button", onclick: submitting(() => document(plain)) }, title)),
@@ -41,10 +42,30 @@ export function offer(room, study, values, words, beside, others = {}) {
 }
 
 /** Returns the document of the run of a study's scene with these values. */
-async function simulation({ scene: given, tolerance, method, duration }, values) {
+async function simulation({ scene: given, tolerance, method, duration }, values, starts) {
   const document = await sceneOf({ scene: given });
   const long = typeof duration === "number" ? duration : await proposedDuration(document);
-  return { kind: "simulate", scene: sceneWith(given, values), duration: long, tolerance, method };
+  const scene = Object.keys(starts).length
+    ? await sceneStarting(given, values, starts)
+    : sceneWith(given, values);
+  return { kind: "simulate", scene, duration: long, tolerance, method };
+}
+
+/** Returns a scene of its own with these values of parameters, which starts with these numbers. */
+async function sceneStarting(given, values, starts) {
+  const declared = Object.fromEntries(Object.entries(values).filter(([name]) => !name.includes(".")));
+  const { parameters, ...document } = structuredClone(await sceneOf({ scene: sceneWith(given, declared) }));
+  for (const [pointer, value] of Object.entries(starts)) {
+    const keys = pointer.slice(1).split("/");
+    const last = keys.pop();
+    let at = document;
+    keys.forEach((key, nth) => {
+      at[key] ??= nth === keys.length - 1 && /^[01]$/.test(last) ? [0, 0] : {};
+      at = at[key];
+    });
+    at[last] = value;
+  }
+  return document;
 }
 
 /** Returns the scene of a job's document with these values of its parameters. */

@@ -1,13 +1,14 @@
 """Tiles as PNG pictures of indexed colours."""
 
 import io
+from collections.abc import Callable
 
 import numpy as np
 from PIL import Image
 
 from jointplay.records.arrays import Floats
 from jointplay.records.coarse_to_fine import TILE
-from jointplay.records.motion import Labels, colour_of
+from jointplay.records.motion import Labels
 
 CLEAR = 0
 """Index of what is not known: it is transparent."""
@@ -25,7 +26,7 @@ SHADES = (
 """Colours of values from low to high: samples of matplotlib's cividis, even to all eyes."""
 
 
-def picture_of_labels(labels: Labels) -> bytes:
+def picture_of_labels(labels: Labels, colour_of: Callable[[int], str]) -> bytes:
     """Return the PNG of labels, (height, width), whose first row is the lowest."""
     return _png(labels, "".join(colour_of(label)[1:] for label in range(256)))
 

@@ -9,7 +9,6 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import TILE
-from jointplay.records.motion import colour_of, name_of
 from jointplay.records.point import PointStatus
 from jointplay.service.charts import colouring, grids, schemas
 from jointplay.service.fields import BINARY
@@ -101,10 +100,8 @@ def show_point(results: ResultsOfThePath, query: Annotated[CellQuery, Query()]) 
     found = {}
     for one in grids.quantities(study).values():
         value = float(grids.column(study, one.name)[point])
-        labelled = one.name == grids.MOTION
-        found[one.name] = schemas.PointQuantity.of(
-            one, value=value, label=name_of(int(value)) if labelled else None
-        )
+        label = grids.names_of(study, one.name)(int(value)) if one.name in grids.LABELS else None
+        found[one.name] = schemas.PointQuantity.of(one, value=value, label=label)
     return as_json(
         schemas.ChartPoint.model_construct(
             status=cast("Status", PointStatus(study.status[point]).name),
@@ -171,7 +168,7 @@ def show_tile(
     state = query.ended
     if state is None:
         state = int(grids.has_ended(results.study()).sum())
-    labels = quantity == grids.MOTION
+    labels = quantity in grids.LABELS
     finest = grids.GRIDS.of(results, state, _checked(results, state, quantity), 1)
     levels = _levels(finest.shape)
     if z >= levels:
@@ -183,7 +180,7 @@ def show_tile(
     if not part.size:
         raise RequestRefused.of_parameter("x", f"Level {z} has no tile {x}, {y}.")
     if labels:
-        picture = colouring.picture_of_labels(part.astype(np.uint8))
+        picture = colouring.picture_of_labels(part.astype(np.uint8), grids.colours_of(quantity))
     else:
         known = values[np.isfinite(values)]
         low = query.low if query.low is not None else float(known.min(initial=np.inf))
@@ -214,7 +211,8 @@ def _levels(shape: tuple[int, ...]) -> int:
 def _quantity(study: StudyReader, one: Channel) -> schemas.Quantity:
     values = grids.column(study, one.name)
     labels, low, high = None, None, None
-    if one.name == grids.MOTION:
+    if one.name in grids.LABELS:
+        name_of, colour_of = grids.names_of(study, one.name), grids.colours_of(one.name)
         labels = [
             schemas.Label.model_construct(
                 code=code, name=name_of(code), colour=colour_of(code), points=points

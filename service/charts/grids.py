@@ -4,6 +4,7 @@ Key of what is kept is how many points had ended: as a chart grows, its pictures
 """
 
 from collections import OrderedDict
+from collections.abc import Callable
 from threading import Lock
 from typing import Any
 
@@ -12,16 +13,18 @@ from numpy.typing import NDArray
 
 from jointplay.records import pyramid
 from jointplay.records.arrays import Flags, Floats
+from jointplay.records.attractors import attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import over_axes
-from jointplay.records.motion import WAITING, Labels, motions
+from jointplay.records.motion import WAITING, Labels, colour_of, motions, name_of
 from jointplay.records.point import PointStatus
 from jointplay.service.results.stores import ResultsOfJob
 from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies.reader import StudyReader
 
-MOTION = "motion"
-"""The quantity that is a label; all others are values."""
+MOTION, ATTRACTOR = "motion", "attractor"
+LABELS = (MOTION, ATTRACTOR)
+"""The quantities that are labels; all others are values."""
 _VERDICT = "verdict"
 _EXTREMES = ("minimum", "maximum")
 _MOST_BYTES = 128_000_000
@@ -29,9 +32,11 @@ _TURNS = 16
 
 
 def quantities(store: StudyReader) -> dict[str, Channel]:
-    """Return what the points of a chart have, by name, with units; the motion first."""
+    """Return what the points of a chart have, by name, with units; labels first."""
     outputs = {**OUTPUTS, **store.own_outputs}
     found = {}
+    if tells_attractors(store):
+        found[ATTRACTOR] = Channel(ATTRACTOR, "1", "attractor that the motion ends on")
     if store.verdicts is not None:
         found[MOTION] = Channel(MOTION, "1", "kind of motion")
     for name in (*store.indicators, *store.statistics):
@@ -44,8 +49,25 @@ def quantities(store: StudyReader) -> dict[str, Channel]:
     return found
 
 
+def tells_attractors(store: StudyReader) -> bool:
+    """Whether points have what tells their attractors apart."""
+    return "states" in store.attributes and store.verdicts is not None
+
+
+def names_of(store: StudyReader, name: str) -> Callable[[int], str]:
+    """Return what names the labels of a quantity."""
+    return attractors_of(store).name_of if name == ATTRACTOR else name_of
+
+
+def colours_of(name: str) -> Callable[[int], str]:
+    """Return what colours the labels of a quantity."""
+    return colour_of_attractor if name == ATTRACTOR else colour_of
+
+
 def column(store: StudyReader, name: str) -> NDArray[Any]:
     """Return a quantity of all points in the order of computing, labels as bytes."""
+    if name == ATTRACTOR:
+        return attractors_of(store).labels
     if name == MOTION:
         period = store.indicators.get("period", np.full(store.points, np.nan))
         verdict = store.indicators[_VERDICT]

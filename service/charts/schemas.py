@@ -2,6 +2,7 @@
 
 from pydantic import BaseModel, Field
 
+from jointplay.service.fields import in_unit
 from jointplay.service.results.schemas import Described, Values
 from jointplay.service.studies.schemas import Axis, Status
 
@@ -66,3 +67,44 @@ class Rectangle(BaseModel):
     values: list[Values] = Field(
         description="A row for each of `rows`; labels as codes; null: nothing is known."
     )
+
+
+class Attractor(BaseModel):
+    """One attractor, or motions that are not told apart, with one point that ends on it."""
+
+    code: int = Field(description="As in `values` of the quantity attractor.")
+    name: str = Field(description="Such as period-1 A, chaotic or failed.")
+    colour: str = Field(description="In the tiles, as #rrggbb.")
+    points: int
+    share: float = Field(description="Of the points that have ended.")
+    share_error: float = Field(description="Standard error of the share, binomial.")
+    column: int = Field(description="Index along x of a point that ends on it.")
+    row: int = Field(description="Index along y of that point.")
+    period: float | None = Field(description="Sections after which it recurs; 0: none.")
+    lyapunov: float | None = in_unit("1/s", "Largest Lyapunov exponent at that point.")
+    lyapunov_error: float | None = in_unit("1/s", "Its standard error.")
+    mean: dict[str, float] = Field(
+        description="Of each coordinate and its rate over a cycle, in SI units."
+    )
+    spread: dict[str, float] = Field(
+        description="Root mean square deviation over a cycle, in SI units."
+    )
+
+
+class Boundary(BaseModel):
+    """Boundary between the basins, by the uncertainty exponent."""
+
+    dimension: float = Field(description="1: a smooth line; towards 2: fractal.")
+    error: float = Field(description="Standard error of the fit.")
+    distances: list[int] = Field(description="Points between neighbours that are compared.")
+    shares: list[float] = Field(description="Of points with a neighbour that ends elsewhere.")
+
+
+class Attractors(BaseModel):
+    """The attractors of a map, as far as it is computed."""
+
+    complete: bool
+    points: int
+    ended: int = Field(description="Points that are done or have failed.")
+    attractors: list[Attractor]
+    boundary: Boundary | None = Field(description="null: too few points tell it.")

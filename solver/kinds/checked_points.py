@@ -17,7 +17,7 @@ from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_GEOMETRIES
 from jointplay.solver.kinds.mechanism import Echo, check, declared, with_parameters
 from jointplay.solver.kinds.points import MOST_NAMED, Points, check_parameters, with_rest
-from jointplay.solver.kinds.studies import PlacedPoints
+from jointplay.solver.kinds.studies import PlacedPoints, of_parameters
 from jointplay.solver.runs.study.fields import (
     distinct,
     geometry_columns,
@@ -50,7 +50,7 @@ def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
     _check_effect(points, scenes, scene, echo)
     columns = {leaf.path: scenes.column(leaf) for leaf in scenes.leaves}
     one.refuse(inadmissible(scenes) | ill_sized(base, columns, points.count))
-    placed = PlacedPoints(points, scene, scenes, kept, echo)
+    placed = PlacedPoints(points, scene, scenes, kept, of_parameters(echo, points))
     _check_mechanisms(job, one, scenes, placed.structure)
     return placed
 

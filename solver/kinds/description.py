@@ -78,7 +78,7 @@ def _own_fields(document: type[MechanismJob]) -> list[str]:
 
 def _field(schema: dict[str, Any]) -> dict[str, Any]:
     forms = schema.get("anyOf") or schema.get("oneOf") or [schema]
-    forms = [form for form in forms if form.get("type") != "null"]
+    forms = [form for form in forms if form.get("type") != "null" and not _is(form, "AlongStart")]
     words = [form["const"] for form in forms if "const" in form]
     (form, *others) = [form for form in forms if "const" not in form]
     items = form.get("items", {})

@@ -71,6 +71,11 @@ class MechanismJob(Strict):
         """Channels that the job names, patterns among them."""
         return []
 
+    @property
+    def varied_starts(self) -> list[str]:
+        """Numbers of the start that vary from point to point, as JSON pointers into the scene."""
+        return []
+
 
 class Job(MechanismJob):
     """Fields of every kind but the one that tries every method: how the motion is computed."""

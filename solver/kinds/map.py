@@ -1,14 +1,17 @@
-"""Points that are a map over two axes, a parameter along each."""
+"""Points that are a map over two axes: a parameter or a number of the start along each."""
 
-from typing import Annotated
+from dataclasses import replace
+from typing import Annotated, Any
 
 from pydantic import Field
 
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_POINTS, check_count
-from jointplay.solver.kinds.points import Points, plane
+from jointplay.solver.kinds.points import Axis, Points, plane
 from jointplay.solver.kinds.values import Values, axis, count
 from jointplay.solver.quantities.units import Name, Strict
+from jointplay.solver.scene import start_places
+from jointplay.solver.scene.unions import form, has, told_by
 
 
 class Along(Strict):
@@ -19,19 +22,70 @@ class Along(Strict):
         Values, Field(description="its values: a list, or {'from', 'to', 'count', 'spacing'}")
     ]
 
+    @property
+    def name(self) -> str:
+        """Name of what varies."""
+        return self.parameter
+
+
+class AlongStart(Strict):
+    """A number of the start that varies along an axis, or the phase of a driver."""
+
+    start: Annotated[
+        str,
+        Field(
+            pattern=start_places.PATTERN,
+            max_length=80,
+            description=(
+                "a JSON pointer into the scene, such as '/start/joints/stop/eccentricity/0',"
+                " '/start/angles/rod' or '/drivers/motor/position'"
+            ),
+        ),
+    ]
+    values: Annotated[
+        Values, Field(description="its values: a list, or {'from', 'to', 'count', 'spacing'}")
+    ]
+
+    @property
+    def name(self) -> str:
+        """Name of what varies."""
+        return start_places.name_of(self.start)
+
+
+def _form_of_axis(value: Any) -> str | None:
+    if has(value, "start"):
+        return "start"
+    return "parameter" if isinstance(value, dict | Along) else None
+
+
+AnyAlong = Annotated[
+    Annotated[Along, form("parameter")] | Annotated[AlongStart, form("start")],
+    told_by(
+        _form_of_axis,
+        "An axis must be an object with 'values', and 'parameter' or 'start'",
+    ),
+]
+
 
 class MapJob(MechanismJob):
     """Fields of a kind whose points are a map."""
 
-    along: Annotated[Along, Field(description="what varies along x")]
-    by: Annotated[Along, Field(description="what varies along y")]
+    along: Annotated[AnyAlong, Field(description="what varies along x")]
+    by: Annotated[AnyAlong, Field(description="what varies along y")]
+
+    @property
+    def varied_starts(self) -> list[str]:
+        """See `MechanismJob.varied_starts`."""
+        return [one.start for one in (self.along, self.by) if isinstance(one, AlongStart)]
 
 
 def points_of_map(job: MapJob, most: int = MOST_POINTS) -> Points:
     """Return the points of a map, coarse to fine; see `Kind.admit` for how they are refused."""
     check_count(count(job.by.values) * count(job.along.values), "/by/values", most)
-    y, x = (
-        axis(one.parameter, one.values, f"{place}/parameter", f"{place}/values")
-        for place, one in (("/by", job.by), ("/along", job.along))
-    )
-    return plane(y, x, "/by")
+    return plane(_axis(job.by, "/by"), _axis(job.along, "/along"), "/by")
+
+
+def _axis(one: Along | AlongStart, place: str) -> Axis:
+    start = one.start if isinstance(one, AlongStart) else ""
+    field = "start" if start else "parameter"
+    return replace(axis(one.name, one.values, f"{place}/{field}", f"{place}/values"), start=start)

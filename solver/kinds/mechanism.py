@@ -25,6 +25,7 @@ from jointplay.solver.scene.domains import domain_problems
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import ends, part_problems, reference_problems
 from jointplay.solver.scene.sentences import schema_problems
+from jointplay.solver.scene.start_places import with_places
 
 MOST_BODIES = 8
 """Bodies up to which it is sought where a mechanism opens; of more the time would be felt."""
@@ -50,6 +51,8 @@ def written(job: MechanismJob) -> Written:
     if recorded != scene.recorded:
         document = document | {"recorded": recorded}
         scene = scene.model_copy(update={"recorded": recorded})
+    if job.varied_starts:
+        document, scene = with_places(document, scene, job.varied_starts)
     return document, scene, given
 
 

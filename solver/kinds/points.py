@@ -9,13 +9,14 @@ from jointplay.records.arrays import Floats, Integers
 from jointplay.records.coarse_to_fine import coarse_to_fine
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
+from jointplay.solver.scene import start_places
 from jointplay.solver.scene.document import Parameter, Scene
 from jointplay.solver.scene.parameters import allowed_range
 
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """One parameter that varies, and its values as they are written."""
+    """One parameter, or number of the start, that varies, and its values as they are written."""
 
     parameter: str
     name_place: str
@@ -24,6 +25,8 @@ class Axis:
     """(written,)"""
     place: Callable[[int], str]
     """JSON pointer to a written value by its index."""
+    start: str = ""
+    """JSON pointer into the scene to a number of the start, if it is one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +125,7 @@ def check_parameters(points: Points, scene: Scene) -> None:
         parameter = scene.parameters.get(axis.parameter)
         if parameter is None:
             sentence = unknown("parameter", axis.parameter, scene.parameters)
+            sentence = start_places.obstacle(scene, axis.start) if axis.start else sentence
             problems.append(Problem(axis.name_place, sentence))
         elif parameter.choices is not None:
             sentence = (

@@ -69,7 +69,13 @@ def place_points(job: MechanismJob, points: Points) -> PlacedPoints:
     first, _ = set_parameters(document, declared, {**given, **points.at(0)})
     leaves = leaves_of(declared, points.parameters, echo)
     scenes = PointScenes(Scene.model_validate(first), leaves, points.values())
-    return PlacedPoints(points, declared, scenes, kept, echo)
+    return PlacedPoints(points, declared, scenes, kept, of_parameters(echo, points))
+
+
+def of_parameters(echo: Echo, points: Points) -> Echo:
+    """Return the values of declared parameters, without numbers of the start that vary."""
+    starts = {axis.parameter for axis in points.axes if axis.start}
+    return {name: value for name, value in echo.items() if name not in starts}
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +100,7 @@ class Kept:
     """Numbers beside sections and extremes."""
     indicators: tuple[str, ...] = ()
     brief: bool = False
+    compares_cycles: bool = False
 
 
 def make_study(
@@ -135,6 +142,7 @@ def make_study(
         channels=kept.channels,
         indicators=kept.indicators,
         brief=kept.brief,
+        compares_cycles=kept.compares_cycles,
         perturbation=perturbation,
         blocks=(
             independent_blocks(total)

@@ -40,6 +40,12 @@ MADE = {
         {"parameter": "friction", "values": (0.0, 0.1)},
         record=20,
     ),
+    "basins": jobs.basins(
+        "slider-crank",
+        {"start": "/drivers/motor/position", "values": (0.0, 1.0)},
+        {"parameter": "friction", "values": (0.0, 0.1)},
+        indicators="recurrence",
+    ),
     "ensemble": jobs.ensemble("slider-crank", 4, seed=3, observables=["P.eccentricity_x"]),
 }
 

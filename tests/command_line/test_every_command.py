@@ -110,10 +110,10 @@ def test_what_a_job_has_not_is_one_line(jointplay, service_url, finished_job, fi
 
 
 BY_COMMAND = {
-    "submit": "Client.submit simulate bifurcation chart sweep poincare ensemble accuracy_study"
-    " calibration estimate",
+    "submit": "Client.submit simulate bifurcation chart basins sweep poincare ensemble"
+    " accuracy_study calibration estimate",
     "ls": "Client.jobs Batch.jobs",
-    "show": "Client.job Job.refresh wait follow check statistics points accuracy"
+    "show": "Client.job Job.refresh wait follow check statistics points accuracy attractors"
     " calibration study results",
     "export": "Job.history window poincare peaks impacts open export dataset",
     "plot": "Job.figure figures film",

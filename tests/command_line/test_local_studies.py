@@ -163,3 +163,18 @@ def test_a_study_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(
     done = int((reader.status == 2).sum())
     assert 0 < done < 400
     assert np.isfinite(reader.sections("P.eccentricity_x")[reader.status == 2]).all()
+
+
+def test_basins_tell_their_attractors(jointplay, tmp_path):
+    ended = jointplay(
+        *("run", "impact-oscillator", "--set", "speed=28", "-o", str(tmp_path / "OUT")),
+        *("--basins", "/start/joints/stop/eccentricity/0=0.18,0.199"),
+        *("--by", "/start/joints/stop/rate/0=-0.1,0.5"),
+        *("--settle", "100", "--record", "4", "--indicators", "recurrence", "--accuracy", "draft"),
+    )
+    assert ended.code == 0
+    lines = [line for line in ended.out.splitlines() if line.startswith("attractor period-1 ")]
+    assert len(lines) == 2
+    shown = json.loads(jointplay("show", str(tmp_path / "OUT"), "--json").out)
+    assert sum(one["share"] for one in shown["attractors"]["attractors"]) == 1.0
+    assert jointplay("plot", str(tmp_path / "OUT"), "chart", "-o", str(tmp_path)).code == 0

@@ -1,5 +1,6 @@
 /** A chart: the motion, or a quantity, over two parameters, while it is computed and after. */
 
+import { attractorTable } from "../../charts/attractors.js";
 import { ChartMap } from "../../charts/map.js";
 import { Tiles } from "../../charts/tiles.js";
 import { element, fill } from "../../interface/element.js";
@@ -24,9 +25,10 @@ class Chart {
     this.place = element("div");
     this.legend = element("ul", { class: "legend" });
     this.under = element("p", { class: "quiet small" });
+    this.attractors = element("div");
     this.chosen = element("div", { role: "status" });
     this.element = element("section", { class: "panel" },
-      this.filters, this.place, this.legend, this.under, this.chosen);
+      this.filters, this.place, this.legend, this.under, this.chosen, this.attractors);
   }
 
   /** Takes what the chart holds by now. */
@@ -44,7 +46,14 @@ class Chart {
     this.under.textContent = ended < points
       ? `${short(ended, 7)} of ${short(points, 7)} points are computed; others show the nearest that is.`
       : `${short(points, 7)} points. Drag to move, scroll to scale, double click for all of it.`;
-    if (grown) this.showTiles();
+    if (!grown) return;
+    this.showTiles();
+    this.showAttractors();
+  }
+
+  async showAttractors() {
+    const { attractors } = this.job.links;
+    if (attractors) fill(this.attractors, attractorTable(await get(attractors, {}, this.signal)));
   }
 
   get quantity() {
@@ -103,9 +112,18 @@ class Chart {
   /** Returns the diagrams along both lines through a point, as jobs of its values. */
   cuts() {
     const { along, by, scene, settle, record, section, tolerance, method } = this.job.job;
+    if (along.start || by.start) return {}; // a diagram begins as its scene says
     const shared = { kind: "bifurcation", settle, record, section, tolerance, method };
     return Object.fromEntries([along, by].map(({ parameter, values }) => [`Diagram over ${parameter}`,
       ({ [parameter]: _, ...held }) => ({ ...shared, scene: sceneWith(scene, held), parameter, values })]));
+  }
+
+  /** Returns the numbers of the start at a point, by their pointers into the scene. */
+  starts([column, row]) {
+    const { along, by } = this.job.job;
+    const { x, y } = this.answer;
+    return Object.fromEntries([[along, x.values[column]], [by, y.values[row]]]
+      .filter(([{ start }]) => start).map(([{ start }, value]) => [start, value]));
   }
 
   async pick(point) {
@@ -115,6 +133,6 @@ class Chart {
       .filter(([, { value }]) => value !== null)
       .map(([, { long_name: name, value, unit, label }]) => `${name} ${label ?? withUnit(value, unit, 4)}`)
       .join(", ");
-    offer(this.chosen, this.job, this.values(point), words, "", this.cuts());
+    offer(this.chosen, this.job, this.values(point), words, "", this.cuts(), this.starts(point));
   }
 }

@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.solver.mechanics.assembly import link_lengths
 from jointplay.solver.quantities.units import Strict
-from jointplay.solver.runs.study.scenes import PointScenes, replaced
+from jointplay.solver.runs.study.scenes import OF_STARTS, PointScenes, replaced
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import value_at
 
@@ -26,7 +26,7 @@ _CONFIG = ConfigDict(
 HARMLESS = re.compile(
     r"/(bodies/[^/]+/(mass|inertia)|gravity/\d|drivers/[^/]+/speed"
     r"|joints/[^/]+/clearance/(radial_clearance|wall_clearance|lash|bearing_radius|pin_radius|length|height|(contact|friction)/[^/]+)"
-    r"|start/(velocities/[^/]+/\d|angular_velocities/[^/]+))"
+    r")"
 )
 """Numbers that neither the assembly at t = 0 nor any check of names depends on, but for what
 `structure_columns` has of them. Everything else counts as geometry."""
@@ -68,12 +68,19 @@ def structure_columns(scenes: PointScenes) -> Iterator[Integers]:
 
 
 def geometry_columns(scenes: PointScenes) -> Iterator[Floats]:
-    """Yield (points,) numbers on which the assembly depends."""
+    """Yield (points,) numbers on which the assembly depends.
+
+    Of a number of the start only its ends count: points between them are put together when they
+    are run, and one that does not start as it says fails by itself.
+    """
     without_lengths = not link_lengths(scenes.base)
     for leaf in scenes.leaves:
         # what touches gives the scale of a mechanism none of whose bodies has two joints apart
         scale = without_lengths and leaf.path.endswith(SIZES)
-        if scale or not HARMLESS.fullmatch(leaf.path):
+        if OF_STARTS.fullmatch(leaf.path):
+            column = scenes.column(leaf)
+            yield (column == column.max()).astype(np.float64) - (column == column.min())
+        elif scale or not HARMLESS.fullmatch(leaf.path):
             yield scenes.column(leaf)
 
 

@@ -8,6 +8,7 @@ from jointplay.records.arrays import Floats
 from jointplay.records.point import PointEnd
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.nonlinear.lyapunov import undecided
+from jointplay.solver.runs.study.cycles import cycle_of
 from jointplay.solver.runs.study.finer import go_on_finer, go_on_longer
 from jointplay.solver.runs.study.grounds import limits
 from jointplay.solver.runs.study.indicators import (
@@ -15,6 +16,7 @@ from jointplay.solver.runs.study.indicators import (
     exponents,
     growth_by_period,
     indicators_of,
+    unwound,
 )
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
@@ -49,6 +51,10 @@ def judged(study: Study, bundle: Bundle, run: PointRun) -> PointEnd:
     found, verdict = indicators_of(
         study.indicators, states, scales, angles, *growths, period, run.settled
     )
+    if study.compares_cycles:
+        turned = unwound(states, angles)
+        cycle = cycle_of(bundle.kernel.coordinates, turned, angles, verdict.period)
+        run.ended = replace(run.ended, statistics={**run.ended.statistics, **cycle})
     if study.brief:
         return replace(run.ended, indicators=found)
     sections, periods = len(states[:MOST_SECTIONS]), len(growths[0])

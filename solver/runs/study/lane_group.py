@@ -12,6 +12,7 @@ from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.study.finer import COST, periods_of
+from jointplay.solver.runs.study.held_starts import end_of_start
 from jointplay.solver.runs.study.judge import judged, looks_again, looks_longer
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_extremes import lanes_that_keep_steps
@@ -43,6 +44,8 @@ class LaneGroup:
         self.recording = Recording(study, self.bundle)
         self.lanes: list[PointRun | None] = [None] * BUNDLE
         self._ready: dict[int, tuple[ReadyLanes, int]] = {}
+        self._refused: list[PointEnd] = []
+        """Points that cannot start as they say."""
 
     @property
     def busy(self) -> bool:
@@ -77,8 +80,7 @@ class LaneGroup:
         for lane in range(BUNDLE):
             if self.lanes[lane] is not None:
                 continue
-            fitting = (run for run in waiting if self.study.structure[run.point] == self.structure)
-            run = next(fitting, None)
+            run = self._next(waiting)
             if run is None:
                 break
             self._load(lane, run, waiting)
@@ -86,6 +88,16 @@ class LaneGroup:
             self.lanes[lane] = run
             started.append(run.point)
         return tuple(started)
+
+    def _next(self, waiting: list[PointRun]) -> PointRun | None:
+        """Return the first that fits; those before it that cannot start end here."""
+        for run in [one for one in waiting if self.study.structure[one.point] == self.structure]:
+            end = end_of_start(self.study, run.point) if run.start is None else None
+            if end is None:
+                return run
+            waiting.remove(run)
+            self._refused.append(end)
+        return None
 
     def _load(self, lane: int, run: PointRun, waiting: list[PointRun]) -> None:
         """Give a free lane a waiting point; those that wait beside it are made ready together."""
@@ -105,7 +117,7 @@ class LaneGroup:
     def collect(self) -> Collected:
         """Take the rows of all lanes and free those whose points are over."""
         sections: list[SectionRows] = []
-        ended: list[PointEnd] = []
+        ended, self._refused = self._refused, []
         following: list[PointRun] = []
         for lane, run in enumerate(self.lanes):
             if run is None:

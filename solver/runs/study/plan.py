@@ -1,6 +1,6 @@
 """A study: a job of many points, filled in, with what each point is and how they are cut up."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from jointplay.records.arrays import Floats, Integers
@@ -8,6 +8,7 @@ from jointplay.records.channel import Channel
 from jointplay.solver.integrators import method_for
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.blocks import Chains
+from jointplay.solver.runs.study.cycles import attributes_of
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene
 
@@ -61,6 +62,8 @@ class Study:
     stored_bytes: int
     """Estimate of what the results take, before compression."""
     scenes: PointScenes
+    compares_cycles: bool = field(default=False, kw_only=True)
+    """Points keep mean and spread of their states over a cycle, by which attractors are told."""
 
     @property
     def points(self) -> int:
@@ -94,7 +97,9 @@ class Study:
 
     def attributes(self) -> dict[str, Any]:
         """Return facts that a store keeps of this study beside its job and scene."""
-        return {}
+        if not self.compares_cycles:
+            return {}
+        return {"states": attributes_of(self.point_scene(0), float(self.period[0]))}
 
     def scene_document(self) -> dict[str, Any]:
         """Return the scene of the first point as stores keep it."""

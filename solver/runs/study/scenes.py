@@ -6,6 +6,7 @@ tens of microseconds; it equals what reading the whole document with the point's
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -19,6 +20,9 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import value_at
 
 Branches = dict[str, Any]
+
+OF_STARTS = re.compile(r"/start/.*|/drivers/[^/]+/position")
+"""Numbers on which nothing depends but the start."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +46,11 @@ class PointScenes:
     """Places in the document that change from point to point; none twice."""
     values: Floats
     """(points, parameters) in the unit of each."""
+
+    @property
+    def starts_vary(self) -> bool:
+        """Whether points differ in numbers of their starts."""
+        return any(OF_STARTS.fullmatch(leaf.path) for leaf in self.leaves)
 
     def column(self, leaf: Leaf) -> Floats:
         """Return what stands at a leaf, (points,)."""

@@ -89,6 +89,10 @@ class HttpResults:
         """Return what every method and tolerance costs and buys."""
         return self._get("accuracy")
 
+    def attractors(self) -> dict[str, Any]:
+        """Return the attractors of a map of basins."""
+        return self._get("attractors")
+
     def calibration(self) -> dict[str, Any]:
         """Return what a calibration found."""
         return self._get("calibration")

@@ -63,6 +63,11 @@ class ReadableJob(TabledJob):
         return self.results.accuracy()
 
     @property
+    def attractors(self) -> dict[str, Any]:
+        """Attractors of a map of basins, their shares with errors, and the boundary's dimension."""
+        return self.results.attractors()
+
+    @property
     def calibration(self) -> dict[str, Any]:
         """Findings of a calibration: its ``parameters`` with their spread, ``targets``, ``search``.
 

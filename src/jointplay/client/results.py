@@ -97,6 +97,9 @@ class Results(Protocol):
     def accuracy(self) -> dict[str, Any]:
         """Return what every method and tolerance costs and buys, of an accuracy-study."""
 
+    def attractors(self) -> dict[str, Any]:
+        """Return the attractors of a map of basins, how often they are reached, the boundary."""
+
     def calibration(self) -> dict[str, Any]:
         """Return what a calibration found."""
 

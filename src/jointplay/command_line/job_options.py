@@ -121,11 +121,10 @@ def _asked(kind: str, given: Any) -> dict[str, Any]:
         return {fields[0]: once(option, (_values(option, text) for text in given))}
     if form in ("values", "axis"):
         parameter, values = _one(option, given)
-        one = {"parameter": parameter, "values": values}
         return (
             dict(zip(fields, (parameter, values), strict=True))
             if form == "values"
-            else {fields[0]: one}
+            else {fields[0]: _axis(parameter, values)}
         )
     return dict.fromkeys(fields, given)
 
@@ -148,13 +147,18 @@ def _value(name: str, given: Any) -> Any:
     if name == "section":
         return _section(given)
     if form == "axis":
-        return dict(zip(("parameter", "values"), _values(option, given), strict=True))
+        return _axis(*_values(option, given))
     if form in ("number", "integer"):
         return _number(option, given)
     parts = listed(given) or []
     if form == "numbers":
         return [_number(option, part) for part in parts]
     return parts if form == "names" else given
+
+
+def _axis(name: str, values: object) -> dict[str, object]:
+    """Return an axis: of a parameter, or of a number of the start, which is a JSON pointer."""
+    return {"start" if name.startswith("/") else "parameter": name, "values": values}
 
 
 def _one(option: str, texts: list[str]) -> tuple[str, object]:

@@ -6,6 +6,7 @@ from collections.abc import Container, Iterator
 from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.accuracy import accuracy_lines
+from jointplay.command_line.attractors import attractor_lines
 from jointplay.command_line.calibration_table import calibration_lines
 from jointplay.command_line.certificate import headlines
 from jointplay.command_line.peaks import peak_rows, peak_table
@@ -22,7 +23,7 @@ def results_of(job: "Job") -> dict[str, Any]:
     from jointplay.client import NotFound, ResultsNotReady
 
     found: dict[str, Any] = dict.fromkeys(
-        ("statistics", "peaks", "points", "accuracy", "calibration")
+        ("statistics", "peaks", "points", "accuracy", "attractors", "calibration")
     )
     try:
         if "accuracy" in job.links:
@@ -31,6 +32,7 @@ def results_of(job: "Job") -> dict[str, Any]:
             found["calibration"] = job.calibration
         elif job.is_study:
             found["points"] = job.study(sections=(0, 1))
+            found["attractors"] = job.attractors if "attractors" in job.links else None
         elif job.is_finished:
             found["statistics"] = job.statistics
             found["peaks"] = peak_rows(job.results.peaks())
@@ -61,6 +63,8 @@ def result_lines(
             yield from headlines(job)
     if found["points"] is not None:
         yield from _study_lines(found["points"])
+    if found["attractors"] is not None:
+        yield from attractor_lines(found["attractors"])
     if found["accuracy"] is not None:
         yield from accuracy_lines(found["accuracy"])
     if found["calibration"] is not None:

@@ -150,4 +150,6 @@ def _results_of(source: "ResultReader | StudyReader") -> list[str]:
         return ["points", "accuracy"]
     if source.kind == "calibration":
         return ["points", "calibration"]
+    if "states" in source.attributes:
+        return ["points", "attractors"]
     return ["points", "poincare" if source.record else "sweep"]

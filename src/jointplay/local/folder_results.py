@@ -11,6 +11,7 @@ from jointplay.client.results import Impacts, Names, Peak, Seconds, Shown, Store
 from jointplay.client.window import Window
 from jointplay.figures import Options, Pace
 from jointplay.local.exact_windows import exact_peaks, exact_window, window_of
+from jointplay.records.attractor_table import attractor_table
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.figure_form import Form
@@ -120,6 +121,13 @@ class FolderResults:
         if "runs" not in study.attributes:
             raise NotFound(f"{self._store} is of a {study.kind}; it has points and no accuracy.")
         return WorkPrecision.of(study).document()
+
+    def attractors(self) -> dict[str, Any]:
+        """Return the attractors of a map of basins."""
+        study = self.study(None, None, None)
+        if study.kind != "basins":
+            raise NotFound(f"{self._store} is of a {study.kind}; it has no attractors.")
+        return attractor_table(study)
 
     def calibration(self) -> dict[str, Any]:
         """Return what a calibration found."""

@@ -130,6 +130,31 @@ def test_what_a_chart_has_not_is_refused(http, chart, path, status, words):
     assert words in answer.text
 
 
+@pytest.fixture(scope="module")
+def basins(worker):
+    """Twenty starts, of phases and friction."""
+    start = {"start": "/drivers/drive1/position", "values": [0.0, 0.5, 1.0, 1.5]}
+    return worker.finished_study(**CHART | {"kind": "basins", "along": start})
+
+
+def test_basins_have_attractors_with_names_of_their_own(http, basins):
+    answer = http.get(f"/v1/jobs/{basins}/attractors")
+    document = schemas.Attractors.model_validate_json(answer.content, strict=True)
+    assert document.model_dump(mode="json") == answer.json()
+    assert document.ended == document.points == sum(one.points for one in document.attractors)
+    first, *_ = get(http, f"/v1/jobs/{basins}/chart")["quantities"]
+    assert first["name"] == "attractor"
+    table = {one.name: (one.points, one.colour) for one in document.attractors}
+    assert {one["name"]: (one["points"], one["colour"]) for one in first["labels"]} == table
+    point = get(http, f"/v1/jobs/{basins}/chart/point", column=1, row=0)
+    assert point["quantities"]["attractor"]["label"] in table
+    assert picture(http, basins, "attractor", "0/0/0")[255, 0, 3] == 255
+
+
+def test_a_chart_has_no_attractors(http, chart):
+    assert http.get(f"/v1/jobs/{chart}/attractors").status_code == 404
+
+
 def test_other_jobs_have_no_chart(http, finished_sweep):
     assert http.get(f"/v1/jobs/{finished_sweep}/chart").status_code == 404
     assert http.get(f"/v1/jobs/{finished_sweep}/tiles/steps/0/0/0.png").status_code == 404

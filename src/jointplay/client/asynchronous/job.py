@@ -65,4 +65,5 @@ class AsyncJob(JobRecord):
     statistics: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.statistics)
     certificate: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.certificate)
     accuracy: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.accuracy)
+    attractors: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.attractors)
     calibration: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.calibration)

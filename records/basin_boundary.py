@@ -1,0 +1,73 @@
+"""Dimension of the boundary between basins of attraction, from a map of labels."""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from jointplay.records.arrays import Flags
+from jointplay.records.motion import FAILED, WAITING, Labels
+
+
+@dataclass(frozen=True)
+class BoundaryDimension:
+    """Dimension of the boundary between basins on a map, by the uncertainty exponent.
+
+    The share of points with a neighbour at a distance that ends elsewhere falls as the distance to
+    the power 2 - D (Grebogi, McDonald, Ott and Yorke 1983).
+    """
+
+    value: float
+    error: float
+    """Standard error of the slope."""
+    distances: tuple[int, ...]
+    """Points between neighbours."""
+    shares: tuple[float, ...]
+    """Of points whose neighbours end elsewhere."""
+
+
+FEWEST: Final = 30
+"""Points whose neighbours end elsewhere, below which a distance says nothing."""
+
+
+def boundary_dimension(labels: Labels) -> BoundaryDimension | None:
+    """Return the dimension of the boundaries of a map, (y, x); None where too few points tell it.
+
+    Points that wait or failed end nowhere: they are no neighbours.
+    """
+    known = (labels != WAITING) & (labels != FAILED)
+    distances, shares, counts = [], [], []
+    distance = 1
+    while distance <= min(labels.shape) // 8:
+        differ, told = _uncertain(labels, known, distance)
+        if differ >= FEWEST:
+            distances.append(distance)
+            shares.append(differ / told)
+            counts.append(differ)
+        distance *= 2
+    if len(distances) < 3:
+        return None
+    x, y, weights = np.log(distances), np.log(shares), np.sqrt(np.array(counts, np.float64))
+    table = np.stack([x, np.ones_like(x)], axis=1)
+    inverse = np.linalg.inv((table * weights[:, None] ** 2).T @ table)
+    slope, level = inverse @ (table * weights[:, None] ** 2).T @ y
+    left = (y - slope * x - level) * weights
+    spread = max(float(left @ left) / (len(x) - 2), 1.0)
+    error = math.sqrt(float(inverse[0, 0]) * spread)
+    return BoundaryDimension(2.0 - float(slope), error, tuple(distances), tuple(shares))
+
+
+def _uncertain(labels: Labels, known: Flags, distance: int) -> tuple[int, int]:
+    """Return how many points have a neighbour that ends elsewhere, and how many have neighbours."""
+    differ, told = np.zeros(labels.shape, np.bool_), np.zeros(labels.shape, np.bool_)
+    for axis in (0, 1):
+        for sign in (-1, 1):
+            other = np.roll(labels, sign * distance, axis)
+            there = np.roll(known, sign * distance, axis) & known
+            edge: list[slice] = [slice(None), slice(None)]
+            edge[axis] = slice(0, distance) if sign > 0 else slice(-distance, None)
+            there[tuple(edge)] = False
+            differ |= there & (other != labels)
+            told |= there
+    return int(differ.sum()), int(told.sum())

@@ -1,0 +1,128 @@
+"""The kinds that map the motion over two axes: document, admission and plan."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, TypeVar
+
+from pydantic import Field
+
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import documents
+from jointplay.solver.kinds.checked_points import check_points
+from jointplay.solver.kinds.job import ChannelChoice
+from jointplay.solver.kinds.kind import Kind
+from jointplay.solver.kinds.limits import (
+    MOST_OF_A_CHART,
+    MOST_PERIODS_OF_A_CHART,
+    check_size,
+)
+from jointplay.solver.kinds.map import MapJob, points_of_map
+from jointplay.solver.kinds.methods import check_study
+from jointplay.solver.kinds.observables import chosen
+from jointplay.solver.kinds.periods import Periods, periods
+from jointplay.solver.kinds.section_checks import check_section
+from jointplay.solver.kinds.section_study import (
+    IndicatorChoice,
+    SectionsJob,
+    indicators_of,
+    most_periods,
+    section_spans,
+)
+from jointplay.solver.kinds.statistics import (
+    SamplesPerPeriod,
+    StatisticChoice,
+    check_samples,
+    check_statistics,
+    statistic_count,
+    statistic_outputs,
+)
+from jointplay.solver.kinds.studies import Kept, PlacedPoints, make_study, place_points
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.statistics import Output
+
+
+class MotionMapJob(SectionsJob, MapJob):
+    """A map whose points tell their motion, and what is asked of it beside."""
+
+    indicators: IndicatorChoice = ["lyapunov", "recurrence"]
+    channels: Annotated[
+        ChannelChoice | None,
+        Field(
+            description=(
+                "channels whose extremes and statistics after settling are kept, names or globs;"
+                " default: none"
+            )
+        ),
+    ] = None
+    statistics: StatisticChoice = []
+    samples_per_period: SamplesPerPeriod = 256
+
+    @property
+    def named_channels(self) -> list[str]:
+        """See `MechanismJob.named_channels`."""
+        return [*(self.channels or []), *super().named_channels]
+
+
+J = TypeVar("J", bound=MotionMapJob)
+
+
+class MotionMap(Kind[J]):
+    """A point for each pair of values, numbered coarse to fine; a member may ask for more."""
+
+    compares_cycles: ClassVar = False
+    """Whether points keep what tells their attractors apart."""
+
+    def admit(self, job: J) -> Study:
+        """Check and fill in; see `Kind.admit`."""
+        indicators = indicators_of(job)
+        check_study(job, tangents="lyapunov" in indicators)
+        _check_length(job)
+        checked = check_points(job, points_of_map(job, MOST_OF_A_CHART))
+        channels = chosen(checked, job.channels, (), "/channels")
+        units = periods(checked.scenes)
+        check_section(job.section, checked, units)
+        check_statistics(job.statistics, checked.pairs(), len(channels))
+        names = [channel.name for channel in channels]
+        filled = documents.filled(
+            job, checked.document, checked.echo, channels=names or None, indicators=list(indicators)
+        )
+        study = self._study(job, filled, checked, units)
+        if job.statistics:
+            check_samples(study, job.samples_per_period)
+        settle, recording = most_periods(job)
+        place = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
+        check_size(study, settle + recording, place, MOST_PERIODS_OF_A_CHART)
+        return study
+
+    def plan(self, job: J, filled: dict[str, Any]) -> Study:
+        """Return what `admit` returned; see `Kind.plan`."""
+        placed = place_points(job, points_of_map(job, MOST_OF_A_CHART))
+        return self._study(job, filled, placed, periods(placed.scenes))
+
+    def outputs(self, study: Study) -> Mapping[str, Output]:
+        """Return the statistics that the job chose."""
+        return statistic_outputs(study)
+
+    def _study(self, job: J, filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+        channels, pairs = placed.channels(filled["channels"] or ()), placed.pairs()
+        kept = Kept(
+            record=job.record,
+            channels=channels,
+            statistics=statistic_count(job.statistics, len(channels), len(pairs)),
+            indicators=tuple(filled["indicators"]),
+            brief=True,
+            compares_cycles=self.compares_cycles,
+        )
+        return make_study(filled, placed, section_spans(job, units), kept)
+
+
+def _check_length(job: MotionMapJob) -> None:
+    """Refuse what needs to be known when settling ends where that is found out on the way."""
+    if job.settle != "auto":
+        return
+    for field in ("channels", "statistics"):
+        if getattr(job, field):
+            sentence = (
+                f"'{field}' are of the time after settling; give a number of periods to settle,"
+                " not 'auto'."
+            )
+            raise InvalidInput.at("/settle", sentence)

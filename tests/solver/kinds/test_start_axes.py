@@ -1,0 +1,106 @@
+"""Axes of maps that are numbers of the start: what they are called, and what is refused."""
+
+import pytest
+
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import admit, parse
+from jointplay.solver.runs.study.run import StudyRun
+from jointplay.solver.scene import presets
+
+PLACE = "/start/joints/stop/eccentricity/0"
+RATE = "/start/joints/stop/rate/0"
+OSCILLATOR = {"preset": "impact-oscillator", "parameters": {"speed": 28.0}}
+
+
+def chart(scene=OSCILLATOR, along=PLACE, by=RATE, xs=(0.18, 0.19), ys=(-0.1, 0.2), **fields):
+    return {
+        "kind": "chart",
+        "scene": scene,
+        "along": {"start": along, "values": [*xs]},
+        "by": {"start": by, "values": [*ys]},
+        "settle": 2,
+        "record": 4,
+        "indicators": ["recurrence"],
+        "tolerance": 1e-6,
+    } | fields
+
+
+def ends(study):
+    found = {}
+    for block in range(len(study.blocks)):
+        for piece in StudyRun(study, block).slices():
+            found |= {tuple(study.values[end.point]): end for end in piece.ended}
+    return found
+
+
+def problems(document):
+    with pytest.raises(InvalidInput) as refused:
+        admit(document)
+    return [(one.pointer, one.detail) for one in refused.value.problems]
+
+
+def test_numbers_of_the_start_have_names_units_and_scenes():
+    study = admit(chart())
+    assert study.parameters == ("stop.eccentricity_rate_x", "stop.eccentricity_x")
+    assert study.parameter_units == ("m/s", "m")
+    assert "stop.eccentricity_x" not in study.job["scene"]["parameters"]
+    assert parse(study.job).digest == study.digest
+    starts = {
+        (start.rate[0], start.eccentricity[0])
+        for start in (study.point_scene(point).start.joints["stop"] for point in range(4))
+    }
+    assert starts == {(rate, place) for rate in (-0.1, 0.2) for place in (0.18, 0.19)}
+
+
+def test_a_point_has_the_bits_of_a_scene_that_starts_there():
+    study = admit(chart())
+    document = presets.document("impact-oscillator") | {
+        "start": {"joints": {"stop": {"eccentricity": [0.18, 0.0], "rate": [0.2, 0.0]}}}
+    }
+    document["drivers"]["motor"]["speed"] = 28.0
+    document["parameters"]["speed"]["default"] = 28.0
+    alone = {"settle": 2, "record": 4, "indicators": ["recurrence"], "tolerance": 1e-6}
+    (end,) = ends(admit(alone | {"kind": "poincare", "scene": document})).values()
+    found = ends(study)[0.2, 0.18]
+    assert found.statistics["steps"] == end.statistics["steps"]
+    assert found.time == end.time
+
+
+def test_a_phase_moves_the_driver():
+    study = admit(chart(along="/drivers/motor/position", xs=(0.0, 1.5)))
+    assert study.parameters[1] == "motor.position"
+    assert study.parameter_units[1] == "rad"
+    assert {study.point_scene(point).drivers["motor"].position for point in range(4)} == {0.0, 1.5}
+
+
+def test_a_point_whose_joints_do_not_allow_its_start_fails_by_itself():
+    """The pin's rate along the guide is the only one that the mass can have."""
+    study = admit(chart(by="/start/velocities/mass/1", ys=(0.0, 0.0, 0.0)))
+    assert not any(end.code for end in ends(study).values())
+    study = admit(chart(by="/start/velocities/mass/1", ys=(0.0, 0.3, 0.0)))
+    found = ends(study)
+    assert {place[0]: end.code for place, end in found.items()} == {0.0: "", 0.3: "start-not-held"}
+    assert "/start/velocities/mass" in next(end.detail for end in found.values() if end.code)
+
+
+@pytest.mark.parametrize(
+    ("along", "pointer", "words"),
+    [
+        ("/start/joints/stopp/eccentricity/0", "/along/start", "There is no joint 'stopp'"),
+        ("/start/angles/wheel", "/along/start", "There is no body 'wheel'"),
+        ("/drivers/engine/position", "/along/start", "There is no driver 'engine'"),
+        ("/bodies/mass/mass", "/along/start", ""),
+        ("/start/joints/stop/eccentricity/2", "/along/start", ""),
+        (RATE, "/by/start", "let another parameter vary"),
+    ],
+)
+def test_what_is_no_number_of_the_start_is_refused(along, pointer, words):
+    assert any(
+        place == pointer and words in detail for place, detail in problems(chart(along=along))
+    )
+
+
+def test_an_axis_has_a_parameter_or_a_number_of_the_start():
+    both = {"parameter": "speed", "start": PLACE, "values": [1.0, 2.0]}
+    assert problems(chart() | {"along": both})
+    assert problems(chart() | {"along": {"values": [1.0]}})
