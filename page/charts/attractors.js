@@ -6,9 +6,9 @@ import { short } from "../interface/numbers.js";
 /** Returns the table of an answer of the service. */
 export function attractorTable({ attractors, boundary }) {
   const rows = attractors.map((one) => element("tr", {},
-    element("th", { scope: "row" }, swatch(one.colour), one.name),
+    element("th", { scope: "row" }, swatch(one.colour), ` ${one.name}`),
     element("td", {}, short(one.points, 7)),
-    element("td", {}, `${percent(one.share)} ± ${percent(one.share_error)}`),
+    element("td", {}, `${short(100 * one.share, 4)} ± ${short(100 * one.share_error, 2)} %`),
     element("td", {}, one.lyapunov === null ? "" : `${short(one.lyapunov, 3)} ± ${short(one.lyapunov_error, 2)}`)));
   return element("div", {},
     element("table", {},
@@ -25,8 +25,4 @@ function swatch(colour) {
   const made = element("span", { class: "swatch" });
   made.style.background = colour;
   return made;
-}
-
-function percent(share) {
-  return `${short(100 * share, 3)} %`;
 }

@@ -36,7 +36,7 @@ def quantities(store: StudyReader) -> dict[str, Channel]:
     outputs = {**OUTPUTS, **store.own_outputs}
     found = {}
     if tells_attractors(store):
-        found[ATTRACTOR] = Channel(ATTRACTOR, "1", "attractor that the motion ends on")
+        found[ATTRACTOR] = Channel(ATTRACTOR, "1", "attractor")
     if store.verdicts is not None:
         found[MOTION] = Channel(MOTION, "1", "kind of motion")
     for name in (*store.indicators, *store.statistics):

@@ -7,7 +7,7 @@ Chunks of extremes are small: one file has those of several places, such as ``py
 
 import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
@@ -221,6 +221,10 @@ class Running:
     def part(self, name: str) -> bytes:
         """Read a file of the folder `PARTS`; FileNotFoundError if it is not there."""
         return self._source.read(f"{PARTS}/{name}")
+
+    def stamp(self, name: str) -> Hashable | None:
+        """Return what changes with a file of the folder `PARTS`; None: that cannot be told."""
+        return self._source.stamp(f"{PARTS}/{name}")
 
     def _ask(self, key: str, question: Callable[[Packed], Found]) -> Found:
         """Ask the packed file that holds a key."""

@@ -4,7 +4,7 @@ A member has one file. What it must do is said by `RunningFiles`, and tested by
 `tests/storage/running_files`. Names have slashes between them, such as ``a1/rows/history-0.zip``.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from typing import Protocol, Self
 
 from jointplay.storage.places import StoredObject
@@ -32,6 +32,13 @@ class RunningFiles(Protocol):
 
     def size(self, name: str) -> int:
         """Return the bytes of a file; FileNotFoundError if it is not there."""
+        ...
+
+    def stamp(self, name: str) -> Hashable | None:
+        """Return what changes whenever a file does, and no other file has.
+
+        None: that cannot be told, or it is not there.
+        """
         ...
 
     def read(self, name: str) -> bytes:

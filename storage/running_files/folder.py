@@ -2,7 +2,7 @@
 
 import os
 import shutil
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -48,6 +48,15 @@ class InFolder:
     def size(self, name: str) -> int:
         """Look the file up."""
         return (self.path / name).stat().st_size
+
+    def stamp(self, name: str) -> Hashable | None:
+        """Look the file up."""
+        path = self.path / name
+        try:
+            found = path.stat()
+        except FileNotFoundError:
+            return None
+        return str(path.absolute()), found.st_ino, found.st_mtime_ns, found.st_size
 
     def read(self, name: str) -> bytes:
         """Read the file."""

@@ -4,7 +4,7 @@ An object cannot be appended to: a file is one object or several, whose keys end
 the file that each begins with, such as ``a1/parts/00000001+000000004096``.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Final, Self, TypeVar
 
@@ -60,6 +60,10 @@ class InPlace:
     def size(self, name: str) -> int:
         """Return where the last piece ends."""
         return self._again(self._size, name)
+
+    def stamp(self, name: str) -> Hashable | None:
+        """Return None: a list of objects does not tell."""
+        return None
 
     def read(self, name: str) -> bytes:
         """Join the pieces; what the first one has, and was put again with it, is not read again."""

@@ -22,6 +22,7 @@ from jointplay.storage.results.metadata import FILE
 from jointplay.storage.results.store_reader import StoreReader
 from jointplay.storage.studies import part
 from jointplay.storage.studies.block import lost, place_of
+from jointplay.storage.studies.kept_parts import KEPT_PARTS
 from jointplay.storage.studies.layout import STUDY_SCHEMAS, StudyLayout, on_map
 from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.points import INDICATORS, STATISTICS, Points, together
@@ -94,7 +95,7 @@ class StudyMoment(StoreReader):
                 return {}
             try:
                 found = {
-                    index: Part.read(self.files, name, self.attributes["layout"])
+                    index: KEPT_PARTS.read(self.files, name, self.attributes["layout"])
                     for index, name in part.newest(self.files.parts()).items()
                 }
             except FileNotFoundError:  # one was replaced by the last part of its block

@@ -48,6 +48,13 @@ class Part(Points):
         """Points that have ended."""
         return int(np.isin(self.status, ENDED).sum())
 
+    @property
+    def nbytes(self) -> int:
+        """Bytes of the arrays, and roughly of the sentences."""
+        arrays = (self.status, self.counts, self.peaks, *self.numbers.values(), *self.open.values())
+        said = sum(map(len, self.reasons.values())) + 200 * (len(self.failures) + len(self.reasons))
+        return sum(array.nbytes for array in arrays) + said + len(self.carried)
+
     def encode(self, layout: StudyLayout) -> bytes:
         """Give the bytes of the file: the same for the same part."""
         arrays: dict[str, NDArray[Any]] = {
@@ -122,6 +129,11 @@ class Part(Points):
 def final_name(index: int) -> str:
     """Name the last part of a block, in the folder `PARTS`."""
     return f"{index:05d}"
+
+
+def is_last(name: str) -> bool:
+    """Tell whether a part is the last one of its block, which never changes."""
+    return name.isdigit()
 
 
 def name_of(index: int, attempt: int) -> str:

@@ -31,6 +31,16 @@ class RunningFilesContract(ABC):
             assert self.opened().size("block0-a1") == len(content)
         assert [*self.raw().values()] == [b""]
 
+    def test_a_stamp_changes_with_its_file_or_tells_nothing(self) -> None:
+        stamps = []
+        assert self.opened().stamp("block0-a1") is None
+        for content in (b"one", b"two"):
+            self.opened().put("block0-a1", [content])
+            stamps.append(self.opened().stamp("block0-a1"))
+        self.opened().put("block1-a1", [b"two"])
+        stamps.append(self.opened().stamp("block1-a1"))
+        assert stamps == [None] * 3 or len({*stamps}) == 3
+
     def test_what_is_not_there_is_said_to_be_missing(self) -> None:
         files = self.opened()
         assert [*files.names()] == [*files.names("a1/parts")] == []
