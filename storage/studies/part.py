@@ -51,7 +51,8 @@ class Part(Points):
     @property
     def nbytes(self) -> int:
         """Bytes of the arrays, and roughly of the sentences."""
-        arrays = (self.status, self.counts, self.peaks, *self.numbers.values(), *self.open.values())
+        arrays: list[NDArray[Any]] = [self.status, self.counts, self.peaks]
+        arrays += [*self.numbers.values(), *self.open.values()]
         said = sum(map(len, self.reasons.values())) + 200 * (len(self.failures) + len(self.reasons))
         return sum(array.nbytes for array in arrays) + said + len(self.carried)
 
