@@ -16,10 +16,10 @@ from typing import Any
 
 import numpy as np
 
+from jointplay.solver.joints.revolute import Clearance
 from jointplay.solver.mechanics.impact_floors import MOST
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Clearance
 
 LONGEST_STEP, FIRST_STEP, SHORTEST_STEP = 1e-3, 1e-7, 1e-14
 """s; the first two as other peers have."""

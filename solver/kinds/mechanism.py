@@ -23,7 +23,7 @@ from jointplay.solver.scene.channels import channels, recording
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.domains import domain_problems
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
-from jointplay.solver.scene.references import ends, part_problems, reference_problems
+from jointplay.solver.scene.references import part_problems, reference_problems
 from jointplay.solver.scene.sentences import schema_problems
 from jointplay.solver.scene.start_places import with_places
 
@@ -142,9 +142,9 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
         raise InvalidInput.at(f"/scene/forces/{name}", sentence)
     pairs = [(force.first, force.second) for force in scene.forces.values()]
     between = [name for name in (*tree.closing, *tree.play) if name in scene.joints]
-    pairs += [(here, there) for (_, here), (_, there) in (ends(scene.joints[n]) for n in between)]
+    pairs += [scene.joints[name].points for name in between]
     held = {branch.parent for branch in tree.branches} | {_body(p) for pair in pairs for p in pair}
-    adrift = [b.body for b in tree.branches if b.kind == "free" and b.body not in held]
+    adrift = [b.body for b in tree.branches if b.freedom == "all" and b.body not in held]
     if adrift:
         raise InvalidInput(
             [

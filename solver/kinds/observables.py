@@ -10,7 +10,6 @@ from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.tree import Branch, spanning_tree
 from jointplay.solver.scene.channels import channels, select
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Prismatic
 
 RATES = {"x": "vx", "y": "vy", "theta": "omega"}
 ECCENTRICITY = (
@@ -78,12 +77,12 @@ def peak_channels(checked: PlacedPoints) -> list[str]:
 def _direction(scene: Scene, branch: Branch) -> str:
     """Return the axis of the world to which a guide is closer as it stands at t = 0."""
     joint = scene.joints[branch.joint]
-    if not isinstance(joint, Prismatic):
+    if joint.heading is None:
         return "x"
-    guide = joint.guide.split(".")[0]
+    guide, _ = joint.bodies
     bodies = list(scene.bodies)
     turned = 0.0 if guide == "ground" else assemble(scene).pose[3 * bodies.index(guide) + 2]
-    angle = math.atan2(joint.axis[1], joint.axis[0]) + float(turned)
+    angle = math.atan2(joint.heading[1], joint.heading[0]) + float(turned)
     return "x" if abs(math.cos(angle)) >= abs(math.sin(angle)) * (1.0 - 1e-12) else "y"
 
 

@@ -17,8 +17,7 @@ from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.ideal.reach import motion_reach
 from jointplay.solver.scene.channels import BODY
-from jointplay.solver.scene.joints import Revolute
-from jointplay.solver.scene.pairs import has_play, pairs_of
+from jointplay.solver.scene.pairs import pairs_of
 
 
 def check_section(
@@ -179,13 +178,14 @@ def _nearest(seen: _Seen, quantity: str, low: float) -> float:
 def _play(seen: _Seen, joint: str, quantity: str, checked: PlacedPoints) -> Iterator[Problem]:
     """Yield what a joint's clearance rules out, at the first point where it does."""
     value = seen.at_source
-    if quantity == "normal_force" and value <= 0.0 and has_play(checked.declared.joints[joint]):
+    if quantity == "normal_force" and value <= 0.0 and checked.declared.joints[joint].has_play:
         yield Problem(PLACE, "A normal force is never below zero; give a value above.")
     if quantity not in ("eccentricity_x", "eccentricity_y", "penetration"):
         return
-    if not isinstance(checked.declared.joints[joint], Revolute):
+    slack = checked.declared.joints[joint].slack
+    if slack is None or not checked.declared.joints[joint].is_journal:
         return
-    clearance = checked.scenes.numbers(f"/joints/{joint}/clearance/radial_clearance")
+    clearance = checked.scenes.numbers(f"/joints/{joint}/clearance/{slack.play_field}")
     farthest = FARTHEST * clearance
     low, high = (
         (-clearance, farthest - clearance) if quantity == "penetration" else (-farthest, farthest)

@@ -10,7 +10,7 @@ from jointplay.solver.kinds.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATI
 from jointplay.solver.quantities.roster import NameIn
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.scene.pairs import has_play, pairs_of
+from jointplay.solver.scene.pairs import pairs_of
 from jointplay.solver.statistics import OF_CONTACTS, STATISTICS, Output, outputs_of
 
 StatisticName = Annotated[str, NameIn(STATISTICS)]
@@ -52,7 +52,7 @@ def statistic_outputs(study: Study) -> dict[str, Output]:
     joints = study.point_scene(0).joints
     sizes = (leaf.path for leaf in study.scenes.leaves if leaf.path.endswith("_clearance"))
     varied = {path.split("/")[2] for path in sizes}
-    loose = [name for name, joint in joints.items() if has_play(joint) or name in varied]
+    loose = [name for name, joint in joints.items() if joint.has_play or name in varied]
     pairs = tuple(pair.name for name in loose for pair in pairs_of(name, joints[name]))
     return outputs_of(study.statistics, study.channels, pairs)
 

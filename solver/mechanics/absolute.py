@@ -8,29 +8,17 @@ from collections.abc import Collection, Mapping
 
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
-from jointplay.solver.mechanics.cams import lift
-from jointplay.solver.mechanics.frames import WORLD, Pair, left, minus, unit
-from jointplay.solver.mechanics.gears import coupled
-from jointplay.solver.mechanics.motion import Forces
-from jointplay.solver.mechanics.rows import (
-    RESTING,
-    Marker,
-    Row,
-    angle_row,
-    guided_rows,
-    lifted_row,
-    projection_row,
+from jointplay.solver.mechanics.absolute_holding import (
+    CENTRED,
+    CONCENTRIC,
+    AbsoluteHolding,
+    ends_of,
 )
+from jointplay.solver.mechanics.motion import Forces
+from jointplay.solver.mechanics.rows import Marker, Row, angle_row
+from jointplay.solver.quantities.frames import WORLD, Pair
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine
-from jointplay.solver.scene.cams import CamJoint
-from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.document import GuideStart, JournalStart, Scene
-from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
-from jointplay.solver.scene.pairs import has_play
-from jointplay.solver.scene.references import ends
-
-CONCENTRIC = JournalStart()
-CENTRED = GuideStart()
+from jointplay.solver.scene.document import Scene
 
 
 class AbsoluteMechanism:
@@ -63,7 +51,7 @@ class AbsoluteMechanism:
         self.joints = tuple(
             name
             for name, joint in scene.joints.items()
-            if close_play or name in held or not has_play(joint)
+            if close_play or name in held or not joint.has_play
         )
 
     def marker(self, reference: str, q: Scalars, v: Scalars) -> Marker:
@@ -93,12 +81,11 @@ class AbsoluteMechanism:
         wound : (3 bodies,) whole turns of angles that `q` leaves out, rad.
         """
         here, there = self.marker(points[0], q, v), self.marker(points[1], q, v)
-        gap, rate = minus(there.position, here.position), minus(there.velocity, here.velocity)
         one, two = (
             marker.angle + (wound[3 * marker.body + 2] if wound and marker.body >= 0 else 0.0)
             for marker in (here, there)
         )
-        return Ends(gap, rate, (here.spin, there.spin), (here.turned, there.turned), (one, two))
+        return ends_of(here, there, (one, two))
 
     def apply(self, between: Forces, forces: list[Scalar], q: Scalars, v: Scalars) -> None:
         """Add forces between bodies to generalised forces, (3 bodies,) N, N, N m."""
@@ -124,34 +111,16 @@ class AbsoluteMechanism:
         """
         rows: list[Row] = []
         for name in self.joints:
-            joint, motion = self.numbers.joints[name], self._driver(name, driven)
-            (_, here), (_, there) = ends(joint)
-            first, second = self.marker(here, q, v), self.marker(there, q, v)
-            start = self.scene.start.guides.get(name, CENTRED)
-            aside = RESTING._replace(value=start.offset, slope=start.rate or 0.0)
-            if isinstance(joint, Prismatic):
-                angle = RESTING._replace(value=joint.angle, slope=start.tilt_rate or 0.0)
-                if start.tilt:
-                    angle = angle._replace(value=joint.angle + start.tilt)
-                rows += guided_rows(
-                    name, first, second, self.axis(joint, first), angle, aside, motion
-                )
-                continue
-            if isinstance(joint, PinInSlot):
-                normal = left(self.axis(joint, first))
-                rows.append(projection_row(name, "normal", normal, aside, first, second))
-                continue
-            if isinstance(joint, CamJoint):
-                found = lift(joint, self.ends((here, there), q, v))
-                if start.offset or start.rate:
-                    found = found.less(start.offset, start.rate or 0.0)
-                rows.append(lifted_row(name, first, second, found))
-                continue
-            rows += self._coincidence(name, first, second)
-            if isinstance(joint, Fixed):
-                rows.append(angle_row(name, first, second, RESTING._replace(value=joint.angle)))
-            elif motion is not None:
-                rows.append(angle_row(name, first, second, motion))
+            joint = self.numbers.joints[name]
+            here, there = (self.marker(point, q, v) for point in joint.points)
+            start = self.scene.start
+            held = AbsoluteHolding(
+                name,
+                (here, there),
+                start.joints.get(name, CONCENTRIC),
+                start.guides.get(name, CENTRED),
+            )
+            rows += joint.rows(held, self._driver(name, driven))
         still = Marker(-1, (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), 0.0, 0.0)
         for body, name in self.turned.items():
             i = self.bodies.index(body)
@@ -165,7 +134,7 @@ class AbsoluteMechanism:
         gear = self.numbers.gears[name]
         jacobian: dict[int, Scalar] = {}
         value, rate = -gear.offset, 0.0
-        for factor, body in coupled(self.numbers, gear):
+        for factor, body in gear.coupled(self.numbers.joints):
             if body != WORLD:
                 k = 3 * self.bodies.index(body) + 2
                 jacobian[k] = jacobian.get(k, 0.0) + factor
@@ -176,33 +145,6 @@ class AbsoluteMechanism:
         """Return the prescribed motion of a joint, if it is driven."""
         driver = self.drivers.get(name)
         return None if driver is None else self.numbers.drivers[driver].at(driven[driver])
-
-    def _coincidence(self, name: str, first: Marker, second: Marker) -> list[Row]:
-        """r_second - r_first - e = 0, e as the start says; it stays if no rate is given."""
-        start = self.scene.start.joints.get(name, CONCENTRIC)
-        offset, moving = start.eccentricity, start.rate or (0.0, 0.0)
-        rows = []
-        for axis, part in ((0, "x"), (1, "y")):
-            jacobian: dict[int, Scalar] = {}
-            gamma: Scalar = 0.0
-            for sign, marker in ((1.0, second), (-1.0, first)):
-                if marker.body < 0:
-                    continue
-                jacobian[3 * marker.body + axis] = sign
-                turn = -marker.arm[1] if axis == 0 else marker.arm[0]
-                jacobian[3 * marker.body + 2] = sign * turn
-                gamma = gamma + sign * (marker.spin * marker.spin) * marker.arm[axis]
-            rows.append(
-                Row(
-                    name,
-                    part,
-                    second.position[axis] - first.position[axis] - offset[axis],
-                    jacobian,
-                    second.velocity[axis] - first.velocity[axis] - moving[axis],
-                    gamma,
-                )
-            )
-        return rows
 
     def reactions(
         self, rows: list[Row], multipliers: list[Scalar]
@@ -223,38 +165,25 @@ class AbsoluteMechanism:
                 moments[row.joint] = -multiplier
                 continue
             joint = self.scene.joints[row.joint]
-            (_, first), (_, second) = ends(joint)
-            body, sign = second.split(".")[0], 1.0
-            if body == "ground":
-                body, sign = first.split(".")[0], -1.0
+            (first, body), sign = joint.bodies, 1.0
+            if body == WORLD:
+                body, sign = first, -1.0
             k = 3 * self.bodies.index(body)
             x, y = forces.get(row.joint, (0.0, 0.0))
             fx = row.jacobian.get(k, 0.0) * multiplier
             fy = row.jacobian.get(k + 1, 0.0) * multiplier
             forces[row.joint] = (x - sign * fx, y - sign * fy)
             driver = self.drivers.get(row.joint)
-            if driver is not None and row.part == (
-                "angle" if joint.type == "revolute" else "along"
-            ):
+            if driver is not None and row.part == joint.driven_part:
                 efforts[driver] = -multiplier
-            if row.part == "angle" and joint.type in HOLDING:
+            if row.part == "angle" and joint.holds_angle:
                 moments[row.joint] = -multiplier
         return forces, moments, efforts
-
-    def axis(self, joint: Prismatic | PinInSlot, guide: Marker) -> Pair:
-        """Return the guide's unit axis in world components."""
-        x, y = unit(joint.axis)
-        if guide.body < 0:
-            return x, y
-        sine, cosine = sine_cosine(guide.angle)
-        return cosine * x - sine * y, sine * x + cosine * y
 
 
 def _pin_on_ground(scene: Scene, body: str) -> str | None:
     """Return the first ideal pin whose bearing is on the ground and whose journal on a body."""
     for name, joint in scene.joints.items():
-        if not isinstance(joint, Revolute) or has_play(joint):
-            continue
-        if joint.bearing.startswith(f"{WORLD}.") and joint.journal.startswith(f"{body}."):
+        if joint.freedom == "turn" and not joint.has_play and joint.bodies == (WORLD, body):
             return name
     return None

@@ -30,8 +30,6 @@ from jointplay.solver.mechanics.start.rates import start_rates
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.latest import once_per_scene
-from jointplay.solver.scene.pairs import has_play, pairs_of
-from jointplay.solver.scene.references import ends
 
 ASSEMBLED = CLOSED
 NEARBY, NEARBY_SEED, ASIDE = 3, 7, 0.05
@@ -46,8 +44,6 @@ GEOMETRY: Final[Any] = {
 }
 TOLD = 1e-6
 """Share of the shortest link, or of 1 m, up to which a difference is not told, m or m/s."""
-POINTED = 10.0
-"""A cam whose profile is no larger than that many lashes is a point."""
 MOST_KEPT = 512
 """Assemblies that are kept; studies of one geometry need one."""
 
@@ -102,8 +98,8 @@ def shortest_link(scene: Scene) -> float:
     distances = link_lengths(scene)
     if distances:
         return min(distances)
-    pairs = [pair for name, joint in scene.joints.items() for pair in pairs_of(name, joint)]
-    sizes = [pair.size for pair in pairs if pair.cam is None or pair.size > POINTED * pair.play]
+    loose = [joint for joint in scene.joints.values() if joint.slack is not None]
+    sizes = [joint.size for joint in loose if not joint.is_point]
     return max(sizes, default=1.0)
 
 
@@ -111,7 +107,7 @@ def link_lengths(scene: Scene) -> list[float]:
     """Return the distances, m, between joints on one body that are apart; there may be none."""
     joined: dict[str, list[list[float]]] = {name: [] for name in scene.bodies}
     for joint in scene.joints.values():
-        for _, reference in ends(joint):
+        for reference in joint.points:
             body, point = reference.split(".")
             if body in joined:
                 joined[body].append(scene.bodies[body].points[point])
@@ -186,7 +182,7 @@ def start_of(scene: Scene, one: Scene) -> tuple[Floats, Floats]:
 def _geometry(scene: Scene) -> str:
     """Return, as text, what an assembly depends on: no mass, no clearance, no law of contact."""
     found = scene.model_dump_json(include=GEOMETRY, exclude={"joints": {"__all__": {"clearance"}}})
-    play = "".join(str(int(has_play(joint))) for joint in scene.joints.values())
+    play = "".join(str(int(joint.has_play)) for joint in scene.joints.values())
     return f"{found} {play} {shortest_link(scene)!r}"
 
 

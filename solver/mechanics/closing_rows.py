@@ -1,19 +1,16 @@
 """Equations of joints that close loops, in the coordinates of the spanning tree."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from jointplay.solver.joints.holding import Distance
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
-from jointplay.solver.mechanics.cams import lift
 from jointplay.solver.mechanics.elimination import is_zero
-from jointplay.solver.mechanics.frames import WORLD, FrameVector, unit
-from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.rows import RESTING
+from jointplay.solver.quantities.frames import WORLD, FrameVector, unit
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
-from jointplay.solver.scene.cams import CamJoint
-from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic
-from jointplay.solver.scene.references import ends
 
 
 @dataclass(frozen=True)
@@ -36,8 +33,8 @@ class Between:
 
     def __init__(self, kinematics: Kinematics, joint: str) -> None:
         k = self.kinematics = kinematics
-        (_, here), (_, there) = ends(k.numbers.joints[joint])
         self.joint = joint
+        here, there = k.numbers.joints[joint].points
         (self.first, p), (self.second, q) = here.split("."), there.split(".")
         arms = k.arm(self.first, p), k.arm(self.second, q)
         start, start_rate, start_partials = k.point_motion(self.first, arms[0])
@@ -54,18 +51,30 @@ class Between:
             if parts:
                 self.partials[name] = parts[0] + parts[1] if len(parts) > 1 else parts[0]
 
-    def coincidence(self) -> list[ClosingRow]:
-        """Return the rows of two points that are one, x and y in the world's axes."""
+    def coincident(self) -> Iterator[ClosingRow]:
+        """Yield the rows of two points that are one, x and y in the world's axes."""
         (x, y), (vx, vy), (ax, ay) = self.gap.world(), self.rate.world(), self.bias.world()
         partials = {name: partial.world() for name, partial in self.partials.items()}
-        return [
-            self._row("x", x, vx, {name: px for name, (px, _) in partials.items()}, ax),
-            self._row("y", y, vy, {name: py for name, (_, py) in partials.items()}, ay),
-        ]
+        yield self._row("x", x, vx, {name: px for name, (px, _) in partials.items()}, ax)
+        yield self._row("y", y, vy, {name: py for name, (_, py) in partials.items()}, ay)
 
-    def projection(
-        self, part: str, direction: FrameVector, motion: Derivatives = RESTING
-    ) -> ClosingRow:
+    def across(self, axis: Sequence[Scalar]) -> ClosingRow:
+        """Return the row of a point that stays on an axis of the first body."""
+        return self._projection("normal", self.direction(axis).turned(), RESTING)
+
+    def along(self, axis: Sequence[Scalar], motion: Derivatives) -> ClosingRow:
+        """Return the row of a point that moves along an axis of the first body."""
+        return self._projection("along", self.direction(axis), motion)
+
+    def direction(self, axis: Sequence[Scalar]) -> FrameVector:
+        """Return the unit vector of an axis, fixed in the first body."""
+        return FrameVector(self.kinematics.orientations, {self.first: unit(axis)})
+
+    def at_angle(self, angle: Scalar) -> ClosingRow:
+        """Return the row of an angle between the bodies that stays."""
+        return self.turned(RESTING._replace(value=angle))
+
+    def _projection(self, part: str, direction: FrameVector, motion: Derivatives) -> ClosingRow:
         """Return the row of a gap, along a direction of the first body, that is the travel."""
         guide = self.kinematics.carried[self.first]
         turned, spin = direction.turned(), guide.spin
@@ -99,20 +108,19 @@ class Between:
             (one.angle, two.angle),
         )
 
-    def lifted(self, joint: CamJoint) -> ClosingRow:
-        """Return the row of a follower on its profile, see `Lift`."""
-        found = lift(joint, self.ends)
-        along = FrameVector(self.kinematics.orientations, {WORLD: found.along})
+    def apart(self, distance: Distance) -> ClosingRow:
+        """Return the row of a distance that stays zero."""
+        along = FrameVector(self.kinematics.orientations, {WORLD: distance.along})
         partials = {name: along.dot(partial) for name, partial in self.partials.items()}
-        bias = found.bias + along.dot(self.bias)
-        for body, turning in ((self.first, found.on_cam), (self.second, found.on_follower)):
+        bias = distance.bias + along.dot(self.bias)
+        for body, turning in ((self.first, distance.on_first), (self.second, distance.on_second)):
             frame = self.kinematics.carried[body]
             bias = bias + turning * frame.spin_bias
             for name, share in frame.spin_partials.items():
                 partials[name] = partials.get(name, 0.0) + turning * share
-        return self._row("normal", found.value, found.rate, partials, bias)
+        return self._row("normal", distance.value, distance.rate, partials, bias)
 
-    def angle(self, motion: Derivatives) -> ClosingRow:
+    def turned(self, motion: Derivatives) -> ClosingRow:
         """Return the row of an angle between the bodies as prescribed, but for whole turns."""
         one, two = (self.kinematics.carried[body] for body in (self.first, self.second))
         cosine, sine = self.kinematics.orientations.between(self.first, self.second)
@@ -141,26 +149,8 @@ def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
         if name in numbers.gears:
             rows.append(_gear_row(kinematics, name))
             continue
-        joint, between = numbers.joints[name], Between(kinematics, name)
         motion = kinematics.moved[drivers[name]] if name in drivers else None
-        held = Derivatives(getattr(joint, "angle", 0.0), 0.0, 0.0)
-        if isinstance(joint, Prismatic):
-            axis = axis_of(kinematics, between.first, joint)
-            rows += [between.projection("normal", axis.turned()), between.angle(held)]
-            rows += [between.projection("along", axis, motion)] if motion else []
-            continue
-        if isinstance(joint, PinInSlot):
-            axis = axis_of(kinematics, between.first, joint)
-            rows.append(between.projection("normal", axis.turned()))
-            continue
-        if isinstance(joint, CamJoint):
-            rows.append(between.lifted(joint))
-            continue
-        rows += between.coincidence()
-        if isinstance(joint, Fixed):
-            rows.append(between.angle(held))
-        elif motion is not None:
-            rows.append(between.angle(motion))
+        rows += numbers.joints[name].rows(Between(kinematics, name), motion)
     return rows
 
 
@@ -171,7 +161,7 @@ def _gear_row(kinematics: Kinematics, name: str) -> ClosingRow:
     value: Scalar = -gear.offset
     rate: Scalar = 0.0
     bias: Scalar = 0.0
-    for factor, body in coupled(kinematics.numbers, gear):
+    for factor, body in gear.coupled(kinematics.numbers.joints):
         frame = kinematics.carried[body]
         value, rate = value + factor * kinematics.whole_angle(body), rate + factor * frame.spin
         bias = bias + factor * frame.spin_bias
@@ -179,8 +169,3 @@ def _gear_row(kinematics: Kinematics, name: str) -> ClosingRow:
             partials[coordinate] = partials.get(coordinate, 0.0) + factor * share
     found = {n: p for n, p in partials.items() if n in names and not is_zero(p)}
     return ClosingRow(name, "angle", value, rate, found, bias)
-
-
-def axis_of(kinematics: Kinematics, guide: str, joint: Prismatic | PinInSlot) -> FrameVector:
-    """Return the unit axis of a guide or a slot, fixed in its body."""
-    return FrameVector(kinematics.orientations, {guide: unit(joint.axis)})

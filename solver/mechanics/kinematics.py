@@ -10,12 +10,10 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from jointplay.solver.mechanics.elimination import is_zero
-from jointplay.solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair, unit
 from jointplay.solver.mechanics.tree import Branch, Tree
+from jointplay.solver.quantities.frames import WORLD, FrameVector, Orientations, Pair, unit
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
-from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import PinInSlot, Prismatic, Revolute
 
 
 @dataclass
@@ -112,7 +110,7 @@ class Kinematics:
         return FrameVector(self.orientations, {body: (target[0] - hub[0], target[1] - hub[1])})
 
     def _carry(self, branch: Branch) -> Carried:
-        if branch.kind == "free":
+        if branch.freedom == "all":
             return self._float(branch)
         parent = self.carried[branch.parent]
         hub = self._coordinates(branch.body, branch.body_point)
@@ -123,7 +121,7 @@ class Kinematics:
         spin_bias = parent.spin_bias
         sense = 1.0 if branch.outward else -1.0
         joint = self.numbers.joints[branch.joint]
-        if isinstance(joint, Revolute):
+        if branch.freedom == "turn":
             if branch.turned_by is not None:
                 angle, spin, spin_bias = self.moved[branch.turned_by]
                 spin_partials = {branch.turned_by: 1.0}
@@ -137,14 +135,14 @@ class Kinematics:
                 name = branch.coordinates[0]
                 angle, spin = self.position[name], self.speed[name]
                 spin_partials, spin_bias = {name: 1.0}, 0.0
-        elif not isinstance(joint, PinInSlot | CamJoint):
+        else:
             angle = angle + sense * joint.angle
         self._orient(branch.body, angle)
-        if isinstance(joint, Prismatic):
+        if joint.heading is not None:
             name = branch.driver or branch.coordinates[0]
             travel = self.moved[name].value if branch.driver else self.position[name]
             guide = branch.parent if branch.outward else branch.body
-            axis = FrameVector(self.orientations, {guide: unit(joint.axis)})
+            axis = FrameVector(self.orientations, {guide: unit(joint.heading)})
             path = axis.scaled(sense * travel)
             rate = axis.scaled(sense * self.speed[name])
             origin = origin + path

@@ -14,7 +14,6 @@ from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.pairs import has_play
 
 BAUMGARTE_ALPHA = 50.0
 BAUMGARTE_BETA = 50.0
@@ -47,7 +46,7 @@ class LagrangeMechanism:
         inner: Mapping[str, Sequence[Scalar]] = NOTHING,
     ) -> Motion:
         """Return accelerations and all forces; see `ReducedMechanism.motion`."""
-        play = [name for name, joint in self.scene.joints.items() if has_play(joint)]
+        play = [name for name, joint in self.scene.joints.items() if joint.has_play]
         forces = forces_between(
             self.numbers, self._ends, self.driven, play, modes, impact_rates, inner
         )

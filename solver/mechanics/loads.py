@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Mapping
 
-from jointplay.solver.mechanics.frames import WORLD, cross
+from jointplay.solver.joints.contact import Interaction
 from jointplay.solver.mechanics.kinematics import Kinematics
-from jointplay.solver.mechanics.play import Interaction
+from jointplay.solver.quantities.frames import WORLD, cross
 from jointplay.solver.quantities.scalars import Scalar
 
 Load = tuple[Scalar, Scalar, Scalar]

@@ -12,23 +12,17 @@ Eich 1993, SIAM Journal on Numerical Analysis 30:1467 (projection).
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from jointplay.solver.mechanics.cams import lift
-from jointplay.solver.mechanics.closing_rows import Between, axis_of, closing_rows
+from jointplay.solver.joints.contact import Interaction
+from jointplay.solver.mechanics.closing_rows import Between, closing_rows
 from jointplay.solver.mechanics.elimination import (
     Matrix,
     is_zero,
     solve_semidefinite,
     solve_symmetric,
 )
-from jointplay.solver.mechanics.frames import Pair, cross, scaled
-from jointplay.solver.mechanics.gears import sides
 from jointplay.solver.mechanics.kinematics import Kinematics
-from jointplay.solver.mechanics.play import Interaction
+from jointplay.solver.mechanics.reaction import Reaction
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.cams import CamJoint
-from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.joints import PinInSlot, Prismatic, Revolute
-from jointplay.solver.scene.references import ends
 
 
 @dataclass(frozen=True)
@@ -96,38 +90,21 @@ class Loops:
         for name, parts in by_part.items():
             if name in k.numbers.gears:
                 moment = found.moments[name] = parts["angle"]
-                for factor, journal, bearing in sides(k.numbers, k.numbers.gears[name]):
+                for factor, second, first in k.numbers.gears[name].sides(k.numbers.joints):
                     turn = factor * moment
-                    found.couples.append(Interaction(bearing, journal, (0.0, 0.0), -turn, turn))
+                    found.couples.append(Interaction(first, second, (0.0, 0.0), -turn, turn))
                 continue
-            joint, between = k.numbers.joints[name], Between(k, name)
-            (_, here), (_, there) = ends(joint)
-            if isinstance(joint, CamJoint):
-                pushing, held = lift(joint, between.ends), parts["normal"]
-                found.interactions[name] = Interaction(
-                    here,
-                    there,
-                    scaled(pushing.along, held),
-                    pushing.on_cam * held,
-                    pushing.on_follower * held,
-                )
-                continue
-            turning = parts.get("angle", 0.0)
-            force: Pair = (parts.get("x", 0.0), parts.get("y", 0.0))
-            offset: Scalar = 0.0
-            if isinstance(joint, Prismatic | PinInSlot):
-                axis = axis_of(k, between.first, joint)
-                pushed = axis.turned().scaled(parts["normal"])
-                if "along" in parts:
-                    pushed = pushed + axis.scaled(parts["along"])
-                force = pushed.world()
-                offset = cross(between.gap.world(), force)  # the guide's point is elsewhere
-            found.interactions[name] = Interaction(here, there, force, -turning - offset, turning)
-            if joint.type in HOLDING:
-                found.moments[name] = turning
+            joint, motion = k.numbers.joints[name], None
             if name in drivers:
-                effort = turning if isinstance(joint, Revolute) else parts["along"]
-                found.efforts[drivers[name]] = effort
+                motion = k.moved[drivers[name]]
+            reaction = Reaction(Between(k, name), parts)
+            for _ in joint.rows(reaction, motion):
+                pass
+            found.interactions[name] = reaction.interaction(*joint.points)
+            if joint.holds_angle:
+                found.moments[name] = parts["angle"]
+            if name in drivers:
+                found.efforts[drivers[name]] = parts[joint.driven_part or ""]
         return found
 
     def _multipliers(self, right: list[Scalar]) -> list[Scalar]:

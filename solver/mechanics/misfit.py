@@ -71,10 +71,9 @@ def fighting_drivers(scene: Scene) -> list[str]:
     None where the joints alone are redundant: then they may be to blame.
     """
     ideal, rows, jacobian, _ = constraints_at_start(scene)
-    motions = {"revolute": "angle", "prismatic": "along"}
     driving = {(name, "angle"): name for name in ideal.turned.values()}
     for joint, name in ideal.drivers.items():
-        driving[joint, motions[scene.joints[joint].type]] = name
+        driving[joint, scene.joints[joint].driven_part or ""] = name
     drivers = [driving.get((row.joint, row.part), "") for row in rows]
     joints = jacobian[[not driver for driver in drivers]]
     if rank(joints) < len(joints):

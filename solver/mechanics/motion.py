@@ -6,19 +6,14 @@ from itertools import count
 from types import MappingProxyType
 from typing import Any
 
+from jointplay.solver.joints import Joint
+from jointplay.solver.joints.contact import Contact, Interaction, Touch
 from jointplay.solver.laws.force import Effect
-from jointplay.solver.mechanics.cam_contact import cam_contact
 from jointplay.solver.mechanics.courses import EndsOf, acting_between
-from jointplay.solver.mechanics.frames import Pair
-from jointplay.solver.mechanics.play import Contact, Interaction, contact
-from jointplay.solver.mechanics.walls import wall_contact
+from jointplay.solver.quantities.frames import Pair
 from jointplay.solver.quantities.scalars import Scalar, Scalars
-from jointplay.solver.scene.cams import CamJoint
-from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Joint, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.pairs import pairs_of
-from jointplay.solver.scene.references import ends as points_of
 
 NOTHING: Mapping[str, Any] = MappingProxyType({})
 
@@ -60,7 +55,7 @@ class Forces:
         """Return the moment on the second body of each guide with play, about its point, N m."""
         found: dict[str, Scalar] = {}
         for acting in self.contacts.values():
-            if joints[acting.joint].type in HOLDING:
+            if joints[acting.joint].holds_angle:
                 moment = acting.interaction.moment_on_second
                 found[acting.joint] = found.get(acting.joint, 0.0) + moment
         return found
@@ -132,16 +127,10 @@ def forces_between(
     forces = Forces()
     for name in play:
         joint = numbers.joints[name]
-        (_, here), (_, there) = points_of(joint)
-        between = ends(here, there)
+        between = ends(*joint.points)
         for pair in pairs_of(name, joint):
-            state = modes[pair.name], impact_rates[pair.name], inner.get(pair.name, ())
-            if isinstance(joint, Revolute):
-                forces.contacts[pair.name] = contact(name, joint, between, *state)
-            elif isinstance(joint, Prismatic | PinInSlot):
-                forces.contacts[pair.name] = wall_contact(pair, joint, between, *state)
-            elif isinstance(joint, CamJoint):
-                forces.contacts[pair.name] = cam_contact(pair, joint, between, *state)
+            touch = Touch(modes[pair.name], impact_rates[pair.name], inner.get(pair.name, ()))
+            forces.contacts[pair.name] = joint.contact(name, pair.part, between, touch)
     for name, element in numbers.forces.items():
         between = acting_between(numbers, name, ends, clocks)
         effect = element.effect(between)

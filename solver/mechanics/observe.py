@@ -2,14 +2,13 @@
 
 from collections.abc import Sequence
 
+from jointplay.solver.joints import Joint
+from jointplay.solver.joints.contact import Contact
 from jointplay.solver.laws.force import Ends
-from jointplay.solver.mechanics.cams import pressed
-from jointplay.solver.mechanics.frames import WORLD, minus
 from jointplay.solver.mechanics.motion import BodyMotion, Motion
-from jointplay.solver.mechanics.play import Contact
+from jointplay.solver.quantities.frames import WORLD, minus
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
-from jointplay.solver.scene.cams import CamJoint
-from jointplay.solver.scene.channels import BODY, FOLLOWER, HELD, JOINT, PLAY, POINT, WALL
+from jointplay.solver.scene.channels import BODY, HELD, JOINT, PLAY, POINT, WALL
 from jointplay.solver.scene.document import Scene
 
 
@@ -22,7 +21,7 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
         values |= _named(name, JOINT, force)
     for name, moment in motion.held_moment.items():
         values |= _named(name, HELD, (moment,))
-    values |= _follower_values(numbers, motion)
+    values |= _ideal_values(numbers, motion)
     for name, found in motion.contacts.items():
         values |= _contact_values(name, found)
     for name, effort in motion.driver_effort.items():
@@ -39,13 +38,14 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     return values
 
 
-def _follower_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
-    """Return the values of the channels of followers without play."""
+def _ideal_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
+    """Return the values of the channels that joints have of their own without play."""
     values: dict[str, Scalar] = {}
+    touching = {found.joint for found in motion.contacts.values()}
     for name, joint in numbers.joints.items():
-        if isinstance(joint, CamJoint) and name not in motion.contacts:
-            force = pressed(joint, _ends(numbers, motion, joint), motion.joint_force[name])
-            values |= _named(name, FOLLOWER, (force,))
+        if joint.ideal_channels and name not in touching:
+            found = joint.ideal_values(_ends(numbers, motion, joint), motion.joint_force[name])
+            values |= _named(name, joint.ideal_channels, found)
     return values
 
 
@@ -70,10 +70,10 @@ def body_values(body: BodyMotion) -> tuple[Scalar, ...]:
     )
 
 
-def _ends(numbers: Scene, motion: Motion, joint: CamJoint) -> Ends:
-    """Return how a follower's point lies against the cam's, without rates."""
+def _ends(numbers: Scene, motion: Motion, joint: Joint) -> Ends:
+    """Return how a joint's second point lies against its first, without rates."""
     places, angles = [], []
-    for reference in (joint.cam, joint.follower):
+    for reference in joint.points:
         body, point = reference.split(".")
         if body == WORLD:
             x, y = numbers.ground.points[point]

@@ -10,14 +10,13 @@ from collections.abc import Mapping, Sequence
 
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.elimination import Matrix, is_zero, solve_symmetric
-from jointplay.solver.mechanics.frames import WORLD, FrameVector, Pair, cross
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.loads import NO_LOAD, Loads, about_references
 from jointplay.solver.mechanics.loops import Exerted, Loops
 from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Motion, forces_between
 from jointplay.solver.mechanics.tree import Branch, Tree
+from jointplay.solver.quantities.frames import WORLD, FrameVector, Pair, cross
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import Scene
 
 
@@ -154,13 +153,13 @@ class ReducedMechanism:
         k = self.kinematics
         for branch in self.tree.branches:
             total, moment = sums[branch.body], moments[branch.body]
-            if branch.kind == "revolute" and branch.coordinates:
+            if branch.freedom == "turn" and branch.coordinates:
                 generalised[branch.coordinates[0]] = moment
-            elif branch.kind == "prismatic" and branch.coordinates:
+            elif branch.freedom == "slide" and branch.coordinates:
                 name = branch.coordinates[0]
                 ux, uy = k.carried[branch.body].partials[name].world()
                 generalised[name] = ux * total[0] + uy * total[1]
-            elif branch.kind == "free":
+            elif branch.freedom == "all":
                 generalised |= zip(branch.coordinates, (*total, moment), strict=False)
         return generalised
 
@@ -187,9 +186,9 @@ class ReducedMechanism:
             sums[branch.parent] = (own[0] + total[0], own[1] + total[1])
             arm = k.arm(branch.parent, branch.parent_point)
             handed = cross(arm.world(), total)
-            if branch.kind != "revolute" or branch.driver is not None:
+            if branch.freedom != "turn" or branch.driver is not None:
                 handed = handed + moments[branch.body]
-                if branch.kind == "prismatic":
+                if branch.freedom == "slide":
                     handed = handed + cross(self._travel(branch, arm), total)
             moments[branch.parent] = moments[branch.parent] + handed
         return sums, moments
@@ -239,7 +238,7 @@ class ReducedMechanism:
         for branch in self.tree.branches:
             if branch.turned_by is not None:
                 held[branch.turned_by] = -moments[branch.body]
-            if branch.kind == "free":
+            if branch.freedom == "all":
                 continue
             x, y = sums[branch.body]
             # the joint supplies what the outboard bodies lack; by convention on the second body
@@ -253,12 +252,12 @@ class ReducedMechanism:
         """Return the moment on the second body of joints that hold an angle, about its point."""
         held: dict[str, Scalar] = {}
         for branch in self.tree.branches:
-            if branch.kind not in HOLDING:
+            if branch.freedom not in ("slide", "none"):
                 continue
             moment = moments[branch.joint]
             if not branch.outward:
                 moment = -moment
-                if branch.kind == "prismatic":  # the guide's point is elsewhere
+                if branch.freedom == "slide":  # the guide's point is elsewhere
                     arm = self.kinematics.arm(branch.parent, branch.parent_point)
                     moment = moment + cross(self._travel(branch, arm), forces[branch.joint])
             held[branch.joint] = moment
@@ -277,7 +276,7 @@ class ReducedMechanism:
                 efforts[name] = cut[name] if name in cut else moments[name]
                 continue
             branch = next(b for b in self.tree.branches if b.driver == name)
-            if branch.kind == "revolute":
+            if branch.freedom == "turn":
                 efforts[name] = moments[branch.joint] if branch.outward else -moments[branch.joint]
             else:
                 ux, uy = self.kinematics.carried[branch.body].partials[name].world()

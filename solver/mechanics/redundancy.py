@@ -13,7 +13,6 @@ from jointplay.solver.mechanics.constraints_at_start import (
 )
 from jointplay.solver.mechanics.start.guess import first_clocks
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import ends
 
 TAKES_PART = 1e-6
 """Share of the largest force in a state of self-stress that is rounding."""
@@ -77,7 +76,7 @@ def _member(scene: Scene, joints: list[str], turned: set[str]) -> tuple[str, lis
     for name in joints:
         if name not in scene.joints:
             continue
-        one, two = (reference.split(".")[0] for _, reference in ends(scene.joints[name]))
+        one, two = scene.joints[name].bodies
         for here, there in ((one, two), (two, one)):
             touching.setdefault(here, []).append(name)
             neighbours.setdefault(here, set()).add(there)

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from jointplay.solver.joints.holding import Distance
 from jointplay.solver.laws.function import Derivatives
-from jointplay.solver.mechanics.cams import Lift
-from jointplay.solver.mechanics.frames import Pair, left, minus
+from jointplay.solver.quantities.frames import Pair, left, minus
 from jointplay.solver.quantities.scalars import Scalar
 
 RESTING = Derivatives(0.0, 0.0, 0.0)
@@ -58,23 +58,6 @@ def angle_row(name: str, first: Marker, second: Marker, motion: Derivatives) -> 
     return Row(name, "angle", value, jacobian, rate, motion.curvature)
 
 
-def guided_rows(
-    name: str,
-    first: Marker,
-    second: Marker,
-    axis: Pair,
-    angle: Derivatives,
-    aside: Derivatives,
-    motion: Derivatives | None,
-) -> list[Row]:
-    """Return the rows of a slider: it stays beside the axis, at its angle, and moves as driven."""
-    rows = [projection_row(name, "normal", left(axis), aside, first, second)]
-    rows.append(angle_row(name, first, second, angle))
-    if motion is not None:
-        rows.append(projection_row(name, "along", axis, motion, first, second))
-    return rows
-
-
 def projection_row(
     name: str,
     part: str,
@@ -106,12 +89,12 @@ def projection_row(
     return Row(name, part, value, jacobian, rate, gamma)
 
 
-def lifted_row(name: str, first: Marker, second: Marker, found: Lift) -> Row:
-    """Follower on its profile: see `Lift`."""
+def distance_row(name: str, first: Marker, second: Marker, found: Distance) -> Row:
+    """Distance that stays zero: see `Distance`."""
     ux, uy = found.along
     jacobian: dict[int, Scalar] = {}
     gamma: Scalar = -found.bias
-    for sign, marker, turning in ((1.0, second, found.on_follower), (-1.0, first, found.on_cam)):
+    for sign, marker, turning in ((1.0, second, found.on_second), (-1.0, first, found.on_first)):
         if marker.body < 0:
             continue
         k, (ax, ay) = 3 * marker.body, marker.arm

@@ -6,21 +6,22 @@ Pure structure: no number of the scene is used but whether a clearance is zero.
 from dataclasses import dataclass
 from typing import Literal
 
-from jointplay.solver.scene.cams import CamJoint
+from jointplay.solver.joints import Joint
+from jointplay.solver.joints.joint import Freedom
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
-from jointplay.solver.scene.pairs import contact_pairs, has_play
-from jointplay.solver.scene.references import ends
+from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.structure import per_structure
 
-Kind = Literal["revolute", "prismatic", "fixed", "free"]
+CARRYING: tuple[Freedom, ...] = ("turn", "slide", "none")
+"""Freedoms of joints that carry a body."""
 
 
 @dataclass(frozen=True)
 class Branch:
     """A body, the joint that carries it, and the coordinates that this joint frees.
 
-    `outward` tells whether the body is the joint's second one (journal, slider, part).
+    `freedom` is that of the joint, or all of a body that none carries. `outward` tells whether the
+    body is the joint's second one (journal, slider, part).
     `coordinates` are names of generalised coordinates, ``body.theta``, ``body.s``, ``body.x`` or
     ``body.y``; `driver` names the driver that prescribes the joint's motion instead, `turned_by`
     the one that prescribes the body's angle against the ground, whatever its joint.
@@ -29,7 +30,7 @@ class Branch:
     body: str
     parent: str
     joint: str
-    kind: Kind
+    freedom: Freedom | Literal["all"]
     parent_point: str
     body_point: str
     outward: bool
@@ -68,7 +69,7 @@ def spanning_tree(scene: Scene) -> Tree:
     """
     drivers = {driver.joint: name for name, driver in scene.drivers.items() if driver.joint}
     turning = {driver.body: name for name, driver in scene.drivers.items() if driver.body}
-    ideal = {name: joint for name, joint in scene.joints.items() if not has_play(joint)}
+    ideal = {name: joint for name, joint in scene.joints.items() if not joint.has_play}
     branches: list[Branch] = []
     used: set[str] = set()
     reached = ["ground"]
@@ -79,10 +80,9 @@ def spanning_tree(scene: Scene) -> Tree:
             parent = reached[position]
             position += 1
             for name, joint in ideal.items():
-                if isinstance(joint, PinInSlot | CamJoint):  # they hold a body less than needed
+                if joint.freedom not in CARRYING:  # they hold a body less than needed
                     continue
-                (_, first), (_, second) = ends(joint)
-                sides = [first.split("."), second.split(".")]
+                sides = [point.split(".") for point in joint.points]
                 if name in used or parent not in (sides[0][0], sides[1][0]):
                     continue
                 outward = sides[0][0] == parent
@@ -92,7 +92,7 @@ def spanning_tree(scene: Scene) -> Tree:
                 used.add(name)
                 turned_by = turning.get(there[0])
                 driver = drivers.get(name)
-                if turned_by and here[0] == "ground" and outward and isinstance(joint, Revolute):
+                if turned_by and here[0] == "ground" and outward and joint.freedom == "turn":
                     driver, turned_by = turned_by, None  # the joint's angle is the body's
                 reached.append(there[0])
                 branches.append(
@@ -100,7 +100,7 @@ def spanning_tree(scene: Scene) -> Tree:
                         body=there[0],
                         parent=parent,
                         joint=name,
-                        kind=joint.type,
+                        freedom=joint.freedom,
                         parent_point=here[1],
                         body_point=there[1],
                         outward=outward,
@@ -116,15 +116,13 @@ def spanning_tree(scene: Scene) -> Tree:
         reached.append(root)
         turned_by = turning.get(root)
         freedom = (f"{root}.x", f"{root}.y", *([] if turned_by else [f"{root}.theta"]))
-        branches.append(Branch(root, "ground", "", "free", "", "", True, freedom, None, turned_by))
+        branches.append(Branch(root, "ground", "", "all", "", "", True, freedom, None, turned_by))
     closing = (*(name for name in ideal if name not in used), *scene.gears)
-    play = tuple(name for name, joint in scene.joints.items() if has_play(joint))
+    play = tuple(name for name, joint in scene.joints.items() if joint.has_play)
     return Tree(tuple(branches), closing, play, tuple(contact_pairs(scene)))
 
 
-def _coordinates(
-    body: str, joint: Revolute | Prismatic | Fixed, driver: str | None
-) -> tuple[str, ...]:
-    if driver is not None or isinstance(joint, Fixed):
+def _coordinates(body: str, joint: Joint, driver: str | None) -> tuple[str, ...]:
+    if driver is not None or joint.freedom == "none":
         return ()
-    return (f"{body}.theta",) if isinstance(joint, Revolute) else (f"{body}.s",)
+    return (f"{body}.theta",) if joint.freedom == "turn" else (f"{body}.s",)

@@ -13,9 +13,7 @@ from jointplay.solver.kernels.loop.runs import SAMPLES
 from jointplay.solver.kernels.record.rows import Rows
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.lane_results import peaks_of
-from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.pairs import has_play
 
 ROUNDING = 1e-9
 """Share of the largest push up to which a pull is none."""
@@ -33,11 +31,7 @@ class Pulled(NamedTuple):
 
 def followers(scene: Scene) -> list[str]:
     """Return the ideal followers of a scene."""
-    return [
-        name
-        for name, joint in scene.joints.items()
-        if isinstance(joint, CamJoint) and not has_play(joint)
-    ]
+    return [name for name, joint in scene.joints.items() if joint.one_sided and not joint.has_play]
 
 
 def force_of(name: str) -> str:

@@ -6,11 +6,11 @@ from fnmatch import fnmatchcase
 from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
-from jointplay.solver.scene.cams import CamJoint
+from jointplay.solver.joints import Joint
+from jointplay.solver.joints.joint import Table
 from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Output, Scene
-from jointplay.solver.scene.joints import Joint
-from jointplay.solver.scene.pairs import has_play, pairs_of
+from jointplay.solver.scene.pairs import pairs_of
 from jointplay.solver.scene.references import inner_states
 from jointplay.solver.scene.structure import per_structure
 
@@ -38,10 +38,7 @@ POINT = (
 """Channels of points that are recorded."""
 LONGEST_RECORDED = 61
 """Characters of a recorded point's reference: names of channels have 64 at most."""
-HOLDING = ("prismatic", "fixed")
-"""Types of joints that let no angle change."""
 HELD = (("moment", "N m", "moment on the joint's second body (slider, part) about its point"),)
-GEAR = (("moment", "N m", "moment on the journal's body of the second joint"),)
 PLAY = (
     ("eccentricity_x", "m", "journal centre less bearing centre, x"),
     ("eccentricity_y", "m", "journal centre less bearing centre, y"),
@@ -59,12 +56,7 @@ WALL = (
     ("friction_force", "N", "friction force on the slider along the tangent"),
     ("slip_velocity", "m/s", "slip velocity of the slider against the wall"),
 )
-FOLLOWER = (("normal_force", "N", "force of the cam on its follower along the normal; < 0: pulls"),)
-"""Channel of a follower without play, which is held both ways."""
 ENERGY = (("kinetic", "J", "kinetic energy"), ("potential", "J", "potential energy of gravity"))
-
-Table = tuple[tuple[str, str, str], ...]
-"""Quantity, unit and meaning of channels."""
 
 MOST_GLOBS, MOST_UNKNOWN = 256, 32
 """Patterns that are matched, and wrong ones that are named: each is compared with all channels."""
@@ -92,12 +84,12 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
     for name, joint in scene.joints.items():
         for table in _tables(joint):
             add(name, "joint", table)
-        for pair in pairs_of(name, joint) if has_play(joint) else ():
+        for pair in pairs_of(name, joint) if joint.has_play else ():
             states = inner.get(pair.name, ())
             add(pair.name, "joint", PLAY if pair.is_journal else WALL)
             add(pair.name, "joint", tuple((s.name, s.unit, s.long_name) for s in states))
-    for name in scene.gears:
-        add(name, "gear", GEAR)
+    for name, gear in scene.gears.items():
+        add(name, "gear", gear.channels)
     for name, driver in scene.drivers.items():
         turning = turns(scene, driver)
         kind, unit = ("torque", "N m") if turning else ("force", "N")
@@ -113,10 +105,10 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
 def _tables(joint: Joint) -> Iterator[Table]:
     """Yield the tables of a joint's own channels."""
     yield JOINT
-    if joint.type in HOLDING:
+    if joint.holds_angle:
         yield HELD
-    if isinstance(joint, CamJoint) and not has_play(joint):
-        yield FOLLOWER
+    if joint.ideal_channels and not joint.has_play:
+        yield joint.ideal_channels
 
 
 def _recorded(scene: Scene) -> list[Channel]:

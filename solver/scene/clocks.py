@@ -7,7 +7,6 @@ from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.laws.function import Function
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
-from jointplay.solver.scene.joints import Revolute
 
 
 @dataclass(frozen=True)
@@ -24,7 +23,7 @@ class Clock:
 
 def turns(scene: Scene, driver: Driver) -> bool:
     """Return whether a driver prescribes an angle; else it is a displacement."""
-    return driver.joint is None or isinstance(scene.joints[driver.joint], Revolute)
+    return driver.joint is None or scene.joints[driver.joint].freedom == "turn"
 
 
 def timed(scene: Scene) -> dict[str, Varying]:

@@ -8,6 +8,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from jointplay.solver.joints import JOINTS, Gear, Joint
+from jointplay.solver.joints.starts import GuideStart, JournalStart
 from jointplay.solver.laws.force import ELEMENTS, ForceElement
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.quantities.units import (
@@ -15,7 +17,6 @@ from jointplay.solver.quantities.units import (
     Angle,
     AngularVelocity,
     Inertia,
-    Length,
     Mass,
     Name,
     Point,
@@ -25,7 +26,6 @@ from jointplay.solver.quantities.units import (
     quantity,
 )
 from jointplay.solver.scene.drivers import AnyDriver
-from jointplay.solver.scene.joints import Gear, Joint
 
 
 class Body(Strict):
@@ -42,33 +42,8 @@ class Ground(Strict):
     points: Annotated[dict[Name, Point], Field(max_length=256)] = {}
 
 
+AnyJoint = Annotated[Joint, MemberOf(JOINTS, "type", required=True)]
 Element = Annotated[ForceElement, MemberOf(ELEMENTS, "type", required=True)]
-
-
-class JournalStart(Strict):
-    """A journal's start in its bearing, in world axes: its centre less the bearing's.
-
-    Without a rate it moves as the velocities of the bodies say, else not. A journal that starts in
-    contact has its rate of penetration as impact rate, or the floor of that if it is larger.
-    """
-
-    eccentricity: Annotated[list[Length], Field(min_length=2, max_length=2)] = [0.0, 0.0]
-    rate: Annotated[list[Velocity], Field(min_length=2, max_length=2)] | None = None
-
-
-class GuideStart(Strict):
-    """A start of a slider, a pin or a follower off the middle of its play.
-
-    `offset` is how far its point is to the left of the axis, or of a follower away from its
-    profile; `tilt` the angle of a slider's body less that of the centred one; `rate` and
-    `tilt_rate` are how fast these grow. Without a rate it moves as the velocities of the bodies
-    say, else not.
-    """
-
-    offset: Length = 0.0
-    tilt: Angle = 0.0
-    rate: Velocity | None = None
-    tilt_rate: AngularVelocity | None = None
 
 
 class Start(Strict):
@@ -164,7 +139,7 @@ class Scene(Strict):
     ] = None
     ground: Ground = Ground()
     bodies: Annotated[dict[Name, Body], Field(min_length=1, max_length=96)]
-    joints: Annotated[dict[Name, Joint], Field(min_length=1, max_length=128)]
+    joints: Annotated[dict[Name, AnyJoint], Field(min_length=1, max_length=128)]
     gears: Annotated[dict[Name, Gear], Field(max_length=64)] = {}
     drivers: Annotated[dict[Name, AnyDriver], Field(max_length=64)] = {}
     forces: Annotated[dict[Name, Element], Field(max_length=64)] = {}

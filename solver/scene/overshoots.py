@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.laws.function import Function
-from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import MovingDriver
 
@@ -42,8 +41,8 @@ def _functions(scene: Scene) -> Iterator[tuple[str, Function, str]]:
     """Yield the functions of a scene, each with what keeps it within its values."""
     pieces = "a 'piecewise-polynomial' can stay where it is, or give more knots"
     for name, joint in scene.joints.items():
-        if isinstance(joint, CamJoint):
-            yield f"/joints/{name}/profile", joint.profile, pieces
+        for field, function in joint.functions():
+            yield f"/joints/{name}/{field}", function, pieces
     for name, driver in scene.drivers.items():
         if isinstance(driver, MovingDriver):
             yield f"/drivers/{name}/motion", driver.motion, pieces

@@ -6,37 +6,15 @@ from collections.abc import Collection, Iterator
 from jointplay.records.failure import Problem
 from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
+from jointplay.solver.joints import Gear
+from jointplay.solver.joints.starts import GuideStart
 from jointplay.solver.laws.friction.law import InnerState
-from jointplay.solver.scene.cam_profiles import cam_problems
-from jointplay.solver.scene.cams import CamJoint
-from jointplay.solver.scene.document import GuideStart, Scene
+from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
-from jointplay.solver.scene.joints import Fixed, Gear, Joint, PinInSlot, Prismatic, Revolute
-from jointplay.solver.scene.pairs import contact_pairs, has_play
+from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems
 from jointplay.solver.scene.varying_forces import varying_problems
-
-UNDRIVEN = {
-    "fixed": "fixed",
-    "pin-in-slot": "a pin in a slot",
-    "flat-follower": "a cam and its follower",
-    "roller-follower": "a cam and its follower",
-}
-"""Types of joints that have no motion to be driven."""
-
-
-def ends(joint: Joint) -> tuple[tuple[str, str], tuple[str, str]]:
-    """Return the (field, reference) pairs of a joint's first and second point."""
-    if isinstance(joint, Revolute):
-        return ("bearing", joint.bearing), ("journal", joint.journal)
-    if isinstance(joint, Prismatic):
-        return ("guide", joint.guide), ("slider", joint.slider)
-    if isinstance(joint, PinInSlot):
-        return ("slot", joint.slot), ("pin", joint.pin)
-    if isinstance(joint, CamJoint):
-        return ("cam", joint.cam), ("follower", joint.follower)
-    return ("base", joint.base), ("part", joint.part)
 
 
 def inner_states(scene: Scene) -> dict[str, tuple[InnerState, ...]]:
@@ -66,7 +44,7 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
     """Yield the same but for what is wrong with declared parameters."""
     yield from _names(scene)
     for name, joint in scene.joints.items():
-        yield from _points(scene, f"/joints/{name}", ends(joint))
+        yield from _points(scene, f"/joints/{name}", joint.ends)
     for name, force in scene.forces.items():
         pair = (("first", force.first), ("second", force.second))
         yield from _points(scene, f"/forces/{name}", pair)
@@ -76,7 +54,9 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
             yield from _points(scene, f"/forces/{name}/over", other)
     yield from varying_problems(scene)
     yield from size_problems(scene)
-    yield from cam_problems(scene)
+    for name, joint in scene.joints.items():
+        for field, sentence in joint.problems():
+            yield Problem(f"/joints/{name}/{field}", sentence)
     for name, gear in scene.gears.items():
         yield from _gear(scene, f"/gears/{name}", gear)
     for name, driver in scene.drivers.items():
@@ -123,12 +103,12 @@ def _start(scene: Scene) -> Iterator[Problem]:
     for name in start.joints:
         if name not in scene.joints:
             yield Problem(f"/start/joints/{name}", unknown("joint", name, scene.joints))
-        elif not has_play(scene.joints[name]):
+        elif not scene.joints[name].has_play:
             yield Problem(
                 f"/start/joints/{name}",
                 f"Joint '{name}' has no clearance, so its parts have one place; leave it out.",
             )
-        elif not isinstance(scene.joints[name], Revolute):
+        elif not scene.joints[name].is_journal:
             yield Problem(
                 f"/start/joints/{name}",
                 f"Joint '{name}' is no journal in a bearing; say where what it guides starts in"
@@ -143,14 +123,14 @@ def _guided(scene: Scene, place: str, name: str, start: GuideStart) -> Iterator[
     joint = scene.joints.get(name)
     if joint is None:
         yield Problem(place, unknown("joint", name, scene.joints))
-    elif isinstance(joint, Revolute):
+    elif joint.is_journal:
         yield Problem(place, f"'{name}' is a journal; say where it starts in 'joints'.")
-    elif not has_play(joint):
+    elif not joint.has_play:
         yield Problem(
             place,
             f"Joint '{name}' has no clearance, so its parts have one place; leave it out.",
         )
-    elif not isinstance(joint, Prismatic):
+    elif not joint.holds_angle:
         for field in ("tilt", "tilt_rate"):
             if getattr(start, field):
                 sentence = f"What joint '{name}' guides may turn; leave the {field} out."
@@ -226,7 +206,7 @@ def _gear(scene: Scene, place: str, gear: Gear) -> Iterator[Problem]:
         joint = scene.joints.get(name)
         if joint is None:
             yield Problem(f"{place}/{field}", unknown("joint", name, scene.joints))
-        elif not isinstance(joint, Revolute):
+        elif joint.freedom != "turn":
             yield Problem(
                 f"{place}/{field}",
                 f"The bodies of joint '{name}' do not turn against each other: it is"
@@ -254,11 +234,11 @@ def _driver(scene: Scene, name: str, driver: Driver) -> Iterator[Problem]:
     joint = scene.joints.get(joint_name)
     if joint is None:
         yield Problem(f"/drivers/{name}/joint", unknown("joint", joint_name, scene.joints))
-    elif isinstance(joint, Fixed | PinInSlot | CamJoint) or has_play(joint):
+    elif joint.driven_part is None or joint.has_play:
         yield Problem(
             f"/drivers/{name}/joint",
             f"Joint '{joint_name}' cannot be driven: it is "
-            + UNDRIVEN.get(joint.type, "a joint with clearance")
+            + ("a joint with clearance" if joint.driven_part else joint.called)
             + "; drive an ideal revolute or prismatic joint.",
         )
 
@@ -268,8 +248,7 @@ def _driven_body(scene: Scene, name: str, body: str) -> Iterator[Problem]:
     if body not in scene.bodies:
         yield Problem(place, unknown("body", body, scene.bodies))
     for joint_name, joint in scene.joints.items():
-        holds = isinstance(joint, Prismatic | Fixed) and not has_play(joint)
-        if holds and any(reference.split(".")[0] == body for _, reference in ends(joint)):
+        if joint.holds_angle and not joint.has_play and body in joint.bodies:
             yield Problem(
                 place,
                 f"The angle of '{body}' cannot be driven: joint '{joint_name}' holds it. Drive a"

@@ -10,10 +10,9 @@ from pydantic_core import ErrorDetails
 
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import did_you_mean, instead
-from jointplay.solver.quantities.roster import MemberOf, quoted
+from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.scene.unions import is_form
 
-JOINTS = ("revolute", "prismatic", "pin-in-slot", "flat-follower", "roller-follower", "fixed")
 TYPES = frozenset({"float", "str", "none"})
 """Parts of a location that name a branch of a union, not a place in the document."""
 
@@ -35,8 +34,6 @@ SENTENCES = {
     "dict_type": "'{field}' must be an object.",
     "model_type": "'{field}' must be an object.",
     "literal_error": "'{field}' must be {expected}{meant}",
-    "union_tag_invalid": "'type' must be one of {expected_tags}{meant}",
-    "union_tag_not_found": f"The field 'type' is required: {quoted([*JOINTS])}.",
     "too_short": "'{field}' has {actual_length} entries, and needs at least {min_length}.",
     "too_long": "'{field}' has more entries than the {max_length} that it may have.",
     "string_too_long": "'{field}' may have at most {max_length} characters.",
@@ -95,9 +92,8 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
 def _meant_word(item: ErrorDetails) -> str:
     """Return the end of a sentence on a wrong word: which of the expected may have been meant."""
     context = item.get("ctx", {})
-    given = context.get("tag", item["input"])
-    expected = context.get("expected_tags", context.get("expected", ""))
-    words = re.findall("'([^']+)'", expected)
+    given = item["input"]
+    words = re.findall("'([^']+)'", context.get("expected", ""))
     near = did_you_mean(given, words) if isinstance(given, str) else ""
     return f"; {near}" if near else "."
 
@@ -107,9 +103,8 @@ def _place(location: list[str]) -> list[str]:
     place: list[str] = []
     for index, part in enumerate(location):
         last = index == len(location) - 1
-        joint = part in JOINTS and place[-2:-1] == ["joints"]
         kind = last and (part in TYPES or part == "[key]") and index > 1
-        if not (is_form(part) or joint or kind):
+        if not (is_form(part) or kind):
             place.append(part)
     return place
 

@@ -6,8 +6,7 @@ from typing import TypeVar
 
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.latest import once_per_scene
-from jointplay.solver.scene.pairs import has_play
-from jointplay.solver.scene.references import ends, inner_states
+from jointplay.solver.scene.references import inner_states
 
 MOST_KEPT = 256
 """Structures of which something is kept."""
@@ -39,7 +38,7 @@ def _structure(scene: Scene) -> Hashable:
     """Return what scenes of one structure have in common, to look things up by."""
     return (
         tuple(scene.bodies),
-        tuple((name, j.type, ends(j), has_play(j)) for name, j in scene.joints.items()),
+        tuple((name, j.type, j.ends, j.has_play) for name, j in scene.joints.items()),
         tuple(
             (name, tuple(s.name for s in states)) for name, states in inner_states(scene).items()
         ),

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from jointplay.solver.joints import JOINTS, Gear
 from jointplay.solver.scene import channels
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -49,6 +50,8 @@ def test_the_reference_has_what_the_client_can_do(site: Path) -> None:
 
 def test_the_page_on_channels_names_every_quantity() -> None:
     page = (ROOT / "docs" / "channels.md").read_text()
-    tables = ("BODY", "JOINT", "HELD", "GEAR", "PLAY", "WALL", "ENERGY")
-    quantities = {name for table in tables for name, _, _ in getattr(channels, table)}
+    names = ("BODY", "JOINT", "HELD", "PLAY", "WALL", "ENERGY")
+    tables = [Gear.channels, *(getattr(channels, name) for name in names)]
+    tables += [joint.ideal_channels for joint in JOINTS.values()]
+    quantities = {name for table in tables for name, _, _ in table}
     assert [name for name in sorted(quantities) if f"{name}`" not in page] == []

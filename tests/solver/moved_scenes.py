@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import Any
 
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import ends
 from tests.solver.readable_mechanics import Instant
 
 Vector = Sequence[float]
@@ -33,7 +32,7 @@ def translated(scene: Scene, by: Vector) -> Scene:
 
 def ground_side(joint: Any) -> int:
     """Return 1 if the ground is a joint's first end, -1 if its second, else 0."""
-    (_, first), (_, second) = ends(joint)
+    (_, first), (_, second) = joint.ends
     return int(first.startswith("ground.")) - int(second.startswith("ground."))
 
 

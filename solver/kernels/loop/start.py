@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.absolute_holding import world_axis
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Prismatic
 from jointplay.solver.scene.references import inner_states
 
 Floats = NDArray[np.float64]
@@ -44,9 +44,9 @@ def travel(scene: Scene, body: str, pose: Floats, velocity: Floats) -> tuple[Sca
     numbers = view(scene)
     mechanism = AbsoluteMechanism(scene, numbers, close_play=False)
     joint = numbers.joints[spanning_tree(scene).branch(body).joint]
-    assert isinstance(joint, Prismatic)  # noqa: S101  (narrows the type)
-    ux, uy = mechanism.axis(joint, mechanism.marker(joint.guide, pose, velocity))
-    between = mechanism.ends((joint.guide, joint.slider), pose, velocity)
+    assert joint.heading is not None  # noqa: S101  (narrows the type)
+    ux, uy = world_axis(joint.heading, mechanism.marker(joint.points[0], pose, velocity))
+    between = mechanism.ends(joint.points, pose, velocity)
     gap, rate, (spin, _) = between.gap, between.rate, between.spins
     turned = spin * (-uy * gap[0] + ux * gap[1])
     return ux * gap[0] + uy * gap[1], ux * rate[0] + uy * rate[1] + turned

@@ -8,7 +8,6 @@ from jointplay.solver.kernels.record.knots import KnotsOnPath, knots_on_path
 from jointplay.solver.kernels.record.reachable import reachable
 from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.mechanics.closing_rows import closing_rows
-from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
 from jointplay.solver.mechanics.loops import Loops
@@ -16,6 +15,7 @@ from jointplay.solver.mechanics.observe import channel_values, ledger_rates, sto
 from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import view
+from jointplay.solver.quantities.frames import Pair
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
@@ -202,10 +202,10 @@ def _windings(scene: Scene, tree: Tree, recorder: Recorder) -> dict[str, Express
         if branch.turned_by in steady:
             found[branch.body] = recorder.variable(f"wound{drivers.index(branch.turned_by)}")
         wound = found.get(branch.parent)
-        free = branch.kind == "free" or f"{branch.body}.theta" in branch.coordinates
+        free = branch.freedom == "all" or f"{branch.body}.theta" in branch.coordinates
         if free or branch.turned_by is not None:
             continue
-        if branch.kind == "revolute" and branch.driver in steady:
+        if branch.freedom == "turn" and branch.driver in steady:
             own = recorder.variable(f"wound{drivers.index(branch.driver)}")
             own = own if branch.outward else -own
             wound = own if wound is None else wound + own

@@ -13,7 +13,6 @@ from jointplay.solver.mechanics.start.drawing import drawn_angles
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Fixed, Prismatic, Revolute
 
 NOWHERE: Mapping[str, Floats] = MappingProxyType({})
 
@@ -34,7 +33,8 @@ def first_angles(scene: Scene, chosen: Mapping[str, float] | None = None) -> dic
     for branch in spanning_tree(scene).branches:
         joint = scene.joints.get(branch.joint)
         offset = 0.0
-        if isinstance(joint, Prismatic | Fixed):
+        holds = joint is not None and joint.holds_angle
+        if joint is not None and holds:
             offset = joint.angle
         elif branch.driver is not None:
             driver = scene.drivers[branch.driver]
@@ -45,9 +45,9 @@ def first_angles(scene: Scene, chosen: Mapping[str, float] | None = None) -> dic
             turning = scene.drivers[branch.turned_by]
             angles[branch.body] = turning.at(turning.clock_start).value
             continue
-        prescribed = branch.driver is not None and isinstance(joint, Revolute)
+        prescribed = branch.driver is not None and branch.freedom == "turn"
         if prescribed or given is None:
-            held = prescribed or isinstance(joint, Prismatic | Fixed)
+            held = prescribed or holds
             angles[branch.body] = carried if held else 0.0
         else:
             angles[branch.body] = given

@@ -1,6 +1,5 @@
 """Joints with play that start open, where what is given needs their play and is within it."""
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,10 +10,7 @@ from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.start.given import Given, Rows
 from jointplay.solver.mechanics.start.levels import approach
 from jointplay.solver.mechanics.start.pose import KEPT, Places, named_bodies
-from jointplay.solver.quantities.scalars import sine_cosine
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Clearance, SliderClearance
-from jointplay.solver.scene.pairs import pairs_of
 
 
 def opened(places: Places, guess: Floats, kept: Sequence[Given]) -> Floats | None:
@@ -69,16 +65,5 @@ def within_play(places: Places, scene: Scene, pose: Floats) -> bool:
 
 
 def _is_within(scene: Scene, name: str, parts: dict[str, float], length: float) -> bool:
-    rounding = KEPT * length
-    for pair in pairs_of(name, scene.joints[name]):
-        clearance, play = pair.clearance, pair.play + rounding
-        if isinstance(clearance, Clearance):
-            fits = math.hypot(parts["x"], parts["y"]) <= play
-        elif isinstance(clearance, SliderClearance):
-            turned = 0.5 * clearance.length * abs(sine_cosine(parts["angle"])[0])
-            fits = abs(parts["normal"]) + turned <= play
-        else:  # away from a cam there is room
-            fits = (-parts["normal"] if pair.cam else abs(parts["normal"])) <= play
-        if not fits:
-            return False
-    return True
+    joint = scene.joints[name]
+    return joint.is_within(parts, (joint.slack.play if joint.slack else 0.0) + KEPT * length)

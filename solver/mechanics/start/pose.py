@@ -23,8 +23,6 @@ from jointplay.solver.mechanics.start.levels import MOST_ITERATIONS, approach
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Fixed, Prismatic
-from jointplay.solver.scene.references import ends
 
 CLOSED = 1e-11
 """Largest residual, in lengths of the shortest link, of an assembled mechanism."""
@@ -163,9 +161,8 @@ def _turning_with(places: Places, body: str) -> list[str]:
     reached = [body]
     for here in reached:
         for joint in places.scene.joints.values():
-            pair = [reference.split(".")[0] for _, reference in ends(joint)]
-            if isinstance(joint, Prismatic | Fixed) and here in pair:
-                reached += [one for one in pair if one not in [*reached, "ground"]]
+            if joint.holds_angle and here in joint.bodies:
+                reached += [one for one in joint.bodies if one not in [*reached, "ground"]]
     return reached
 
 
@@ -214,7 +211,7 @@ def _from_zero(places: Places, pose: Floats) -> float:
     ]
     still = np.zeros_like(pose)
     for joint in places.closed.numbers.joints.values():
-        if isinstance(joint, Prismatic):
-            between = places.closed.ends((joint.guide, joint.slider), pose, still)
+        if joint.freedom == "slide":
+            between = places.closed.ends(joint.points, pose, still)
             turned.append(math.hypot(*between.gap) / places.length)
     return math.hypot(*turned)

@@ -17,8 +17,6 @@ from jointplay.solver.mechanics.start.given import Given, Rows, given_rates, wit
 from jointplay.solver.mechanics.start.levels import Steps, off, step_of
 from jointplay.solver.mechanics.start.pose import KEPT, Places
 from jointplay.solver.quantities.scalars import greatest
-from jointplay.solver.scene.cams import CamJoint
-from jointplay.solver.scene.references import ends
 
 HOLDS = 1e-12
 """Share of the largest rate that is given or driven by which one that holds may be off."""
@@ -86,10 +84,10 @@ def _moves_along(places: Places, row: Row) -> bool:
     """Whether the parts of a joint with play move with one another, if nothing else is said."""
     thrown = places.scene.start.velocities
     joint = places.scene.joints[row.joint]
-    if any(reference.split(".")[0] in thrown for _, reference in ends(joint)):
+    if any(body in thrown for body in joint.bodies):
         return False
     # a follower that is given a place away from its cam is not carried along
-    return not isinstance(joint, CamJoint) or bool(abs(row.value) <= KEPT * places.length)
+    return not joint.one_sided or bool(abs(row.value) <= KEPT * places.length)
 
 
 def _still(places: Places, pose: Floats) -> Rows:

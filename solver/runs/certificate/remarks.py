@@ -10,7 +10,6 @@ from jointplay.solver.runs.certificate.slow_impacts import slow_impacts
 from jointplay.solver.runs.lane_results import peaks_of
 from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.joints import Clearance
 from jointplay.solver.scene.pairs import contact_pairs
 
 UNLIKE, CHANCE = 0.25, 4.0
@@ -110,9 +109,9 @@ def _latched(companions: Companions, scene: Scene, half: float) -> str:
 def _beyond_law(companions: Companions, scene: Scene) -> str:
     """Return a remark where contacts were deeper than the formula of their law goes."""
     deepest = {
-        f"{name}.penetration": float(pair.clearance.contact.deepest(pair.clearance))
+        f"{name}.penetration": float(pair.of.deepest)
         for name, pair in contact_pairs(scene).items()
-        if isinstance(pair.clearance, Clearance)
+        if math.isfinite(pair.of.deepest)
     }
     peaks = peaks_of(companions.bundle, RUN, list(deepest))
     found = [

@@ -68,8 +68,8 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
     ),
     "a misspelt type of joint": (
         {"/joints/A/type": "revolut"},
-        "/joints/A",
-        ["'type' must be one of 'revolute', 'prismatic'", "did you mean 'revolute'?"],
+        "/joints/A/type",
+        ["'type' must be 'revolute', 'prismatic'", "did you mean 'revolute'?"],
     ),
     "a misspelt law": (
         {"/joints/A/clearance": PLAY | {"contact": {"law": "lankarani-nikraves"}}},

@@ -22,7 +22,7 @@ BAD_SCENES: dict[str, Refused] = {
     "unknown point": (at(f"{A}/journal", "link2.Z"), f"{A}/journal", "point"),
     "malformed reference": (at(f"{A}/journal", "link2"), f"{A}/journal", ""),
     "unknown field": (at(f"{A}/slack", 1.0), f"{A}/slack", "There is no field"),
-    "unknown joint type": (at(f"{A}/type", "ball"), A, ""),
+    "unknown joint type": (at(f"{A}/type", "ball"), f"{A}/type", ""),
     "unknown law": (
         at(f"{A}/clearance/contact/law", "glue"),
         f"{A}/clearance/contact/law",

@@ -3,13 +3,14 @@
 import json
 import re
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import jsonschema
 import pytest
 
+from jointplay.solver.joints import JOINTS, Gear, starts
 from jointplay.solver.kinds import admit
-from jointplay.solver.scene import document, drivers, joints, presets
+from jointplay.solver.scene import document, drivers, presets
 from jointplay.solver.scene.schema import scene_schema
 from tests.solver.completed_runs import run
 
@@ -17,9 +18,13 @@ PAGE = (Path(__file__).resolve().parents[3] / "docs" / "scene.md").read_text()
 BLOCKS = re.findall(r"^```json\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
 OWN = {
     name
-    for module in (document, joints, drivers)
+    for module in (document, starts, drivers)
     for name, value in vars(module).items()
     if isinstance(value, type)
+} | {
+    part.__name__
+    for joint in (*JOINTS.values(), Gear)
+    for part in (joint, *get_args(getattr(joint.model_fields.get("clearance"), "annotation", None)))
 }
 """Parts of a scene whose fields the page explains; those of laws and elements are in the schema."""
 

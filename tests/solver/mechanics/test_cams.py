@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
-from jointplay.solver.mechanics.frames import cross
+from jointplay.solver.quantities.frames import cross
 from tests.solver.cams import CIRCLE, ECCENTRICITY, RADIUS, follower, pitch_table, rocker, valve
 from tests.solver.mechanics.test_mechanics import assert_formulations_agree
 from tests.solver.moved_scenes import flip

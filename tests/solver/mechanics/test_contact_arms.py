@@ -13,13 +13,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from jointplay.solver.joints import JOINTS
+from jointplay.solver.joints.contact import Contact
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.motion import forces_between
-from jointplay.solver.mechanics.play import Contact
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import pairs_of
-from jointplay.solver.scene.sizes import PLAY
 from tests.solver.mechanics import contact_shapes
 from tests.solver.mechanics.contact_shapes import Array, Shape, Touch, turned
 from tests.solver.readable_mechanics import scene_of
@@ -31,6 +31,7 @@ LAW = {"law": "lankarani-nikravesh", "stiffness": 1e15, "restitution": 0.5}
 UNDAMPED = 1e6
 """Impact rate, m/s, beside which rates count for nothing, so that no pair lets go."""
 RUBS = {"contact": LAW, "friction": {"coefficient": 0.4}}
+WITH_PLAY = [kind for kind, joint in JOINTS.items() if "clearance" in joint.model_fields]
 SHAPES: dict[str, Shape] = {
     "revolute": contact_shapes.journal,
     "prismatic": contact_shapes.corner,
@@ -170,7 +171,7 @@ def generalised(trial: Trial, found: Contact) -> Array:
     return np.array([*-force, on_first, *force, acting.moment_on_second + LEFT @ second @ force])
 
 
-@pytest.mark.parametrize("kind", PLAY)
+@pytest.mark.parametrize("kind", WITH_PLAY)
 @settings(max_examples=40)
 @given(data=st.data())
 def test_a_pair_pushes_and_rubs_where_the_surfaces_touch(kind: str, data: st.DataObject) -> None:

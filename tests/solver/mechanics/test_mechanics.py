@@ -10,8 +10,6 @@ from hypothesis import strategies as st
 
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.pairs import has_play
-from jointplay.solver.scene.references import ends
 from tests.solver.random_mechanisms import closed, instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, at_start, preset
 
@@ -90,7 +88,7 @@ def contact_points(
     """Return where the forces act, r_i + R_i n and r_j + R_j n, and on which bodies."""
     joint = instant.scene.joints[name]
     (bearing, r_i), (journal, r_j) = (
-        point_of(instant, motion, reference) for _, reference in ends(joint)
+        point_of(instant, motion, reference) for _, reference in joint.ends
     )
     n = np.array(motion.contacts[name].normal)
     radius = joint.clearance.bearing_radius  # type: ignore[union-attr]
@@ -161,7 +159,7 @@ def turning_efforts(scene: Scene, motion: Motion) -> Iterator[tuple[str, float]]
             yield driver.body, effort
             continue
         joint = scene.joints[driver.joint]
-        for sense, (_, reference) in zip((-1.0, 1.0), ends(joint), strict=True):
+        for sense, (_, reference) in zip((-1.0, 1.0), joint.ends, strict=True):
             body = reference.split(".")[0]
             if body != "ground" and joint.type == "revolute":
                 yield body, sense * effort
@@ -186,8 +184,8 @@ def test_every_body_obeys_newton_and_euler_under_its_joint_forces(instant: Insta
         on_second = np.array(motion.joint_force[name])
         places = (
             contact_points(instant, motion, name)
-            if has_play(joint)
-            else [point_of(instant, motion, reference) for _, reference in ends(joint)]
+            if joint.has_play
+            else [point_of(instant, motion, reference) for _, reference in joint.ends]
         )
         for sense, (body, place) in zip((-1.0, 1.0), places, strict=True):
             if body == "ground":

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from jointplay.solver.mechanics.frames import cross
+from jointplay.solver.quantities.frames import cross
 from jointplay.solver.scene.references import reference_problems
 from tests.solver.moved_scenes import mirrored, turned
 from tests.solver.random_mechanisms import near_start, numbers

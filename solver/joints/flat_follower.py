@@ -1,0 +1,87 @@
+"""A flat face on a cam.
+
+With g from the cam's centre to the follower's point, u the normal of the face, from the cam
+outwards, and α the direction of u in the cam's axes, the face is at u·g - p(α) from the profile p:
+that is the cam's support function, so that the face touches it at p u + p' w, w to the left of u.
+
+Source: Angeles and López-Cajún 1991, Optimization of Cam Mechanisms (support functions).
+"""
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.joints.cam import CamJoint, Lift
+from jointplay.solver.joints.contact import Meeting
+from jointplay.solver.joints.holding import Distance
+from jointplay.solver.laws.force import Ends
+from jointplay.solver.laws.function import Derivatives
+from jointplay.solver.quantities.frames import Pair, dot, left, plus, scaled, turned, unit
+from jointplay.solver.quantities.scalars import Scalar, direction_angle
+from jointplay.solver.quantities.units import Direction, Rule
+
+FACE = (
+    Rule(
+        "normal",
+        lambda joint: (joint.normal[0] == 0.0) & (joint.normal[1] == 0.0),
+        lambda _joint: "The normal has no direction; give e.g. [0, 1].",
+    ),
+)
+
+
+class FlatFollower(CamJoint):
+    """A flat face, through the follower's point, on a convex cam.
+
+    `normal` points out of the cam, in the follower's axes. The profile is the distance of the face
+    from the cam's centre, over the direction of that normal.
+    """
+
+    rules: ClassVar[tuple[Rule, ...]] = FACE
+    type: Literal["flat-follower"]
+    normal: Direction
+
+    def lift(self, between: Ends) -> Lift:
+        """Return u·g - p(α)."""
+        gap, velocity, (cam, follower) = between.gap, between.rate, between.spins
+        u = self._face(between)
+        w = left(u)
+        x, y = self.normal
+        p = self.profile.at(direction_angle(x, y) + between.angles[1] - between.angles[0])
+        along, aside, turning = dot(u, gap), dot(w, gap), follower - cam
+        on_follower = aside - p.slope
+        bias = 2.0 * (follower * dot(w, velocity)) - (follower * follower) * along
+        distance = Distance(
+            along - p.value,
+            u,
+            p.slope,
+            on_follower,
+            dot(u, velocity) + on_follower * follower + p.slope * cam,
+            bias - p.curvature * (turning * turning),
+        )
+        return Lift(distance, p)
+
+    def meeting(self, between: Ends, found: Lift, lash: Scalar) -> Meeting:
+        """Return where the surface touches the face.
+
+        The surface's support function is the profile's less the lash, with the same slope.
+        """
+        u, p = self._face(between), found.profile
+        touching = plus(scaled(u, p.value - lash), scaled(left(u), p.slope))
+        arm = plus(touching, scaled(between.gap, -1.0))
+        return Meeting(scaled(u, -1.0), u, arm, -found.distance.value, lash)
+
+    def unreached(self, angles: Floats, profile: Derivatives) -> Iterator[tuple[str, str]]:
+        """Yield where the cam is not convex."""
+        radius = profile.value + profile.curvature
+        least = int(radius.argmin())
+        if radius[least] <= 0.0:
+            yield (
+                "profile",
+                f"At {angles[least]:.3g} rad the cam is not convex (radius of curvature"
+                f" {radius[least]:.4g} m), so that a flat face does not reach it; enlarge the base"
+                " radius, or lift more slowly.",
+            )
+
+    def _face(self, between: Ends) -> Pair:
+        """Return u in the world's axes."""
+        return turned(unit(self.normal), between.turned[1])

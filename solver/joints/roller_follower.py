@@ -1,0 +1,86 @@
+"""A roller on a cam.
+
+With g from the cam's centre to the roller's and α the direction of g in the cam's axes, the roller
+is at |g| - p(α) from the profile p, the cam's pitch curve.
+
+Source: Angeles and López-Cajún 1991, Optimization of Cam Mechanisms (pitch curves).
+"""
+
+from collections.abc import Iterator
+from typing import Literal
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.joints.cam import CENTRED, CamJoint, Lift
+from jointplay.solver.joints.contact import Meeting
+from jointplay.solver.joints.holding import Distance
+from jointplay.solver.laws.force import Ends
+from jointplay.solver.laws.function import Derivatives
+from jointplay.solver.quantities.frames import dot, left, plus, scaled
+from jointplay.solver.quantities.scalars import Scalar, direction_angle, sqrt
+from jointplay.solver.quantities.units import Radius
+
+
+class RollerFollower(CamJoint):
+    """A roller about the follower's point, on a cam.
+
+    The profile is the distance of the roller's centre from the cam's, over the direction in which
+    it lies.
+    """
+
+    type: Literal["roller-follower"]
+    roller_radius: Radius
+
+    def lift(self, between: Ends) -> Lift:
+        """Return |g| - p(α)."""
+        (x, y), velocity, (cam, _) = between.gap, between.rate, between.spins
+        cosine, sine = between.turned[0]
+        p = self.profile.at(direction_angle(cosine * x + sine * y, cosine * y - sine * x))
+        distance = sqrt(x * x + y * y)
+        inverse = 1.0 / (distance + CENTRED)
+        e = (x * inverse, y * inverse)
+        f = left(e)
+        slant = p.slope * inverse
+        along = (e[0] - slant * f[0], e[1] - slant * f[1])
+        outwards, around = dot(e, velocity), dot(f, velocity) * inverse
+        turning = around - cam
+        bias = distance * (around * around) + 2.0 * (slant * (outwards * around))
+        found = Distance(
+            distance - p.value,
+            along,
+            p.slope,
+            0.0,
+            dot(along, velocity) + p.slope * cam,
+            bias - p.curvature * (turning * turning),
+        )
+        return Lift(found, p)
+
+    def meeting(self, between: Ends, found: Lift, lash: Scalar) -> Meeting:
+        """Return where the cam is nearest to the roller's centre.
+
+        With L the distance along the radius and c the cosine of the angle between radius and
+        normal, the depth is -L c, and falls along c ∇L + L ∇c.
+        """
+        p, (x, y), lift = found.profile, between.gap, found.distance
+        square = p.value * p.value + p.slope * p.slope
+        inverse = 1.0 / sqrt(square)
+        cosine = p.value * inverse
+        bent = p.slope * (p.slope * p.slope - p.value * p.curvature) * (inverse * inverse * inverse)
+        apart = 1.0 / (x * x + y * y + CENTRED)
+        around = scaled((-y, x), lift.value * bent * apart)
+        push = plus(scaled(lift.along, cosine), around)
+        n = scaled(push, -1.0 / sqrt(dot(push, push)))
+        return Meeting(n, push, scaled(n, self.roller_radius), -(lift.value * cosine), lash)
+
+    def unreached(self, angles: Floats, profile: Derivatives) -> Iterator[tuple[str, str]]:
+        """Yield where the roller is too large for the bends of its path."""
+        value, slope, curvature = profile
+        bends = value**2 + 2.0 * slope**2 - value * curvature
+        bends /= (value**2 + slope**2) ** 1.5
+        most = int(bends.argmax())
+        if bends[most] * self.roller_radius >= 1.0:
+            yield (
+                "roller_radius",
+                f"At {angles[most]:.3g} rad the path of the roller's centre has a radius of"
+                f" {1.0 / bends[most]:.4g} m, within which a roller of {self.roller_radius:g} m"
+                " cuts the cam away; make it smaller, or enlarge the base radius.",
+            )
