@@ -2,40 +2,45 @@
 
 import math
 from collections.abc import Mapping
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
 
 from jointplay.figures import page
 from jointplay.figures.mechanism_geometry import GROUND, Pose, placed, world
-from jointplay.figures.scene_facts import PLAY
 from jointplay.records.arrays import Floats
+from jointplay.records.joint_marks import marks_of, play_of
 
+Curves = tuple[Floats | None, Floats | None]
+"""Outline of a cam, if there is one, and a line."""
 ANGLES = np.linspace(0.0, 2.0 * math.pi, 361)
-FOLLOWERS = ("flat-follower", "roller-follower")
 _APART = 1e-4
 """Angle between the two values of a slope [rad]: errors of 1e-8 of a wave, rounding below 1e-11."""
 _FACE = 0.6
 """Half the length of a face that is drawn, in means of the profile."""
 
 
-def cam_curves(scene: Mapping[str, Any], pose: Pose) -> list[tuple[Floats, Floats]]:
-    """Return the outline of each cam, (2, angles) m, and that of what it moves."""
-    found = []
+def cam_curves(scene: Mapping[str, Any], pose: Pose) -> list[Curves]:
+    """Return the outline of each cam with what it moves, and the circles that joints are drawn by.
+
+    (2, points) m in the world.
+    """
+    found: list[Curves] = []
     for joint in scene["joints"].values():
-        if joint["type"] not in FOLLOWERS:
-            continue
-        (cam, centre), (follower, point) = (joint[end].split(".") for end in ("cam", "follower"))
-        outline, _ = surface(joint, ANGLES)
-        if joint["type"] == "flat-follower":
-            x, y = joint["normal"]
+        marks = marks_of(joint)
+        ends, cam = [joint[end].split(".") for end in marks["ends"]], marks["cam"]
+        outlines, moved = [], []
+        if cam:
+            outlines.append(_world(scene, pose, *ends[0], surface(joint, ANGLES)[0]))
+        if "face" in cam:
+            x, y = joint[cam["face"]]
             across = np.array([-y, x]) / math.hypot(x, y) * _FACE * mean_profile(joint)
-            moved = np.stack([-across, across], axis=1)
-        else:
-            moved = joint["roller_radius"] * np.stack([np.cos(ANGLES), np.sin(ANGLES)])
-        found.append(
-            (_world(scene, pose, cam, centre, outline), _world(scene, pose, follower, point, moved))
-        )
+            moved.append(_world(scene, pose, *ends[1], np.stack([-across, across], axis=1)))
+        for end, radius in marks["circles"]:
+            circle = joint[radius] * np.stack([np.cos(ANGLES), np.sin(ANGLES)])
+            moved.append(_world(scene, pose, *ends[end], circle))
+        found += zip_longest(outlines, moved)
     return found
 
 
@@ -44,24 +49,24 @@ def surface(joint: Mapping[str, Any], angles: Floats) -> tuple[Floats, Floats]:
 
     In the cam's axes; the follower, as it has the (n,) angles of the profile, touches it there.
     """
-    clearance = joint.get("clearance") or {}
-    lash = max((float(clearance.get(field, 0.0)) for field in PLAY), default=0.0)
-    value = _profile(joint["profile"], angles)
-    slope = _slope(joint["profile"], angles)
+    lash, cam = play_of(joint), marks_of(joint)["cam"]
+    value = _profile(joint[cam["profile"]], angles)
+    slope = _slope(joint[cam["profile"]], angles)
     away = np.stack([np.cos(angles), np.sin(angles)])
     aside = np.stack([-np.sin(angles), np.cos(angles)])
-    if joint["type"] == "flat-follower":
+    if "face" in cam:
         return (value - lash) * away + slope * aside, away
     normal = value * away - slope * aside
     normal = normal / np.hypot(*normal)
-    return value * away - (joint["roller_radius"] + lash) * normal, normal
+    return value * away - (joint[cam["roller"]] + lash) * normal, normal
 
 
 def profile_angle(scene: Mapping[str, Any], joint: Mapping[str, Any], pose: Pose) -> float:
     """Return the angle of a follower in its cam's axes, which its profile is over [rad]."""
-    cam, follower = (str(joint[end]) for end in ("cam", "follower"))
-    if joint["type"] == "flat-follower":
-        x, y = joint["normal"]
+    marks = marks_of(joint)
+    cam, follower = (str(joint[end]) for end in marks["ends"])
+    if "face" in marks["cam"]:
+        x, y = joint[marks["cam"]["face"]]
         turned = _angle(follower, pose)
     else:
         x, y = np.subtract(world(scene, pose, follower), world(scene, pose, cam)).tolist()
@@ -71,21 +76,27 @@ def profile_angle(scene: Mapping[str, Any], joint: Mapping[str, Any], pose: Pose
 
 def cam_angle(joint: Mapping[str, Any], pose: Pose) -> float:
     """Return by what the axes of a cam are turned in the world [rad]."""
-    return _angle(str(joint["cam"]), pose)
+    return _angle(str(joint[marks_of(joint)["ends"][0]]), pose)
 
 
 def mean_profile(joint: Mapping[str, Any]) -> float:
     """Return the mean of a cam's profile over a turn [m]."""
-    return float(_profile(joint["profile"], ANGLES[:-1]).mean())
+    return float(_profile(joint[marks_of(joint)["cam"]["profile"]], ANGLES[:-1]).mean())
 
 
-def draw_cams(axes: page.Axes, curves: list[tuple[Floats, Floats]], metre: float) -> None:
-    """Draw cams as faces with an edge, and what they move as a line."""
+def draw_cams(axes: page.Axes, curves: list[Curves], metre: float) -> None:
+    """Draw cams as faces with an edge, and what they move, and circles, as lines."""
+    look: page.Look = {
+        "facecolor": "#DDDDDD",
+        "edgecolor": "#404040",
+        "linewidth": 0.8,
+        "zorder": 1,
+    }
     for outline, moved in curves:
-        axes.fill(
-            *(outline / metre), facecolor="#DDDDDD", edgecolor="#404040", linewidth=0.8, zorder=1
-        )
-        axes.plot(*(moved / metre), color="#404040", linewidth=1.2, zorder=3)
+        if outline is not None:
+            axes.fill(*(outline / metre), **look)
+        if moved is not None:
+            axes.plot(*(moved / metre), color="#404040", linewidth=1.2, zorder=3)
 
 
 def _world(scene: Mapping[str, Any], pose: Pose, body: str, point: str, curve: Floats) -> Floats:

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from jointplay.figures.scene_facts import PLAY
 from jointplay.records.arrays import Floats
+from jointplay.records.joint_marks import marks_of, play_of
 
 Point = tuple[float, float]
 Segment = tuple[Point, Point]
@@ -100,33 +100,24 @@ class Geometry:
 def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
     """Place everything that the scene document names."""
     bearings = [
-        size
+        joint["clearance"][marks_of(joint)["size"]]
         for joint in scene["joints"].values()
-        for field, size in (joint.get("clearance") or {}).items()
-        if field in ("bearing_radius", "pin_radius", "height")
+        if joint.get("clearance") and marks_of(joint)["size"]
     ]
     motors = scene.get("drivers", {}).values()
     driven, moved = ({driver.get(of) for driver in motors} for of in ("joint", "body"))
     joints = []
     for name, joint in scene["joints"].items():
-        kind = joint["type"]
-        first, second = {
-            "revolute": ("bearing", "journal"),
-            "prismatic": ("guide", "slider"),
-            "pin-in-slot": ("slot", "pin"),
-            "flat-follower": ("cam", "follower"),
-            "roller-follower": ("cam", "follower"),
-            "fixed": ("base", "part"),
-        }[kind]
+        marks = marks_of(joint)
+        first, second = marks["ends"]
         bodies = (joint[first].partition(".")[0], joint[second].partition(".")[0])
         axis = None
-        if kind in ("prismatic", "pin-in-slot"):
-            turned = 0.0 if bodies[0] == GROUND else pose[bodies[0]][2]
-            axis = turned + math.atan2(joint["axis"][1], joint["axis"][0])
+        if marks["axis"]:
+            axis = heading(joint, pose)
         joints.append(
             JointMark(
                 name=name,
-                look=_look(joint, name in driven or (kind == "revolute" and bodies[1] in moved)),
+                look=_look(joint, name in driven or (marks["turns"] and bodies[1] in moved)),
                 place=world(scene, pose, joint[second]),
                 grounded=GROUND in bodies,
                 axis=axis,
@@ -158,12 +149,19 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
 
 def _look(joint: Mapping[str, Any], driven: bool) -> str:
     """Name the sign that a joint is drawn with; sliders have a rail instead."""
-    if joint["type"] in ("prismatic", "fixed"):
-        return "weld" if joint["type"] == "fixed" else ""
-    clearance = joint.get("clearance") or {}
-    if any(clearance.get(play, 0.0) > 0.0 for play in PLAY):
+    sign = marks_of(joint)["sign"]
+    if sign != "pin":
+        return sign
+    if play_of(joint) > 0.0:
         return WITH_CLEARANCE
     return "driven joint" if driven else "ideal joint"
+
+
+def heading(joint: Mapping[str, Any], pose: Pose) -> float:
+    """Return the angle in the world of the axis of a joint that has one [rad]."""
+    marks = marks_of(joint)
+    owner, (x, y) = joint[marks["ends"][0]].partition(".")[0], joint[marks["axis"]]
+    return (0.0 if owner == GROUND else pose[owner][2]) + math.atan2(y, x)
 
 
 def world(scene: Mapping[str, Any], pose: Pose, reference: str) -> Point:

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from jointplay.figures import colours, page
-from jointplay.figures.mechanism_geometry import GROUND, WITH_CLEARANCE, Geometry, Pose, world
+from jointplay.figures.mechanism_geometry import WITH_CLEARANCE, Geometry, Pose, heading, world
 from jointplay.figures.mechanism_marks import EDGE
 from jointplay.records.arrays import Floats
+from jointplay.records.joint_marks import marks_of, play_of
 
 _SHORTEST = 0.1
 """Length of a slider in extents of the mechanism: shorter ones are drawn larger."""
@@ -34,25 +35,25 @@ def guides(scene: Mapping[str, Any], pose: Pose, extent: float) -> list[Guide]:
     """Place the guides with play of a scene whose mechanism has an extent [m]."""
     found = []
     for joint in scene["joints"].values():
-        clearance = joint.get("clearance") or {}
-        if joint["type"] != "prismatic" or not clearance.get("wall_clearance", 0.0) > 0.0:
+        marks, play = marks_of(joint), play_of(joint)
+        if marks["block"] is None or not play > 0.0:
             continue
-        owner, slider = (joint[end].partition(".")[0] for end in ("guide", "slider"))
-        turned = 0.0 if owner == GROUND else pose[owner][2]
-        angle = turned + math.atan2(joint["axis"][1], joint["axis"][0])
+        length, height = (joint["clearance"][field] for field in marks["block"])
+        guide, slider = (joint[end] for end in marks["ends"])
+        angle = heading(joint, pose)
         along = np.array([math.cos(angle), math.sin(angle)])
         across = np.array([-along[1], along[0]])
-        larger = max(1.0, _SHORTEST * extent / clearance["length"])
-        half = 0.5 * larger * np.array([clearance["length"], clearance["height"]])
-        wall = half[1] + larger * clearance["wall_clearance"]
-        origin = np.array(world(scene, pose, joint["guide"]))
-        centre = np.array(world(scene, pose, joint["slider"]))
+        larger = max(1.0, _SHORTEST * extent / length)
+        half = 0.5 * larger * np.array([length, height])
+        wall = half[1] + larger * play
+        origin = np.array(world(scene, pose, guide))
+        centre = np.array(world(scene, pose, slider))
         middle = origin + along * ((centre - origin) @ along)
         ends = np.array([-1.0, 1.0])[:, None] * _WALLS * half[0] * along
         corners = _CORNERS * half
         found.append(
             Guide(
-                slider,
+                slider.partition(".")[0],
                 centre + corners[:, :1] * along + corners[:, 1:] * across,
                 np.stack([middle + ends + side * wall * across for side in (1.0, -1.0)]),
             )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.mechanism_cams import cam_curves, draw_cams
+from jointplay.figures.mechanism_cams import Curves, cam_curves, draw_cams
 from jointplay.figures.mechanism_elements import (
     Element,
     Wheels,
@@ -21,7 +21,6 @@ from jointplay.figures.mechanism_geometry import Geometry, Point, Pose, geometry
 from jointplay.figures.mechanism_guides import Guide, draw_guides, guides
 from jointplay.figures.mechanism_marks import draw_bodies, draw_joints, draw_rails
 from jointplay.figures.quantity import Scale, scale
-from jointplay.records.arrays import Floats
 
 _MARGIN = 0.1
 """White around the mechanism, in its largest extent."""
@@ -35,7 +34,7 @@ class PlacedScene:
     """All that is drawn of a scene at a pose; lengths in m, in the world."""
 
     shape: Geometry
-    cams: list[tuple[Floats, Floats]]
+    cams: list[Curves]
     gears: list[Wheels]
     elements: list[Element]
     guides: list[Guide]
@@ -55,7 +54,8 @@ class PlacedScene:
 def place(scene: Mapping[str, Any], pose: Pose) -> PlacedScene:
     """Place a scene document, checked, at a pose of all its bodies."""
     curves, gears = cam_curves(scene, pose), wheels(scene, pose)
-    wide = [curve for pair in curves for curve in pair] + [c for g in gears for c in circles(g)]
+    wide = [curve for pair in curves for curve in pair if curve is not None]
+    wide += [circle for gear in gears for circle in circles(gear)]
     shape = geometry(scene, pose)
     walled = guides(scene, pose, shape.size)
     wide += [points.T for guide in walled for points in (guide.slider, *guide.walls)]

@@ -8,10 +8,8 @@ from typing import Any
 
 from jointplay.figures.kind import NotDrawable, Selection
 from jointplay.records.channel import Channel, by_name
+from jointplay.records.joint_marks import marks_of, play_of
 from jointplay.records.run import Source
-
-PLAY = ("radial_clearance", "wall_clearance", "lash")
-"""Fields that say how far a joint's parts may move apart, m."""
 
 
 def outputs(source: Source) -> tuple[str, ...]:
@@ -25,8 +23,7 @@ def clearances(scene_document: Mapping[str, Any]) -> dict[str, float]:
     """Give the clearance [m] of every joint that has one above zero: radial, to a wall, lash."""
     found: dict[str, float] = {}
     for name, joint in scene_document.get("joints", {}).items():
-        clearance = joint.get("clearance") or {}
-        play = max((float(clearance.get(field, 0.0)) for field in PLAY), default=0.0)
+        play = play_of(joint)
         if play > 0.0:
             found[name] = play
     return found
@@ -42,7 +39,7 @@ def chosen_joints(source: Source, selection: Selection) -> dict[str, float]:
     """
     joints = scene(source).get("joints", {})
     found = clearances(scene(source))
-    known = {name: play for name, play in found.items() if joints[name]["type"] == "revolute"}
+    known = {name: play for name, play in found.items() if marks_of(joints[name])["is_journal"]}
     check_joints(known, selection, "revolute joint")
     return {name: known[name] for name in selection.joints or known}
 

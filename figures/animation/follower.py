@@ -17,6 +17,7 @@ from jointplay.figures.mechanism_cams import (
 from jointplay.figures.mechanism_geometry import Pose
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.records.arrays import Floats
+from jointplay.records.joint_marks import marks_of, play_of
 
 ROLLER: Final = 1.0 - GAP
 """Radius of a roller; under a flat face the mean of the cam's profile is 1."""
@@ -45,11 +46,12 @@ class Follower:
         self._scene = scene
         self._joint = joint = scene["joints"][name]
         self._depth, self._force = (columns[f"{name}.{one}"] for one in self.QUANTITIES)
-        self._lash = float(joint["clearance"]["lash"])
+        self._lash = play_of(joint)
         self._deepest = max(float(np.nanmax(self._depth, initial=0.0)), 1e-9)
         self._strongest = float(np.nanmax(self._force, initial=0.0)) or 1.0
-        self._is_flat = joint["type"] == "flat-follower"
-        self._drawn = mean_profile(joint) if self._is_flat else joint["roller_radius"] / ROLLER
+        cam = marks_of(joint)["cam"]
+        self._is_flat = "face" in cam
+        self._drawn = mean_profile(joint) if self._is_flat else joint[cam["roller"]] / ROLLER
         self.magnified = (
             GAP * self._drawn / self._lash,
             DEEPEST * self._drawn / self._deepest,

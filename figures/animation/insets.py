@@ -10,17 +10,16 @@ from jointplay.figures.animation.walls import BetweenWalls
 from jointplay.figures.kind import Selection, at_most
 from jointplay.records.arrays import Floats
 from jointplay.records.channel import by_name
+from jointplay.records.joint_marks import marks_of
 from jointplay.records.run import Source
 
 Inset = Journal | BetweenWalls | Follower
-KINDS: Final[dict[str, type[Journal] | type[BetweenWalls] | type[Follower]]] = {
-    "revolute": Journal,
-    "prismatic": BetweenWalls,
-    "pin-in-slot": BetweenWalls,
-    "flat-follower": Follower,
-    "roller-follower": Follower,
+PICTURES: Final[dict[str, type[Journal] | type[BetweenWalls] | type[Follower]]] = {
+    "journal": Journal,
+    "walls": BetweenWalls,
+    "surface": Follower,
 }
-"""Pictures by the type of the joint."""
+"""Pictures by the name that marks of joints give them."""
 MOST: Final = 6
 """Joints of one film."""
 
@@ -37,9 +36,9 @@ def magnified(source: Source, selection: Selection) -> dict[str, tuple[str, ...]
     """
     joints = scene_facts.scene(source).get("joints", {})
     found = {
-        name: KINDS[joints[name]["type"]].channels(name, joints[name])
+        name: PICTURES[marks_of(joints[name])["picture"]].channels(name, joints[name])
         for name in scene_facts.clearances(scene_facts.scene(source))
-        if joints[name]["type"] in KINDS
+        if marks_of(joints[name])["picture"]
     }
     if selection.joints:
         scene_facts.check_joints(found, selection)
@@ -54,4 +53,5 @@ def insets(
     scene: Mapping[str, Any], names: list[str], columns: Mapping[str, Floats]
 ) -> dict[str, Inset]:
     """Make the pictures of a scene's joints, by name, from (m,) values by channel."""
-    return {name: KINDS[scene["joints"][name]["type"]](name, scene, columns) for name in names}
+    pictures = {name: marks_of(scene["joints"][name])["picture"] for name in names}
+    return {name: PICTURES[picture](name, scene, columns) for name, picture in pictures.items()}

@@ -1,25 +1,17 @@
 """A slider in its guide, and a pin in its slot, magnified, as they stand in the world."""
 
-import math
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from jointplay.figures import page
 from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, shown, turned
-from jointplay.figures.mechanism_geometry import GROUND, Pose
+from jointplay.figures.mechanism_geometry import Pose, heading
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.records.arrays import Floats
+from jointplay.records.joint_marks import marks_of, play_of
 
-CORNERS: Final = {
-    "corner_1": (1.0, 1.0),
-    "corner_2": (-1.0, 1.0),
-    "corner_3": (-1.0, -1.0),
-    "corner_4": (1.0, -1.0),
-}
-"""Places along the axis and across it, in halves of the slider's length and height."""
-SIDES: Final = {"wall_1": (0.0, 1.0), "wall_2": (0.0, -1.0)}
 _LEAST_HALF, _MOST_HALF = 0.3, 0.7
 """Half the height of a slider whose half length is 1."""
 _THICK, _LONG = 0.17, 1.35
@@ -41,21 +33,20 @@ class BetweenWalls:
 
     def __init__(self, name: str, scene: Mapping[str, Any], columns: Mapping[str, Floats]) -> None:
         joint = scene["joints"][name]
-        clearance = joint["clearance"]
-        self._is_pin = joint["type"] == "pin-in-slot"
-        self._owner = joint["slot" if self._is_pin else "guide"].partition(".")[0]
-        self._heading = math.atan2(joint["axis"][1], joint["axis"][0])
-        parts = SIDES if self._is_pin else CORNERS
+        marks, clearance = marks_of(joint), joint["clearance"]
+        self._joint, parts = joint, marks["parts"]
         self._places = np.array([*parts.values()])
         self._depth = np.stack([columns[f"{name}.{part}.penetration"] for part in parts])
         self._force = np.stack([columns[f"{name}.{part}.normal_force"] for part in parts])
-        self._play = float(clearance["wall_clearance"])
+        self._play = play_of(joint)
         self._deepest = max(float(np.nanmax(self._depth, initial=0.0)), 1e-9)
         self._strongest = float(np.nanmax(self._force, initial=0.0)) or 1.0
-        if self._is_pin:
-            size, self._half = clearance["pin_radius"], 1.0 - GAP
+        self._is_pin = marks["block"] is None
+        if marks["block"] is None:
+            size, self._half = clearance[marks["size"]], 1.0 - GAP
         else:
-            size, slim = clearance["height"] / 2.0, clearance["height"] / clearance["length"]
+            length, height = (clearance[field] for field in marks["block"])
+            size, slim = height / 2.0, height / length
             self._half = min(max(slim, _LEAST_HALF), _MOST_HALF)
         drawn = size / self._half
         self.magnified = GAP * drawn / self._play, DEEPEST * drawn / self._deepest
@@ -63,7 +54,7 @@ class BetweenWalls:
     @staticmethod
     def channels(name: str, joint: Mapping[str, Any]) -> tuple[str, ...]:
         """Name what it is drawn from."""
-        parts = SIDES if joint["type"] == "pin-in-slot" else CORNERS
+        parts = marks_of(joint)["parts"]
         return tuple(f"{name}.{p}.{one}" for p in parts for one in ("penetration", "normal_force"))
 
     def force(self, at: int) -> float:
@@ -74,7 +65,7 @@ class BetweenWalls:
         """Draw it at an instant."""
         from matplotlib.patches import Circle
 
-        angle = self._heading + (0.0 if self._owner == GROUND else pose[self._owner][2])
+        angle = heading(self._joint, pose)
         inner = self._half + GAP
         band = [(-_LONG, inner), (_LONG, inner), (_LONG, inner + _THICK), (-_LONG, inner + _THICK)]
         for side in (1.0, -1.0):

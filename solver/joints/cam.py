@@ -42,6 +42,7 @@ POINTED = 10.0
 """A cam whose profile is no larger than that many lashes is a point."""
 CENTRED = 1e-300
 """Added to a distance (m), so that a roller in the cam's centre divides by no zero."""
+CAPTION = "Follower of joint {} on its cam"
 FOLLOWER = (("normal_force", "N", "force of the cam on its follower along the normal; < 0: pulls"),)
 """Channel of a follower without play, which is held both ways."""
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
+from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import Freedom, Joint
 from jointplay.solver.laws.function import Derivatives
@@ -14,6 +15,7 @@ class Fixed(Joint):
 
     called: ClassVar[str] = "fixed"
     end_fields: ClassVar[tuple[str, str]] = ("base", "part")
+    drawing: ClassVar[Drawing] = Drawing(sign="weld", supported=True)
     freedom: ClassVar[Freedom] = "none"
     holds_angle: ClassVar[bool] = True
     type: Literal["fixed"]

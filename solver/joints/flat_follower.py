@@ -11,8 +11,9 @@ from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.joints.cam import CamJoint, Lift
+from jointplay.solver.joints.cam import CAPTION, CamJoint, Lift
 from jointplay.solver.joints.contact import Meeting
+from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Distance
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
@@ -36,6 +37,9 @@ class FlatFollower(CamJoint):
     from the cam's centre, over the direction of that normal.
     """
 
+    drawing: ClassVar[Drawing] = Drawing(
+        cam={"profile": "profile", "face": "normal"}, picture="surface", caption=CAPTION
+    )
     rules: ClassVar[tuple[Rule, ...]] = FACE
     type: Literal["flat-follower"]
     normal: Direction

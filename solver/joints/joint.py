@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from jointplay.records.arrays import Flags
 from jointplay.solver.joints.contact import Contact, Touch
+from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.force import Ends
@@ -64,6 +65,8 @@ class Joint(Strict):
     """Words for it in sentences, as in "a pin in a slot"."""
     end_fields: ClassVar[tuple[str, str]]
     """Fields that name its first and second point."""
+    drawing: ClassVar[Drawing]
+    """Marks by which it is drawn."""
     freedom: ClassVar[Freedom] = "more"
     holds_angle: ClassVar[bool] = False
     """Whether its bodies do not turn against each other; then the first's angle and `angle` are

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, ClassVar, Literal
 
 from jointplay.solver.joints.contact import Contact, Laws, Touch
+from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint
 from jointplay.solver.joints.wall import AXIS, WALL, at_wall, wall_normal
@@ -54,6 +55,13 @@ class PinInSlot(Joint):
 
     called: ClassVar[str] = "a pin in a slot"
     end_fields: ClassVar[tuple[str, str]] = ("slot", "pin")
+    drawing: ClassVar[Drawing] = Drawing(
+        axis="axis",
+        size="pin_radius",
+        places=tuple((0.0, side) for side in WALLS.values()),
+        picture="walls",
+        caption="Pin of joint {} in its slot",
+    )
     parts: ClassVar[tuple[str, ...]] = (*WALLS,)
     rules: ClassVar[tuple[Rule, ...]] = AXIS
     type: Literal["pin-in-slot"]

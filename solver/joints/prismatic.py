@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from jointplay.solver.joints.contact import Contact, Laws, Touch
+from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Freedom, Joint
 from jointplay.solver.joints.wall import AXIS, WALL, at_wall, wall_normal
@@ -78,6 +79,15 @@ class Prismatic(Joint):
 
     called: ClassVar[str] = "a slider"
     end_fields: ClassVar[tuple[str, str]] = ("guide", "slider")
+    drawing: ClassVar[Drawing] = Drawing(
+        sign="",
+        axis="axis",
+        size="height",
+        block=("length", "height"),
+        places=(*CORNERS.values(),),
+        picture="walls",
+        caption="Slider of joint {} in its guide",
+    )
     freedom: ClassVar[Freedom] = "slide"
     holds_angle: ClassVar[bool] = True
     parts: ClassVar[tuple[str, ...]] = (*CORNERS,)

@@ -14,6 +14,7 @@ import numpy as np
 
 from jointplay.records.arrays import Flags
 from jointplay.solver.joints.contact import Contact, Interaction, Touch, rub
+from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Freedom, Joint
 from jointplay.solver.joints.starts import JournalStart
@@ -67,6 +68,12 @@ class Revolute(Joint):
 
     called: ClassVar[str] = "a pin"
     end_fields: ClassVar[tuple[str, str]] = ("bearing", "journal")
+    drawing: ClassVar[Drawing] = Drawing(
+        supported=True,
+        size="bearing_radius",
+        picture="journal",
+        caption="Journal of joint {} in its bearing",
+    )
     freedom: ClassVar[Freedom] = "turn"
     is_journal: ClassVar[bool] = True
     type: Literal["revolute"]

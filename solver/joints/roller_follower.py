@@ -7,11 +7,12 @@ Source: Angeles and López-Cajún 1991, Optimization of Cam Mechanisms (pitch cu
 """
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import ClassVar, Literal
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.joints.cam import CENTRED, CamJoint, Lift
+from jointplay.solver.joints.cam import CAPTION, CENTRED, CamJoint, Lift
 from jointplay.solver.joints.contact import Meeting
+from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Distance
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
@@ -27,6 +28,12 @@ class RollerFollower(CamJoint):
     it lies.
     """
 
+    drawing: ClassVar[Drawing] = Drawing(
+        circles=((1, "roller_radius"),),
+        cam={"profile": "profile", "roller": "roller_radius"},
+        picture="surface",
+        caption=CAPTION,
+    )
     type: Literal["roller-follower"]
     roller_radius: Radius
 
