@@ -2,6 +2,7 @@
 
 import { autocompletion, hoverTooltip } from "../vendor/codemirror/codemirror.js";
 import { element } from "../interface/element.js";
+import { MARKS } from "../mechanism/joint_marks.js";
 import { pathAt, siblings } from "./places.js";
 
 /**
@@ -43,7 +44,7 @@ function completions(context, schema, document) {
   return options.length ? { from, options } : null;
 }
 
-const POINTS = new Set(["bearing", "journal", "guide", "slider", "slot", "pin", "base", "part", "first", "second"]);
+const POINTS = new Set([...Object.values(MARKS).flatMap(({ ends }) => ends), "first", "second"]);
 
 /** References `body.point` and names of joints, where they are wanted. */
 function references(keys, document) {

@@ -5,6 +5,7 @@ import { casesOf, linesOf } from "./measured_table.js";
 import { typed } from "./numbers.js";
 import { ParameterRange, rangeIn } from "./parameter_range.js";
 import { withParameters } from "../mechanism/parameters.js";
+import { play } from "../mechanism/placing.js";
 
 const MOST = 6; // parameters, as the service allows
 
@@ -152,6 +153,5 @@ function reportedCases(scene) {
     cases.get(key).targets.push({ channel, statistic, to: duration, value });
   }
   return [...cases.values()].filter(({ parameters }) =>
-    Object.values(withParameters(scene, parameters).joints ?? {}).some(({ clearance }) =>
-      clearance?.radial_clearance > 0));
+    Object.values(withParameters(scene, parameters).joints ?? {}).some((joint) => play(joint) > 0));
 }

@@ -2,7 +2,7 @@
 
 import { cams } from "./cams.js";
 import { guides } from "./guides.js";
-import { GROUND, ends, placeOf, reference, world } from "./placing.js";
+import { GROUND, ends, marks, placeOf, reference, world } from "./placing.js";
 
 /** Returns the smallest box around all points of poses: `[left, low, right, high]`. */
 export function bounds(scene, poses) {
@@ -22,11 +22,11 @@ export function bounds(scene, poses) {
   for (const joint of Object.values(scene.joints)) {
     for (const end of ends(joint)) {
       const { body, at } = reference(scene, end);
-      if (body === GROUND && joint.type !== "prismatic") include(at);
+      if (body === GROUND && marks(joint).sign) include(at);
     }
   }
   for (const pose of poses) {
-    for (const { outline, moved } of cams(scene, pose)) [...outline, ...moved].forEach(include);
+    for (const { outline = [], moved = [] } of cams(scene, pose)) [...outline, ...moved].forEach(include);
   }
   const extent = Math.max(box[2] - box[0], box[3] - box[1]);
   for (const pose of poses) {
@@ -43,6 +43,6 @@ export function bounds(scene, poses) {
   return box;
 }
 
-function ownRadius({ clearance }) {
-  return clearance?.bearing_radius ?? clearance?.pin_radius ?? clearance?.height ?? 0;
+function ownRadius(joint) {
+  return joint.clearance?.[marks(joint).size] ?? 0;
 }

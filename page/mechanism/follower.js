@@ -2,7 +2,7 @@
 
 import { ANGLES, camAngles, meanProfile, surfaceAt } from "./cams.js";
 import { DEEPEST, GAP, arrow, disc, polygon, shown } from "./magnified.js";
-import { play } from "./placing.js";
+import { marks, play } from "./placing.js";
 
 const CAM = 78; // mean of a profile under a flat face, px
 const ROLLER = 48; // radius, px
@@ -17,8 +17,9 @@ const FARTHEST = 2 * GAP; // where a follower is drawn that has lifted off farth
  */
 export function follower(scene, joint, pose, contact, limits) {
   const lash = play(joint);
-  const isFlat = joint.type === "flat-follower";
-  const drawn = isFlat ? meanProfile(joint) / CAM : joint.roller_radius / ROLLER; // m of a px
+  const { cam } = marks(joint);
+  const isFlat = Boolean(cam.face);
+  const drawn = isFlat ? meanProfile(joint) / CAM : joint[cam.roller] / ROLLER; // m of a px
   const { turned, angle } = camAngles(scene, joint, pose);
   const [c, s] = [Math.cos(turned), Math.sin(turned)];
   const seen = ([x, y]) => [c * x - s * y, -s * x - c * y];

@@ -1,6 +1,6 @@
 /** Guides with play: the walls that a slider has room between, and the slider itself. */
 
-import { ends, heading, placeOf, play } from "./placing.js";
+import { ends, heading, marks, placeOf, play } from "./placing.js";
 
 const SHORTEST = 0.1; // length of a slider in extents of the mechanism; shorter ones are drawn larger
 const WALLS = 2.2; // length of the walls in lengths of the slider
@@ -13,9 +13,9 @@ const CORNERS = [[1, 1], [-1, 1], [-1, -1], [1, -1]];
  */
 export function guides(scene, pose, extent) {
   return Object.values(scene.joints)
-    .filter((joint) => joint.type === "prismatic" && play(joint) > 0)
+    .filter((joint) => marks(joint).block && play(joint) > 0)
     .map((joint) => {
-      const { length, height, wall_clearance: gap } = joint.clearance;
+      const [length, height] = marks(joint).block.map((field) => joint.clearance[field]);
       const angle = heading(pose, joint);
       const [c, s] = [Math.cos(angle), Math.sin(angle)];
       const larger = Math.max(1, (SHORTEST * extent) / length);
@@ -24,7 +24,7 @@ export function guides(scene, pose, extent) {
       const way = (centre[0] - origin[0]) * c + (centre[1] - origin[1]) * s;
       const middle = [origin[0] + way * c, origin[1] + way * s];
       const from = ([x, y], along, across) => [x + along * c - across * s, y + along * s + across * c];
-      const wall = half[1] + larger * gap;
+      const wall = half[1] + larger * play(joint);
       return {
         slider: CORNERS.map(([a, b]) => from(centre, a * half[0], b * half[1])),
         walls: [1, -1].map((side) =>

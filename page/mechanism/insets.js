@@ -9,18 +9,11 @@ import { frame } from "./frame.js";
 import { REACH } from "./magnified.js";
 import { magnifiable, pairs } from "./motion.js";
 import { palette } from "./palette.js";
-import { heading } from "./placing.js";
+import { heading, marks } from "./placing.js";
 import { walls } from "./walls.js";
 
 const TRAIL = 260; // samples
 const MOST = 6;
-const NAMES = {
-  revolute: (joint) => `Journal of joint ${joint} in its bearing`,
-  prismatic: (joint) => `Slider of joint ${joint} in its guide`,
-  "pin-in-slot": (joint) => `Pin of joint ${joint} in its slot`,
-  "flat-follower": (joint) => `Follower of joint ${joint} on its cam`,
-  "roller-follower": (joint) => `Follower of joint ${joint} on its cam`,
-};
 
 export class Insets {
   /** @param peaks extremes by channel, as the service gives them; may come later */
@@ -29,7 +22,7 @@ export class Insets {
     this.peaks = {};
     const { joints } = motion.scene;
     this.joints = magnifiable(motion.scene).slice(0, MOST).map((name) => {
-      const canvas = element("canvas", { role: "img", "aria-label": NAMES[joints[name].type](name) });
+      const canvas = element("canvas", { role: "img", "aria-label": marks(joints[name]).caption.replace("{}", name) });
       const words = element("figcaption");
       return { name, canvas, words, figure: element("figure", {}, canvas, words) };
     });
@@ -75,10 +68,11 @@ export class Insets {
   magnified(name, time, pose, contacts, limits) {
     const { scene } = this.motion;
     const joint = scene.joints[name];
-    if (joint.type === "revolute") {
+    const { picture } = marks(joint);
+    if (picture === "journal") {
       return bearing(joint.clearance, contacts[0], this.motion.trail(name, time, TRAIL), limits);
     }
-    if (joint.type.endsWith("follower")) return follower(scene, joint, pose, contacts[0], limits);
+    if (picture === "surface") return follower(scene, joint, pose, contacts[0], limits);
     return walls(joint, heading(pose, joint), contacts, limits);
   }
 

@@ -1,26 +1,11 @@
 /** The motion of a job: poses and contacts at any time, from the history that it has stored. */
 
-import { play } from "./placing.js";
+import { marks, play } from "./placing.js";
 import { turn } from "./turn.js";
 import { getArrays } from "../requests/arrays.js";
 
 const CHUNK = [256, 2048]; // samples that are fetched at once, at least and at most
 const KEPT = 49152; // samples
-const QUANTITIES = {
-  revolute: ["eccentricity_x", "eccentricity_y", "normal_force"],
-  prismatic: ["penetration", "normal_force"],
-  "pin-in-slot": ["penetration", "normal_force"],
-  "flat-follower": ["penetration", "normal_force"],
-  "roller-follower": ["penetration", "normal_force"],
-};
-const PARTS = {
-  revolute: [""],
-  prismatic: [".corner_1", ".corner_2", ".corner_3", ".corner_4"],
-  "pin-in-slot": [".wall_1", ".wall_2"],
-  "flat-follower": [""],
-  "roller-follower": [""],
-};
-
 /** The channels that the pictures of a scene are made of. */
 function needed(scene) {
   const bodies = Object.keys(scene.bodies).flatMap((body) =>
@@ -32,18 +17,23 @@ function needed(scene) {
 /** Names of the joints whose play can be shown magnified. */
 export function magnifiable(scene) {
   return Object.entries(scene.joints)
-    .filter(([, joint]) => joint.type in PARTS && play(joint) > 0)
+    .filter(([, joint]) => marks(joint).picture && play(joint) > 0)
     .map(([name]) => name);
 }
 
 /** Names of the places where the bodies of a joint with play touch: `A`, or `guide.corner_1` …. */
 export function pairs(scene, name) {
-  return PARTS[scene.joints[name].type].map((part) => `${name}${part}`);
+  return Object.keys(marks(scene.joints[name]).parts).map((part) => (part ? `${name}.${part}` : name));
+}
+
+function quantities(joint) {
+  const place = marks(joint).is_journal ? ["eccentricity_x", "eccentricity_y"] : ["penetration"];
+  return [...place, "normal_force"];
 }
 
 function contactPairs(scene) {
   return magnifiable(scene).flatMap((name) => pairs(scene, name).map((pair) =>
-    ({ pair, quantities: QUANTITIES[scene.joints[name].type] })));
+    ({ pair, quantities: quantities(scene.joints[name]) })));
 }
 
 export class Motion {

@@ -4,19 +4,19 @@
  * A pose gives by body `[x, y, theta]`: its centre of mass and its angle.
  */
 
+import { MARKS } from "./joint_marks.js"; // the service makes it
+
 export const GROUND = "ground";
-const ENDS = {
-  revolute: ["bearing", "journal"],
-  prismatic: ["guide", "slider"],
-  "pin-in-slot": ["slot", "pin"],
-  fixed: ["base", "part"],
-  "flat-follower": ["cam", "follower"],
-  "roller-follower": ["cam", "follower"],
-};
+const UNKNOWN = { ends: [], circles: [], cam: {}, parts: {} }; // a type that is being written
+
+/** Returns the marks by which a joint is drawn, as its type gives them to the service. */
+export function marks(joint) {
+  return MARKS[joint.type] ?? UNKNOWN;
+}
 
 /** Returns the two references `body.point` that a joint holds together. */
 export function ends(joint) {
-  return (ENDS[joint.type] ?? []).map((field) => joint[field]);
+  return marks(joint).ends.map((field) => joint[field]);
 }
 
 /** Returns body and own coordinates of a reference such as `rod.crank`. */
@@ -45,12 +45,12 @@ export function placeOf(scene, pose, text) {
 
 /** Returns the play of a joint in m; 0 of an ideal one. */
 export function play(joint) {
-  const clearance = joint.clearance;
-  return clearance?.radial_clearance ?? clearance?.wall_clearance ?? clearance?.lash ?? 0;
+  return joint.clearance?.[marks(joint).play] ?? 0;
 }
 
 /** Returns the angle in the world of the axis of a joint that slides. */
 export function heading(pose, joint) {
   const owner = ends(joint)[0].split(".")[0];
-  return (owner === GROUND ? 0 : pose[owner][2]) + Math.atan2(joint.axis[1], joint.axis[0]);
+  const [x, y] = joint[marks(joint).axis];
+  return (owner === GROUND ? 0 : pose[owner][2]) + Math.atan2(y, x);
 }

@@ -9,7 +9,7 @@
 import { bounds } from "./bounds.js";
 import { cams } from "./cams.js";
 import { guides } from "./guides.js";
-import { GROUND, ends, heading, placeOf, play, world } from "./placing.js";
+import { GROUND, ends, heading, marks, placeOf, play, world } from "./placing.js";
 
 const BLOCK = [15, 9]; // half a slider's length and height, px
 
@@ -20,7 +20,7 @@ export function shapes(scene, pose, { labels = false } = {}) {
   const pairs = cams(scene, pose);
   return [
     ...rails(scene, pose, size),
-    ...pairs.map(({ outline }) =>
+    ...pairs.filter(({ outline }) => outline).map(({ outline }) =>
       ({ kind: "polygon", points: outline, fill: "ground", stroke: "edge", width: 1.2 })),
     ...supports(scene, pose),
     ...guides(scene, pose, size).flatMap(({ slider, walls }) => [
@@ -29,7 +29,7 @@ export function shapes(scene, pose, { labels = false } = {}) {
     ]),
     ...Object.keys(scene.bodies).flatMap((name, i) => body(scene, pose, name, i)),
     ...springs(scene, pose),
-    ...pairs.map(({ moved }) =>
+    ...pairs.filter(({ moved }) => moved).map(({ moved }) =>
       ({ kind: "line", points: moved, colour: "edge", width: 2 })),
     ...joints(scene, pose),
     ...(labels ? names(scene, pose) : []),
@@ -66,7 +66,7 @@ function rails(scene, pose, size) {
 /** Joints that slide, each with its place and the direction of its axis in the world. */
 function sliding(scene, pose) {
   return Object.values(scene.joints)
-    .filter(({ axis }) => axis)
+    .filter((joint) => joint[marks(joint).axis])
     .map((joint) => {
       const [, slider] = ends(joint);
       const angle = heading(pose, joint);
@@ -80,7 +80,7 @@ function supports(scene, pose) {
   for (const joint of Object.values(scene.joints)) {
     const [first, second] = ends(joint);
     const grounded = [first, second].find((end) => end.startsWith(`${GROUND}.`));
-    if (joint.axis || joint.type.endsWith("follower") || !grounded || play(joint) > 0.05) continue;
+    if (!marks(joint).supported || !grounded || play(joint) > 0.05) continue;
     const [x, y] = placeOf(scene, pose, grounded);
     const at = (points) => points.map(([right, down]) => [x, y, right, down]);
     found.push({
@@ -150,9 +150,9 @@ function springs(scene, pose) {
 function joints(scene, pose) {
   const driven = new Set(Object.values(scene.drivers ?? {}).map(({ joint }) => joint));
   return Object.entries(scene.joints).flatMap(([name, joint]) => {
-    if (joint.type === "prismatic" || joint.type === "flat-follower") return [];
+    if (!marks(joint).sign) return [];
     const at = placeOf(scene, pose, ends(joint)[1]);
-    if (joint.type === "fixed") {
+    if (marks(joint).sign === "weld") {
       const square = [[-4, -4], [4, -4], [4, 4], [-4, 4]].map((offset) => [...at, ...offset]);
       return [{ kind: "polygon", points: square, fill: "edge", stroke: "edge", width: 1 }];
     }
@@ -170,7 +170,7 @@ function names(scene, pose) {
     return { kind: "text", points: [[...at, 10, -9 - 13 * near]], text, colour: "ink", ...look };
   };
   const ofJoints = Object.entries(scene.joints)
-    .filter(([, { type }]) => type !== "prismatic")
+    .filter(([, joint]) => marks(joint).sign)
     .map(([name, joint]) => label(name, placeOf(scene, pose, ends(joint)[1]), { bold: true }));
   const ofBodies = Object.keys(scene.bodies).map((name) =>
     label(name, pose[name].slice(0, 2), { italic: true, colour: "quiet" }));

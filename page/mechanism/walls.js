@@ -1,9 +1,8 @@
 /** A slider in its guide, or a pin in its slot, magnified, as it stands in the world. */
 
+import { marks, play } from "./placing.js";
 import { DEEPEST, GAP, arrow, disc, line, polygon, shown } from "./magnified.js";
 
-const CORNERS = [[1, 1], [-1, 1], [-1, -1], [1, -1]]; // along and across, in halves of the slider
-const SIDES = [[0, 1], [0, -1]];
 const SLIDER = 78; // half a slider's length, px
 const PIN = 48; // radius, px
 const SLIMMEST = 0.3; // height of a slider over its length, as it is drawn
@@ -13,14 +12,16 @@ const WALL = { long: 105, thick: 13 }; // half its length, px
 /**
  * Returns the shapes of a joint, and by what its gap and penetration are exaggerated.
  *
- * @param joint with its clearance, prismatic or a pin in a slot
+ * @param joint with its clearance: a block between walls, or a pin
  * @param heading angle of its axis in the world
  * @param contacts of its corners, or of its two walls: penetration and force now
  * @param limits the `strongest` force, N, and the `deepest` penetration, m
  */
 export function walls(joint, heading, contacts, limits) {
-  const { wall_clearance: gap, pin_radius: radius, length, height } = joint.clearance;
-  const isPin = joint.type === "pin-in-slot";
+  const { block, parts, size } = marks(joint);
+  const gap = play(joint);
+  const [length, height] = (block ?? []).map((field) => joint.clearance[field]);
+  const isPin = !block;
   const half = isPin ? PIN : SLIDER * Math.min(Math.max(height / length, SLIMMEST), THICKEST);
   const [c, s] = [Math.cos(heading), Math.sin(heading)];
   const turned = ([along, across]) => [c * along - s * across, -s * along - c * across];
@@ -33,7 +34,7 @@ export function walls(joint, heading, contacts, limits) {
       line([from, to], { colour: "edge", width: 1.6 }),
     ];
   });
-  const places = isPin ? SIDES : CORNERS;
+  const places = Object.values(parts);
   const touching = places.map(([along, side], i) =>
     [along * SLIDER, side * (half + shown(contacts[i].penetration + gap, gap, limits))]);
   const look = { fill: "tint-0", stroke: "edge", width: 1.4 };
@@ -47,6 +48,6 @@ export function walls(joint, heading, contacts, limits) {
   places.forEach(([, side], i) => {
     shapes.push(...arrow(turned(touching[i]), turned([0, side]), contacts[i].normal_force, limits));
   });
-  const drawn = (isPin ? radius : height / 2) / half; // m of a px
+  const drawn = (isPin ? joint.clearance[size] : height / 2) / half; // m of a px
   return { shapes, exaggerated: (GAP * drawn) / gap, deeper: (DEEPEST * drawn) / limits.deepest };
 }

@@ -1,6 +1,7 @@
 """Files of the page: what may be asked for, its media type and its digest."""
 
 import hashlib
+import json
 import logging
 import os
 from collections.abc import Iterator
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 import jointplay.page
+from jointplay.records.joint_marks import MARKS
 
 _log = logging.getLogger(__name__)
 MEDIA_TYPES: Final = {
@@ -25,6 +27,8 @@ VERSION_LENGTH: Final = 16
 """Hexadecimal digits of a version."""
 FOLDER: Final = Path(next(iter(jointplay.page.__path__)))
 _ADDRESS: Final = b'"/page/'
+_MARKS: Final = "mechanism/joint_marks.js"
+"""A module that is made here: the marks by which types of joints are drawn."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +54,8 @@ def page_file(name: str, folder: Path = FOLDER) -> PageFile | None:
 
     HTML names the other files with the version of all of them.
     """
+    if name == _MARKS:
+        return _file(_marks(), MEDIA_TYPES["js"])
     found = tuple(_listed(folder))
     if name not in {entry.name for entry in found}:
         return None
@@ -73,6 +79,10 @@ def report_file(path: Path | None) -> PageFile | None:
         return None
 
 
+def _marks() -> bytes:
+    return f"export const MARKS = {json.dumps(MARKS)};\n".encode()
+
+
 def _file(content: bytes, media_type: str) -> PageFile:
     return PageFile(content, media_type, hashlib.sha256(content).hexdigest())
 
@@ -91,7 +101,7 @@ def _listed(folder: str | Path, prefix: str = "") -> Iterator[_Entry]:
 @lru_cache(maxsize=1)
 def _digest(folder: Path, entries: tuple[_Entry, ...]) -> str:
     """Return the digest of names and contents; `entries` tell whether any has changed."""
-    whole = hashlib.sha256()
+    whole = hashlib.sha256(_marks())
     for name in sorted(entry.name for entry in entries):
         whole.update(name.encode() + b"\0" + hashlib.sha256((folder / name).read_bytes()).digest())
     return whole.hexdigest()[:VERSION_LENGTH]
