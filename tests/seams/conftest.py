@@ -10,6 +10,7 @@ from jointplay.client import Client, Job
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from jointplay.worker.block_run import BlockRun
+from tests.page.conftest import browsing
 from tests.service_in_thread import application, catalogue, http, service_url, settings
 
 
