@@ -29,17 +29,17 @@ def cam_curves(scene: Mapping[str, Any], pose: Pose) -> list[Curves]:
     found: list[Curves] = []
     for joint in scene["joints"].values():
         marks = marks_of(joint)
-        ends, cam = [joint[end].split(".") for end in marks["ends"]], marks["cam"]
+        ends, cam = [joint[end] for end in marks["ends"]], marks["cam"]
         outlines, moved = [], []
         if cam:
-            outlines.append(_world(scene, pose, *ends[0], surface(joint, ANGLES)[0]))
+            outlines.append(_world(scene, pose, ends[0], surface(joint, ANGLES)[0]))
         if "face" in cam:
             x, y = joint[cam["face"]]
             across = np.array([-y, x]) / math.hypot(x, y) * _FACE * mean_profile(joint)
-            moved.append(_world(scene, pose, *ends[1], np.stack([-across, across], axis=1)))
+            moved.append(_world(scene, pose, ends[1], np.stack([-across, across], axis=1)))
         for end, radius in marks["circles"]:
             circle = joint[radius] * np.stack([np.cos(ANGLES), np.sin(ANGLES)])
-            moved.append(_world(scene, pose, *ends[end], circle))
+            moved.append(_world(scene, pose, ends[end], circle))
         found += zip_longest(outlines, moved)
     return found
 
@@ -99,8 +99,9 @@ def draw_cams(axes: page.Axes, curves: list[Curves], metre: float) -> None:
             axes.plot(*(moved / metre), color="#404040", linewidth=1.2, zorder=3)
 
 
-def _world(scene: Mapping[str, Any], pose: Pose, body: str, point: str, curve: Floats) -> Floats:
+def _world(scene: Mapping[str, Any], pose: Pose, reference: str, curve: Floats) -> Floats:
     """Place a curve about a body's point, (2, points) m in the body's axes, in the world."""
+    body, point = reference.split(".")
     if body == GROUND:
         x, y = scene["ground"]["points"][point]
         return np.asarray(curve + np.array([[x], [y]]))

@@ -15,7 +15,7 @@ import numpy as np
 from pydantic import AfterValidator
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.joints.contact import Contact, Laws, Meeting, Touch, surfaces
+from jointplay.solver.joints.contact import Contact, Meeting, Touch, surfaces
 from jointplay.solver.joints.holding import Distance, Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint, Table
 from jointplay.solver.joints.wall import WALL
@@ -130,8 +130,7 @@ class CamJoint(Joint):
         clearance = self.clearance
         assert clearance is not None  # noqa: S101  (narrows the type)
         met = self.meeting(between, self.lift(between), clearance.lash)
-        laws = Laws(clearance.contact, clearance.friction)
-        return surfaces(name, self.points, between, met, laws, touch)
+        return surfaces(name, self.points, between, met, clearance, touch)
 
     def ideal_values(self, between: Ends, force: Pair) -> tuple[Scalar, ...]:
         """Return the force on an ideal follower, N, along its normal out of the cam; < 0: pulls."""

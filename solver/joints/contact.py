@@ -10,7 +10,7 @@ the first.
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, Protocol
 
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.fit import Fit
@@ -123,11 +123,20 @@ class Straight:
 STRAIGHT: Fit = Straight()
 
 
-class Laws(NamedTuple):
-    """Laws of a contact pair."""
+class HasPlay(Protocol):
+    """A clearance: its play, and the laws of the contact that there is then."""
 
-    contact: ContactLaw
-    friction: FrictionLaw | None
+    @property
+    def contact(self) -> ContactLaw:
+        """Law of the force along the normal."""
+
+    @property
+    def friction(self) -> FrictionLaw | None:
+        """Law of the force along the tangent, if there is friction."""
+
+    @property
+    def play(self) -> Scalar:
+        """Distance of centred bodies from touching, m."""
 
 
 class Meeting(NamedTuple):
@@ -142,8 +151,6 @@ class Meeting(NamedTuple):
     """From the second point to there, m."""
     centred: Scalar
     """Penetration, were there no play, m."""
-    play: Scalar
-    """Play between the surfaces, m."""
 
 
 def surfaces(
@@ -151,7 +158,7 @@ def surfaces(
     points: tuple[str, str],
     between: Ends,
     met: Meeting,
-    laws: Laws,
+    clearance: HasPlay,
     touch: Touch,
     enclosure: Literal["wall", "none"] = "none",
 ) -> Contact:
@@ -166,11 +173,11 @@ def surfaces(
         between.rate,
         plus(scaled(left(r), between.spins[1]), scaled(left(d), -between.spins[0])),
     )
-    penetration = met.centred - met.play
+    penetration = met.centred - clearance.play
     rate, slip = -dot(met.push, velocity), dot(t, velocity)
     depth = select_positive(touch.mode, penetration, 0.0)
-    normal_force = laws.contact.normal_force(STRAIGHT, depth, rate, touch.impact_rate)
-    rubbing = rub(laws.friction, normal_force, slip, touch.inner)
+    normal_force = clearance.contact.normal_force(STRAIGHT, depth, rate, touch.impact_rate)
+    rubbing = rub(clearance.friction, normal_force, slip, touch.inner)
     force = plus(scaled(met.push, normal_force), scaled(t, rubbing.friction))
     return Contact(
         name,
@@ -181,7 +188,7 @@ def surfaces(
         rate,
         n,
         normal_force,
-        laws.contact.elastic_energy(STRAIGHT, depth),
+        clearance.contact.elastic_energy(STRAIGHT, depth),
         rubbing.friction,
         slip,
         Interaction(

@@ -72,7 +72,7 @@ class FlatFollower(CamJoint):
         u, p = self._face(between), found.profile
         touching = plus(scaled(u, p.value - lash), scaled(left(u), p.slope))
         arm = plus(touching, scaled(between.gap, -1.0))
-        return Meeting(scaled(u, -1.0), u, arm, -found.distance.value, lash)
+        return Meeting(scaled(u, -1.0), u, arm, -found.distance.value)
 
     def unreached(self, angles: Floats, profile: Derivatives) -> Iterator[tuple[str, str]]:
         """Yield where the cam is not convex."""

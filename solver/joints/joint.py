@@ -55,8 +55,8 @@ class AnyClearance(Strict):
 class Joint(Strict):
     """Two points of two bodies, and what the second may do against the first.
 
-    A joint is a member of the family by one class, and an entry of `JOINTS`. It takes its numbers
-    from its fields, which may be floats, columns or recorded expressions. A joint with play has a
+    A member of the family is one class, and an entry of `JOINTS`. It takes its numbers from its
+    fields, which may be floats, columns or recorded expressions. A joint with play has a
     field `clearance`; where that is above zero, contact acts in place of constraints.
     """
 

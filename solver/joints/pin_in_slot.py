@@ -3,11 +3,11 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, ClassVar, Literal
 
-from jointplay.solver.joints.contact import Contact, Laws, Touch
+from jointplay.solver.joints.contact import Contact, Touch
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint
-from jointplay.solver.joints.wall import AXIS, WALL, at_wall, wall_normal
+from jointplay.solver.joints.wall import AXIS, WALL, Wall, at_wall, wall_normal
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.force import Ends
@@ -84,9 +84,8 @@ class PinInSlot(Joint):
         clearance = self.clearance
         assert clearance is not None  # noqa: S101  (narrows the type)
         normal, reach = wall_normal(self.axis, WALLS[part], between), clearance.pin_radius
-        met = (normal, scaled(normal, reach), reach, clearance.wall_clearance)
-        laws = Laws(clearance.contact, clearance.friction)
-        return at_wall(name, self.points, between, met, laws, touch)
+        wall = Wall(normal, scaled(normal, reach), reach)
+        return at_wall(name, self.points, between, wall, clearance, touch)
 
     @property
     def size(self) -> float:

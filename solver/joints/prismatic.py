@@ -6,11 +6,11 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
-from jointplay.solver.joints.contact import Contact, Laws, Touch
+from jointplay.solver.joints.contact import Contact, Touch
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Freedom, Joint
-from jointplay.solver.joints.wall import AXIS, WALL, at_wall, wall_normal
+from jointplay.solver.joints.wall import AXIS, WALL, Wall, at_wall, wall_normal
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.force import Ends
@@ -115,14 +115,12 @@ class Prismatic(Joint):
         """Evaluate the contact of a corner."""
         clearance = self.clearance
         assert clearance is not None  # noqa: S101  (narrows the type)
-        met = (
+        wall = Wall(
             wall_normal(self.axis, CORNERS[part][1], between),
             self._corner(clearance, part, between.turned[1]),
             0.5 * clearance.height,
-            clearance.wall_clearance,
         )
-        laws = Laws(clearance.contact, clearance.friction)
-        return at_wall(name, self.points, between, met, laws, touch)
+        return at_wall(name, self.points, between, wall, clearance, touch)
 
     @property
     def size(self) -> float:

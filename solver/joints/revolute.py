@@ -8,6 +8,7 @@ slip and of the penetration, and the energy ledger closes.
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -20,6 +21,7 @@ from jointplay.solver.joints.joint import AnyClearance, Freedom, Joint
 from jointplay.solver.joints.starts import JournalStart
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
+from jointplay.solver.laws.contact.film import Film
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
@@ -141,11 +143,8 @@ class Revolute(Joint):
         fx = -(normal_force * nx) - friction * ny
         fy = friction * nx - normal_force * ny
         on_bearing, on_journal = -(bearing_radius * friction), journal_radius * friction
+        acting = Interaction(self.bearing, self.journal, (fx, fy), on_bearing, on_journal)
         film = law.film(clearance, between.gap, between.rate, spins)
-        if film is not None:
-            fx, fy = fx + film.force[0], fy + film.force[1]
-            on_bearing = on_bearing + film.moment_on_bearing
-            on_journal = on_journal + film.moment_on_journal
         return Contact(
             name,
             "circle",
@@ -158,13 +157,7 @@ class Revolute(Joint):
             stored,
             friction,
             slip,
-            Interaction(
-                self.bearing,
-                self.journal,
-                (fx, fy),
-                moment_on_second=on_journal,
-                moment_on_first=on_bearing,
-            ),
+            acting if film is None else _with_film(acting, film),
             rubbing.inner,
             rubbing.inner_rates,
             rubbing.slip,
@@ -212,3 +205,14 @@ class Revolute(Joint):
         depth = np.hypot(x, y) - clearance.radial_clearance
         found: Flags = depth > self.deepest
         return found
+
+
+def _with_film(acting: Interaction, film: Film) -> Interaction:
+    """Return an interaction of journal and bearing with that of the oil between them."""
+    (fx, fy), (on_x, on_y) = acting.force_on_second, film.force
+    return replace(
+        acting,
+        force_on_second=(fx + on_x, fy + on_y),
+        moment_on_first=acting.moment_on_first + film.moment_on_bearing,
+        moment_on_second=acting.moment_on_second + film.moment_on_journal,
+    )

@@ -76,7 +76,7 @@ class RollerFollower(CamJoint):
         around = scaled((-y, x), lift.value * bent * apart)
         push = plus(scaled(lift.along, cosine), around)
         n = scaled(push, -1.0 / sqrt(dot(push, push)))
-        return Meeting(n, push, scaled(n, self.roller_radius), -(lift.value * cosine), lash)
+        return Meeting(n, push, scaled(n, self.roller_radius), -(lift.value * cosine))
 
     def unreached(self, angles: Floats, profile: Derivatives) -> Iterator[tuple[str, str]]:
         """Yield where the roller is too large for the bends of its path."""

@@ -7,9 +7,9 @@ Source: Flores, Leine and Glocker 2010, Multibody System Dynamics 23:165 (gaps o
 """
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Literal, NamedTuple
 
-from jointplay.solver.joints.contact import Contact, Laws, Meeting, Touch, surfaces
+from jointplay.solver.joints.contact import Contact, HasPlay, Meeting, Touch, surfaces
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.quantities.frames import WORLD, Pair, dot, left, plus, scaled, turned, unit
 from jointplay.solver.quantities.scalars import Scalar
@@ -50,21 +50,27 @@ def wall_normal(axis: Sequence[Scalar], side: float, between: Ends) -> Pair:
     return scaled(left(turned(unit(axis), between.turned[0])), side)
 
 
+class Wall(NamedTuple):
+    """A wall, and the point that may touch it."""
+
+    normal: Pair
+    arm: Pair
+    """From the joint's second point to the point that touches, m."""
+    reach: Scalar
+    """Distance of the wall from the axis, without play, m."""
+
+
 def at_wall(
     name: str,
     points: tuple[str, str],
     between: Ends,
-    met: tuple[Pair, Pair, Scalar, Scalar],
-    laws: Laws,
+    wall: Wall,
+    clearance: HasPlay,
     touch: Touch,
 ) -> Contact:
-    """Evaluate the contact of a point at a wall.
-
-    `met` : the wall's normal, the way from the joint's second point to what touches, m, how far
-    the wall is from the axis but for the play, m, and the play, m.
-    """
-    normal, arm, reach, play = met
+    """Evaluate the contact of a point at a wall; see `surfaces`."""
+    normal, arm, reach = wall
     centred = dot(normal, plus(between.gap, arm)) - reach
     enclosure: Literal["wall", "none"] = "wall" if points[0].split(".")[0] == WORLD else "none"
-    meeting = Meeting(normal, scaled(normal, -1.0), arm, centred, play)
-    return surfaces(name, points, between, meeting, laws, touch, enclosure)
+    meeting = Meeting(normal, scaled(normal, -1.0), arm, centred)
+    return surfaces(name, points, between, meeting, clearance, touch, enclosure)

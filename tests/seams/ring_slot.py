@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar, Literal
 
-from jointplay.solver.joints.contact import Contact, Laws, Meeting, Touch, surfaces
+from jointplay.solver.joints.contact import Contact, Meeting, Touch, surfaces
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Distance, Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint
@@ -60,9 +60,8 @@ class RingSlot(Joint):
         found = self._distance(between)
         n = scaled(found.along, side)
         arm = scaled(n, clearance.pin_radius)
-        met = Meeting(n, scaled(n, -1.0), arm, side * found.value, clearance.wall_clearance)
-        laws = Laws(clearance.contact, clearance.friction)
-        return surfaces(name, self.points, between, met, laws, touch)
+        met = Meeting(n, scaled(n, -1.0), arm, side * found.value)
+        return surfaces(name, self.points, between, met, clearance, touch)
 
     @property
     def size(self) -> float:
