@@ -23,10 +23,10 @@ SIDES = {"outer": 1.0, "inner": -1.0}
 
 
 class RingClearance(AnyClearance):
-    """Play of a pin in a ring: both walls are `wall_clearance` away from the centred pin."""
+    """Play of a pin in a ring: both walls are `gap` away from the centred pin."""
 
-    play_field: ClassVar[str] = "wall_clearance"
-    wall_clearance: RadialClearance
+    play_field: ClassVar[str] = "gap"
+    gap: RadialClearance
     pin_radius: Radius
     contact: Annotated[ContactLaw, MemberOf(CONTACT_LAWS, "law")]
     friction: Annotated[FrictionLaw, MemberOf(FRICTION_LAWS, "law")] | None = None
@@ -69,7 +69,7 @@ class RingSlot(Joint):
 
     @property
     def loosened(self) -> Mapping[str, float]:
-        return {"normal": self.clearance.wall_clearance} if self.clearance else {}
+        return {"normal": self.clearance.gap} if self.clearance else {}
 
     def problems(self) -> Iterator[tuple[str, str]]:
         if self.clearance and self.clearance.pin_radius >= self.radius:

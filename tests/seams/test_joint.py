@@ -39,7 +39,7 @@ def circling(velocity: tuple[float, float], **fields: Any) -> dict[str, Any]:
 
 
 def loose(**fields: Any) -> dict[str, Any]:
-    clearance = {"wall_clearance": PLAY, "pin_radius": 0.01, "contact": LAW} | fields
+    clearance = {"gap": PLAY, "pin_radius": 0.01, "contact": LAW} | fields
     return {"clearance": clearance}
 
 
@@ -126,12 +126,26 @@ def test_with_play_it_strikes_both_walls_in_turn(platform: Platform, formulation
 
 
 @pytest.mark.usefixtures("ring_slot")
+def test_a_study_varies_its_play_and_knows_when_there_is_none(platform: Platform) -> None:
+    scene = circling((0.1, 0.0), **loose())["scene"]
+    path = {"path": "/joints/ring/clearance/gap"}
+    scene["parameters"] = {"gap": {"help": "Play.", "unit": "m", "targets": [path]}}
+    gaps = [0.0, PLAY, 2.0 * PLAY]
+    sweep = {"kind": "sweep", "grid": {"gap": gaps}, "duration": 0.05, "channels": ["disc.x"]}
+    job = platform.computed(sweep | {"scene": scene})
+    assert job.state == "succeeded"
+    reached = job.study(channels=["disc.x"]).peaks("disc.x").maximum
+    # deeper than the wall by at most v sqrt(m / K) = 12 um
+    np.testing.assert_allclose(reached, [RADIUS + gap for gap in gaps], rtol=0.0, atol=2e-5)
+    assert reached[0] == pytest.approx(RADIUS, abs=1e-12)
+
+
+@pytest.mark.usefixtures("ring_slot")
 def test_figures_draw_its_ring_and_its_pin(platform: Platform) -> None:
     document = circling((0.0, SPEED))
-    job = platform.computed(document)
-    svg = job.figure("mechanism", form="svg").content.decode()
-    assert "ring" in svg
-    assert "ideal joint" in svg
+    for fields, sign in (({}, "ideal joint"), (loose(), "joint with clearance")):
+        job = platform.computed(circling((0.0, SPEED), **fields))
+        assert sign in job.figure("mechanism", form="svg").content.decode()
     ((outline, ring),) = cam_curves(document["scene"], {"disc": (RADIUS, 0.0, 0.0)})
     assert outline is None
     assert ring is not None
