@@ -25,12 +25,12 @@ _CONFIG = ConfigDict(
 )
 HARMLESS = re.compile(
     r"/(bodies/[^/]+/(mass|inertia)|gravity/\d|drivers/[^/]+/speed"
-    r"|joints/[^/]+/clearance/(radial_clearance|wall_clearance|lash|bearing_radius|pin_radius|length|height|(contact|friction)/[^/]+)"
+    r"|joints/[^/]+/clearance/([^/]+|(contact|friction)/[^/]+)"
     r")"
 )
 """Numbers that neither the assembly at t = 0 nor any check of names depends on, but for what
 `structure_columns` has of them. Everything else counts as geometry."""
-SIZES = ("/bearing_radius", "/pin_radius", "/length", "/height")
+OF_CLEARANCE = re.compile(r"/joints/([^/]+)/clearance/([^/]+)")
 
 
 def inadmissible(scenes: PointScenes) -> Flags:
@@ -76,7 +76,8 @@ def geometry_columns(scenes: PointScenes) -> Iterator[Floats]:
     without_lengths = not link_lengths(scenes.base)
     for leaf in scenes.leaves:
         # what touches gives the scale of a mechanism none of whose bodies has two joints apart
-        scale = without_lengths and leaf.path.endswith(SIZES)
+        scale = without_lengths and OF_CLEARANCE.fullmatch(leaf.path) is not None
+        scale = scale and not _is_clearance(scenes.base, leaf.path)
         if OF_STARTS.fullmatch(leaf.path):
             column = scenes.column(leaf)
             yield (column == column.max()).astype(np.float64) - (column == column.min())
@@ -97,8 +98,11 @@ def distinct(columns: Sequence[NDArray[Any]], count: int) -> Integers:
 
 
 def _is_clearance(scene: Scene, path: str) -> bool:
-    found = re.fullmatch(r"/joints/([^/]+)/clearance/(radial_clearance|wall_clearance|lash)", path)
-    return found is not None and found[1] in scene.joints
+    found = OF_CLEARANCE.fullmatch(path)
+    if found is None or found[1] not in scene.joints:
+        return False
+    slack = scene.joints[found[1]].slack
+    return slack is not None and found[2] == slack.play_field
 
 
 def _structural(scene: Scene, path: str) -> tuple[float, ...]:
