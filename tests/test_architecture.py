@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 
+from jointplay.solver.joints import JOINTS
+
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ["records", "solver", "storage", "figures", "worker", "service", "chaos", "paper"]
 PACKAGES += ["src/jointplay"]
@@ -52,6 +54,21 @@ def test_docstrings_begin_with_what_a_thing_is():
     begins = re.compile(r'"""(What|Of|How) ')
     written = EVERYTHING + sorted((ROOT / "benchmarks").rglob("*.py"))
     assert [relative(path) for path in written if begins.search(path.read_text())] == []
+
+
+def test_types_of_joints_are_named_only_in_their_family() -> None:
+    """Others ask a joint what it does, so that a new type needs nothing of them."""
+    named = re.compile("[\"']({})[\"']".format("|".join(JOINTS)))
+    taken = re.compile(r"solver\.joints\.({}) ".format("|".join(map(module_of, JOINTS.values()))))
+    others = [path for path in SOURCES if "joints" not in path.parts and "chaos" not in path.parts]
+    others += sorted((ROOT / "page" / "mechanism").rglob("*.js"))
+    found = {path: path.read_text() for path in others}
+    assert [relative(path) for path, text in found.items() if named.search(text)] == []
+    assert [relative(path) for path, text in found.items() if taken.search(text)] == []
+
+
+def module_of(member: type) -> str:
+    return member.__module__.rpartition(".")[2]
 
 
 def test_nothing_evaluates_or_unpickles_what_it_reads():

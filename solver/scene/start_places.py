@@ -80,7 +80,7 @@ def with_places(
             continue
         place, name, index = _read(pointer)
         driven = scene.drivers[name].joint if place.part == "drivers" else None
-        unit = "m" if driven and scene.joints[driven].type == "prismatic" else place.unit
+        unit = "m" if driven and scene.joints[driven].freedom == "slide" else place.unit
         filled = _with_zero(filled, pointer.strip("/").split("/"), index)
         parameters[name_of(pointer)] = Parameter(
             help=f"Of the start: {pointer}.", unit=unit, targets=[Target(path=pointer)]
