@@ -3,12 +3,13 @@
 import math
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from jointplay.records.arrays import Flags
 from jointplay.solver.joints.contact import Contact, Touch
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
+from jointplay.solver.joints.starts import JournalStart
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.friction import FrictionLaw
@@ -175,10 +176,10 @@ class Joint(Strict):
         """Yield what no rule says is wrong with it: a field, and the sentence."""
         yield from ()
 
-    def start_problems(self, start: Any) -> Iterator[tuple[str, str]]:
-        """Yield what is wrong with a `JournalStart` of it: a field of that, and the sentence."""
+    def start_problems(self, start: JournalStart) -> Iterator[tuple[str, str]]:
+        """Yield what is wrong with a start of it: a field of that, and the sentence."""
         yield from ()
 
-    def cannot_start(self, start: Any) -> Flags | bool:
+    def cannot_start(self, start: JournalStart) -> Flags | bool:
         """Return the same as truth values, where numbers may be columns."""
         return False
