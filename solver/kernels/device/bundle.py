@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.arrays import Floats
+from jointplay.records.arrays import Flags, Floats
 from jointplay.records.failure import InvalidInput
 from jointplay.records.impact import IMPACT
 from jointplay.solver.integrators.method import Rosenbrock
@@ -20,9 +20,9 @@ from jointplay.solver.kernels.device.one_lane import Sizes
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.emit.tapes import Source
-from jointplay.solver.kernels.loop.bundle import Bundle, Group
+from jointplay.solver.kernels.loop.bundle import Bundle, Group, LaneState
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.ready_lanes import ENERGIES
+from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes
 from jointplay.solver.kernels.loop.runs import (
     DTYPE,
     GROWTH,
@@ -32,6 +32,10 @@ from jointplay.solver.kernels.loop.runs import (
     Status,
 )
 
+Write = Callable[[Sequence[Source], NDArray[np.void], Sizes], str]
+HANDED = ("filled", "impacts", "growths", "kept")
+"""Fields of a run that say how much it has handed out."""
+NO_CROSSINGS = "A device takes sections of drivers and onsets."
 ROWS, IMPACTS, GROWTHS = 80, 64, 16
 """That a lane hands out in a launch at most. Sections at events want room for a step's."""
 
@@ -39,9 +43,9 @@ ROWS, IMPACTS, GROWTHS = 80, 64, 16
 class DeviceBundle(Bundle):
     """Runs many problems of one structure on a device; lanes do not touch each other.
 
-    All numbers have a copy here, where lanes are loaded and extended. It is sent before a launch if
-    something was changed, and fetched behind one in which a lane came to an end. Of lanes that run
-    on, time and steps are up to date between launches, and all else in `state`.
+    All numbers have a copy here, where lanes are loaded and extended. Those of a lane that was
+    changed are sent before a launch, and fetched behind the one in which it came to an end. Of
+    lanes that run on, time and steps are up to date between launches, and all else in `state`.
     """
 
     def __init__(
@@ -51,11 +55,13 @@ class DeviceBundle(Bundle):
         count: int,
         *,
         tangents: Tangents | None = None,
-        write: Callable[[Sequence[Source], NDArray[np.void], Sizes], str] = code,
+        write: Write = code,
+        handed: tuple[int, int, int] = (ROWS, IMPACTS, GROWTHS),
     ) -> None:
         """Take room for so many lanes, and have the driver make code of the kernel; seconds.
 
-        `write` : what writes a kernel's code for the driver.
+        `write` : what writes a kernel's code for the driver. `handed` : rows of each kind, contacts
+        and growths of a tangent that a lane hands out in a launch at most.
 
         Raises
         ------
@@ -77,16 +83,16 @@ class DeviceBundle(Bundle):
         if tangents is not None:
             sources = [*sources, *tangents.module.tapes.sources]
             places, slots = tangents.places, tangents.layout.size
-        growths = 0 if tangents is None else GROWTHS
         work = np.zeros((slots, count))
         none = Buffers.of(0, 0, kernel.row.width, 0, tangents=False, steps=(0, 0, 0))
         self.groups = [Group(work, self.runs, none)]
-        sizes = Sizes(0, slots, ROWS, IMPACTS, growths)
+        sizes = Sizes(0, slots, *handed[:2], 0 if tangents is None else handed[2])
         loaded = Code(device, write(sources, places, sizes), ENTRY)
         shape = Shape(slots, kernel.row.width, *sizes[2:], DTYPE, IMPACT, GROWTH)
         self._lanes = DeviceLanes(device, loaded, shape, count)
-        self._changed = True
-        self._fetched = True
+        self._changed = np.ones(count, np.bool_)
+        self._stale = np.zeros(count, np.bool_)
+        self._launched = np.zeros(count, np.bool_)
         self._rows: NDArray[Any] = np.zeros(0)
         self._impacts: NDArray[Any] = np.zeros(0)
         self._growths: NDArray[Any] = np.zeros(0)
@@ -100,12 +106,35 @@ class DeviceBundle(Bundle):
             Its sections are where a channel crosses a value, which no device looks for.
         """
         if problem.event is not None and problem.event.kind == SectionKind.CROSSING:
-            raise InvalidInput.at("section", "A device takes sections of drivers and onsets.")
+            raise InvalidInput.at("section", NO_CROSSINGS)
         self._beside.load(0, problem)
         self.groups[0].work[:, i] = self._beside.lane(0).work[:, 0]
         self.runs[i] = self._beside.runs[0]
         self.first_energy[:, i] = self._beside.first_energy[:, 0]
-        self._changed = True
+        self._touched(i)
+
+    def load_ready(self, i: int, ready: ReadyLanes, k: int) -> None:
+        """Give a lane that does not run the k-th of problems that were made ready; as `load`.
+
+        Raises
+        ------
+        InvalidInput
+            As `load` does.
+        """
+        self.take_up(i, ready.work[k], ready.runs[k], ready.first_energy[k])
+
+    def take_up(self, i: int, column: Floats, run: Any, first_energy: Floats) -> None:
+        """Give a lane that does not run the state of another, (slots,); see `Bundle.take_up`."""
+        if run["section_kind"] == SectionKind.CROSSING:
+            raise InvalidInput.at("section", NO_CROSSINGS)
+        self.groups[0].work[:, i] = column
+        self.runs[i] = run
+        self.first_energy[:, i] = first_energy
+        self._touched(i)
+
+    def _touched(self, i: int) -> None:
+        """Note that a lane's numbers here are the newest ones."""
+        self._changed[i], self._stale[i] = True, False
 
     def repeat(self, count: int) -> None:
         """Let all lanes be like the first ones, in turn."""
@@ -113,43 +142,55 @@ class DeviceBundle(Bundle):
         for array in (self.groups[0].work, self.first_energy):
             array[:] = array[:, like]
         self.runs[:] = self.runs[like]
-        self._changed = True
+        self._changed[:] = True
 
     def set_going(self, i: int) -> None:
         """Let a lane run from where it is to the end that its run has."""
         super().set_going(i)
-        self._changed = True
+        self._touched(i)
 
     def advance(self, budget: int) -> int:
         """Attempt at most `budget` steps; how many lanes still run. Rows are handed out once."""
-        (group,), lanes = self.groups, self._lanes
-        if self._changed:
-            self._fetch()
-            lanes.columns.write(group.work)
+        self.launch(budget)
+        return self.land()
+
+    def launch(self, budget: int) -> None:
+        """Send what was changed, and begin so many attempts of the lanes that run."""
+        work, lanes = self.groups[0].work, self._lanes
+        self._launched = self.runs["status"] == Status.RUNNING
+        if self._changed.all():
+            lanes.columns.write(work)
             lanes.runs.write(self.runs)
-            self._changed = False
-        before = self.runs["status"] == Status.RUNNING
+        else:
+            changed = np.flatnonzero(self._changed)
+            lanes.send(changed, work[:, changed], self.runs[changed])
+        self._changed[:] = False
+        self._stale |= self._launched
         lanes.launch(budget)
-        self._fetched = False
+
+    def land(self) -> int:
+        """Wait for what was launched, fetch what is new of it; how many of its lanes still run."""
+        (group,), lanes, launched = self.groups, self._lanes, self._launched
+        lanes.device.finish()
         group.attempts += int(lanes.made().max(initial=0))
-        self.runs[:] = lanes.runs.read()
+        for name in HANDED:
+            self.runs[name] = 0
+        self.runs[launched] = lanes.runs.read()[launched]
         self._rows = lanes.rows(int(self.runs["filled"].max(initial=0)))
         self._impacts = lanes.impacts(int(self.runs["impacts"].max(initial=0)))
         self._growths = lanes.growths(int(self.runs["growths"].max(initial=0)))
         running = self.runs["status"] == Status.RUNNING
-        if (before & ~running).any():
-            self._fetch()
-        else:
-            for name in ("time", "steps"):
-                slot = self.kernel.layout[name]
-                group.work[slot] = lanes.columns.row(slot)
-        return int(np.count_nonzero(running))
+        self._fetch(launched & ~running)
+        for name in ("time", "steps"):
+            slot = self.kernel.layout[name]
+            group.work[slot, launched] = lanes.columns.row(slot)[launched]
+        return int(np.count_nonzero(launched & running))
 
-    def _fetch(self) -> None:
-        """Bring the numbers of all lanes here, unless they are."""
-        if not self._fetched:
-            self.groups[0].work[:] = self._lanes.columns.read()
-            self._fetched = True
+    def _fetch(self, wanted: Flags) -> None:
+        """Bring the numbers of lanes here, where they are not."""
+        lanes = np.flatnonzero(wanted & self._stale)
+        self.groups[0].work[:, lanes], _ = self._lanes.fetch(lanes)
+        self._stale[lanes] = False
 
     def rows(self, kind: int, i: int) -> Floats:
         """Return what a lane handed out in the last call: dense rows (count, width)."""
@@ -171,12 +212,19 @@ class DeviceBundle(Bundle):
         self._beside.lane(0).work[:, 0] = self.groups[0].work[:, i]
         return self._beside.observe(0, rows, columns)
 
+    def states_of(self, lanes: Sequence[int]) -> list[LaneState]:
+        """Return everything that the next step of some lanes depends on, for `take_up`."""
+        wanted = np.zeros(self.width, np.bool_)
+        wanted[list(lanes)] = True
+        self._fetch(wanted)
+        return super().states_of(lanes)
+
     def state(self, name: str) -> dict[str, NDArray[Any]]:
         """Return everything that the next step depends on, as a bundle of as many lanes here."""
-        self._fetch()
+        self._fetch(self._stale)
         return super().state(name)
 
     def restore(self, saved: Mapping[str, NDArray[Any]], name: str) -> None:
         """Continue from `state`, bit for bit."""
         super().restore(saved, name)
-        self._changed = self._fetched = True
+        self._changed[:], self._stale[:] = True, False

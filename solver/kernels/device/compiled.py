@@ -2,14 +2,14 @@
 
 # mypy: disable-error-code="no-untyped-call"
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
 from llvmlite import binding
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.device.kernel_text import ENTRY, LANE, LOOP, kernel_text
+from jointplay.solver.kernels.device.kernel_text import LOOP, PARTS, kernel_text
 from jointplay.solver.kernels.device.loop_text import loop_text
 from jointplay.solver.kernels.device.one_lane import Sizes
 from jointplay.solver.kernels.emit.tapes import Source
@@ -33,20 +33,20 @@ def ptx(text: str) -> str:
     binding.initialize_all_asmprinters()
     target = binding.Target.from_triple(TRIPLE)
     machine = target.create_target_machine(cpu=OLDEST, features=DIALECT, opt=LEVEL)
-    return str(machine.emit_assembly(_linked(text, machine, TRIPLE, ENTRY)))
+    return str(machine.emit_assembly(_linked(text, machine, TRIPLE, PARTS.keys())))
 
 
 def host_code(text: str) -> Any:
-    """Return what holds the code of a kernel's text for this processor; `LANE` is its function."""
+    """Return what holds the code of a kernel's text for this processor; its functions: `PARTS`."""
     machine = own_target().machine()
-    module = _linked(text, machine, binding.get_process_triple(), LANE)
+    module = _linked(text, machine, binding.get_process_triple(), PARTS.values())
     engine = binding.create_mcjit_compiler(module, machine)
     engine.finalize_object()
     return engine
 
 
-def _linked(text: str, machine: Any, triple: str, entry: str) -> Any:
-    """Return a module of which only the entry is seen from outside, with all calls known."""
+def _linked(text: str, machine: Any, triple: str, entries: Collection[str]) -> Any:
+    """Return a module of which only entries are seen from outside, with all calls known."""
     module, loop = (binding.parse_assembly(one) for one in (text, loop_text()))
     for function in loop.functions:
         if function.name != LOOP and not function.is_declaration:
@@ -55,7 +55,7 @@ def _linked(text: str, machine: Any, triple: str, entry: str) -> Any:
         one.triple, one.data_layout = triple, str(machine.target_data)
     module.link_in(loop)
     for one in (*module.functions, *module.global_variables):
-        if one.name != entry and not one.is_declaration:
+        if one.name not in entries and not one.is_declaration:
             one.linkage = "internal"
     module.verify()
     options = binding.create_pipeline_tuning_options()

@@ -6,8 +6,9 @@ https://docs.nvidia.com/cuda/cuda-driver-api.
 
 import ctypes
 from collections.abc import Sequence
+from copy import copy
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ ON_HOST, ON_DEVICE = 1, 2
 LOG = 8192
 """Bytes of what the driver says about code that it does not take."""
 ERROR_LOG, ERROR_LOG_SIZE = 5, 6
+NOT_READY = "CUDA_ERROR_NOT_READY"
 
 
 class DeviceError(OSError):
@@ -110,6 +112,17 @@ class Device:
         self.call("cuDeviceGetAttribute", ctypes.byref(value), which, self._device)
         return value.value
 
+    @property
+    def idle(self) -> bool:
+        """Whether all launches are done."""
+        try:
+            self.call("cuStreamQuery", None)
+        except DeviceError as error:
+            if str(error).startswith(f"cuStreamQuery: {NOT_READY}"):
+                return False
+            raise
+        return True
+
     def finish(self) -> None:
         """Wait until all launches are done."""
         self.call("cuCtxSynchronize")
@@ -126,17 +139,28 @@ class Code:
         DeviceError
             With what the driver says about the text.
         """
-        self._device, module = device, ctypes.c_void_p()
-        self._function = ctypes.c_void_p()
+        self._device, self._module = device, ctypes.c_void_p()
         log = ctypes.create_string_buffer(LOG)
         options = (ctypes.c_int * 2)(ERROR_LOG, ERROR_LOG_SIZE)
         values = (ctypes.c_void_p * 2)(ctypes.addressof(log), LOG)
         code = text.encode() + b"\0"
         try:
-            device.call("cuModuleLoadDataEx", ctypes.byref(module), code, 2, options, values)
+            device.call("cuModuleLoadDataEx", ctypes.byref(self._module), code, 2, options, values)
         except DeviceError as error:
             raise DeviceError(f"{error}: {log.value.decode(errors='replace')}") from error
-        device.call("cuModuleGetFunction", ctypes.byref(self._function), module, name.encode())
+        self._find(name)
+
+    def _find(self, name: str) -> None:
+        self._function = function = ctypes.c_void_p()
+        self._device.call(
+            "cuModuleGetFunction", ctypes.byref(function), self._module, name.encode()
+        )
+
+    def other(self, name: str) -> Self:
+        """Return another kernel of the same text."""
+        found = copy(self)
+        found._find(name)
+        return found
 
     def attribute(self, which: int) -> int:
         """Return `REGISTERS` or `LOCAL` of it."""
@@ -167,9 +191,15 @@ class Memory:
 
     def write(self, array: NDArray[Any]) -> None:
         """Set all of it."""
-        array = np.ascontiguousarray(array, self._kind)
         if array.shape != self._shape:
             raise ValueError(f"an array {self._shape} cannot be set to one {array.shape}")
+        self.begin_with(array)
+
+    def begin_with(self, array: NDArray[Any]) -> None:
+        """Set its first numbers, in their order."""
+        array = np.ascontiguousarray(array, self._kind)
+        if array.size > np.prod(self._shape):
+            raise ValueError(f"an array {self._shape} has no room for one {array.shape}")
         place = ctypes.c_void_p(array.ctypes.data)
         size = ctypes.c_size_t(array.nbytes)
         self._device.call("cuMemcpyHtoD_v2", ctypes.c_uint64(self.address), place, size)
@@ -182,6 +212,13 @@ class Memory:
         if found.size:
             pitch = width * self._kind.itemsize
             self._copy(found, self.address, pitch, found.size // count)
+        return found
+
+    def first(self, shape: tuple[int, ...]) -> NDArray[Any]:
+        """Return a copy of its first numbers, in their order."""
+        found = np.empty(shape, self._kind)
+        if found.size:
+            self._copy(found, self.address, found.nbytes, 1)
         return found
 
     def row(self, i: int) -> NDArray[Any]:

@@ -5,6 +5,7 @@ from collections.abc import Collection, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.solver.kernels.device.lanes import MOVE
 from jointplay.solver.kernels.device.one_lane import Lanes, Sizes
 from jointplay.solver.kernels.emit import functions
 from jointplay.solver.kernels.emit.function import OF_ARRAYS
@@ -16,6 +17,10 @@ from jointplay.solver.kernels.loop import runs
 ENTRY, LOOP, LANE, MEET = "advance", "one_lane", "lane", "meet"
 """Names of functions: the kernel, the loop, a lane's part of a launch, and where threads of a block
 meet, attempt by attempt: they share what they fetch of the code."""
+MOVE_ONE = "move_one"
+"""A thread's part of what brings numbers of some lanes together, or back to them."""
+PARTS = {ENTRY: LANE, MOVE: MOVE_ONE}
+"""What each kernel has a thread do: a function with one word more, the thread's number."""
 CALLED = ("states_within", "gaps_within", "weigh", "tangent_gaps")
 """Functions that are called now and then: written in where they are called, they would fill the
 cache of instructions."""
@@ -46,27 +51,37 @@ PARAMETERS = ", ".join(
     [*(f"ptr %{name}" for name in Lanes._fields), "i64 %size.lanes", "i64 %budget"]
 )
 """Those of the kernel, and, with the lane behind them, of the lane's part."""
+MOVE_PARAMETERS = (
+    "ptr %columns, ptr %packed, ptr %which, i64 %along, i64 %across, i64 %chosen, i64 %size,"
+    " i64 %into"
+)
+"""Numbers of all lanes, (slots, lanes) in steps of so many words along slots and across lanes;
+those of chosen lanes, (slots, chosen), `size` in all; which lanes these are; not 0: into lanes."""
+MOVED = f"""
+define void @{MOVE_ONE}({MOVE_PARAMETERS}, i64 %index) alwaysinline nounwind {{
+  %slot = udiv i64 %index, %chosen
+  %k = urem i64 %index, %chosen
+  %choice = getelementptr i64, ptr %which, i64 %k
+  %lane = load i64, ptr %choice
+  %far = mul i64 %slot, %along
+  %aside = mul i64 %lane, %across
+  %place = add i64 %far, %aside
+  %own = getelementptr i64, ptr %columns, i64 %place
+  %other = getelementptr i64, ptr %packed, i64 %index
+  %inward = icmp ne i64 %into, 0
+  %source = select i1 %inward, ptr %other, ptr %own
+  %target = select i1 %inward, ptr %own, ptr %other
+  %word = load i64, ptr %source
+  store i64 %word, ptr %target
+  ret void
+}}
+"""
 ON_DEVICE = f"""
 declare i32 @llvm.nvvm.read.ptx.sreg.tid.x()
 declare i32 @llvm.nvvm.read.ptx.sreg.ctaid.x()
 declare i32 @llvm.nvvm.read.ptx.sreg.ntid.x()
 define void @{MEET}() alwaysinline convergent nounwind {{
   call void asm sideeffect "barrier.sync 0;", ""() convergent
-  ret void
-}}
-define ptx_kernel void @{ENTRY}({PARAMETERS}) {{
-  %thread = call i32 @llvm.nvvm.read.ptx.sreg.tid.x()
-  %block = call i32 @llvm.nvvm.read.ptx.sreg.ctaid.x()
-  %threads = call i32 @llvm.nvvm.read.ptx.sreg.ntid.x()
-  %before = mul i32 %block, %threads
-  %index = add i32 %before, %thread
-  %lane = zext i32 %index to i64
-  %there = icmp slt i64 %lane, %size.lanes
-  br i1 %there, label %go, label %end
-go:
-  call void @{LANE}({PARAMETERS}, i64 %lane)
-  br label %end
-end:
   ret void
 }}
 """
@@ -96,9 +111,33 @@ def kernel_text(
             *_functions(sources),
             _words("places", places.view(np.int64).reshape(-1)),
             _lane(sizes, spare_rows(sources, sizes.slots) * INSTANTS),
-            ON_HOST if on_host else ON_DEVICE,
+            MOVED,
+            *([ON_HOST] if on_host else [ON_DEVICE, _kernel(ENTRY), _kernel(MOVE)]),
         ]
     )
+
+
+def _kernel(name: str) -> str:
+    """Return a kernel, whose threads do its part as often as its seventh word says."""
+    given = {ENTRY: PARAMETERS, MOVE: MOVE_PARAMETERS}[name]
+    count = given.split(", ")[6].split()[1]
+    return f"""
+define ptx_kernel void @{name}({given}) {{
+  %thread = call i32 @llvm.nvvm.read.ptx.sreg.tid.x()
+  %block = call i32 @llvm.nvvm.read.ptx.sreg.ctaid.x()
+  %threads = call i32 @llvm.nvvm.read.ptx.sreg.ntid.x()
+  %before = mul i32 %block, %threads
+  %sum = add i32 %before, %thread
+  %index = zext i32 %sum to i64
+  %there = icmp slt i64 %index, {count}
+  br i1 %there, label %go, label %end
+go:
+  call void @{PARTS[name]}({given}, i64 %index)
+  br label %end
+end:
+  ret void
+}}
+"""
 
 
 def spare_rows(sources: Sequence[Source], slots: int) -> int:

@@ -10,6 +10,11 @@ from jointplay.solver.kernels.device.driver import Code, Device, Memory
 
 BLOCK = 256
 """Threads that keep together, attempt by attempt: they share what they fetch of the code."""
+MOVE = "move"
+"""The kernel that brings numbers of some lanes together; see `kernel_text`."""
+WORD = 8
+PACKED = 1024
+"""Lanes of which numbers are brought together at once."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,7 @@ class DeviceLanes:
         """
         self.device, self.code, self.shape, self.count = device, code, shape, count
         self._block = block
+        self._mover = code.other(MOVE)
         self._all: list[Memory] = []
         try:
             self.columns = self._memory((shape.slots, count), np.float64)
@@ -52,6 +58,10 @@ class DeviceLanes:
             self._impacts = self._memory((count, shape.impacts), shape.impact)
             self._growths = self._memory((count, shape.growths), shape.growth)
             self._made = self._memory((count,), np.int64)
+            self._arguments = [memory.address for memory in self._all]
+            self._which = self._memory((PACKED,), np.int64)
+            words = max(shape.slots, self._words)
+            self._packed = self._memory((words * min(count, PACKED),), np.int64)
         except BaseException:
             self.release()
             raise
@@ -62,8 +72,54 @@ class DeviceLanes:
 
     def launch(self, budget: int) -> None:
         """Begin at most so many attempts of each lane."""
-        addresses = [memory.address for memory in self._all]
-        self.code.launch(self.count, self._block, [*addresses, self.count, budget])
+        self.code.launch(self.count, self._block, [*self._arguments, self.count, budget])
+
+    @property
+    def _words(self) -> int:
+        return int(np.dtype(self.shape.run).itemsize // WORD)
+
+    def fetch(self, lanes: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.void]]:
+        """Return numbers (slots, lanes) and records (lanes,) of some lanes."""
+        slots, words = self.shape.slots, self._words
+        columns = np.empty((slots, len(lanes)))
+        runs = np.empty(len(lanes), self.shape.run)
+        for first in range(0, len(lanes), PACKED):
+            some = lanes[first : first + PACKED]
+            part = slice(first, first + len(some))
+            self._move(self.columns, some, (self.count, 1), slots * len(some), into=0)
+            columns[:, part] = self._packed.first((slots, len(some))).view(np.float64)
+            self._move(self.runs, some, (1, words), words * len(some), into=0)
+            own = np.ascontiguousarray(self._packed.first((words, len(some))).T)
+            runs[part] = own.view(self.shape.run)[:, 0]
+        return columns, runs
+
+    def send(
+        self, lanes: NDArray[np.int64], columns: NDArray[np.float64], runs: NDArray[np.void]
+    ) -> None:
+        """Set numbers (slots, lanes) and records (lanes,) of some lanes."""
+        words = self._words
+        for first in range(0, len(lanes), PACKED):
+            some = lanes[first : first + PACKED]
+            part = slice(first, first + len(some))
+            own = np.ascontiguousarray(columns[:, part])
+            self._packed.begin_with(own.view(np.int64))
+            self._move(self.columns, some, (self.count, 1), own.size, into=1)
+            records = np.ascontiguousarray(runs[part]).view(np.int64).reshape(len(some), words)
+            self._packed.begin_with(records.T)
+            self._move(self.runs, some, (1, words), records.size, into=1)
+
+    def _move(
+        self,
+        memory: Memory,
+        lanes: NDArray[np.int64],
+        strides: tuple[int, int],
+        size: int,
+        into: int,
+    ) -> None:
+        """Bring so many words of some lanes together, or back; see `kernel_text.MOVED`."""
+        self._which.begin_with(lanes)
+        addresses = memory.address, self._packed.address, self._which.address
+        self._mover.launch(size, BLOCK, [*addresses, *strides, len(lanes), size, into])
 
     def made(self) -> NDArray[np.int64]:
         """Return how many attempts each lane made in the last launch, once that is done."""

@@ -28,6 +28,8 @@ from jointplay.solver.scene.periods import driven_speed
 from jointplay.solver.scene.references import tangent_obstacle
 
 Floats = NDArray[np.float64]
+LaneState = tuple[Floats, Any, Floats]
+"""Of a lane: its numbers (slots,), its record, of type `Run`, and its first energies (3,), J."""
 
 ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
@@ -129,11 +131,18 @@ class Bundle:
 
     def load_ready(self, i: int, ready: ReadyLanes, k: int) -> None:
         """Give a lane that does not run the k-th of problems that were made ready; as `load`."""
+        self.take_up(i, ready.work[k], ready.runs[k], ready.first_energy[k])
+
+    def take_up(self, i: int, column: Floats, run: Any, first_energy: Floats) -> None:
+        """Give a lane that does not run the state of another, wherever that was, bit for bit.
+
+        column : (slots,). run : record of type `Run`. first_energy : (3,) J.
+        """
         group, index = divmod(i, self.width)
-        self.groups[group].work[:, index] = ready.work[k]
+        self.groups[group].work[:, index] = column
         self._repeat(i)
-        self.runs[i] = ready.runs[k]
-        self.first_energy[:, i] = ready.first_energy[k]
+        self.runs[i] = run
+        self.first_energy[:, i] = first_energy
 
     def _repeat(self, i: int) -> None:
         """Give lanes that never had a problem the numbers of this one: harmless, unlike zeros."""
@@ -274,6 +283,17 @@ class Bundle:
         """Return where a lane is, for another problem to start from."""
         lane = self.lane(i)
         return LaneStart(lane["y"].copy(), lane["mode"] > 0.0, lane["impact_rate"].copy())
+
+    def states_of(self, lanes: Sequence[int]) -> list[LaneState]:
+        """Return everything that the next step of some lanes depends on, for `take_up`."""
+        return [
+            (
+                self.lane(i).work[:, self.lane(i).index].copy(),
+                self.runs[i].copy(),
+                self.first_energy[:, i].copy(),
+            )
+            for i in lanes
+        ]
 
     def energy(self, i: int) -> Floats:
         """Return a lane's kinetic, potential and stored elastic energy, J."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from jointplay.solver.kernels.device.compiled import host_code
 from jointplay.solver.kernels.device.driver import ON_DEVICE, _Copy
-from jointplay.solver.kernels.device.kernel_text import LANE
+from jointplay.solver.kernels.device.kernel_text import PARTS
 
 OUT_OF_MEMORY, NOT_FOUND, LOST = 2, 500, 719
 NAMES = {
@@ -23,6 +23,8 @@ class DriverByHost:
     def __init__(self, memory: int = 2**30) -> None:
         self.memory, self.held = memory, dict[int, Any]()
         self.launches = 0
+        self.fetched = 0
+        """Bytes that were copied from the device."""
         self.lost_at = -1
         """Number of the launch at which the device is lost."""
         self._lane: Any = None
@@ -69,6 +71,7 @@ class DriverByHost:
     def cuMemcpy2DUnaligned_v2(self, given: Any) -> int:  # noqa: N802
         copy: _Copy = given._obj
         assert copy.source_kind == ON_DEVICE
+        self.fetched += copy.width * copy.height
         for row in range(copy.height):
             source = copy.source_device + row * copy.source_pitch + copy.source_x
             ctypes.memmove(copy.target_host + row * copy.target_pitch, source, copy.width)
@@ -79,8 +82,10 @@ class DriverByHost:
         module._obj.value = len(self._engines)
         return 0
 
-    def cuModuleGetFunction(self, function: Any, module: Any, _name: bytes) -> int:  # noqa: N802
-        function._obj.value = self._engines[module.value - 1].get_function_address(LANE)
+    def cuModuleGetFunction(self, function: Any, module: Any, name: bytes) -> int:  # noqa: N802
+        function._obj.value = self._engines[module.value - 1].get_function_address(
+            PARTS[name.decode()]
+        )
         return 0
 
     def cuFuncGetAttribute(self, value: Any, _which: int, _function: Any) -> int:  # noqa: N802
@@ -98,6 +103,9 @@ class DriverByHost:
         kind = ctypes.CFUNCTYPE(None, *[ctypes.c_uint64] * 9)
         for lane in range(min(blocks * threads, words[6])):
             kind(function.value)(*words, lane)
+        return 0
+
+    def cuStreamQuery(self, _stream: None) -> int:  # noqa: N802
         return 0
 
     def cuCtxSynchronize(self) -> int:  # noqa: N802

@@ -128,6 +128,32 @@ def test_a_free_lane_takes_another_problem_and_the_others_do_not_notice() -> Non
     np.testing.assert_array_equal(there.block("y"), here.block("y")[:, :2])
 
 
+def test_a_lane_moves_alone_to_another_place_of_a_device_and_back() -> None:
+    kernel, given = kernel_of("slider-crank"), problems("slider-crank", 0.05)
+    here, there, last = Bundle(kernel, given[:2], watch=False), on_device(kernel, 3), None
+    assert here.advance(300) == 2
+    there.take_up(2, *here.states_of([1])[0])
+    there.load(0, given[5])
+    assert there.advance(300) == 2
+    last = Bundle(kernel, watch=False)
+    last.take_up(4, *there.states_of([2])[0])
+    for bundle in (here, last):
+        while bundle.advance(10_000):
+            pass
+    np.testing.assert_array_equal(last.lane(4)["y"], here.lane(1)["y"])
+    assert last.lane(4).steps == here.lane(1).steps
+
+
+def test_of_lanes_that_run_on_little_is_fetched() -> None:
+    kernel, driver = kernel_of("slider-crank"), DriverByHost()
+    short, long = problems("slider-crank", 0.005), problems("slider-crank", 0.05)
+    there = loaded(on_device(kernel, 64, library=driver), [short[0], *long[1:]])
+    while there.lane(0).running:
+        before = driver.fetched
+        there.advance(100)
+    assert driver.fetched - before < 64 * kernel.layout.size * 8 / 2
+
+
 def test_what_no_device_does_is_refused() -> None:
     stiff = ready_kernel(preset("slider-crank"), "reduced", "rodas")
     with pytest.raises(InvalidInput, match="explicit"):
