@@ -6,6 +6,7 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.records.point import PointEnd
+from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.nonlinear.lyapunov import undecided
 from jointplay.solver.runs.study.cycles import cycle_of
@@ -34,26 +35,32 @@ def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
 
 def looks_longer(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
     """Lengthen the stretch in smaller steps while it settles nothing; return whether it does."""
-    scene, period = study.point_scene(run.point), float(study.period[run.point])
-    if not undecided(*exponents(*_growths(study, run), period, run.settled)):
+    if not open_still(study, run):
         return False
+    scene, period = study.point_scene(run.point), float(study.period[run.point])
     return go_on_longer(bundle, lane, scene, run.finer_from, period, study.record)
 
 
-def judged(study: Study, bundle: Bundle, run: PointRun) -> PointEnd:
+def open_still(study: Study, run: PointRun) -> bool:
+    """Return whether the stretch in smaller steps settles nothing so far."""
+    period = float(study.period[run.point])
+    return undecided(*exponents(*_growths(study, run), period, run.settled))
+
+
+def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     """Return a point's end with its indicators, for which now all is there."""
     assert run.ended is not None  # noqa: S101  (narrows the type)
     if run.ended.code or not study.indicators:
         return run.ended
-    states = np.concatenate(run.seen) if run.seen else np.zeros((0, bundle.kernel.states))
-    scales, angles = scales_of(study, bundle.kernel, run.point)
+    states = np.concatenate(run.seen) if run.seen else np.zeros((0, kernel.states))
+    scales, angles = scales_of(study, kernel, run.point)
     period, growths = float(study.period[run.point]), _growths(study, run)
     found, verdict = indicators_of(
         study.indicators, states, scales, angles, *growths, period, run.settled
     )
     if study.compares_cycles:
         turned = unwound(states, angles)
-        cycle = cycle_of(bundle.kernel.coordinates, turned, angles, verdict.period)
+        cycle = cycle_of(kernel.coordinates, turned, angles, verdict.period)
         run.ended = replace(run.ended, statistics={**run.ended.statistics, **cycle})
     if study.brief:
         return replace(run.ended, indicators=found)

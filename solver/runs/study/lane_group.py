@@ -1,13 +1,13 @@
 """The lanes that compute points of one structure, side by side: seed, settle, record, judge."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import islice
 
 import numpy as np
 
 from jointplay.records.point import PointEnd, SectionRows
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes
 from jointplay.solver.kernels.loop.runs import Status
@@ -24,6 +24,7 @@ from jointplay.solver.runs.study.settle import goes_on
 AT_ONCE = 64
 """Points that are made ready together."""
 
+Make = Callable[..., Bundle]
 Collected = tuple[list[SectionRows], list[PointEnd], list[PointRun]]
 """Sections, points that ended, and those that may follow them."""
 
@@ -31,8 +32,11 @@ Collected = tuple[list[SectionRows], list[PointEnd], list[PointRun]]
 class LaneGroup:
     """A kernel's lanes, each with the point that it computes, or free."""
 
-    def __init__(self, study: Study, structure: int) -> None:
-        """Compile or load the kernel of a structure, and its tangents where they are wanted."""
+    def __init__(self, study: Study, structure: int, make: Make = Bundle) -> None:
+        """Compile or load the kernel of a structure, and its tangents where they are wanted.
+
+        `make` : what has the lanes, as `Bundle` has eight.
+        """
         point = int(np.flatnonzero(study.structure == structure)[0])
         kernel = ready_kernel(study.point_scene(point), study.job["formulation"], study.method)
         tangents = compile_tangents(kernel) if study.carries_exponents else None
@@ -40,9 +44,9 @@ class LaneGroup:
         self.structure = structure
         keep_steps = lanes_that_keep_steps(study)
         watch = bool(study.channels)
-        self.bundle = Bundle(kernel, watch=watch, tangents=tangents, keep_steps=keep_steps)
+        self.bundle = make(kernel, watch=watch, tangents=tangents, keep_steps=keep_steps)
         self.recording = Recording(study, self.bundle)
-        self.lanes: list[PointRun | None] = [None] * BUNDLE
+        self.lanes: list[PointRun | None] = [None] * len(self.bundle.runs)
         self._ready: dict[int, tuple[ReadyLanes, int]] = {}
         self._refused: list[PointEnd] = []
         """Points that cannot start as they say."""
@@ -77,8 +81,8 @@ class LaneGroup:
     def fill(self, waiting: list[PointRun]) -> tuple[int, ...]:
         """Give free lanes waiting points of this structure; return those points."""
         started = []
-        for lane in range(BUNDLE):
-            if self.lanes[lane] is not None:
+        for lane, computed in enumerate(self.lanes):
+            if computed is not None:
                 continue
             run = self._next(waiting)
             if run is None:
@@ -102,14 +106,24 @@ class LaneGroup:
     def _load(self, lane: int, run: PointRun, waiting: list[PointRun]) -> None:
         """Give a free lane a waiting point; those that wait beside it are made ready together."""
         study, kernel, point = self.study, self.bundle.kernel, run.point
+        if run.lane is not None:
+            self.bundle.take_up(lane, *run.lane)
+            run.lane = None
+            return
         begin_point(study, kernel, run)
         if run.start is not None:
             scene = study.point_scene(point)
             self.bundle.load(lane, problem_of(study, kernel, point, scene, run.start))
             return
         if point not in self._ready:
-            alike = (one for one in waiting if study.structure[one.point] == self.structure)
-            points = [one.point for one in alike if one.start is None][:AT_ONCE]
+            alike = (
+                one.point
+                for one in waiting
+                if study.structure[one.point] == self.structure
+                and one.start is None
+                and one.lane is None
+            )
+            points = list(islice(alike, AT_ONCE))
             lanes = ready(study, kernel, self.bundle.tangents, points)
             self._ready = {one: (lanes, k) for k, one in enumerate(points)}
         self.bundle.load_ready(lane, *self._ready.pop(point))
@@ -122,25 +136,27 @@ class LaneGroup:
         for lane, run in enumerate(self.lanes):
             if run is None:
                 continue
-            at = self.study, self.bundle, lane, run
             status = self.bundle.lane(lane).status
             if run.ended is None:
                 sections += self.recording.take(lane, run)
-                if status == Status.DONE and goes_on(*at):
-                    continue
-                if status != Status.RUNNING:
-                    run.ended = self.recording.end(lane, run, status)
-                    following += self._following(lane, run, run.ended)
-                    if looks_again(*at):
-                        continue
             else:
                 run.finer.append(self.bundle.growth(lane))
-                if status == Status.DONE and looks_longer(*at):
-                    continue
-            if status != Status.RUNNING:
-                ended.append(judged(self.study, self.bundle, run))
-                self.lanes[lane] = None
+            if status == Status.RUNNING or self._goes_on(lane, run, status, following):
+                continue
+            ended.append(judged(self.study, self.bundle.kernel, run))
+            self.lanes[lane] = None
         return sections, ended, following
+
+    def _goes_on(self, lane: int, run: PointRun, status: Status, following: list[PointRun]) -> bool:
+        """Give a lane that has stopped the next part of its point; return whether there was one."""
+        at = self.study, self.bundle, lane, run
+        if run.ended is not None:
+            return status == Status.DONE and looks_longer(*at)
+        if status == Status.DONE and goes_on(*at):
+            return True
+        run.ended = self.recording.end(lane, run, status)
+        following += self._following(lane, run, run.ended)
+        return looks_again(*at)
 
     def _following(self, lane: int, run: PointRun, end: PointEnd) -> Iterator[PointRun]:
         """Yield the next point of a chain, which starts where this one came to."""

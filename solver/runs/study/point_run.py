@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.point import PointEnd
+from jointplay.solver.kernels.loop.bundle import LaneState
 from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.nonlinear.settling import SETTLINGS, Settling
 from jointplay.solver.runs.study.indicators import RECURS, unwound
@@ -49,6 +50,8 @@ class PointRun:
     """Samples that they have had."""
     extremes: dict[str, NDArray[np.float64]] = field(default_factory=dict)
     """State of what seeks its extremes after settling; see `point_extremes`."""
+    lane: LaneState | None = field(default=None, repr=False)
+    """Where it had come to when a restart point was made, as `Bundle.take_up` has it."""
     settling: Settling | None = field(default=None, repr=False)
 
     def has_settled(self, scales: Floats, angles: Flags, most: int) -> bool:

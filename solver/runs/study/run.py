@@ -7,25 +7,13 @@ the lanes of this one are done.
 
 import time
 from collections.abc import Iterator
-from dataclasses import asdict
-from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from jointplay.records.checkpoint import decode, encode
-from jointplay.records.point import PointEnd, StudySlice
-from jointplay.solver.kernels.loop.problem import LaneStart
+from jointplay.records.point import StudySlice
 from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.study.lane_group import LaneGroup
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.study.point_extremes import STATE
 from jointplay.solver.runs.study.point_run import PointRun
-from jointplay.solver.version import SOLVER_VERSION
-
-_KIND = "block of a study"
-SERIES = ("seen", "growth", "finer", "tallies")
-"""Lists of arrays of a point's run that a restart point needs."""
+from jointplay.solver.runs.study.restart_point import read, written
 
 
 class StudyRun:
@@ -100,69 +88,9 @@ class StudyRun:
 
     def checkpoint(self) -> bytes:
         """Return a restart point; valid between slices."""
-        lanes = self.group.lanes if self.group is not None else []
-        arrays: dict[str, NDArray[Any]] = {}
-        for run in [*self.waiting, *(run for run in lanes if run is not None)]:
-            for name in SERIES:
-                parts = getattr(run, name)
-                arrays |= {f"{name}{run.point}-{i}": part for i, part in enumerate(parts)}
-            arrays |= {f"{name}-{run.point}": array for name, array in run.extremes.items()}
-            if run.start is not None:
-                arrays |= {
-                    f"start{run.point}-{name}": value
-                    for name, value in asdict(run.start).items()
-                    if value is not None
-                }
-        facts = {
-            "ended": self.ended,
-            "waiting": [_facts(run) for run in self.waiting],
-            "structure": None if self.group is None else self.group.structure,
-            "lanes": [None if run is None else _facts(run) for run in lanes],
-        }
-        if self.group is not None:
-            arrays |= self.group.bundle.state("lanes")
-        return encode(_KIND, SOLVER_VERSION, facts, arrays)
+        return written(self.ended, self.waiting, self.group)
 
     def _restore(self, checkpoint: bytes) -> None:
-        facts, arrays = decode(checkpoint, _KIND, SOLVER_VERSION)
-        self.ended = facts["ended"]
-        self.waiting = [_run(found, arrays) for found in facts["waiting"]]
-        if facts["structure"] is not None:
-            self.group = LaneGroup(self.study, facts["structure"])
-            self.group.bundle.restore(arrays, "lanes")
-            self.group.lanes = [found and _run(found, arrays) for found in facts["lanes"]]
-
-
-def _facts(run: PointRun) -> dict[str, Any]:
-    names = (
-        "point",
-        "chain",
-        "position",
-        "settled",
-        "reached",
-        "taken",
-        "sampled",
-        "finer_from",
-        "lasting",
-    )
-    facts = {name: getattr(run, name) for name in (*names, "finer_from")}
-    facts |= {name: len(getattr(run, name)) for name in SERIES}
-    ended = run.ended and {**asdict(run.ended), "peaks": run.ended.peaks.tolist()}
-    return facts | {"starts": run.start is not None, "ended": ended}
-
-
-def _run(facts: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PointRun:
-    starts, ended = facts.pop("starts"), facts.pop("ended")
-    counts = {name: facts.pop(name) for name in SERIES}
-    run = PointRun(**facts)
-    for name, count in counts.items():
-        setattr(run, name, [arrays[f"{name}{run.point}-{i}"] for i in range(count)])
-    kept = {name: f"{name}-{run.point}" for name in STATE}
-    run.extremes = {name: arrays[place] for name, place in kept.items() if place in arrays}
-    if ended:
-        peaks = np.array(ended.pop("peaks")).reshape(-1, 4)
-        run.ended = PointEnd(**ended, peaks=peaks)
-    if starts:
-        names = ("state", "contact", "impact_rate")
-        run.start = LaneStart(*(arrays.get(f"start{run.point}-{name}") for name in names))  # type: ignore[arg-type]
-    return run
+        self.ended, self.waiting, structure = read(checkpoint)
+        if structure is not None:
+            self.group = LaneGroup(self.study, structure)

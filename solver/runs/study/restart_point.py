@@ -1,0 +1,126 @@
+"""Restart points of a block: its points that wait, and those under way with their lanes.
+
+Lanes do not touch each other: a restart point of many lanes goes on in eight, and the other way
+round, bit for bit.
+"""
+
+from collections.abc import Collection
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.checkpoint import decode, encode
+from jointplay.records.point import PointEnd
+from jointplay.solver.kernels.loop.bundle import LaneState
+from jointplay.solver.kernels.loop.problem import LaneStart
+from jointplay.solver.runs.study.lane_group import LaneGroup
+from jointplay.solver.runs.study.point_extremes import STATE
+from jointplay.solver.runs.study.point_run import PointRun
+from jointplay.solver.version import SOLVER_VERSION
+
+_KIND = "block of a study"
+SERIES = ("seen", "growth", "finer", "tallies")
+"""Lists of arrays of a point's run that a restart point needs."""
+PARTS = ("column", "run", "first_energy")
+"""Arrays of a lane, in the order of `PointRun.lane`."""
+
+
+def written(
+    ended: int,
+    waiting: Collection[PointRun],
+    group: LaneGroup | None,
+    points: range | None = None,
+) -> bytes:
+    """Return a restart point; valid between slices.
+
+    Parameters
+    ----------
+    ended
+        How many points have.
+    points
+        Those of the block, where lanes compute points of others, too.
+    """
+    under_way = [] if group is None else _under_way(group, points)
+    resumed = [(run, run.lane) for run in waiting if run.lane is not None]
+    states = [*under_way, *resumed]
+    begun = [run for run, _ in states]
+    waiting = [run for run in waiting if run.lane is None]
+    arrays: dict[str, NDArray[Any]] = {}
+    for run in [*waiting, *begun]:
+        for name in SERIES:
+            parts = getattr(run, name)
+            arrays |= {f"{name}{run.point}-{i}": part for i, part in enumerate(parts)}
+        arrays |= {f"{name}-{run.point}": array for name, array in run.extremes.items()}
+        if run.start is not None:
+            arrays |= {
+                f"start{run.point}-{name}": value
+                for name, value in asdict(run.start).items()
+                if value is not None
+            }
+    facts = {
+        "ended": ended,
+        "waiting": [_facts(run) for run in waiting],
+        "structure": None if group is None else group.structure,
+        "lanes": [_facts(run) for run in begun],
+    }
+    for k, part in enumerate(PARTS):
+        arrays |= {f"{part}-{run.point}": np.asarray(state[k]) for run, state in states}
+    return encode(_KIND, SOLVER_VERSION, facts, arrays)
+
+
+def _under_way(group: LaneGroup, points: range | None) -> list[tuple[PointRun, LaneState]]:
+    """Return the runs that lanes compute, with where these have come to."""
+    lanes = {
+        lane: run
+        for lane, run in enumerate(group.lanes)
+        if run is not None and (points is None or run.point in points)
+    }
+    return list(zip(lanes.values(), group.bundle.states_of(list(lanes)), strict=True))
+
+
+def read(checkpoint: bytes) -> tuple[int, list[PointRun], int | None]:
+    """Return how many points have ended, those that wait or go on, and the lanes' structure."""
+    facts, arrays = decode(checkpoint, _KIND, SOLVER_VERSION)
+    begun = [_run(found, arrays) for found in facts["lanes"]]
+    for run in begun:
+        column, record, energy = (arrays[f"{part}-{run.point}"] for part in PARTS)
+        run.lane = column, record[()], energy
+    waiting = [_run(found, arrays) for found in facts["waiting"]]
+    return facts["ended"], [*begun, *waiting], facts["structure"]
+
+
+def _facts(run: PointRun) -> dict[str, Any]:
+    names = (
+        "point",
+        "chain",
+        "position",
+        "settled",
+        "reached",
+        "taken",
+        "sampled",
+        "finer_from",
+        "lasting",
+    )
+    facts = {name: getattr(run, name) for name in (*names, "finer_from")}
+    facts |= {name: len(getattr(run, name)) for name in SERIES}
+    ended = run.ended and {**asdict(run.ended), "peaks": run.ended.peaks.tolist()}
+    return facts | {"starts": run.start is not None, "ended": ended}
+
+
+def _run(facts: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PointRun:
+    starts, ended = facts.pop("starts"), facts.pop("ended")
+    counts = {name: facts.pop(name) for name in SERIES}
+    run = PointRun(**facts)
+    for name, count in counts.items():
+        setattr(run, name, [arrays[f"{name}{run.point}-{i}"] for i in range(count)])
+    kept = {name: f"{name}-{run.point}" for name in STATE}
+    run.extremes = {name: arrays[place] for name, place in kept.items() if place in arrays}
+    if ended:
+        peaks = np.array(ended.pop("peaks")).reshape(-1, 4)
+        run.ended = PointEnd(**ended, peaks=peaks)
+    if starts:
+        names = ("state", "contact", "impact_rate")
+        run.start = LaneStart(*(arrays.get(f"start{run.point}-{name}") for name in names))  # type: ignore[arg-type]
+    return run
