@@ -20,7 +20,7 @@ meet, attempt by attempt: they share what they fetch of the code."""
 MOVE_ONE = "move_one"
 """A thread's part of what brings numbers of some lanes together, or back to them."""
 PARTS = {ENTRY: LANE, MOVE: MOVE_ONE}
-"""What each kernel has a thread do: a function with one word more, the thread's number."""
+"""A thread's part of each kernel: a function with one word more, the thread's number."""
 CALLED = ("states_within", "gaps_within", "weigh", "tangent_gaps")
 """Functions that are called now and then: written in where they are called, they would fill the
 cache of instructions."""

@@ -29,7 +29,7 @@ from jointplay.solver.scene.references import tangent_obstacle
 
 Floats = NDArray[np.float64]
 LaneState = tuple[Floats, Any, Floats]
-"""Of a lane: its numbers (slots,), its record, of type `Run`, and its first energies (3,), J."""
+"""A lane's numbers (slots,), its record, of type `Run`, and its first energies (3,), J."""
 
 ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
