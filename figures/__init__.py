@@ -42,6 +42,7 @@ from jointplay.figures.options import Options, chosen_options
 from jointplay.figures.orbit import ORBIT
 from jointplay.figures.phase_portrait import PHASE_PORTRAIT
 from jointplay.figures.section import SECTION
+from jointplay.figures.sensitivity import SENSITIVITY
 from jointplay.figures.spectrum import SPECTRUM
 from jointplay.figures.sweep import SWEEP
 from jointplay.figures.time_history import OUTPUTS, TIME_HISTORY
@@ -50,6 +51,7 @@ from jointplay.figures.xy import XY
 from jointplay.records.channel import by_name
 from jointplay.records.figure_form import FORMS, Form
 from jointplay.records.run import Source
+from jointplay.records.sensitivity.outputs import outputs
 from jointplay.records.study import StudySource
 
 __all__ = [
@@ -99,7 +101,16 @@ ROSTER: Final[dict[str, RunFigure]] = {
 """Figures of one run, in the order of lists."""
 STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
     figure.name: figure
-    for figure in (BIFURCATION, CHART, EXPONENTS, SWEEP, SECTION, WORK_PRECISION, CALIBRATION)
+    for figure in (
+        BIFURCATION,
+        CHART,
+        EXPONENTS,
+        SWEEP,
+        SENSITIVITY,
+        SECTION,
+        WORK_PRECISION,
+        CALIBRATION,
+    )
 }
 """Figures of a study."""
 
@@ -128,7 +139,8 @@ def available(source: Source | StudySource) -> tuple[Listed, ...]:
 
     The figures of the roster whose channels were stored, then, of a run, each declared output by
     its name. Besides these, the name of any stored channel is a figure: its time history, its
-    bifurcation diagram, or its extremes over the parameters; and so is a statistic of a sweep.
+    bifurcation diagram, or its extremes over the parameters; and so is a statistic of a sweep, and
+    an output of a sensitivity.
     """
     roster = _roster(source).values()
     listed = [Listed(kind.name, kind.title) for kind in roster if _drawable(kind, source)]
@@ -219,6 +231,8 @@ def _of_channel(source: Source | StudySource, name: str) -> FigureKind[Any] | No
         return TIME_HISTORY if name in by_name(source.channels) else None
     if source.kind == "bifurcation" and name in by_name(source.observables):
         return BIFURCATION
+    if source.kind == "sensitivity":
+        return SENSITIVITY if name in {**by_name(source.channels), **outputs(source)} else None
     over_points = (*source.channels, *study_facts.statistics(source))
     return SWEEP if name in by_name(over_points) else None
 

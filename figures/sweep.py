@@ -47,7 +47,7 @@ def _varying(source: StudySource, points: slice) -> list[int]:
 
 
 def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
-    if not (source.channels and source.parameters):
+    if source.kind == "sensitivity" or not (source.channels and source.parameters):
         raise NotDrawable("A sweep's figure needs parameters and channels with kept extremes.")
     points = study_facts.chosen_points(source, selection)
     varying = _varying(source, points)

@@ -11,7 +11,8 @@ from jointplay.solver.kinds.description import description
 
 router = APIRouter(prefix="/v1/kinds", tags=["jobs"])
 Form = Literal[
-    "number", "integer", "flag", "text", "names", "numbers", "values", "grid", "axis", "other"
+    *("number", "integer", "flag", "text", "names", "numbers"),
+    *("values", "grid", "axis", "distributions", "other"),
 ]
 
 
@@ -21,11 +22,14 @@ class JobField(BaseModel):
     help: str
     form: Form = Field(
         description="Of its value; values: a list or a range, grid: values by parameter, axis: a "
-        "parameter and its values."
+        "parameter and its values, distributions: a distribution by parameter."
     )
     unit: str | None = None
     choices: list[str] = Field(default=[], description="Values that there are.")
     words: list[str] = Field(default=[], description="Words that may stand in place of a value.")
+    members: dict[str, list[str]] = Field(
+        default={}, description="Of distributions, the numbers that each is made of."
+    )
     own: bool = Field(default=False, description="Whether kinds that are alike do not have it.")
     required: bool = False
 

@@ -1,13 +1,14 @@
 """``/v1/jobs/{id}/points``: the points of any study.
 
-``/bifurcation``, ``/sweep``, ``/accuracy`` and ``/poincare`` show parts of it, ``/calibration``
-what a search found.
+``/bifurcation``, ``/sweep``, ``/accuracy`` and ``/poincare`` show parts of it, ``/sensitivity``
+what follows from it, ``/calibration`` what a search found.
 """
 
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
+from jointplay.records.sensitivity.analysis import NoSuchOutput, sensitivity
 from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results.endpoints import show_sections
@@ -23,6 +24,7 @@ from jointplay.service.studies.queries import (
     PointsQuery,
     SweepQuery,
 )
+from jointplay.service.studies.sensitivity_schema import Sensitivity, SensitivityQuery
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 
 router = APIRouter(
@@ -59,6 +61,19 @@ def show_bifurcation(
 def show_sweep(study: StudyOfThePath, query: Annotated[SweepQuery, Query()]) -> Response:
     """Return the signed extremes of channels at every point of a sweep, also while it runs."""
     return as_json(answers.sweep(study, query))
+
+
+@router.get("/sensitivity", response_model=Sensitivity)
+def show_sensitivity(study: StudyOfThePath, query: Annotated[SensitivityQuery, Query()]) -> Response:
+    """Return what one output owes to each parameter, its quantiles, and how probable a limit is.
+
+    Also while the job runs, of the rows that are whole.  Every output is there without new runs.
+    """
+    try:
+        found = sensitivity(study, query.question())
+    except NoSuchOutput as error:
+        raise RequestRefused.of_parameter("output", str(error)) from None
+    return as_json(Sensitivity.model_validate(found))
 
 
 @router.get("/accuracy", response_model=schemas.Accuracy, dependencies=[NO_PARAMETERS])

@@ -22,6 +22,7 @@ from jointplay.solver.kinds.documents import job_of, kind_of
 from jointplay.solver.kinds.ensemble import Ensemble
 from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.poincare import Poincare
+from jointplay.solver.kinds.sensitivity import SensitivityKind
 from jointplay.solver.kinds.simulate import Simulate
 from jointplay.solver.kinds.sweep import Sweep
 from jointplay.solver.runs.admission import Admission
@@ -37,6 +38,7 @@ KINDS: dict[str, Kind[Any]] = {
         Sweep(),
         Chart(),
         Basins(),
+        SensitivityKind(),
         Poincare(),
         Ensemble(),
         AccuracyStudy(),

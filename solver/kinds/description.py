@@ -9,6 +9,7 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
+from jointplay.solver.distributions import DISTRIBUTIONS
 from jointplay.solver.kinds import KINDS
 from jointplay.solver.kinds.job import Job, MechanismJob
 from jointplay.solver.kinds.section_study import SectionStudyJob
@@ -22,9 +23,9 @@ def description() -> dict[str, Any]:
     """Return kinds by name, each with a sentence and its fields, those of its own first.
 
     A field has its ``help``, the ``form`` of its values (number, integer, flag, text, names,
-    numbers, values, grid, axis or other), and where there are any its ``unit``, ``choices``, and
+    numbers, values, grid, axis, distributions or other), and where there are any its ``unit``, ``choices``, and
     ``words`` that may stand in place of such a value; ``own`` fields are those of no other kind's
-    documents.  A kind that can be asked for by one option of a command line has its ``option``: the
+    documents.  Of distributions, ``members`` has what each is made of.  A kind that can be asked for by one option of a command line has its ``option``: the
     ``fields`` that it stands for and the ``form`` in which they are typed.
     """
     found: dict[str, Any] = {}
@@ -50,8 +51,9 @@ def description() -> dict[str, Any]:
 def _option(own: Mapping[str, dict[str, Any]]) -> dict[str, Any] | None:
     """Return the option by which a kind is asked for, given its own fields.
 
-    It stands for what a document must have: values by parameter, a parameter and its values, the
-    first of several axes, a number of points, or nothing. None: that cannot be typed.
+    It stands for what a document must have: values or distributions by parameter, a parameter and
+    its values, the first of several axes, a number of points, or nothing. None: that cannot be
+    typed.
     """
     forms = {name: field["form"] for name, field in own.items()}
     needed = [name for name, field in own.items() if "required" in field]
@@ -61,6 +63,8 @@ def _option(own: Mapping[str, dict[str, Any]]) -> dict[str, Any] | None:
         return {"fields": grids[:1], "form": "grid"}
     if asked == ["text", "values"]:
         return {"fields": needed, "form": "values"}
+    if asked == ["distributions"]:
+        return {"fields": needed, "form": "distributions"}
     if asked and {*asked} == {"axis"}:
         return {"fields": needed[:1], "form": "axis"}
     if asked in ([], ["integer"]):
@@ -93,13 +97,23 @@ def _field(schema: dict[str, Any]) -> dict[str, Any]:
         kind = "axis" if _is(form, "Along") else kind
         values = [one.get("oneOf", [{}])[0] for one in form.get("patternProperties", {}).values()]
         kind = "grid" if any(_is(one, "Range") for one in values) else kind
+        kind = "distributions" if any(_is(one, "Uniform") for one in values) else kind
     facts = {
         "unit": schema.get("unit", items.get("unit")),
         "choices": [one for one in form.get("enum", items.get("enum", [])) if one not in words],
         "words": words,
+        "members": _members() if kind == "distributions" else None,
     }
     found = {"help": schema.get("description", ""), "form": kind}
     return found | {name: fact for name, fact in facts.items() if fact not in (None, [], "1")}
+
+
+def _members() -> dict[str, list[str]]:
+    """Return the numbers of each distribution, in the order in which they are typed."""
+    return {
+        name: [field for field in model.model_fields if field != "distribution"]
+        for name, model in DISTRIBUTIONS.items()
+    }
 
 
 def _is(schema: dict[str, Any], model: str) -> bool:

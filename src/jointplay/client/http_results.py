@@ -23,6 +23,7 @@ from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
     from jointplay.figures import Options, Pace
+    from jointplay.records.sensitivity.analysis import Side
 
 _Times = tuple[Seconds, Seconds]
 
@@ -96,6 +97,13 @@ class HttpResults:
     def calibration(self) -> dict[str, Any]:
         """Return what a calibration found."""
         return self._get("calibration")
+
+    def sensitivity(
+        self, output: str | None, limit: float | None, failing: "Side", confidence: float
+    ) -> dict[str, Any]:
+        """Return what one output owes to each parameter."""
+        question = {"output": output, "limit": limit, "failing": failing, "confidence": confidence}
+        return self._get("sensitivity", **question)
 
     def study(
         self, observables: Names, channels: Names, sections: tuple[int, int] | None

@@ -15,6 +15,7 @@ from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
     from jointplay.exports.table_columns import Table
+    from jointplay.records.sensitivity.analysis import Side
 
 Names = str | Sequence[str]
 Made = TypeVar("Made")
@@ -74,6 +75,37 @@ class ReadableJob(TabledJob):
         `ResultsNotReady` until its search has ended.
         """
         return self.results.calibration()
+
+    def sensitivity(
+        self,
+        output: str | None = None,
+        limit: float | None = None,
+        *,
+        failing: "Side" = "above",
+        confidence: float = 0.95,
+    ) -> dict[str, Any]:
+        """Return what an output owes to each parameter as far as is known; any, without new runs.
+
+        Parameters
+        ----------
+        output
+            An extreme of a channel, such as ``displacement.maximum``, or a statistic that the job
+            chose; the first if None.  The answer's ``outputs`` has all of them.
+        limit
+            Of the output, in its unit: ``failure`` says how probable it is beyond.
+        failing
+            Which side of the limit that is.
+        confidence
+            Probability of every interval, 0.5 to 0.999.
+
+        Returns
+        -------
+        dict
+            ``measures`` by name, each with ``values`` of the ``parameters`` and both ends of their
+            intervals, ``low`` and ``high``; ``quantiles``, ``mean``, ``standard_deviation``,
+            ``failure``, and the ``rows`` that were used and left out.
+        """
+        return self.results.sensitivity(output, limit, failing, confidence)
 
     def study(
         self,

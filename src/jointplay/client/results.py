@@ -17,6 +17,7 @@ from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
     from jointplay.figures import Options, Pace
+    from jointplay.records.sensitivity.analysis import Side
 
 Names = Sequence[str] | None
 """Names or globs of channels; all if None."""
@@ -102,6 +103,11 @@ class Results(Protocol):
 
     def calibration(self) -> dict[str, Any]:
         """Return what a calibration found."""
+
+    def sensitivity(
+        self, output: str | None, limit: float | None, failing: "Side", confidence: float
+    ) -> dict[str, Any]:
+        """Return what one output owes to each parameter, of a job of the kind sensitivity."""
 
     def study(
         self, observables: Names, channels: Names, sections: tuple[int, int] | None

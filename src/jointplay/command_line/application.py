@@ -28,6 +28,7 @@ COMMANDS: Final = (
     "delete",
     "export",
     "certificate",
+    "sensitivity",
     "plot",
     "compare",
     "cite",

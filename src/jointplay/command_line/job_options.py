@@ -19,6 +19,11 @@ _SHORT: Final[dict[str, tuple[Any, str | None, str]]] = {
     "values": (list[str], _RANGE, "; append `:log` for equal ratios."),  # to refuse it twice
     "axis": (list[str], _RANGE, "; append `:log` for equal ratios."),
     "grid": (list[str], _RANGE, "; or NAME=A,B,C; repeat it for every combination."),
+    "distributions": (
+        list[str],
+        "NAME=DISTRIBUTION:A:B",
+        ", such as clearance=uniform:1e-4:5e-4; repeat it for every parameter.",
+    ),
     "integer": (int, None, "."),
     "flag": (bool, None, "."),
 }
@@ -28,10 +33,11 @@ _HELP: Final = {
         "Leave out what comes before: of a simulation's peaks, in seconds; of a study's sections or"
         " statistics, in periods, or auto."
     ),
+    "seed": "Seed of what is drawn; the same gives the same.",
     "section": "Where: crank_angle=RAD, onset=JOINT, or of a study CHANNEL=VALUE:up (or down).",
 }
 _METAVARS: Final = {"names": "A,B", "numbers": "X,Y", "axis": _RANGE}
-_IN_DOCUMENTS: Final = ("flag", "values", "grid", "other")
+_IN_DOCUMENTS: Final = ("flag", "values", "grid", "distributions", "other")
 """Forms of fields that only a document can give."""
 _METAVAR_OF: Final = {"settle": "SECONDS|PERIODS"}
 _UNITS: Final = {"s": "SECONDS", "periods": "PERIODS"}
@@ -119,6 +125,10 @@ def _asked(kind: str, given: Any) -> dict[str, Any]:
     option, fields, form = f"--{kind}", _OPTIONS[kind]["fields"], _OPTIONS[kind]["form"]
     if form == "grid":
         return {fields[0]: once(option, (_values(option, text) for text in given))}
+    if form == "distributions":
+        members = KINDS[kind]["fields"][fields[0]]["members"]
+        drawn = (_distribution(option, text, members) for text in given)
+        return {fields[0]: once(option, drawn)}
     if form in ("values", "axis"):
         parameter, values = _one(option, given)
         return (
@@ -186,6 +196,19 @@ def _values(option: str, text: str) -> tuple[str, object]:
     start, stop, count = (_number(option, part) for part in parts[:3])
     spacing = {"spacing": parts[3]} if parts[3:] else {}
     return name, {"from": start, "to": stop, "count": count, **spacing}
+
+
+def _distribution(
+    option: str, text: str, members: Mapping[str, list[str]]
+) -> tuple[str, dict[str, object]]:
+    """Return name and distribution of ``name=uniform:low:high``."""
+    name, _, described = text.partition("=")
+    kind, *numbers = described.split(":")
+    if not name or len(numbers) != len(members.get(kind, ())) or kind not in members:
+        forms = ", ".join(":".join([one, *map(str.upper, parts)]) for one, parts in members.items())
+        raise Stopped(f"{option} {text}: write NAME= and one of {forms}.")
+    values = [_number(option, number) for number in numbers]
+    return name, {"distribution": kind, **dict(zip(members[kind], values, strict=True))}
 
 
 def _section(text: str) -> dict[str, object]:

@@ -10,6 +10,7 @@ from jointplay.command_line.attractors import attractor_lines
 from jointplay.command_line.calibration_table import calibration_lines
 from jointplay.command_line.certificate import headlines
 from jointplay.command_line.peaks import peak_rows, peak_table
+from jointplay.command_line.sensitivity import sensitivity_lines
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -23,7 +24,7 @@ def results_of(job: "Job") -> dict[str, Any]:
     from jointplay.client import NotFound, ResultsNotReady
 
     found: dict[str, Any] = dict.fromkeys(
-        ("statistics", "peaks", "points", "accuracy", "attractors", "calibration")
+        ("statistics", "peaks", "points", "accuracy", "attractors", "calibration", "sensitivity")
     )
     try:
         if "accuracy" in job.links:
@@ -33,6 +34,8 @@ def results_of(job: "Job") -> dict[str, Any]:
         elif job.is_study:
             found["points"] = job.study(sections=(0, 1))
             found["attractors"] = job.attractors if "attractors" in job.links else None
+            if "sensitivity" in job.links:
+                found["sensitivity"] = job.sensitivity()
         elif job.is_finished:
             found["statistics"] = job.statistics
             found["peaks"] = peak_rows(job.results.peaks())
@@ -65,6 +68,8 @@ def result_lines(
         yield from _study_lines(found["points"])
     if found["attractors"] is not None:
         yield from attractor_lines(found["attractors"])
+    if found["sensitivity"] is not None:
+        yield from sensitivity_lines(found["sensitivity"])
     if found["accuracy"] is not None:
         yield from accuracy_lines(found["accuracy"])
     if found["calibration"] is not None:

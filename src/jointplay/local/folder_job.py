@@ -148,8 +148,8 @@ def _results_of(source: "ResultReader | StudyReader") -> list[str]:
         return ["history", "peaks", "poincare", "impacts", "statistics", "certificate"]
     if "runs" in source.attributes:
         return ["points", "accuracy"]
-    if source.kind == "calibration":
-        return ["points", "calibration"]
     if "states" in source.attributes:
         return ["points", "attractors"]
+    if source.kind in ("calibration", "sensitivity"):
+        return ["points", source.kind]
     return ["points", "poincare" if source.record else "sweep"]

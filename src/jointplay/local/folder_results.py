@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from jointplay import figures
 from jointplay.client.errors import FieldProblem, NotFound, Refused
@@ -17,6 +17,7 @@ from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.figure_form import Form
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.resolution import of_samples
+from jointplay.records.sensitivity.analysis import NoSuchOutput, Question, Side, sensitivity
 from jointplay.records.window_query import WindowQuery
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.results.contact_peaks import with_contact_peaks
@@ -137,6 +138,22 @@ class FolderResults:
         if 0 not in study.documents:
             raise NotFound(f"The search in {self._store} did not end.")
         return dict(study.documents[0])
+
+    def sensitivity(
+        self, output: str | None, limit: float | None, failing: Side, confidence: float
+    ) -> dict[str, Any]:
+        """Return what one output owes to each parameter."""
+        study = self.study(None, None, None)
+        if study.kind != "sensitivity":
+            raise NotFound(f"{self._store} is of a {study.kind}; it has points and no sensitivity.")
+        if failing not in get_args(Side):
+            raise _refused("failing", f"failing is {failing!r}; it is 'above' or 'below'.")
+        if not 0.5 <= confidence <= 0.999:
+            raise _refused("confidence", f"confidence is {confidence:g}; it is 0.5 to 0.999.")
+        try:
+            return sensitivity(study, Question(output, limit, failing, confidence))
+        except NoSuchOutput as error:
+            raise _refused("output", str(error)) from None
 
     def study(
         self, observables: Names, channels: Names, sections: tuple[int, int] | None

@@ -50,6 +50,7 @@ class AsyncJob(JobRecord):
 
     open = awaited(Job.open)
     window = awaited(Job.window)
+    sensitivity = awaited(Job.sensitivity)
     study = awaited(Job.study)
     export = awaited(Job.export)
     figure = awaited(Job.figure, AsyncPicture)

@@ -1,0 +1,106 @@
+"""Sensitivity: bars of what an output owes to each parameter, with intervals."""
+
+from typing import Any, Final
+
+import numpy as np
+
+from jointplay.figures import colours, page
+from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
+from jointplay.figures.quantity import Scale, scale
+from jointplay.records.arrays import Floats
+from jointplay.records.sensitivity.analysis import Question, sensitivity
+from jointplay.records.sensitivity.outputs import outputs
+from jointplay.records.study import StudySource
+
+_ROW: Final = 7.0  # mm
+_LEAST: Final = 18.0
+_MOST: Final = 20
+"""Parameters: those of the longest bars."""
+_BARS: Final = {
+    "saltelli": ("share of the variance", ("first_order", "total")),
+    "morris": ("elementary effect", ("mean_magnitude", "spread")),
+    "latin-hypercube": ("rank correlation", ("rank_correlation",)),
+}
+"""By design, the axis and the measures that are drawn."""
+
+
+def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    if source.kind != "sensitivity":
+        raise NotDrawable("Sensitivities are drawn of a job of kind sensitivity.")
+    return at_most(1, selection.channels, "outputs")
+
+
+def _draw(source: StudySource, selection: Selection) -> page.Figure:
+    found = sensitivity(source, Question(_output(source, _chosen(source, selection))))
+    if not found["measures"]:
+        raise NotDrawable(found["note"])
+    label, names = _BARS[found["design"]]
+    measures = [found["measures"][name] for name in names]
+    columns = [_columns(one) for one in measures]
+    longest = np.nan_to_num(np.max([np.abs(values) for values, _, _ in columns], axis=0))
+    shown = np.sort(np.argsort(-longest, kind="stable")[:_MOST])
+    size = scale(measures[0]["unit"], *(high for _, _, high in columns))
+    explained = _explained(found, len(shown))
+    height = max(_ROW * len(shown), _LEAST) + page.AXIS_HEIGHT
+    height += page.LEGEND_HEIGHT * 2 + page.caption_height(explained)
+    figure, ((axes,),) = page.panels(1, 1, height)
+    for place, (name, values) in enumerate(zip(names, columns, strict=True)):
+        _bars(axes, [one[shown] for one in values], size, place, name.replace("_", " "))
+    axes.axvline(0.0, color=colours.GEOMETRY, linewidth=0.4)
+    axes.set_yticks(range(len(shown)), [found["parameters"][at] for at in shown])
+    axes.set_ylim(len(shown) - 0.5, -0.5)
+    axes.tick_params(axis="y", which="both", length=0.0)
+    axes.set_xlabel(size.label(label))
+    page.corner_text(axes, found["output"])
+    page.caption(figure, explained)
+    if len(names) > 1:
+        page.legend(figure, axes)
+    return figure
+
+
+def _output(source: StudySource, chosen: tuple[str, ...]) -> str | None:
+    """Return an output by its name, or by that of a channel: its largest value."""
+    known = outputs(source)
+    return next((name if name in known else f"{name}.maximum" for name in chosen), None)
+
+
+def _columns(measure: dict[str, Any]) -> tuple[Floats, Floats, Floats]:
+    values, low, high = (np.array(measure[name], np.float64) for name in ("values", "low", "high"))
+    return values, low, high
+
+
+def _bars(axes: page.Axes, columns: list[Floats], size: Scale, place: int, label: str) -> None:
+    values, low, high = (column / size.factor for column in columns)
+    colour, *_ = colours.COMPARED[place]
+    reach = [np.clip(values - low, 0.0, None), np.clip(high - values, 0.0, None)]
+    across = np.arange(len(values)) + (place - 0.5) * 0.4
+    axes.barh(across, values, 0.36, color=colour, label=label)
+    axes.errorbar(
+        values,
+        across,
+        xerr=np.nan_to_num(reach),
+        fmt="none",
+        ecolor=colours.GEOMETRY,
+        elinewidth=0.6,
+        capsize=1.2,
+    )
+
+
+def _explained(found: dict[str, Any], shown: int) -> str:
+    """Say what lines are, how much was used, and what is left away."""
+    rows = found["rows"]
+    parts = [f"Lines: {found['confidence']:.0%} intervals, of {rows['used']} rows."]
+    if rows["left_out"]:
+        parts.append(f"{rows['left_out']} rows with failed points are left out.")
+    if shown < len(found["parameters"]):
+        parts.append(f"The {shown} parameters of the longest bars.")
+    return " ".join(parts)
+
+
+SENSITIVITY = StudyFigure(
+    name="sensitivity",
+    title="What an output owes to each parameter",
+    uses=("channels",),
+    channels=_chosen,
+    draw=_draw,
+)

@@ -1,0 +1,212 @@
+"""One output of a design asked about: measures, quantiles and a limit, each with its interval."""
+
+from dataclasses import dataclass
+from functools import cached_property, partial
+from statistics import NormalDist
+from typing import Any, Final, Literal, NamedTuple
+
+import numpy as np
+
+from jointplay.records.arrays import Flags, Floats
+from jointplay.records.channel import Channel
+from jointplay.records.point import PointStatus
+from jointplay.records.sensitivity import DESIGNS, Design
+from jointplay.records.sensitivity.outputs import output, outputs
+from jointplay.records.sensitivity.resampled import between, quantiles, resampled, resamples_of
+from jointplay.records.study import StudySource
+from jointplay.records.suggestions import unknown
+
+Side = Literal["above", "below"]
+"""Of a limit, where the output fails."""
+SHARES: Final = (0.05, 0.25, 0.5, 0.75, 0.95)
+FEWEST_ROWS: Final = 4
+"""Rows from which anything is said."""
+_CONSTANT: Final = 1e-13
+"""Outputs that differ by less of their size are the same."""
+
+
+class NoSuchOutput(ValueError):
+    """The study has no output of that name; the sentence says which there are."""
+
+
+class Estimate(NamedTuple):
+    """Numbers with the ends of their intervals."""
+
+    values: Floats
+    low: Floats
+    high: Floats
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked of one output.
+
+    Parameters
+    ----------
+    output
+        One of `outputs`; by default the first.
+    limit
+        Of the output, in its unit; how probable it is beyond.
+    failing
+        Side of the limit that is asked for.
+    confidence
+        Of all intervals.
+    """
+
+    output: str | None = None
+    limit: float | None = None
+    failing: Side = "above"
+    confidence: float = 0.95
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """The rows of a design that are whole, and what they say of one output."""
+
+    design: Design
+    parameters: int
+    question: Question
+    values: Floats
+    """(rows, width, parameters) of the rows that count."""
+    outputs: Floats
+    """(rows, width)."""
+
+    @cached_property
+    def varies(self) -> bool:
+        """Whether there is something to explain."""
+        size = float(np.abs(self.outputs).max(initial=0.0))
+        return len(self.outputs) >= FEWEST_ROWS and float(np.ptp(self.outputs)) > _CONSTANT * size
+
+    @cached_property
+    def sample(self) -> Floats:
+        """(rows, drawn) outputs at points that are drawn from the distributions."""
+        return self.outputs[:, self.design.drawn(self.parameters)]
+
+    def spreads(self) -> tuple[dict[str, Estimate], Estimate | None]:
+        """Return (parameters,) of each measure, and (shares,) quantiles.
+
+        No measures where the output does not vary, no quantiles of a design that is no sample.
+        """
+        if len(self.outputs) < FEWEST_ROWS:
+            return {}, None
+        centre = self.sample.mean() if self.sample.size else self.outputs.mean()
+        moments = self.design.moments(self.values, self.outputs - centre)
+        order = np.argsort(self.sample, axis=None, kind="stable")
+        rows = order // max(self.sample.shape[1], 1)
+        of_sample = partial(quantiles, self.sample.ravel()[order], rows, np.array(SHARES))
+        measured = partial(self.design.measured, parameters=self.parameters)
+        asked = [lambda counts: counts @ moments / len(moments), of_sample]
+        means, *spreads = resampled(len(moments), *asked[: 2 if self.sample.size else 1])
+        best, others = measured(moments.mean(axis=0)), measured(means)
+        confidence = self.question.confidence
+        measures = {
+            name: Estimate(one, *between(others[name], confidence)) for name, one in best.items()
+        }
+        every = np.ones((1, len(moments)))
+        found = [Estimate(of_sample(every)[0], *between(one, confidence)) for one in spreads]
+        return measures if self.varies else {}, found[0] if found else None
+
+    def failure(self) -> tuple[float, float, float] | None:
+        """Return the probability beyond the limit and its interval by Wilson; None: not asked."""
+        limit, n = self.question.limit, self.sample.size
+        if limit is None or not n:
+            return None
+        beyond = self.sample > limit if self.question.failing == "above" else self.sample < limit
+        share = float(beyond.mean())
+        z = NormalDist().inv_cdf(0.5 + 0.5 * self.question.confidence)
+        middle = (share + z * z / (2 * n)) / (1 + z * z / n)
+        reach = z / (1 + z * z / n) * (share * (1 - share) / n + (z / (2 * n)) ** 2) ** 0.5
+        return share, max(middle - reach, 0.0), min(middle + reach, 1.0)
+
+
+def sensitivity(source: StudySource, question: Question) -> dict[str, Any]:
+    """Return what a study of the kind sensitivity says of one output, as the service shows it.
+
+    Raises
+    ------
+    NoSuchOutput
+        The study does not have the output.
+    """
+    known = outputs(source)
+    name = next(iter(known)) if question.output is None else question.output
+    if name not in known:
+        raise NoSuchOutput(unknown("output", name, known))
+    design = DESIGNS[source.attributes["job"]["design"]]
+    parameters = len(source.parameters)
+    shape = (-1, design.width(parameters))
+    found = output(source, name).reshape(shape)
+    ended = np.isin(source.status, (PointStatus.done, PointStatus.failed)).reshape(shape)
+    done = (source.status == PointStatus.done).reshape(shape)
+    used = (done & np.isfinite(found)).all(axis=1)
+    lost = (ended & ~(done & np.isfinite(found))).any(axis=1)
+    values = source.values.reshape(*shape, parameters)[used]
+    analysis = Analysis(design, parameters, question, values, found[used])
+    return {
+        "complete": bool(ended.all()),
+        "design": source.attributes["job"]["design"],
+        "parameters": [one.name for one in source.parameters],
+        "output": name,
+        "unit": known[name].unit,
+        "long_name": known[name].long_name,
+        "outputs": list(known),
+        "rows": _rows(used, lost, int((ended & ~done).sum()), design.width(parameters)),
+        "confidence": question.confidence,
+        "resamples": resamples_of(int(used.sum())),
+        **_answers(analysis, known[name]),
+    }
+
+
+def _rows(used: Flags, lost: Flags, failed: int, width: int) -> dict[str, int]:
+    return {
+        "used": int(used.sum()),
+        "left_out": int(lost.sum()),
+        "waiting": int((~used & ~lost).sum()),
+        "failed_points": failed,
+        "points_each": width,
+    }
+
+
+def _answers(analysis: Analysis, about: Channel) -> dict[str, Any]:
+    question, sample = analysis.question, analysis.sample
+    enough = len(sample) >= FEWEST_ROWS and sample.size > 0
+    (measures, spread), failure = analysis.spreads(), analysis.failure()
+    described = analysis.design.measures
+    return {
+        "note": _note(analysis),
+        "mean": float(sample.mean()) if enough else None,
+        "standard_deviation": float(sample.std()) if enough else None,
+        "measures": {
+            name: {
+                "unit": about.unit if described[name].in_unit_of_output else "1",
+                "long_name": described[name].long_name,
+                **_columns(one),
+            }
+            for name, one in measures.items()
+        },
+        "quantiles": None if spread is None else {"shares": list(SHARES), **_columns(spread)},
+        "failure": None
+        if failure is None
+        else {
+            "limit": question.limit,
+            "failing": question.failing,
+            **dict(zip(("probability", "low", "high"), failure, strict=True)),
+        },
+    }
+
+
+def _note(analysis: Analysis) -> str:
+    """Return why there is less than was asked for; mostly empty."""
+    if len(analysis.outputs) < FEWEST_ROWS:
+        return f"Less than {FEWEST_ROWS} rows are whole: nothing can be said yet."
+    if not analysis.varies:
+        return "The output is the same at all points: no parameter matters to it."
+    if analysis.question.limit is not None and not analysis.sample.size:
+        return "The design is no sample of the distributions: it gives no probabilities."
+    return ""
+
+
+def _columns(estimate: Estimate) -> dict[str, list[float | None]]:
+    return {
+        name: [float(one) if np.isfinite(one) else None for one in column]
+        for name, column in estimate._asdict().items()
+    }

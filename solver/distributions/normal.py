@@ -1,0 +1,24 @@
+"""The normal distribution."""
+
+from typing import Annotated, Literal
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.distributions.distribution import UNIT, Distribution
+from jointplay.solver.distributions.standard_normal import quantiles
+from jointplay.solver.quantities.units import quantity
+
+
+class Normal(Distribution):
+    """About a mean, without bounds."""
+
+    distribution: Literal["normal"]
+    mean: Annotated[float, quantity(UNIT, description="mean")]
+    standard_deviation: Annotated[float, quantity(UNIT, gt=0.0, description="standard deviation")]
+
+    def ends(self) -> tuple[str, ...]:
+        """Return none."""
+        return ()
+
+    def quantiles(self, shares: Floats) -> Floats:
+        """Return quantiles; see `Distribution.quantiles`."""
+        return self.mean + self.standard_deviation * quantiles(shares)
