@@ -11,8 +11,17 @@ from jointplay.solver.kinds.description import description
 
 router = APIRouter(prefix="/v1/kinds", tags=["jobs"])
 Form = Literal[
-    *("number", "integer", "flag", "text", "names", "numbers"),
-    *("values", "grid", "axis", "distributions", "other"),
+    "number",
+    "integer",
+    "flag",
+    "text",
+    "names",
+    "numbers",
+    "values",
+    "grid",
+    "axis",
+    "distributions",
+    "other",
 ]
 
 

@@ -64,6 +64,18 @@ CHART: dict[str, Any] = {
     "indicators": ["recurrence"],
 }
 """Two tiles wide, five points high."""
+SENSITIVITY: dict[str, Any] = {
+    "kind": "sensitivity",
+    "parameters": {
+        "clearance_A": {"distribution": "uniform", "low": 1e-4, "high": 5e-4},
+        "clearance_B": {"distribution": "triangular", "low": 1e-4, "mode": 2e-4, "high": 3e-4},
+    },
+    "samples": 4,
+    "periods": 1,
+    "channels": ["displacement"],
+    "statistics": ["mean", "impacts"],
+}
+"""Two blocks of eight points, each of two rows."""
 ACCURACY_STUDY: dict[str, Any] = {
     "kind": "accuracy-study",
     "duration": 0.003,

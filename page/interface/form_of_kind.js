@@ -1,8 +1,12 @@
 /** The form of a kind of job, made of what the service says of its fields. */
 
+import { DrawnParameters } from "./drawn_parameters.js";
+
 /** Fields that other parts of the form ask for, or whose values nobody types. */
 const ELSEWHERE = new Set(["label", "tolerance", "method", "step", "formulation"]);
 const TYPED = new Set(["number", "integer"]);
+const OF_PARAMETERS = new Set(["axis", "distributions"]);
+const DURATION = "duration"; // which periods stand for
 
 /**
  * Returns the title and help of a kind, its fields, the parts of the document that are made of their
@@ -10,31 +14,38 @@ const TYPED = new Set(["number", "integer"]);
  *
  * @param described what `/v1/kinds` says of it
  * @param axis      makes the fields of a parameter that varies, and of its values
+ * @param choice    makes the field of a parameter
  */
-export function formOfKind(name, described, { axis, ends }) {
+export function formOfKind(name, described, { axis, ends, choice }) {
   const shown = Object.entries(described.fields).filter(([field, { form, choices }]) =>
-    !ELSEWHERE.has(field) && (form === "axis" || TYPED.has(form) || (form === "text" && choices.length)));
+    !ELSEWHERE.has(field) && (OF_PARAMETERS.has(form) || TYPED.has(form) || (form === "text" && choices.length)));
   const axes = shown.filter(([, { form }]) => form === "axis").map(([field]) => field);
-  const others = shown.filter(([, { form }]) => form !== "axis");
+  const drawn = shown.filter(([, { form }]) => form === "distributions")
+    .map(([field, { members }]) => new DrawnParameters(field, members, choice));
+  const others = shown.filter(([, { form }]) => !OF_PARAMETERS.has(form));
   return {
     title: titled(name),
     help: described.help,
-    fields: (document) => Object.assign(
+    fields: (document, duration) => Object.assign(
       {},
+      ...drawn.map((one) => one.fields(document)),
       ...axes.map((field, nth) =>
         axis(document, field, titled(field), sentence(described.fields[field].help), nth)),
-      Object.fromEntries(others.map(([field, one]) => [field, ofField(field, one)])),
+      Object.fromEntries(others.map(([field, one]) => [field, ofField(field, one, duration)])),
     ),
     made: (all) => ({
+      ...Object.fromEntries(drawn.map((one) => [one.field, one.made(all)])),
       ...Object.fromEntries(axes.map((field) => [field, {
         parameter: all[field],
         values: { from: all[`${field}_from`], to: all[`${field}_to`], count: all[`${field}_count`] },
       }])),
       ...Object.fromEntries(others.map(([field]) => [field, all[field]])
-        .filter(([, value]) => value !== null && value !== STANDARD)),
+        .filter(([field, value]) => value !== null && value !== STANDARD
+          && (field !== DURATION || !all.periods))),
     }),
     given: (document) => Object.assign(
       {},
+      ...drawn.map((one) => one.given(document[one.field])),
       ...axes.filter((field) => document[field]).map((field) => ({
         [field]: document[field].parameter, // a number of the start is typed in the document
         ...Object.fromEntries(Object.entries(ends(document[field].values))
@@ -48,9 +59,10 @@ export function formOfKind(name, described, { axis, ends }) {
 
 const STANDARD = "as usual";
 
-function ofField(name, { help, unit, choices, required }) {
+function ofField(name, { help, unit, choices, required }, duration) {
   const shown = { title: titled(name), help: sentence(help), unit: unit ?? "1" };
   if (choices.length) return { ...shown, choices: [STANDARD, ...choices], default: STANDARD };
+  if (name === DURATION) return { ...shown, default: duration };
   return { ...shown, default: null, empty: STANDARD, required };
 }
 

@@ -17,7 +17,8 @@ export function jobWords(document, declared) {
     return `${name} ${[from, to].map((one) => withUnit(one, declared[name]?.unit ?? "1")).join(" … ")}`;
   };
   const axes = [document, ...Object.values(document)].filter((one) => (one?.parameter ?? one?.start) && one.values);
-  const varied = kind === "calibration" ? [`finds ${Object.keys(parameters).join(", ")}`] : [
+  const verb = { calibration: "finds", sensitivity: "draws" }[kind];
+  const varied = verb ? [`${verb} ${Object.keys(parameters).join(", ")}`] : [
     ...axes.map((one) => over(one.parameter ?? one.start, one.values)),
     ...Object.entries(grid ?? {}).map(([name, all]) => over(name, all)),
   ];

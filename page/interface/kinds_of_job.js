@@ -180,7 +180,7 @@ export const KINDS = {
 /** Returns the kinds by name: those above, and of all others those that can be typed. */
 export async function kindsOfJobs(signal) {
   for (const [name, described] of Object.entries(await describedKinds(signal))) {
-    if (described.option) KINDS[name] ??= formOfKind(name, described, { axis, ends });
+    if (described.option) KINDS[name] ??= formOfKind(name, described, { axis, ends, choice });
   }
   return KINDS;
 }

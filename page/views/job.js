@@ -16,6 +16,7 @@ const TABS = {
   diagram: ["Diagram", () => import("./job/diagram.js"), ["bifurcation"]],
   chart: ["Chart", () => import("./job/chart.js"), ["chart"]],
   sweep: ["Sweep", () => import("./job/sweep.js"), ["sweep"]],
+  sensitivity: ["Sensitivity", () => import("./job/sensitivity.js"), ["sensitivity"]],
   sections: ["Sections", () => import("./job/sections.js"), ["poincare"]],
   accuracy: ["Accuracy", () => import("./job/accuracy.js"), ["certificate", "accuracy"]],
   fit: ["Fit", () => import("./job/fit.js"), ["calibration"]],

@@ -95,8 +95,10 @@ class Analysis:
         rows = order // max(self.sample.shape[1], 1)
         of_sample = partial(quantiles, self.sample.ravel()[order], rows, np.array(SHARES))
         measured = partial(self.design.measured, parameters=self.parameters)
-        asked = [lambda counts: counts @ moments / len(moments), of_sample]
-        means, *spreads = resampled(len(moments), *asked[: 2 if self.sample.size else 1])
+        sampled = [of_sample] if self.sample.size else []
+        means, *spreads = resampled(
+            len(moments), lambda counts: counts @ moments / len(moments), *sampled
+        )
         best, others = measured(moments.mean(axis=0)), measured(means)
         confidence = self.question.confidence
         measures = {

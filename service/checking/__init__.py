@@ -1,7 +1,8 @@
 """Checking what is submitted: short documents at once, all others in processes of their own.
 
-What is long, or has many bodies, would hold up every other request, and the memory that it takes
-would never be given back. Those processes can be ended, and end by themselves when idle.
+What is long, or has many bodies, would hold up every other request, and the memory that it takes,
+or that a kind of job loads, would never be given back. Those processes can be ended, and end by
+themselves when idle.
 """
 
 from collections.abc import Callable
@@ -15,6 +16,7 @@ from jointplay.service.idempotency import SentKey
 from jointplay.service.jobs.submission import checked
 from jointplay.service.problems import RequestRefused, unavailable
 from jointplay.solver.kernels.record.length import SURELY_SHORT
+from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import NewJob, SubmissionKey
 from jointplay.storage.settings import Settings
@@ -78,7 +80,7 @@ class Checker:
         """
         if len(body) <= SHORT:
             document = parse(body)
-            if not _has_many_bodies(document):
+            if not _takes_much(document):
                 return what(document, self._settings, self._catalogue)
         process = self._jobs if isinstance(what, CheckJob) else self._others
         try:
@@ -101,13 +103,15 @@ class Checker:
         self._others.close()
 
 
-def _has_many_bodies(document: object) -> bool:
-    """Whether equations must be recorded to see whether they are too long."""
+def _takes_much(document: object) -> bool:
+    """Whether much is loaded, or equations are recorded to see whether they are too long."""
     if not isinstance(document, dict):
         return False
     jobs = document.get("jobs")
     if isinstance(jobs, list):
-        return any(_has_many_bodies(job) for job in jobs)
-    scene = document.get("scene")
+        return any(_takes_much(job) for job in jobs)
+    kind, scene = document.get("kind"), document.get("scene")
+    if isinstance(kind, str) and kind in KINDS and KINDS[kind].loads_much:
+        return True
     bodies = scene.get("bodies") if isinstance(scene, dict) else None
     return isinstance(bodies, dict) and len(bodies) > SURELY_SHORT

@@ -64,7 +64,9 @@ def show_sweep(study: StudyOfThePath, query: Annotated[SweepQuery, Query()]) -> 
 
 
 @router.get("/sensitivity", response_model=Sensitivity)
-def show_sensitivity(study: StudyOfThePath, query: Annotated[SensitivityQuery, Query()]) -> Response:
+def show_sensitivity(
+    study: StudyOfThePath, query: Annotated[SensitivityQuery, Query()]
+) -> Response:
     """Return what one output owes to each parameter, its quantiles, and how probable a limit is.
 
     Also while the job runs, of the rows that are whole.  Every output is there without new runs.

@@ -25,9 +25,7 @@ class SensitivityQuery(BaseModel):
         allow_inf_nan=False,
         description="Of the output, in its unit: the answer says how probable it is beyond.",
     )
-    failing: Side = Field(
-        default="above", description="Which side of the limit is beyond it."
-    )
+    failing: Side = Field(default="above", description="Which side of the limit is beyond it.")
     confidence: float = Field(
         default=0.95, ge=0.5, le=0.999, description="Probability of every interval."
     )

@@ -12,4 +12,4 @@ def morris(rows: int, parameters: int, seed: int) -> Floats:
     start = (generator.integers(0, LEVELS, (rows, 1, parameters)) + 0.5) / LEVELS
     order = generator.permuted(np.tile(np.arange(parameters), (rows, 1)), axis=1)
     moved = order[:, None, :] < np.arange(parameters + 1)[:, None]
-    return start + np.where(start < 0.5, STEP, -STEP) * moved
+    return np.asarray(start + np.where(start < 0.5, STEP, -STEP) * moved, np.float64)

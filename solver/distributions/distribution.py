@@ -2,6 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Iterator
+from typing import ClassVar
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.quantities.units import Strict
@@ -15,6 +16,9 @@ class Distribution(Strict):
     Quantiles are own arithmetic: the same bits wherever they are computed.
     """
 
+    above_zero: ClassVar[tuple[str, ...]] = ()
+    """Fields that must be."""
+
     @abstractmethod
     def quantiles(self, shares: Floats) -> Floats:
         """Return the values below which lie shares of the probability, each above 0 and below 1."""
@@ -24,7 +28,10 @@ class Distribution(Strict):
         return ("low", "high")
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield a field and what is wrong with it, for fields that do not fit together."""
+        """Yield a field and what is wrong with it: its sign, or that another does not fit."""
+        for field in self.above_zero:
+            if not getattr(self, field) > 0.0:
+                yield field, f"It is {getattr(self, field):g}; it must be above zero."
         low, high = getattr(self, "low", None), getattr(self, "high", None)
         if low is not None and high is not None and not low < high:
             yield "high", f"{high:g} is not above 'low', {low:g}; all values lie between them."

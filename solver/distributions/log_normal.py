@@ -1,6 +1,6 @@
 """A normal distribution of the logarithm."""
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.distributions.distribution import UNIT, Distribution
@@ -13,11 +13,12 @@ class LogNormal(Distribution):
     """Values above zero whose logarithm is normal about that of the median."""
 
     distribution: Literal["log-normal"]
-    median: Annotated[float, quantity(UNIT, gt=0.0, description="median")]
+    median: Annotated[float, quantity(UNIT, description="median")]
     standard_deviation: Annotated[
         float,
-        quantity("1", gt=0.0, le=10.0, description="standard deviation of the natural logarithm"),
+        quantity("1", le=10.0, description="standard deviation of the natural logarithm"),
     ]
+    above_zero: ClassVar = ("median", "standard_deviation")
 
     def ends(self) -> tuple[str, ...]:
         """Return none."""

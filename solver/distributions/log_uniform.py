@@ -1,6 +1,6 @@
 """All magnitudes between two alike."""
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.distributions.distribution import UNIT, Distribution
@@ -12,8 +12,9 @@ class LogUniform(Distribution):
     """The logarithm is as probable everywhere between those of `low` and `high`."""
 
     distribution: Literal["log-uniform"]
-    low: Annotated[float, quantity(UNIT, gt=0.0, description="least value")]
-    high: Annotated[float, quantity(UNIT, gt=0.0, description="largest value")]
+    low: Annotated[float, quantity(UNIT, description="least value")]
+    high: Annotated[float, quantity(UNIT, description="largest value")]
+    above_zero: ClassVar = ("low", "high")
 
     def quantiles(self, shares: Floats) -> Floats:
         """Return quantiles; see `Distribution.quantiles`."""

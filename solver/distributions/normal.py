@@ -1,6 +1,6 @@
 """The normal distribution."""
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.distributions.distribution import UNIT, Distribution
@@ -13,7 +13,8 @@ class Normal(Distribution):
 
     distribution: Literal["normal"]
     mean: Annotated[float, quantity(UNIT, description="mean")]
-    standard_deviation: Annotated[float, quantity(UNIT, gt=0.0, description="standard deviation")]
+    standard_deviation: Annotated[float, quantity(UNIT, description="standard deviation")]
+    above_zero: ClassVar = ("standard_deviation",)
 
     def ends(self) -> tuple[str, ...]:
         """Return none."""

@@ -1,7 +1,7 @@
 """The normal distribution between two bounds."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.distributions.distribution import UNIT, Distribution
@@ -18,10 +18,11 @@ class TruncatedNormal(Distribution):
     distribution: Literal["truncated-normal"]
     mean: Annotated[float, quantity(UNIT, description="mean before truncation")]
     standard_deviation: Annotated[
-        float, quantity(UNIT, gt=0.0, description="standard deviation before truncation")
+        float, quantity(UNIT, description="standard deviation before truncation")
     ]
     low: Annotated[float, quantity(UNIT, description="least value")]
     high: Annotated[float, quantity(UNIT, description="largest value")]
+    above_zero: ClassVar = ("standard_deviation",)
 
     def quantiles(self, shares: Floats) -> Floats:
         """Return quantiles; see `Distribution.quantiles`."""
@@ -36,6 +37,8 @@ class TruncatedNormal(Distribution):
     def problems(self) -> Iterator[tuple[str, str]]:
         """Yield what is wrong; see `Distribution.problems`."""
         yield from super().problems()
+        if not self.standard_deviation > 0.0:
+            return
         low, high = self._reduced()
         for field, apart in (("low", low), ("high", -high)):
             if apart > FARTHEST:
@@ -43,9 +46,7 @@ class TruncatedNormal(Distribution):
                 yield field, f"It is {many}; it may be {FARTHEST:g} at most."
 
     def _reduced(self) -> tuple[float, float]:
-        low, high = (
-            (end - self.mean) / self.standard_deviation for end in (self.low, self.high)
-        )
+        low, high = ((end - self.mean) / self.standard_deviation for end in (self.low, self.high))
         return low, high
 
     def _between(self, low: float, high: float, shares: Floats) -> Floats:

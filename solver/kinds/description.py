@@ -23,10 +23,11 @@ def description() -> dict[str, Any]:
     """Return kinds by name, each with a sentence and its fields, those of its own first.
 
     A field has its ``help``, the ``form`` of its values (number, integer, flag, text, names,
-    numbers, values, grid, axis, distributions or other), and where there are any its ``unit``, ``choices``, and
-    ``words`` that may stand in place of such a value; ``own`` fields are those of no other kind's
-    documents.  Of distributions, ``members`` has what each is made of.  A kind that can be asked for by one option of a command line has its ``option``: the
-    ``fields`` that it stands for and the ``form`` in which they are typed.
+    numbers, values, grid, axis, distributions or other), and where there are any its ``unit``,
+    ``choices``, ``words`` that may stand in place of such a value, and ``members``, the numbers
+    that each distribution is made of; ``own`` fields are those of no other kind's documents.  A
+    kind that can be asked for by one option of a command line has its ``option``: the ``fields``
+    that it stands for and the ``form`` in which they are typed.
     """
     found: dict[str, Any] = {}
     for name, kind in KINDS.items():

@@ -24,6 +24,8 @@ class Kind(ABC, Generic[J]):
     """The same as `J`. Its field `kind` is a literal, the name of the kind."""
     results: ClassVar[tuple[str, ...]] = ("points", "figures", "zarr")
     """Parts of a job's address in the service under which its results are read."""
+    loads_much: ClassVar[bool] = False
+    """Whether checking a document loads what nothing else of an API needs."""
 
     @property
     def name(self) -> str:

@@ -66,6 +66,7 @@ class SensitivityKind(ExtremesStudy[SensitivityJob]):
 
     document = SensitivityJob
     results: ClassVar = ("points", "sensitivity", "figures", "zarr")
+    loads_much: ClassVar = True  # scipy's sequences
 
     def admit(self, job: SensitivityJob) -> Study:
         """Check and fill in; see `Kind.admit`."""
@@ -130,7 +131,8 @@ def _values(job: SensitivityJob) -> Floats:
     """Return (points, parameters)."""
     shares = DESIGNS[job.design](job.samples, len(job.parameters), job.seed)
     columns = [
-        one.quantiles(shares[..., index].ravel()) for index, one in enumerate(job.parameters.values())
+        one.quantiles(shares[..., index].ravel())
+        for index, one in enumerate(job.parameters.values())
     ]
     return np.stack(columns, axis=1)
 

@@ -46,6 +46,13 @@ MADE = {
         {"parameter": "friction", "values": (0.0, 0.1)},
         indicators="recurrence",
     ),
+    "sensitivity": jobs.sensitivity(
+        "slider-crank",
+        {"clearance": {"distribution": "uniform", "low": np.float64(1e-4), "high": 5e-4}},
+        design="morris",
+        samples=8,
+        periods=2,
+    ),
     "ensemble": jobs.ensemble("slider-crank", 4, seed=3, observables=["P.eccentricity_x"]),
 }
 

@@ -110,7 +110,7 @@ def test_what_a_job_has_not_is_one_line(jointplay, service_url, finished_job, fi
 
 
 BY_COMMAND = {
-    "submit": "Client.submit simulate bifurcation chart basins sweep poincare ensemble"
+    "submit": "Client.submit simulate bifurcation chart basins sweep sensitivity poincare ensemble"
     " accuracy_study calibration estimate",
     "ls": "Client.jobs Batch.jobs",
     "show": "Client.job Job.refresh wait follow check statistics points accuracy attractors"
@@ -118,6 +118,7 @@ BY_COMMAND = {
     "export": "Job.history window poincare peaks impacts open export dataset",
     "plot": "Job.figure figures film",
     "certificate": "Job.certificate",
+    "sensitivity": "Job.sensitivity",
     "cancel": "Job.cancel",
     "delete": "Job.delete Batch.delete",
     "retry": "Job.retry Batch.retry",

@@ -94,6 +94,23 @@ def test_every_kind_of_study_runs_locally(jointplay, tmp_path, options, points):
     assert reader.points == points
 
 
+def test_a_sensitivity_tells_of_every_output(jointplay, tmp_path):
+    drawn = ["--sensitivity", "clearance=uniform:1e-4:3e-4", "--samples", "4", "--periods", "1"]
+    ended = jointplay(*CRANK, *drawn, "--statistics", "impacts", "-o", tmp_path / "OUT")
+    assert ended.code == 0, ended.err
+    assert "4 rows of the design saltelli, 0 left out" in ended.out
+    assert "parameter  first order (95%)" in ended.out
+    asked = ["sensitivity", tmp_path / "OUT", "--output", "P.impacts", "--limit", "1e6"]
+    ended = jointplay(*asked)
+    assert ended.out.startswith("P.impacts: ")
+    assert "above 1e+06: probability 0 (0 to" in ended.out
+    found = json.loads(jointplay(*asked, "--json").out)
+    assert (found["output"], found["failure"]["probability"]) == ("P.impacts", 0.0)
+    ended = jointplay("sensitivity", tmp_path / "OUT", "--output", "P.impact")
+    assert ended.code == 2
+    assert "did you mean 'P.impacts'" in ended.line()
+
+
 def test_statistics_of_a_sweep_are_in_the_store_and_in_the_table(jointplay, tmp_path):
     chosen = ["--statistics", "mean,root_mean_square,contact_share", "--channels", "P.*_force"]
     output = tmp_path / "OUT"

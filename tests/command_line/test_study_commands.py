@@ -57,6 +57,30 @@ ASKED = {
             "statistics": ["mean", "contact_share"],
         },
     ),
+    "a sensitivity": (
+        [
+            *["--sensitivity", "clearance_A=uniform:1e-4:5e-4", "--design", "morris"],
+            *["--sensitivity", "friction=truncated-normal:0.01:0.002:0:1"],
+            *["--periods", "2", "--samples", "8", "--seed", "3"],
+        ],
+        {
+            "kind": "sensitivity",
+            "parameters": {
+                "clearance_A": {"distribution": "uniform", "low": 1e-4, "high": 5e-4},
+                "friction": {
+                    "distribution": "truncated-normal",
+                    "mean": 0.01,
+                    "standard_deviation": 0.002,
+                    "low": 0,
+                    "high": 1,
+                },
+            },
+            "design": "morris",
+            "samples": 8,
+            "seed": 3,
+            "periods": 2.0,
+        },
+    ),
     "sections": (
         ["--poincare", "--section", "onset=A", "--set", "friction=0.1"],
         {"kind": "poincare", "section": {"onset": "A"}},
@@ -101,6 +125,9 @@ WRONG = {
     "a settling word": (["--poincare", "--settle", "long"], "--settle"),
     "a duration of a diagram": (["--poincare", "--duration", "2"], "/duration"),
     "a record of a simulation": (["--duration", "2", "--record", "9"], "/record"),
+    "an unknown distribution": (["--sensitivity", "friction=flat:0:1"], "friction=flat:0:1: write"),
+    "half a distribution": (["--sensitivity", "friction=uniform:0"], "uniform:LOW:HIGH"),
+    "a distribution twice": (2 * ["--sensitivity", "friction=uniform:0:1"], "given twice"),
     "no periods of a sweep": (["--sweep", "clearance=1e-4,2e-4"], "periods"),
 }
 

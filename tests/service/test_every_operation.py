@@ -25,7 +25,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
-from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION, CHART, SWEEP, Worker
+from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION, CHART, SENSITIVITY, SWEEP, Worker
 
 CHECKS = (
     not_a_server_error,
@@ -55,6 +55,7 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Known
             worker.finished_study(**SWEEP),
             worker.finished_study(**ACCURACY_STUDY),
             worker.finished_study(**CHART),
+            worker.finished_study(**SENSITIVITY),
         )
         failed = worker.start(worker.submit())
         worker.finish(failed, BlockState.failed, JobError("solver", "x", "X."))
@@ -72,6 +73,7 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Known
                 "displacement",
                 "bifurcation",
                 "sweep",
+                "sensitivity",
                 "work-precision",
                 "invalid-job",
             ),

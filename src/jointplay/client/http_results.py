@@ -102,8 +102,8 @@ class HttpResults:
         self, output: str | None, limit: float | None, failing: "Side", confidence: float
     ) -> dict[str, Any]:
         """Return what one output owes to each parameter."""
-        question = {"output": output, "limit": limit, "failing": failing, "confidence": confidence}
-        return self._get("sensitivity", **question)
+        names = {"output": None if output is None else [output], "failing": [failing]}
+        return self._get("sensitivity", **names, limit=limit, confidence=confidence)
 
     def study(
         self, observables: Names, channels: Names, sections: tuple[int, int] | None

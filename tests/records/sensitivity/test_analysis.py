@@ -1,0 +1,197 @@
+"""Indices, effects, quantiles and probabilities beside closed forms and beside scipy."""
+
+import numpy as np
+import pytest
+from known_functions import (
+    FOUR_BRANCHES,
+    G_FUNCTION,
+    ISHIGAMI,
+    ISHIGAMI_VARIANCE,
+    four_branches,
+    g_function,
+    ishigami,
+    study_of,
+)
+from scipy import stats
+
+from jointplay.records.sensitivity import DESIGNS
+from jointplay.records.sensitivity.analysis import (
+    Analysis,
+    NoSuchOutput,
+    Question,
+    sensitivity,
+)
+from jointplay.records.sensitivity.outputs import output
+from jointplay.records.sensitivity.resampled import MOST_RESAMPLES, resamples_of
+from jointplay.solver.distributions import DISTRIBUTIONS
+
+MAXIMUM = Question("rod.x.maximum")
+
+
+def values_of(found, name):
+    return np.array(found["measures"][name]["values"])
+
+
+@pytest.mark.parametrize(
+    ("function", "parameters", "known"), [(ishigami, 3, ISHIGAMI), (g_function, 8, G_FUNCTION)]
+)
+def test_indices_are_those_of_closed_forms(function, parameters, known):
+    found = sensitivity(study_of(function, 2**16, parameters), MAXIMUM)
+    for name, expected in known.items():
+        assert values_of(found, name) == pytest.approx(expected, abs=2e-4)
+        low, high = (np.array(found["measures"][name][end]) for end in ("low", "high"))
+        assert (low <= expected).all()
+        assert (expected <= high).all()
+
+
+def test_mean_and_variance_of_ishigami():
+    found = sensitivity(study_of(ishigami, 2**16, 3), MAXIMUM)
+    assert found["mean"] == pytest.approx(3.5, abs=1e-4)
+    assert found["standard_deviation"] ** 2 == pytest.approx(ISHIGAMI_VARIANCE, rel=2e-4)
+
+
+def test_indices_are_scipys_to_the_last_digits():
+    study = study_of(ishigami, 256, 3)
+    table = output(study, "rod.x.maximum").reshape(256, 5)
+    scipys = stats.sobol_indices(
+        func={"f_A": table[:, :1].T, "f_B": table[:, 1:2].T, "f_AB": table[:, 2:].T[:, None]},
+        n=256,
+    )
+    found = sensitivity(study, MAXIMUM)
+    assert values_of(found, "first_order") == pytest.approx(scipys.first_order, abs=1e-14)
+    assert values_of(found, "total") == pytest.approx(scipys.total_order, abs=1e-14)
+
+
+def test_intervals_contain_the_truth_as_often_as_they_say():
+    inside = []
+    for seed in range(60):
+        found = sensitivity(study_of(ishigami, 64, 3, seed=seed), MAXIMUM)
+        for name, expected in ISHIGAMI.items():
+            low, high = (np.array(found["measures"][name][end]) for end in ("low", "high"))
+            inside += ((low <= expected) & (expected <= high)).tolist()
+    assert 0.9 < np.mean(inside) <= 1.0
+
+
+def test_intervals_are_narrower_where_less_confidence_is_asked_for():
+    study = study_of(ishigami, 64, 3)
+    wide, narrow = (
+        sensitivity(study, Question(confidence=share))["measures"]["total"] for share in (0.95, 0.5)
+    )
+    width = [np.subtract(one["high"], one["low"]) for one in (wide, narrow)]
+    assert width[0] / width[1] == pytest.approx(1.96 / 0.674, rel=0.3)
+
+
+def test_elementary_effects_of_a_plane_are_its_slopes():
+    found = sensitivity(study_of(lambda x: 3.0 * x[:, 0] - 2.0 * x[:, 1], 16, 3, "morris"), MAXIMUM)
+    assert values_of(found, "mean_effect") == pytest.approx([3.0, -2.0, 0.0], abs=1e-12)
+    assert values_of(found, "mean_magnitude") == pytest.approx([3.0, 2.0, 0.0], abs=1e-12)
+    assert values_of(found, "spread") == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)
+    assert found["measures"]["spread"]["unit"] == "m"
+    assert (found["quantiles"], found["mean"]) == (None, None)
+
+
+def test_an_interaction_shows_as_spread_of_the_effects():
+    found = sensitivity(study_of(lambda x: x[:, 0] * x[:, 1], 4000, 2, "morris"), MAXIMUM)
+    # the other one is at 1/8, 3/8, 5/8 or 7/8
+    assert values_of(found, "mean_effect") == pytest.approx([0.5, 0.5], abs=0.02)
+    assert values_of(found, "spread") == pytest.approx(2 * [np.std([1, 3, 5, 7]) / 8], abs=0.01)
+
+
+def test_correlations_of_ranks_are_scipys():
+    study = study_of(lambda x: np.exp(4.0 * x[:, 0]) - x[:, 1], 200, 3, "latin-hypercube")
+    found = sensitivity(study, MAXIMUM)
+    expected = [
+        stats.spearmanr(column, output(study, "rod.x.maximum"))[0] for column in study.values.T
+    ]
+    assert values_of(found, "rank_correlation") == pytest.approx(expected, abs=1e-12)
+
+
+def test_equal_outputs_share_their_rank():
+    study = study_of(lambda x: np.round(3.0 * x[:, 0]), 50, 2, "latin-hypercube")
+    found = sensitivity(study, MAXIMUM)
+    expected = stats.spearmanr(study.values[:, 0], output(study, "rod.x.maximum"))[0]
+    assert values_of(found, "rank_correlation")[0] == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize("design", ["saltelli", "latin-hypercube"])
+def test_quantiles_are_those_of_the_distribution(design):
+    normal = DISTRIBUTIONS["normal"](distribution="normal", mean=5.0, standard_deviation=2.0)
+    study = study_of(lambda x: normal.quantiles(x[:, 0]), 1024, 2, design)
+    found = sensitivity(study, MAXIMUM)["quantiles"]
+    expected = stats.norm(5.0, 2.0).ppf(found["shares"])
+    assert found["values"] == pytest.approx(expected, abs=0.05)
+    assert (np.array(found["low"]) < expected).all()
+    assert (expected < np.array(found["high"])).all()
+
+
+@pytest.mark.parametrize(("p", "probability"), FOUR_BRANCHES.items())
+@pytest.mark.parametrize("design", ["saltelli", "latin-hypercube"])
+def test_the_probability_of_four_branches_is_within_its_interval(p, probability, design):
+    normal = DISTRIBUTIONS["normal"](distribution="normal", mean=0.0, standard_deviation=1.0)
+    study = study_of(lambda x: four_branches(normal.quantiles(x), p), 2**14, 2, design)
+    found = sensitivity(study, Question(limit=0.0, failing="below"))["failure"]
+    assert found["low"] < probability < found["high"]
+    assert found["probability"] == pytest.approx(probability, rel=0.15)
+    safe = sensitivity(study, Question(limit=0.0))["failure"]["probability"]
+    assert safe + found["probability"] == pytest.approx(1.0, abs=1e-12)
+
+
+def test_wilsons_interval_is_his():
+    study = study_of(lambda x: x[:, 0], 100, 1, "latin-hypercube")
+    found = sensitivity(study, Question(limit=0.9))["failure"]
+    his = stats.binomtest(10, 100).proportion_ci(0.95, "wilson")
+    assert found["probability"] == pytest.approx(0.1)
+    assert (found["low"], found["high"]) == pytest.approx((his.low, his.high), abs=1e-12)
+
+
+def test_rows_with_a_failed_point_leave_whole_and_are_counted():
+    whole = sensitivity(study_of(ishigami, 64, 3), MAXIMUM)
+    found = sensitivity(study_of(ishigami, 64, 3, failed=(2, 4, 11), waiting=(318,)), MAXIMUM)
+    assert whole["rows"]["used"] == 64
+    expected = {"used": 61, "left_out": 2, "waiting": 1, "failed_points": 3, "points_each": 5}
+    assert found["rows"] == expected
+    assert (whole["complete"], found["complete"]) == (True, False)
+    used = np.delete(np.arange(64), [0, 2, 63])
+    shares = study_of(ishigami, 64, 3).values.reshape(64, 5, 3)[used]
+    analysis = Analysis(DESIGNS["saltelli"], 3, MAXIMUM, shares, ishigami(shares))
+    expected = analysis.spreads()[0]["first_order"].values.tolist()
+    assert found["measures"]["first_order"]["values"] == expected
+
+
+def test_what_does_not_vary_has_no_measures_and_says_so():
+    found = sensitivity(study_of(ishigami, 16, 3), Question("rod.x.mean"))
+    assert (found["measures"], found["mean"], found["standard_deviation"]) == ({}, 3.0, 0.0)
+    assert "no parameter matters" in found["note"]
+    assert set(found["quantiles"]["values"]) == {3.0}
+
+
+def test_too_few_rows_say_nothing():
+    found = sensitivity(study_of(ishigami, 4, 3, failed=(3,)), Question(limit=1.0))
+    assert found["measures"] == {}
+    assert found["mean"] is found["quantiles"] is None
+    assert "Less than 4 rows" in found["note"]
+
+
+def test_a_design_that_is_no_sample_gives_no_probability():
+    found = sensitivity(study_of(ishigami, 8, 3, "morris"), Question(limit=1.0))
+    assert found["failure"] is None
+    assert "no sample" in found["note"]
+
+
+def test_outputs_are_extremes_and_statistics_and_others_are_refused():
+    study = study_of(ishigami, 8, 3)
+    found = sensitivity(study, Question())
+    assert found["outputs"] == ["rod.x.maximum", "rod.x.minimum", "rod.x.range", "rod.x.mean"]
+    assert (found["output"], found["unit"]) == ("rod.x.maximum", "m")
+    maximum, minimum = (output(study, f"rod.x.{end}") for end in ("maximum", "minimum"))
+    assert output(study, "rod.x.range").tolist() == (maximum - minimum).tolist()
+    with pytest.raises(NoSuchOutput, match=r"did you mean 'rod\.x\.maximum'"):
+        sensitivity(study, Question("rod.x.maximun"))
+
+
+def test_work_is_bounded_and_the_same_answer_comes_again():
+    assert resamples_of(64) == MOST_RESAMPLES
+    for rows in (10_000, 100_000, 10**7):
+        assert 200 <= resamples_of(rows) < MOST_RESAMPLES
+    study = study_of(ishigami, 64, 3)
+    assert sensitivity(study, MAXIMUM) == sensitivity(study, MAXIMUM)
