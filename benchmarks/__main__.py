@@ -18,6 +18,7 @@ ALL = (
     "double_pendulum",
     "sweep",
     "chart",
+    "sensitivity",
     "joined",
     "bucket",
     "restitution",

@@ -17,7 +17,7 @@ from jointplay.records.study import StudySource
 from jointplay.records.suggestions import unknown
 
 Side = Literal["above", "below"]
-"""Of a limit, where the output fails."""
+"""Where the output fails: on this side of a limit."""
 SHARES: Final = (0.05, 0.25, 0.5, 0.75, 0.95)
 FEWEST_ROWS: Final = 4
 """Rows from which anything is said."""
@@ -39,7 +39,7 @@ class Estimate(NamedTuple):
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked of one output.
+    """A question about one output.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ class Quantiles(BaseModel):
 
 
 class Failure(BaseModel):
-    """How probable the output is beyond a limit."""
+    """Probability of the output beyond a limit."""
 
     limit: float = in_unit(OF_OUTPUT)
     failing: Side
@@ -73,7 +73,7 @@ class Rows(BaseModel):
 
 
 class Sensitivity(Partial, Described):
-    """What one output owes to each parameter, and how it is distributed."""
+    """Shares of parameters in one output, and its distribution."""
 
     design: str
     parameters: list[str]
