@@ -9,7 +9,7 @@ from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.quantity import Scale, scale
 from jointplay.records.arrays import Floats
 from jointplay.records.sensitivity.analysis import Question, sensitivity
-from jointplay.records.sensitivity.outputs import outputs
+from jointplay.records.sensitivity.outputs import channel_of, outputs
 from jointplay.records.study import StudySource
 
 _ROW: Final = 7.0  # mm
@@ -24,14 +24,15 @@ _BARS: Final = {
 """By design, the axis and the measures that are drawn."""
 
 
-def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
+def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
     if source.kind != "sensitivity":
         raise NotDrawable("Sensitivities are drawn of a job of kind sensitivity.")
-    return at_most(1, selection.channels, "outputs")
+    channel = channel_of(source, _output(source, selection))
+    return () if channel is None else (channel,)
 
 
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
-    found = sensitivity(source, Question(_output(source, _chosen(source, selection))))
+    found = sensitivity(source, Question(_output(source, selection)))
     if not found["measures"]:
         raise NotDrawable(found["note"])
     label, names = _BARS[found["design"]]
@@ -58,10 +59,11 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     return figure
 
 
-def _output(source: StudySource, chosen: tuple[str, ...]) -> str | None:
+def _output(source: StudySource, selection: Selection) -> str:
     """Return an output by its name, or by that of a channel: its largest value."""
-    known = outputs(source)
-    return next((name if name in known else f"{name}.maximum" for name in chosen), None)
+    chosen, known = at_most(1, selection.channels, "outputs"), outputs(source)
+    named = (name if name in known else f"{name}.maximum" for name in chosen)
+    return next(named, next(iter(known)))
 
 
 def _columns(measure: dict[str, Any]) -> tuple[Floats, Floats, Floats]:
@@ -91,7 +93,7 @@ def _explained(found: dict[str, Any], shown: int) -> str:
     rows = found["rows"]
     parts = [f"Lines: {found['confidence']:.0%} intervals, of {rows['used']} rows."]
     if rows["left_out"]:
-        parts.append(f"{rows['left_out']} rows with failed points are left out.")
+        parts.append(f"Left out for failed points: {rows['left_out']}.")
     if shown < len(found["parameters"]):
         parts.append(f"The {shown} parameters of the longest bars.")
     return " ".join(parts)
@@ -101,6 +103,6 @@ SENSITIVITY = StudyFigure(
     name="sensitivity",
     title="What an output owes to each parameter",
     uses=("channels",),
-    channels=_chosen,
+    channels=_channels,
     draw=_draw,
 )

@@ -32,6 +32,7 @@ PAGES = [
             "laws",
             "figures",
             "windows",
+            "studies",
             "calibration",
         )
     ),

@@ -6,6 +6,7 @@ from jointplay.records.channel import Channel
 from jointplay.records.peak import PeakColumns
 from jointplay.records.point import Failure, PointStatus
 from jointplay.records.study import StudyDataset
+from jointplay.solver.designs import DESIGNS
 
 VERDICTS = ("undecided", "periodic", "quasi-periodic", "chaotic")
 SCENE = {"name": "logistic", "bodies": {}, "joints": {"left": {"clearance": {}}}}
@@ -228,4 +229,29 @@ def accuracy_study(ended=None, *, lossless=False):
         status=status,
         failures={2: Failure("fixed-step-too-long", "The step is too long.", 0.1)},
         statistics=statistics,
+    )
+
+
+def sensitivity(design="saltelli", rows=64, parameters=3, *, failed=(), constant=False):
+    """A sum of parameters of which each weighs half of the one before, and the first two mix."""
+    shares = DESIGNS[design](rows, parameters, 0).reshape(-1, parameters)
+    status = np.full(len(shares), PointStatus.done, dtype=np.uint8)
+    status[list(failed)] = PointStatus.failed
+    stroke = 0.5 + 1e-3 * (shares @ 0.5 ** np.arange(parameters) + shares[:, 0] * shares[:, -1])
+    stroke = np.where(status == PointStatus.done, 0.5 if constant else stroke, np.nan)
+    return StudyDataset(
+        attributes={
+            "job": {"kind": "sensitivity", "design": design},
+            "scene": SCENE,
+            "meanings": {"left.contact_share": ("1", "share of the time in contact (joint left)")},
+        },
+        parameters=[
+            Channel(f"clearance_{number}", "m", "radial clearance") for number in range(parameters)
+        ],
+        values=1e-4 + 4e-4 * shares,
+        status=status,
+        channels=(Channel("block.x", "m", "place of the block"),),
+        extremes={"block.x": PeakColumns(-stroke, stroke, stroke, stroke)},
+        statistics={"left.contact_share": 1000.0 * stroke - 500.0},
+        failures={point: Failure("step-size-underflow", "It failed.", 0.7) for point in failed},
     )

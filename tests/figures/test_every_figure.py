@@ -7,7 +7,14 @@ from dataclasses import replace
 import matplotlib as mpl
 import pytest
 from closed_form_motion import closed_form_motion
-from closed_form_study import accuracy_study, bifurcation, calibration, one_point, sweep
+from closed_form_study import (
+    accuracy_study,
+    bifurcation,
+    calibration,
+    one_point,
+    sensitivity,
+    sweep,
+)
 from drawn import drawn_with, stand_apart, visible_texts
 from PIL import Image
 
@@ -53,6 +60,10 @@ OF_STUDIES = {
         "sweep",
         Selection(channels=("left.normal_force.root_mean_square", "left.contact_share")),
     ),
+    "sensitivity": (sensitivity(failed=(7,)), "sensitivity", None),
+    "sensitivity of many parameters": (sensitivity(parameters=30), "left.contact_share", None),
+    "elementary effects": (sensitivity("morris"), "block.x.minimum", None),
+    "correlations": (sensitivity("latin-hypercube"), "block.x", None),
     "work and precision": (accuracy_study(), "work-precision", None),
     "work and precision so far": (accuracy_study(13), "work-precision", None),
     "work and precision without losses": (accuracy_study(lossless=True), "work-precision", None),

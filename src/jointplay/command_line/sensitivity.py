@@ -47,7 +47,7 @@ def sensitivity_lines(found: dict[str, Any]) -> Iterator[str]:
     """Yield what is known of an output: a table of the parameters, one of quantiles, the limit."""
     rows, unit = found["rows"], "" if found["unit"] == "1" else f" {found['unit']}"
     yield f"{found['output']}: {found['long_name']}"
-    left = f", {rows['left_out']} left out ({rows['failed_points']} points failed)"
+    left = f", {rows['left_out']} left out (failed points: {rows['failed_points']})"
     waiting = f", {rows['waiting']} waiting" if rows["waiting"] else ""
     yield f"{rows['used']} rows of the design {found['design']}{left}{waiting}"
     if found["note"]:

@@ -1,5 +1,7 @@
 """Indices, effects, quantiles and probabilities beside closed forms and beside scipy."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from known_functions import (
@@ -14,6 +16,7 @@ from known_functions import (
 )
 from scipy import stats
 
+from jointplay.records.channel import Channel
 from jointplay.records.sensitivity import DESIGNS
 from jointplay.records.sensitivity.analysis import (
     Analysis,
@@ -21,7 +24,7 @@ from jointplay.records.sensitivity.analysis import (
     Question,
     sensitivity,
 )
-from jointplay.records.sensitivity.outputs import output
+from jointplay.records.sensitivity.outputs import output, outputs
 from jointplay.records.sensitivity.resampled import MOST_RESAMPLES, resamples_of
 from jointplay.solver.distributions import DISTRIBUTIONS
 
@@ -187,6 +190,16 @@ def test_outputs_are_extremes_and_statistics_and_others_are_refused():
     assert output(study, "rod.x.range").tolist() == (maximum - minimum).tolist()
     with pytest.raises(NoSuchOutput, match=r"did you mean 'rod\.x\.maximum'"):
         sensitivity(study, Question("rod.x.maximun"))
+
+
+def test_declared_outputs_come_first_then_contact_forces():
+    study = study_of(ishigami, 8, 3)
+    names = ("B.penetration", "B.normal_force", "rod.x")
+    channels = [Channel(name, "m", name) for name in names]
+    scene = {"outputs": [{"name": "rod.x"}]}
+    several = replace(study, channels=channels, attributes={**study.attributes, "scene": scene})
+    owners = [name.rpartition(".")[0] for name in outputs(several)]
+    assert list(dict.fromkeys(owners)) == ["rod.x", "B.normal_force", "B.penetration"]
 
 
 def test_work_is_bounded_and_the_same_answer_comes_again():
