@@ -1,0 +1,66 @@
+"""Sensitivities in the page: the form that asks for one, and what its tab tells of every output."""
+
+import re
+
+from jointplay.solver.kinds import admit
+from tests.page.browsing import barriers, expect
+from tests.page.test_forms_of_kinds import shown_document
+from tests.worker_by_hand import SENSITIVITY
+
+
+def test_parameters_are_given_distributions_submitted_and_changed(browsing, http, service_url):
+    lacking = ("422", "404")  # numbers that are typed one by one; the figures of what was cancelled
+    address = f"{service_url}/#/new/seven-bar-press?kind=sensitivity"
+    with browsing.page(address, expected=lacking) as page:
+        expect(page.get_by_label("What to compute")).to_have_value("sensitivity")
+        page.get_by_label("Parameter 1", exact=True).select_option("clearance_A")
+        page.get_by_label("Parameter 2", exact=True).select_option("friction")
+        page.get_by_label("Parameter 2, distribution", exact=True).select_option("normal")
+        for nth, *texts in ((1, "1e-4", "5e-4"), (2, "0.1", "0.01")):
+            for end, text in zip(
+                ("low or mean or median", "high or standard deviation"), texts, strict=True
+            ):
+                page.get_by_label(f"Parameter {nth}, {end}", exact=True).fill(text)
+        page.get_by_label("Samples", exact=True).fill("8")
+        page.get_by_label("Periods", exact=True).fill("2")
+        page.get_by_role("button", name="JSON").click()
+        document = shown_document(page)
+        assert document == {
+            "kind": "sensitivity",
+            "scene": {"preset": "seven-bar-press"},
+            "parameters": {
+                "clearance_A": {"distribution": "uniform", "low": 1e-4, "high": 5e-4},
+                "friction": {"distribution": "normal", "mean": 0.1, "standard_deviation": 0.01},
+            },
+            "samples": 8,
+            "periods": 2,
+        }
+        assert admit(document).points == 32
+        assert barriers(page) == []
+        page.get_by_role("button", name="Run", exact=True).click()
+        expect(page).to_have_url(re.compile("#/job/"))
+        page.get_by_role("button", name="Cancel").click()
+        page.get_by_role("link", name="Run with changes").click()
+        expect(page.get_by_label("Parameter 2", exact=True)).to_have_value("friction")
+        expect(page.get_by_label("Parameter 2, distribution", exact=True)).to_have_value("normal")
+        page.goto(f"{service_url}/#/jobs?kind=sensitivity")
+        expect(page.locator(".row")).to_contain_text("draws clearance_A, friction")
+
+
+def test_every_output_is_shown_with_its_figure_and_a_limit(browsing, worker, service_url):
+    job = worker.finished_study(**SENSITIVITY, label="shown", failing=())
+    with browsing.page(f"{service_url}/#/job/{job}") as page:
+        page.get_by_text("4 rows of the design saltelli").wait_for()
+        expect(page.get_by_label("Output", exact=True)).to_have_value("displacement.maximum")
+        expect(page.locator("img.figure")).to_have_attribute(
+            "src", re.compile("displacement.maximum")
+        )
+        page.get_by_label("Output", exact=True).select_option("displacement.mean")
+        expect(page.locator("img.figure")).to_have_attribute("src", re.compile("displacement.mean"))
+        page.get_by_label("Limit", exact=True).fill("3.9")
+        page.get_by_label("Limit", exact=True).blur()
+        page.get_by_text(re.compile(r"Above 3\.9 m with a probability of 0\.5")).wait_for()
+        expect(page.get_by_role("group", name="Parameters")).to_contain_text("clearance_B")
+        expect(page.get_by_role("group", name="Quantiles")).to_contain_text("95 %")
+        assert barriers(page) == []
+        assert "output=displacement.mean" in page.url
