@@ -45,7 +45,7 @@ class Attractor:
     """Such as ``period-1 A``, ``chaotic`` or ``failed``."""
     points: int
     share: float
-    """Of the points that have ended."""
+    """Part of the points that have ended."""
     error: float
     """Standard error of the share, binomial."""
     example: int

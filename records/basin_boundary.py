@@ -24,7 +24,7 @@ class BoundaryDimension:
     distances: tuple[int, ...]
     """Points between neighbours."""
     shares: tuple[float, ...]
-    """Of points whose neighbours end elsewhere."""
+    """Shares of points whose neighbours end elsewhere."""
 
 
 FEWEST: Final = 30

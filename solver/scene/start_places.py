@@ -25,7 +25,7 @@ class StartPlace:
     name: str
     """Word that stands behind the part's name in the number's own name."""
     unit: str
-    """Of the phase of a driver that slides it is m."""
+    """Unit of the number; the phase of a driver that slides has m."""
     is_vector: bool = False
 
     @property

@@ -15,6 +15,7 @@ from jointplay.records.study import StudyDataset
 from jointplay.solver.kinds import KINDS, admit
 from jointplay.solver.nonlinear.verdict import VERDICTS
 from jointplay.solver.runs.study.run import StudyRun
+from jointplay.solver.scene import presets
 
 IMPACTING = 0.733
 OF_GRID = 0.005
@@ -26,13 +27,26 @@ def middles(low, high, count):
     return {"from": low + half, "to": high - half, "count": count}
 
 
+def oscillator():
+    """Return the oscillator at 28 rad/s, whose stiff stop has exactly the restitution 0.8."""
+    document = presets.document("impact-oscillator")
+    contact = {
+        "law": "stiffness-and-dissipation",
+        "stiffness": {"law": "power", "stiffness": 1e11, "exponent": 1.5},
+        "dissipation": {"law": "exact", "restitution": 0.8},
+    }
+    stop = document["joints"]["stop"]
+    clearance = stop["clearance"] | {"contact": contact}
+    joints = document["joints"] | {"stop": stop | {"clearance": clearance}}
+    drivers = {"motor": document["drivers"]["motor"] | {"speed": 28.0}}
+    changed = document | {"joints": joints, "drivers": drivers}
+    return {name: part for name, part in changed.items() if name not in ("parameters", "outputs")}
+
+
 def job(count, **fields):
     return {
         "kind": "basins",
-        "scene": {
-            "preset": "impact-oscillator",
-            "parameters": {"speed": 28.0, "stop_stiffness": 1e11},
-        },
+        "scene": oscillator(),
         "along": {
             "start": "/start/joints/stop/eccentricity/0",
             "values": middles(0.17, 0.2, count),
