@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 from jointplay.records.point import StudySlice
 from jointplay.solver.calibration.run import CalibrationRun
+from jointplay.solver.continuation.run import ContinuationRun
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
@@ -33,6 +34,7 @@ class Computation(Protocol):
 COMPUTATIONS: dict[str, Callable[[Any, int, bytes | None], Computation]] = {
     "accuracy-study": WorkPrecisionRun,
     "calibration": CalibrationRun,
+    "continuation": ContinuationRun,
 }
 """By kind, of those whose points are no runs of one mechanism each, eight lanes side by side."""
 

@@ -18,6 +18,7 @@ from jointplay.solver.kinds.basins import Basins
 from jointplay.solver.kinds.bifurcation import Bifurcation
 from jointplay.solver.kinds.calibration import CalibrationKind
 from jointplay.solver.kinds.chart import Chart
+from jointplay.solver.kinds.continuation import Continuation
 from jointplay.solver.kinds.documents import job_of, kind_of
 from jointplay.solver.kinds.ensemble import Ensemble
 from jointplay.solver.kinds.kind import Kind
@@ -39,6 +40,7 @@ KINDS: dict[str, Kind[Any]] = {
         Chart(),
         Basins(),
         SensitivityKind(),
+        Continuation(),
         Poincare(),
         Ensemble(),
         AccuracyStudy(),

@@ -1,0 +1,1 @@
+"""Periodic orbits of driven mechanisms, followed over a parameter."""

@@ -1,0 +1,159 @@
+"""A branch of periodic orbits, followed by pseudo-arclength: predictor, corrector, step control."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.location import NotLocated, Piece
+from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit
+from jointplay.solver.continuation.plan import Reach
+from jointplay.solver.continuation.special import Special, explained, special_orbits
+
+SMALLEST = 1e-7
+"""Step, as a length along the branch, below which the branch is lost."""
+FIRST = 0.1
+"""First step, in the largest."""
+TURN, SHARP = 0.1, 0.3
+"""Angle, rad, between tangents up to which steps grow, and above which one is refused."""
+FEW_ROUNDS = 3
+"""Rounds of Newton's method up to which steps grow."""
+GROWTH, SHRINK = 1.6, 0.4
+FINE = 8.0
+"""Steps up to so many of the smallest are not refused for what they skip."""
+ASTRAY = 0.5
+"""Share of the step by which the corrector may move the predicted orbit."""
+SHAKEN = 0.01
+"""Error of the multipliers, in the largest, that tells of grazing: there the map has a corner."""
+ENOUGH = 8
+"""Orbits after which a branch may have closed."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """An orbit of a branch, as it is told."""
+
+    orbit: Orbit
+    length: float
+    """Along the branch since its start; negative behind it."""
+    label: str = ""
+    """Of `columns.LABELS`."""
+    bound: float = 0.0
+    """Largest error of the parameter at a special orbit."""
+    note: str = ""
+
+
+def follow(start: Orbit, along: Floats, reach: Reach, sense: float = 1.0) -> Iterator[Row]:
+    """Yield the orbits of a branch behind the start, in one direction, until it ends.
+
+    `along` : that direction, roughly, as a scaled vector. `sense` : 1 or -1, of the lengths that
+    are told. The last row says why the branch ends.
+    """
+    curve, tangent = start.curve, start.tangent(along)
+    if tangent is None:
+        yield Row(start, 0.0, "MX", note="the branch has no direction here")
+        return
+    orbit, length, step = start, 0.0, FIRST * reach.step
+    for count in range(1, reach.orbits + 1):
+        stepped = _step(curve, orbit, tangent, step, reach)
+        if isinstance(stepped, NoOrbit):
+            yield Row(orbit, sense * length, "MX", note=_lost(orbit, stepped))
+            return
+        piece, specials, step = stepped
+        for one in specials:
+            found = one.found
+            at = sense * (length + found.at)
+            yield Row(found.orbit, at, one.label, found.bound, one.note)
+        before, orbit, tangent = orbit, piece.last, piece.last_tangent
+        length += curve.scales.length(orbit.vector - before.vector)
+        if not reach.low < orbit.value < reach.high:
+            yield Row(orbit, sense * length, "EP", note="end of the range")
+            return
+        if count >= ENOUGH and _closed(piece, start):
+            yield Row(orbit, sense * length, "EP", note="the branch has closed")
+            return
+        ended = count == reach.orbits
+        note = f"{count} orbits were asked for" if ended else ""
+        yield Row(orbit, sense * length, "EP" if ended else "", note=note)
+
+
+def _step(
+    curve: Curve, orbit: Orbit, tangent: Floats, step: float, reach: Reach
+) -> tuple[Piece, list[Special], float] | NoOrbit:
+    """Return the next piece, what lies in it, and the step to try behind it."""
+    while True:
+        piece = _piece(curve, orbit, tangent, step, reach)
+        if isinstance(piece, Piece):
+            try:
+                specials = special_orbits(piece)
+            except NotLocated as error:
+                sentence = f"an orbit between could not be computed: {error}"
+                piece = NoOrbit(sentence, math.nan)
+            else:
+                if explained(piece, specials) or step <= FINE * SMALLEST:
+                    turn = _angle(curve, tangent, piece.last_tangent)
+                    grows = turn < TURN and piece.last.rounds <= FEW_ROUNDS
+                    return piece, specials, min(step * GROWTH if grows else step, reach.step)
+                piece = NoOrbit("its stability changes in a way that is not known", math.nan)
+        if step <= SMALLEST:
+            return piece
+        step = max(SHRINK * step, SMALLEST)
+
+
+def _piece(
+    curve: Curve, orbit: Orbit, tangent: Floats, step: float, reach: Reach
+) -> Piece | NoOrbit:
+    """Return the branch up to the orbit a step farther, or to the end of the range."""
+    guess = orbit.vector + step * tangent
+    found = curve.orbit(guess, tangent)
+    inside = isinstance(found, Orbit) and reach.low < found.value < reach.high
+    if isinstance(found, Orbit) and not inside:
+        found = _at_end(curve, orbit, found, reach)
+    if isinstance(found, NoOrbit):
+        return found
+    behind = found.tangent(tangent)
+    if behind is None:
+        return NoOrbit("the branch has no direction behind it", found.residual)
+    if inside and curve.scales.length(found.vector - guess) > ASTRAY * step:
+        return NoOrbit("Newton's method went astray", found.residual)
+    if _angle(curve, tangent, behind) > SHARP and step > FINE * SMALLEST:
+        return NoOrbit("the branch turns too sharply", found.residual)
+    if curve.scales.product(tangent, found.vector - orbit.vector) <= 0.0:
+        return NoOrbit("the branch does not come to the end of the range", found.residual)
+    return Piece(curve, orbit, tangent, found, behind)
+
+
+def _at_end(curve: Curve, orbit: Orbit, beyond: Orbit, reach: Reach) -> Orbit | NoOrbit:
+    """Return the orbit at the end of the range, between one inside and one beyond."""
+    end = reach.low if beyond.value <= reach.low else reach.high
+    share = (end - orbit.value) / (beyond.value - orbit.value)
+    guess = orbit.vector + share * (beyond.vector - orbit.vector)
+    axis = np.zeros(len(guess))
+    axis[-1] = 1.0
+    guess[-1] = end / curve.scales.extents[-1]
+    return curve.orbit(guess, axis)
+
+
+def _angle(curve: Curve, one: Floats, other: Floats) -> float:
+    return math.acos(min(max(curve.scales.product(one, other), -1.0), 1.0))
+
+
+def _closed(piece: Piece, start: Orbit) -> bool:
+    """Return whether a piece passes the start of its branch."""
+    scales = piece.curve.scales
+    apart = start.vector - piece.first.vector
+    along = scales.product(piece.first_tangent, apart)
+    beside = scales.length(apart - along * piece.first_tangent)
+    return 0.0 < along <= piece.length and beside < 0.1 * piece.length
+
+
+def _lost(orbit: Orbit, why: NoOrbit) -> str:
+    """Return where and why a branch was lost, and what may be tried."""
+    shaken = orbit.error > SHAKEN * float(np.abs(orbit.multipliers).max())
+    if why.grazing or shaken or not orbit.linear.alike:
+        cause, remedy = "an impact begins or ends here (grazing)", "a softer contact"
+    else:
+        cause, remedy = why.reason, "a smaller tolerance or a smaller 'largest_step'"
+    return f"lost at {orbit.value:.9g}, because {cause}; try {remedy}"

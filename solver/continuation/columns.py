@@ -1,0 +1,60 @@
+"""Columns of the table of a branch, with their units, and labels of special orbits."""
+
+from jointplay.records.channel import Channel
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import inner_states
+
+LABELS = {
+    "": "an orbit of the branch",
+    "EP": "end of the branch",
+    "MX": "the branch was lost",
+    "LP": "fold: a multiplier passes 1 and the branch turns back",
+    "BP": "branch point: a multiplier passes 1 and the branch goes on",
+    "PD": "period doubling: a multiplier passes -1",
+    "NS": "Neimark-Sacker: a complex pair passes the unit circle",
+    "GR": "grazing: an impact begins or ends",
+}
+"""Labels as AUTO and COCO print them; stores keep their positions."""
+VALUE, LABEL = "value", "label"
+OF_ORBITS = (
+    ("length", "1", "length along the branch since its start, in scales of state and range"),
+    (LABEL, "1", "special orbit, a position in the attribute labels; 0: none"),
+    ("bound", "", "largest error of the parameter at a special orbit"),
+    ("duration", "s", "period of the orbit"),
+    ("impacts", "1", "impacts in a period"),
+    ("unstable", "1", "multipliers outside of the unit circle; 0: the orbit is stable"),
+    ("residual", "1", "distance of section and return, in the scales of the states"),
+    ("multiplier_error", "1", "error of the multipliers: differences at two scales"),
+)
+
+
+def columns_of(scene: Scene, parameter: str, unit: str) -> tuple[Channel, ...]:
+    """Return the columns: the parameter's value, facts of the orbit, multipliers, the section."""
+    tree = spanning_tree(scene)
+    units = ["rad" if name.endswith(".theta") else "m" for name in tree.coordinates]
+    states = [
+        Channel(f"state.{name}", one, f"coordinate {name} at the section")
+        for name, one in zip(tree.coordinates, units, strict=True)
+    ]
+    states += [
+        Channel(f"rate.{name}", f"{one}/s", f"rate of the coordinate {name} at the section")
+        for name, one in zip(tree.coordinates, units, strict=True)
+    ]
+    states += [
+        Channel(f"state.{pair}.{one.name}", one.unit, one.long_name)
+        for pair, own in inner_states(scene).items()
+        for one in own
+    ]
+    latched = [
+        Channel(f"impact_rate.{pair}", "m/s", f"impact rate of {pair}, in contact at the section")
+        for pair in tree.pairs
+    ]
+    multipliers = [
+        Channel(f"multiplier_{k}.{part}", "1", f"{part} part of multiplier {k}, the largest first")
+        for k in range(1, len(states) + 1)
+        for part in ("real", "imaginary")
+    ]
+    first = Channel(VALUE, unit, parameter)
+    facts = [Channel(name, one or unit, text) for name, one, text in OF_ORBITS]
+    return (first, *facts, *multipliers, *states, *latched)

@@ -1,0 +1,179 @@
+"""Periodic orbits as points of a curve: Newton's method on the section map, and tangents.
+
+An orbit is a vector (size + 1,): the section's state, then the parameter, both scaled. Lengths and
+angles along the branch are those of states and parameter; latched impact rates do not count.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.linalg import LinAlgError
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.multipliers import Complexes, multipliers_of, spread
+from jointplay.solver.continuation.section_map import COARSER, Linear, Section, SectionMap
+from jointplay.solver.linear_algebra.elimination import solve
+
+MOST_ROUNDS = 8
+CLOSE = 10.0
+"""Residual at which Newton's method ends, in the tolerance of the runs."""
+CLOSE_ENOUGH = 1e-6
+"""Residual that is taken where another round makes it no smaller: rounding of hard contacts."""
+GAIN = 0.5
+FINER = (1.0, 0.03, 0.001)
+"""Scales of differences that are tried: next to grazing the map bends within a micrometre."""
+SHARP = 1e-3
+"""Error of the multipliers, in the largest, above which a finer scale is tried."""
+
+
+@dataclass(frozen=True)
+class Scales:
+    """Units of a curve; see `solver.continuation.start`."""
+
+    extents: Floats
+    """(size + 1,) what counts as one in each state, and in the parameter."""
+    metric: Floats
+    """(size + 1,) weights of squares in lengths along the branch."""
+
+    def length(self, vector: Floats) -> float:
+        """Return the length of a scaled vector."""
+        return math.sqrt(self.product(vector, vector))
+
+    def product(self, one: Floats, other: Floats) -> float:
+        """Return the inner product of scaled vectors."""
+        return float(np.sum(self.metric * one * other))
+
+
+@dataclass(frozen=True)
+class NoOrbit:
+    """Newton's method has found none: why, and how near it came."""
+
+    reason: str
+    residual: float
+    grazing: bool = False
+    """Whether runs beside the last section have another number of impacts."""
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """A periodic orbit."""
+
+    curve: "Curve"
+    vector: Floats
+    linear: Linear
+    residual: float
+    """Distance of section and return, in the scales of the states."""
+    rounds: int
+    """Of Newton's method."""
+    scale: float = 1.0
+    """Of the differences."""
+
+    @property
+    def section(self) -> Section:
+        """Section of the orbit."""
+        return self.curve.section(self.vector)
+
+    @property
+    def value(self) -> float:
+        """Value of the parameter."""
+        return self.section.value
+
+    @property
+    def onsets(self) -> int:
+        """Impacts in a period."""
+        return self.linear.passage.onsets
+
+    @cached_property
+    def multipliers(self) -> Complexes:
+        """Multipliers, (size,)."""
+        return multipliers_of(self.linear.jacobian)
+
+    @cached_property
+    def coarser(self) -> Linear:
+        """The map here by differences at the other scale."""
+        return self.curve.map.linear(self.section, COARSER * self.scale)
+
+    @cached_property
+    def error(self) -> float:
+        """Bar of the multipliers: how far differences at two scales are apart."""
+        return spread(self.multipliers, multipliers_of(self.coarser.jacobian))
+
+    def tangent(self, along: Floats, linear: Linear | None = None) -> Floats | None:
+        """Return the branch's direction, of length 1, on the side of `along`; None: it has none."""
+        matrix = self.curve.bordered(linear or self.linear, along)
+        right = np.zeros(len(matrix))
+        right[-1] = 1.0
+        try:
+            found = solve(matrix, right)
+        except LinAlgError:
+            return None
+        return found / self.curve.scales.length(found)
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """The curve of fixed points of a section map."""
+
+    map: SectionMap
+    scales: Scales
+
+    def section(self, vector: Floats) -> Section:
+        """Return the section of a scaled vector."""
+        *state, value = vector * self.scales.extents
+        return Section(float(value), np.array(state))
+
+    def vector(self, section: Section) -> Floats:
+        """Return the scaled vector of a section."""
+        return np.append(section.state, section.value) / self.scales.extents
+
+    def bordered(self, linear: Linear, along: Floats) -> Floats:
+        """Return (size + 1, size + 1) derivative of the residual; last the condition `along`."""
+        size = self.map.size
+        extents = self.scales.extents
+        matrix = np.zeros((size + 1, size + 1))
+        matrix[:size, :size] = linear.jacobian - np.eye(size)
+        matrix[:size, size] = linear.sensitivity
+        matrix[:size] *= extents / extents[:size, None]
+        matrix[size] = self.scales.metric * along
+        return matrix
+
+    def orbit(self, guess: Floats, along: Floats) -> Orbit | NoOrbit:
+        """Return the orbit in the plane through a guess that is normal to a direction."""
+        best: Orbit | NoOrbit | None = None
+        for scale in FINER:
+            found = self._newton(guess, along, scale)
+            if isinstance(found, Orbit):
+                if found.error <= SHARP * max(1.0, float(np.abs(found.multipliers).max())):
+                    return found
+                if not isinstance(best, Orbit) or found.error < best.error:
+                    best = found
+            best = best or found
+        assert best is not None  # noqa: S101  (there are scales)
+        return best
+
+    def _newton(self, guess: Floats, along: Floats, scale: float) -> Orbit | NoOrbit:
+        vector, before = guess.copy(), math.inf
+        for rounds in range(MOST_ROUNDS + 1):
+            linear = self.map.linear(self.section(vector), scale)
+            if linear.passage.failure:
+                return NoOrbit(linear.passage.failure, before)
+            states = self.map.kernel.states
+            residual = float(np.abs(linear.residual / self.map.scales)[:states].max())
+            stalled = residual > GAIN * before and rounds > 1
+            if residual <= CLOSE * self.map.tolerance or (stalled and residual <= CLOSE_ENOUGH):
+                return Orbit(self, vector, linear, residual, rounds, scale)
+            if not math.isfinite(residual) or (stalled and rounds > 3):
+                break
+            before = residual
+            right = np.append(-linear.residual / self.scales.extents[:-1], 0.0)
+            right[-1] = self.scales.product(along, guess - vector)
+            try:
+                vector = vector + solve(self.bordered(linear, along), right)
+            except LinAlgError:
+                return NoOrbit("the derivative of the section map is singular", residual)
+            rates = vector[states:-1]
+            rates[rates < 0.0] = 0.0
+        sentence = f"Newton's method ended after {rounds} rounds with the residual {residual:.2g}"
+        return NoOrbit(sentence, residual, grazing=not linear.alike)

@@ -1,0 +1,48 @@
+"""A continuation as a study: a point is a branch, its sections are the branch's orbits."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from jointplay.solver.continuation.columns import LABELS
+from jointplay.solver.runs.study.plan import Study
+
+SPECIALS = 4
+"""Rows of a branch, in those that are asked for in one direction: both, and special orbits."""
+
+COUNTED = {"LP": "folds", "PD": "doublings", "NS": "tori", "BP": "branch_points", "GR": "grazings"}
+"""Names of numbers of a branch, by the label of the special orbits that they count."""
+OUTPUTS = {
+    "orbits": ("1", "orbits of the branch, special ones counted"),
+    "folds": ("1", "folds (LP)"),
+    "doublings": ("1", "period doublings (PD)"),
+    "tori": ("1", "Neimark-Sacker bifurcations (NS)"),
+    "branch_points": ("1", "branch points (BP)"),
+    "grazings": ("1", "grazings: an impact begins or ends (GR)"),
+}
+"""Unit and long name of what each branch has beside its orbits and accepted steps."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """How far a branch is followed."""
+
+    low: float
+    high: float
+    """Range of the parameter."""
+    orbits: int
+    """Most orbits in one direction, special ones not counted."""
+    step: float
+    """Largest, as a length along the branch: about a share of the range."""
+
+
+@dataclass(frozen=True, eq=False)
+class ContinuationStudy(Study):
+    """A study whose first point is the branch, and the others those behind its doublings."""
+
+    start: float
+    """Value of the parameter at which the first branch begins."""
+    reach: Reach
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the labels of special orbits, as stores keep their positions."""
+        return {"labels": dict(LABELS)}

@@ -1,0 +1,208 @@
+"""The branches of a continuation in slices, for a worker: interrupted and continued at any."""
+
+import time
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+
+import numpy as np
+from greenlet import getcurrent, greenlet
+
+from jointplay.records.arrays import Floats
+from jointplay.records.checkpoint import decode, encode
+from jointplay.records.point import PointEnd, SectionRows, StudySlice
+from jointplay.solver.continuation.branch import Row, follow
+from jointplay.solver.continuation.doubling import doubled
+from jointplay.solver.continuation.orbit import Orbit
+from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy
+from jointplay.solver.continuation.section_map import Answers, Section, SectionMap
+from jointplay.solver.continuation.start import NoStart, first_orbit, scaled, settle
+from jointplay.solver.continuation.table import document_of, row_of
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.runs.study.scenes import PointScenes
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.version import SOLVER_VERSION
+
+_KIND = "continuation"
+NO_PEAKS = np.empty((0, 4))
+KEPT_SCENES = 16
+
+
+class ContinuationRun:
+    """The block of a continuation; `slices` computes it, `checkpoint` keeps what runs have said.
+
+    Following a branch cannot be left in between; it runs in a greenlet, which hands back to
+    `slices` whenever the lanes were looked at.  All decisions follow from the answers of the
+    section map, so that one that is continued asks for those that are kept again, in that order.
+    """
+
+    def __init__(
+        self, study: ContinuationStudy, block: int, checkpoint: bytes | None = None
+    ) -> None:
+        """Begin the branches, or take up after the last answer that was known."""
+        self.study = study
+        self.seconds = 0.0
+        """Spent computing since this object was made."""
+        self.steps = 0.0
+        """Accepted since then."""
+        self._answers: list[Answers] = []
+        self._fresh: list[StudySlice] = []
+        self._given = 0
+        """Slices with news that were handed out, of the whole continuation."""
+        self._spent = 0.0
+        if checkpoint is not None:
+            facts, saved = decode(checkpoint, _KIND, SOLVER_VERSION)
+            parts = np.split(saved["answers"], np.cumsum([r * c for r, c in facts["shapes"]]))
+            self._answers = [
+                (part.reshape(shape), failures)
+                for part, shape, failures in zip(
+                    parts, facts["shapes"], facts["failures"], strict=False
+                )
+            ]
+            self._given = facts["given"]
+        self._known = iter(list(self._answers))
+        self._skipped = self._given
+        self._reached = 0.0
+
+    def slices(self) -> Iterator[StudySlice]:
+        """Yield how far the branches are after each look at the lanes, and orbits when found.
+
+        Raises
+        ------
+        LimitExceeded
+            The scene's equations are too long to compile.
+        """
+        study = self.study
+        kernel = ready_kernel(study.point_scene(0), study.job["formulation"], study.method)
+        scenes = study.scenes
+
+        @lru_cache(maxsize=KEPT_SCENES)
+        def scene_at(value: float) -> Scene:
+            return PointScenes(scenes.base, scenes.leaves, np.array([[value]])).scene(0)
+
+        map_ = SectionMap(
+            kernel,
+            scene_at,
+            study.job["period"],
+            study.tolerance,
+            np.ones(kernel.states + len(kernel.pairs)),
+            study.reach.high - study.reach.low,
+            self._looked,
+            self._recall,
+        )
+        following = greenlet(self._branches)
+        worked = time.process_time()
+        following.switch(map_)
+        while True:
+            self.seconds += time.process_time() - worked
+            if not (self._fresh or following.dead):
+                yield StudySlice(self._reached, (), (), ())
+            while self._fresh:
+                self._given += 1
+                yield self._fresh.pop(0)
+            if following.dead:
+                return
+            worked = time.process_time()
+            following.switch()
+
+    def checkpoint(self) -> bytes:
+        """Return a restart point; valid between slices."""
+        facts = {
+            "shapes": [numbers.shape for numbers, _ in self._answers],
+            "failures": [failures for _, failures in self._answers],
+            "given": self._given,
+        }
+        flat = [np.empty(0), *(numbers.reshape(-1) for numbers, _ in self._answers)]
+        return encode(_KIND, SOLVER_VERSION, facts, {"answers": np.concatenate(flat)})
+
+    def _looked(self) -> None:
+        getcurrent().parent.switch()
+
+    def _recall(self, compute: Callable[[], Answers]) -> Answers:
+        known = next(self._known, None)
+        if known is None:
+            known = compute()
+            self._answers.append(known)
+            self.steps += float(known[0][:, -1].sum())
+        self._spent += float(known[0][:, -1].sum())
+        return known
+
+    def _branches(self, map_: SectionMap) -> None:
+        """Follow every branch, each from the first period doubling of the one before."""
+        study, reach = self.study, self.study.reach
+        doubling: Orbit | None = None
+        for point in range(study.points):
+            self._tell(StudySlice(self._fraction(point, 0), (point,), (), ()))
+            rows: list[Row] = []
+            spent = self._spent
+            try:
+                ways = self._first(map_) if point == 0 else _behind(doubling)
+            except NoStart as none:
+                self._end(point, rows, spent, str(none))
+                doubling = None
+                continue
+            self._take(point, rows, Row(ways[0][0], 0.0, "EP", note="start of the branch"))
+            for (orbit, along), sense in zip(ways, (1.0, -1.0), strict=False):
+                for row in follow(orbit, along, reach, sense):
+                    self._take(point, rows, row)
+            doubling = next((row.orbit for row in rows if row.label == "PD"), None)
+            self._end(point, rows, spent)
+
+    def _first(self, map_: SectionMap) -> list[tuple[Orbit, Floats]]:
+        """Return the orbit at which the first branch begins, with the ways from there."""
+        study, reach = self.study, self.study.reach
+        state = study.job["state"]
+        given = None if state is None else np.array(state, np.float64)
+        settled = settle(map_, study.start, given, study.job["settle"])
+        curve = scaled(map_, study.start, settled)
+        orbit = first_orbit(curve, Section(study.start, settled.state))
+        ways = []
+        for sense, end in ((1.0, reach.high), (-1.0, reach.low)):
+            if sense * (end - study.start) > 0.0:
+                axis = np.zeros(map_.size + 1)
+                axis[-1] = sense
+                ways.append((orbit, axis))
+        return ways if study.job["values"]["from"] == reach.low else ways[::-1]
+
+    def _take(self, point: int, rows: list[Row], row: Row) -> None:
+        """Tell of an orbit that was found."""
+        scene = row.orbit.curve.map.scene_at(row.orbit.value)
+        numbers = row_of(row, scene)
+        period = float(self.study.period[point])
+        elapsed = np.array([(self.study.job["settle"] + len(rows)) * period])
+        news = SectionRows(point, len(rows), elapsed, numbers[None])
+        rows.append(row)
+        self._tell(StudySlice(self._fraction(point, len(rows)), (), (news,), ()))
+
+    def _end(self, point: int, rows: list[Row], spent: float, failure: str = "") -> None:
+        code = "no-orbit" if failure else ""
+        until = float(self.study.period[point]) * (self.study.job["settle"] + len(rows))
+        numbers: dict[str, float] = {"steps": self._spent - spent, "orbits": float(len(rows))}
+        for label, name in COUNTED.items():
+            numbers[name] = float(sum(row.label == label for row in rows))
+        document = None if failure else document_of(rows)
+        end = PointEnd(point, code, failure, until, NO_PEAKS, numbers, {}, document=document)
+        self._tell(StudySlice(self._fraction(point + 1, 0), (), (), (end,)))
+
+    def _tell(self, news: StudySlice) -> None:
+        """Hand out news, unless they were before this object was made."""
+        if self._skipped:
+            self._skipped -= 1
+        else:
+            self._fresh.append(news)
+
+    def _fraction(self, point: int, rows: int) -> float:
+        """Return how much is done, 0..1; it never falls."""
+        share = min(rows / self.study.record, 0.99)
+        self._reached = max(self._reached, (point + share) / self.study.points)
+        return self._reached
+
+
+def _behind(doubling: Orbit | None) -> list[tuple[Orbit, Floats]]:
+    """Return where the branch behind a period doubling begins, and the way from there.
+
+    NoStart: there is no doubling, or no branch was found.
+    """
+    if doubling is None:
+        sentence = "The branch before has no period doubling in the range"
+        raise NoStart(f"{sentence}; try a wider one, or fewer 'doublings'.")
+    return [doubled(doubling)]

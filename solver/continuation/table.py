@@ -1,0 +1,46 @@
+"""Rows of the table of a branch, one for each orbit."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.branch import Row
+from jointplay.solver.continuation.columns import LABELS
+from jointplay.solver.continuation.multipliers import unstable
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.periods import common_period
+
+
+def row_of(row: Row, scene: Scene) -> Floats:
+    """Return the numbers of an orbit, in the order of the columns; `scene` is that of its value."""
+    orbit = row.orbit
+    states = orbit.curve.map.kernel.states
+    leading = orbit.multipliers[:states]
+    duration = orbit.curve.map.periods * (common_period(scene).seconds or math.nan)
+    facts = [
+        orbit.value,
+        row.length,
+        float(list(LABELS).index(row.label)),
+        row.bound,
+        duration,
+        float(orbit.onsets),
+        float(unstable(orbit.multipliers)),
+        orbit.residual,
+        orbit.error,
+    ]
+    parts = np.column_stack([leading.real, leading.imag]).reshape(-1)
+    return np.concatenate([facts, parts, orbit.section.state])
+
+
+def document_of(rows: Sequence[Row]) -> dict[str, list[dict[str, object]]]:
+    """Return the special orbits of a branch as JSON has them: where they stand, and why."""
+    return {
+        "special": [
+            {"row": index, "label": row.label, "value": row.orbit.value, "bound": row.bound}
+            | {"note": row.note or LABELS[row.label]}
+            for index, row in enumerate(rows)
+            if row.label
+        ]
+    }

@@ -1,0 +1,167 @@
+"""Branches of an impact oscillator: every special orbit, and what motions do on both sides."""
+
+import math
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from jointplay.records.point import StudySlice
+from jointplay.solver.computations import computation_of
+from jointplay.solver.continuation.columns import LABELS
+from jointplay.solver.kinds import admit, parse
+from jointplay.solver.runs.study.plan import Study
+from tests.solver.continuation.oscillator import document, grazing
+
+SOFT = 1e8
+"""Stiffness of a stop next to whose grazing the map bends slowly enough to be followed."""
+JOB: dict[str, Any] = {
+    "kind": "continuation",
+    "scene": document(SOFT),
+    "parameter": "speed",
+    "values": {"from": 33.0, "to": 19.0, "count": 300},
+    "settle": 60,
+}
+names = list(LABELS)
+
+
+def admitted(job: dict[str, Any]) -> Study:
+    study = admit(job)
+    assert isinstance(study, Study)
+    return study
+
+
+def table(
+    slices: list[StudySlice], study: Study, point: int = 0
+) -> dict[str, np.ndarray[Any, Any]]:
+    rows = [rows for one in slices for rows in one.rows if rows.point == point]
+    assert [one.first for one in rows] == list(range(len(rows)))
+    values = np.concatenate([one.values for one in rows])
+    return {c.name: values[:, k] for k, c in enumerate(study.observables)}
+
+
+@cache
+def followed() -> tuple[Study, tuple[StudySlice, ...]]:
+    study = admitted(JOB | {"doublings": 1})
+    return study, tuple(computation_of(study, 0).slices())
+
+
+def special(found: dict[str, np.ndarray[Any, Any]], label: str) -> list[tuple[float, float]]:
+    rows = found["label"] == names.index(label)
+    return list(zip(found["value"][rows].tolist(), found["bound"][rows].tolist(), strict=True))
+
+
+def sections(speed: float) -> Any:
+    """Return the sections that a motion comes to, without knowing of any branch."""
+    scene = document(SOFT)
+    scene["parameters"]["speed"]["default"] = speed
+    job = {"kind": "poincare", "scene": scene, "settle": 2000, "record": 4, "tolerance": 1e-9}
+    study = admitted(job | {"observables": ["mass.x"]})
+    slices = computation_of(study, 0).slices()
+    return np.concatenate([rows.values[:, 0] for one in slices for rows in one.rows])
+
+
+def test_a_branch_goes_from_free_motion_through_grazing_and_folds_to_a_doubling() -> None:
+    study, slices = followed()
+    found = table(list(slices), study)
+    assert [names[int(k)] for k in found["label"] if k] == ["EP", "GR", "LP", "LP", "PD", "EP"]
+    ((touch, bound),) = special(found, "GR")
+    assert bound < 1e-7
+    assert touch == pytest.approx(grazing()[1], abs=1e-7)  # in closed form, whatever the stop
+    assert set(found["impacts"].tolist()) == {0.0, 1.0}
+    (low, _), (high, _) = special(found, "LP")
+    assert low < touch < high
+    between = np.flatnonzero(found["label"] == names.index("LP"))
+    unstable = found["unstable"]
+    assert not unstable[: between[0]].any()
+    assert (unstable[between[0] + 1 : between[1]] == 1.0).all()
+    assert (found["residual"] < 1e-6).all()
+
+
+def test_the_doubling_is_where_motions_begin_to_alternate() -> None:
+    study, slices = followed()
+    ((at, bound),) = special(table(list(slices), study), "PD")
+    assert bound < 1e-5
+    # the doubling is subcritical: above it the orbit attracts, below it none of period 1 does
+    above, below = sections(at + 0.05), sections(at - 0.05)
+    assert np.ptp(above) < 1e-7
+    assert np.ptp(below) > 1e-4
+    assert np.abs(below[2:] - below[:2]).max() < 1e-6
+
+
+def test_the_branch_behind_the_doubling_has_twice_the_period() -> None:
+    study, slices = followed()
+    found = table(list(slices), study, 1)
+    assert found["duration"] == pytest.approx(4.0 * math.pi / found["value"], rel=1e-12)
+    ends = [end for one in slices for end in one.ended]
+    assert [end.code for end in ends] == ["", ""]
+    assert ends[0].statistics["doublings"] == 1.0
+    assert ends[1].statistics["orbits"] == float(len(found["value"]))
+    notes = [one["note"] for one in ends[1].document["special"]]  # type: ignore[index]
+    assert "an impact ends: 2 before, 1 behind" in notes
+
+
+def test_beside_the_fold_there_is_an_orbit_on_one_side_alone() -> None:
+    study, slices = followed()
+    found = table(list(slices), study)
+    _, (high, bound) = special(found, "LP")
+    assert bound < 1e-6
+    assert found["value"][found["impacts"] == 1.0].max() == pytest.approx(high, abs=1e-9)
+    # starts next to the stable impacting orbit stay there below, and fall to free motion above
+    stable = np.flatnonzero((found["impacts"] == 1.0) & (found["unstable"] == 0.0))
+    near = stable[np.argmin(np.abs(found["value"][stable] - high))]
+    state = [float(found[f"{kind}.mass.s"][near]) for kind in ("state", "rate")]
+    job = JOB | {"state": state, "settle": 200}
+    for at, impacts in ((high - 0.05, 1.0), (high + 0.05, 0.0)):
+        values = {"from": at, "to": at + 1e-3, "count": 1}
+        first = admitted(job | {"values": values})
+        orbit = table(list(computation_of(first, 0).slices()), first)
+        assert orbit["impacts"][0] == impacts
+
+
+def test_a_branch_that_is_cut_and_continued_has_the_same_bits() -> None:
+    job = JOB | {"values": {"from": 25.0, "to": 24.3, "count": 30}, "settle": 10}
+    study = admitted(job)
+    whole = list(computation_of(study, 0).slices())
+    news = [one for one in whole if one.rows or one.started or one.ended]
+    found: list[StudySlice] = []
+    computation, cuts = computation_of(study, 0), 0
+    slices = computation.slices()
+    while (piece := next(slices, None)) is not None:
+        if piece.rows or piece.started or piece.ended:
+            found.append(piece)
+        if len(found) % 7 == 3 and len(found) > 7 * cuts:
+            cuts += 1
+            computation = computation_of(parse(study.job), 0, computation.checkpoint())  # type: ignore[arg-type]
+            slices = computation.slices()
+    assert cuts > 2
+    assert len(found) == len(news)
+    for one, other in zip(found, news, strict=True):
+        assert one.started == other.started
+        assert [rows.values.tobytes() for rows in one.rows] == [
+            rows.values.tobytes() for rows in other.rows
+        ]
+        assert [replace(end, peaks=None) for end in one.ended] == [  # type: ignore[arg-type]
+            replace(end, peaks=None)
+            for end in other.ended  # type: ignore[arg-type]
+        ]
+
+
+def test_a_branch_that_cannot_be_followed_further_says_where_and_why() -> None:
+    values = {"from": 33.0, "to": 24.0, "count": 100}
+    study = admitted(JOB | {"scene": document(1e12), "values": values})
+    ends = [end for one in computation_of(study, 0).slices() for end in one.ended]
+    last = ends[0].document["special"][-1]  # type: ignore[index]
+    assert last["label"] == "MX"
+    assert last["value"] == pytest.approx(grazing()[1], abs=1e-4)
+    assert "because an impact begins or ends here (grazing); try a softer contact" in last["note"]
+
+
+def test_where_there_is_no_orbit_the_branch_fails_and_says_what_to_try() -> None:
+    study = admitted(JOB | {"period": 2, "doublings": 1})
+    ends = [end for one in computation_of(study, 0).slices() for end in one.ended]
+    assert [end.code for end in ends] == ["no-orbit", "no-orbit"]
+    assert "ask for 'period' 1" in ends[0].detail
+    assert "no period doubling" in ends[1].detail

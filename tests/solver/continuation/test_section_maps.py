@@ -1,0 +1,55 @@
+"""Section maps and their derivatives, against closed forms and against themselves."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jointplay.solver.continuation.orbit import Orbit
+from jointplay.solver.continuation.section_map import Section
+from jointplay.solver.continuation.start import NoStart, first_orbit
+from tests.solver.continuation.oscillator import DAMPING, curve, free_multipliers
+
+
+def orbit_at(speed: float, stop: float = 1e12, periods: int = 1) -> Orbit:
+    found, section = curve(stop, speed, periods)
+    return first_orbit(found, section)
+
+
+def test_multipliers_of_a_motion_without_impacts_are_those_in_closed_form() -> None:
+    orbit = orbit_at(33.0)
+    assert orbit.onsets == 0
+    found = orbit.multipliers[:2].tolist()
+    assert found == [pytest.approx(one, abs=1e-8) for one in free_multipliers(33.0)]
+    assert orbit.error < 1e-7
+
+
+def test_an_impact_takes_the_square_of_its_restitution_from_the_product_of_multipliers() -> None:
+    orbit = orbit_at(25.0)
+    assert orbit.onsets == 1
+    product = float(np.prod(orbit.multipliers[:2]).real)
+    assert product == pytest.approx(0.64 * math.exp(-DAMPING * 2.0 * math.pi / 25.0), rel=2e-4)
+    # Newton's law of impact has 0.06918 and 0.61836; a stop that gives way a little differs by that
+    assert orbit.multipliers[0] == pytest.approx(0.06918 + 0.61836j, abs=1e-3)
+
+
+@pytest.mark.parametrize("scale", [0.1, 10.0])
+def test_derivatives_are_differences_at_any_scale(scale: float) -> None:
+    orbit = orbit_at(25.0)
+    map_, section = orbit.curve.map, orbit.section
+    other = map_.linear(section, scale)
+    assert np.abs(other.jacobian - orbit.linear.jacobian).max() < 1e-5
+    assert np.abs(other.sensitivity - orbit.linear.sensitivity).max() < 1e-7
+    assert other.alike
+
+
+def test_an_orbit_of_the_doubled_map_is_refused_if_it_repeats_before() -> None:
+    with pytest.raises(NoStart, match="repeats after 1 of the 2 periods; ask for 'period' 1"):
+        orbit_at(25.0, periods=2)
+
+
+def test_where_no_orbit_is_near_the_residual_is_told() -> None:
+    found, section = curve(1e12, 25.0)
+    away = Section(25.0, section.state + np.array([-0.3, 40.0, 0.0]))
+    with pytest.raises(NoStart, match=r"no orbit of period 1 near .* residual .*Try another"):
+        first_orbit(found, away)
