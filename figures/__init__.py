@@ -17,6 +17,7 @@ from jointplay.figures import page, saving, scene_facts, study_facts
 from jointplay.figures.adjustment import drawn
 from jointplay.figures.animation import ANIMATION, Pace, film
 from jointplay.figures.bifurcation import BIFURCATION
+from jointplay.figures.branch import BRANCH
 from jointplay.figures.calibration import CALIBRATION
 from jointplay.figures.certificate import CERTIFICATE
 from jointplay.figures.chart import CHART
@@ -103,6 +104,7 @@ STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
     figure.name: figure
     for figure in (
         BIFURCATION,
+        BRANCH,
         CHART,
         EXPONENTS,
         SWEEP,

@@ -48,6 +48,7 @@ class JobOption(BaseModel):
 
     fields: list[str] = Field(description="Fields that it stands for.")
     form: Form
+    name: str | None = Field(default=None, description="null: that of the kind.")
 
 
 class JobKind(BaseModel):

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.branch import branch_document
 from jointplay.records.channel import Channel, by_name
 from jointplay.records.peak import PeakColumns
 from jointplay.records.point import PointStatus
@@ -15,6 +16,7 @@ from jointplay.service.results.schemas import Series
 from jointplay.service.studies import schemas
 from jointplay.service.studies.queries import (
     BifurcationQuery,
+    BranchQuery,
     PointRange,
     PointsQuery,
     SectionRange,
@@ -82,6 +84,12 @@ def sections(store: StudyReader, query: SectionRange, chosen: str | None) -> sch
     observables = [described[name] for name in chosen_channels(chosen, store.observables)]
     found = _points(store, query, Shown((TIME, *observables), query.sections(store)))
     return schemas.Sections.model_construct(**vars(found) | {"channels": found.sections})
+
+
+def branch(store: StudyReader, query: BranchQuery) -> schemas.Branches:
+    """Return the branches of a continuation, as far as they are known."""
+    names = {one.name for one in query.taken(store)}
+    return schemas.Branches.model_validate(branch_document(store, names))
 
 
 def sweep(store: StudyReader, query: SweepQuery) -> schemas.Sweep:

@@ -1,7 +1,7 @@
 """``/v1/jobs/{id}/points``: the points of any study.
 
-``/bifurcation``, ``/sweep``, ``/accuracy`` and ``/poincare`` show parts of it, ``/sensitivity``
-what follows from it, ``/calibration`` what a search found.
+``/bifurcation``, ``/branch``, ``/sweep``, ``/accuracy`` and ``/poincare`` show parts of it,
+``/sensitivity`` what follows from it, ``/calibration`` what a search found.
 """
 
 from typing import Annotated
@@ -20,6 +20,7 @@ from jointplay.service.studies import answers, schemas
 from jointplay.service.studies.calibration_schema import Calibration
 from jointplay.service.studies.queries import (
     BifurcationQuery,
+    BranchQuery,
     PoincareQuery,
     PointsQuery,
     SweepQuery,
@@ -55,6 +56,15 @@ def show_bifurcation(
     or has failed.  `next_start` leads to the values that did not fit into the answer.
     """
     return as_json(answers.bifurcation(study, query))
+
+
+@router.get("/branch", response_model=schemas.Branches)
+def show_branch(study: StudyOfThePath, query: Annotated[BranchQuery, Query()]) -> Response:
+    """Return the periodic orbits of a continuation and what changes along them, also while it runs.
+
+    Orbits follow one another in the order of being found: sorted by `length`, they are the branch.
+    """
+    return as_json(answers.branch(study, query))
 
 
 @router.get("/sweep", response_model=schemas.Sweep)

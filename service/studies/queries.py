@@ -58,6 +58,24 @@ class BifurcationQuery(SectionRange):
         return described[chosen_channels(self.observable, store.observables, "observable")[0]]
 
 
+class BranchQuery(BaseModel):
+    """Columns of branches."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    columns: str | None = Field(
+        default=None,
+        max_length=20_000,
+        description="Names or globs of columns, separated by commas; default: all.",
+    )
+
+    def taken(self, store: StudyReader) -> tuple[Channel, ...]:
+        """Return the columns that are meant, or refuse others."""
+        described = by_name(store.observables)
+        names = chosen_channels(self.columns, store.observables, "columns")
+        return tuple(described[name] for name in names)
+
+
 def _of_channels(store: StudyReader, names: str | None, parameter: str) -> tuple[Channel, ...]:
     """Return the channels whose extremes are meant, or refuse others."""
     described = by_name(store.channels)

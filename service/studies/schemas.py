@@ -120,6 +120,41 @@ class Points(JudgedPoints):
     )
 
 
+class SpecialOrbit(BaseModel):
+    """An orbit of a branch at which something changes."""
+
+    row: int = Field(description="Index of the orbit in the columns.")
+    label: str = Field(
+        description="EP end, LP fold, PD period doubling, NS Neimark-Sacker, BP branch point, GR"
+        " grazing: an impact begins or ends, MX the branch was lost."
+    )
+    value: float = in_unit("the parameter's unit")
+    bound: float = in_unit("the parameter's unit", "Largest error of the value.")
+    note: str = Field(description="What happens there; of an end why, and what to try.")
+
+
+class Branch(BaseModel):
+    """Periodic orbits along a branch, one each row, in the order of being found."""
+
+    index: int
+    status: Status
+    failure: PointFailure | None = Field(description="Why there is no branch; null: there is.")
+    columns: dict[str, Series] = Field(
+        description="By name: value of the parameter, length along the branch, label, impacts in a"
+        " period, unstable multipliers, residual, multipliers with their error, and the section."
+    )
+    special: list[SpecialOrbit]
+
+
+class Branches(Partial):
+    """Branches of a continuation: the first one, then those behind its period doublings."""
+
+    parameter: str
+    unit: str
+    labels: list[str] = Field(description="By the numbers in the column label; 0: none.")
+    branches: list[Branch]
+
+
 class AccuracyPoint(BaseModel):
     """One run of an accuracy-study."""
 

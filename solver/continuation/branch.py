@@ -39,7 +39,7 @@ class Row:
     length: float
     """Along the branch since its start; negative behind it."""
     label: str = ""
-    """Of `columns.LABELS`."""
+    """One of `columns.LABELS`."""
     bound: float = 0.0
     """Largest error of the parameter at a special orbit."""
     note: str = ""

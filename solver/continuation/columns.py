@@ -1,5 +1,6 @@
 """Columns of the table of a branch, with their units, and labels of special orbits."""
 
+from jointplay.records.branch import BOUND, LABEL, LENGTH, UNSTABLE, VALUE
 from jointplay.records.channel import Channel
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
@@ -16,14 +17,14 @@ LABELS = {
     "GR": "grazing: an impact begins or ends",
 }
 """Labels as AUTO and COCO print them; stores keep their positions."""
-VALUE, LABEL = "value", "label"
+
 OF_ORBITS = (
-    ("length", "1", "length along the branch since its start, in scales of state and range"),
+    (LENGTH, "1", "length along the branch since its start, in scales of state and range"),
     (LABEL, "1", "special orbit, a position in the attribute labels; 0: none"),
-    ("bound", "", "largest error of the parameter at a special orbit"),
+    (BOUND, "", "largest error of the parameter at a special orbit"),
     ("duration", "s", "period of the orbit"),
     ("impacts", "1", "impacts in a period"),
-    ("unstable", "1", "multipliers outside of the unit circle; 0: the orbit is stable"),
+    (UNSTABLE, "1", "multipliers outside of the unit circle; 0: the orbit is stable"),
     ("residual", "1", "distance of section and return, in the scales of the states"),
     ("multiplier_error", "1", "error of the multipliers: differences at two scales"),
 )

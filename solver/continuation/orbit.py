@@ -66,9 +66,9 @@ class Orbit:
     residual: float
     """Distance of section and return, in the scales of the states."""
     rounds: int
-    """Of Newton's method."""
+    """Rounds of Newton's method."""
     scale: float = 1.0
-    """Of the differences."""
+    """Scale of the differences."""
 
     @property
     def section(self) -> Section:

@@ -6,9 +6,6 @@ from typing import Any
 from jointplay.solver.continuation.columns import LABELS
 from jointplay.solver.runs.study.plan import Study
 
-SPECIALS = 4
-"""Rows of a branch, in those that are asked for in one direction: both, and special orbits."""
-
 COUNTED = {"LP": "folds", "PD": "doublings", "NS": "tori", "BP": "branch_points", "GR": "grazings"}
 """Names of numbers of a branch, by the label of the special orbits that they count."""
 OUTPUTS = {
@@ -24,7 +21,7 @@ OUTPUTS = {
 
 @dataclass(frozen=True)
 class Reach:
-    """How far a branch is followed."""
+    """Bounds within which a branch is followed."""
 
     low: float
     high: float

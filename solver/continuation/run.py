@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -13,7 +14,7 @@ from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.solver.continuation.branch import Row, follow
 from jointplay.solver.continuation.doubling import doubled
 from jointplay.solver.continuation.orbit import Orbit
-from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy
+from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach
 from jointplay.solver.continuation.section_map import Answers, Section, SectionMap
 from jointplay.solver.continuation.start import NoStart, first_orbit, scaled, settle
 from jointplay.solver.continuation.table import document_of, row_of
@@ -25,6 +26,7 @@ from jointplay.solver.version import SOLVER_VERSION
 _KIND = "continuation"
 NO_PEAKS = np.empty((0, 4))
 KEPT_SCENES = 16
+FULL = "as many orbits as a branch may have; ask for a larger 'record'"
 
 
 class ContinuationRun:
@@ -141,9 +143,11 @@ class ContinuationRun:
                 doubling = None
                 continue
             self._take(point, rows, Row(ways[0][0], 0.0, "EP", note="start of the branch"))
-            for (orbit, along), sense in zip(ways, (1.0, -1.0), strict=False):
-                for row in follow(orbit, along, reach, sense):
-                    self._take(point, rows, row)
+            for row in _both(ways, reach):
+                last = len(rows) + 1 == study.record
+                self._take(point, rows, replace(row, label="EP", note=FULL) if last else row)
+                if last:
+                    break
             doubling = next((row.orbit for row in rows if row.label == "PD"), None)
             self._end(point, rows, spent)
 
@@ -195,6 +199,12 @@ class ContinuationRun:
         share = min(rows / self.study.record, 0.99)
         self._reached = max(self._reached, (point + share) / self.study.points)
         return self._reached
+
+
+def _both(ways: list[tuple[Orbit, Floats]], reach: Reach) -> Iterator[Row]:
+    """Yield the orbits of a branch behind its first one, one way after the other."""
+    for (orbit, along), sense in zip(ways, (1.0, -1.0), strict=False):
+        yield from follow(orbit, along, reach, sense)
 
 
 def _behind(doubling: Orbit | None) -> list[tuple[Orbit, Floats]]:

@@ -86,7 +86,7 @@ class SectionMap:
     kernel: Kernel
     scene_at: Callable[[float], Scene]
     periods: int
-    """Of the drivers, that it lasts."""
+    """Periods of the drivers that it lasts."""
     tolerance: float
     scales: Floats
     """(size,) of the states and impact rates."""

@@ -17,7 +17,7 @@ from jointplay.solver.scene.periods import common_period
 
 SAMPLES_PER_PERIOD = 64
 LEAST_EXTENT = 1e-3
-"""Of what counts as one in a state, where the motion hardly moves it."""
+"""Least extent of a state that hardly moves, in what counts as one in it."""
 SAME = 1e-6
 """Distance, in the scales of the states, within which an orbit has come back."""
 

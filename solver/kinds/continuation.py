@@ -8,7 +8,7 @@ from pydantic import Field
 
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.continuation.columns import columns_of
-from jointplay.solver.continuation.plan import OUTPUTS, SPECIALS, ContinuationStudy, Reach
+from jointplay.solver.continuation.plan import OUTPUTS, ContinuationStudy, Reach
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.job import Job
@@ -26,6 +26,8 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.statistics import Output
 
 USUAL_TOLERANCE = 1e-11
+RECORD = 4
+"""Orbits of a branch at most, in those that it may have in each direction."""
 MAPS = 8
 """Section maps that an orbit takes, about: rounds of Newton's method, errors, special orbits."""
 
@@ -62,7 +64,7 @@ class ContinuationJob(Job):
         ),
     ] = 100
     state: Annotated[
-        list[float] | None,
+        list[Annotated[float, quantity("SI units")]] | None,
         Field(
             min_length=1,
             max_length=4096,
@@ -85,6 +87,18 @@ class ContinuationJob(Job):
         ),
     ] = 0
 
+    record: Annotated[
+        int | None,
+        quantity(
+            "1",
+            ge=2,
+            le=10**12,
+            description=(
+                "orbits of a branch at most, special ones counted; default: four times the count"
+            ),
+        ),
+    ] = None
+
     @property
     def usual_tolerance(self) -> float:
         """Tolerance where none is given: derivatives are differences of runs."""
@@ -95,7 +109,8 @@ class Continuation(Kind[ContinuationJob]):
     """A point for each branch, all in one block: each begins where the one before doubles."""
 
     document = ContinuationJob
-    results: ClassVar = ("points", "branch", "figures", "zarr")
+    results: ClassVar = ("points", "branch", "poincare", "figures", "zarr")
+    option: ClassVar = "branch"
 
     def admit(self, job: ContinuationJob) -> ContinuationStudy:
         """Check and fill in; see `Kind.admit`."""
@@ -107,7 +122,10 @@ class Continuation(Kind[ContinuationJob]):
         if checked.structure.any():
             sentence = "The mechanism's equations change their form within the range; narrow it."
             raise InvalidInput.at("/values", sentence)
-        found = {"at": job.values.start if job.at is None else job.at}
+        found = {
+            "at": job.values.start if job.at is None else job.at,
+            "record": job.record or RECORD * job.values.count,
+        }
         filled = documents.filled(job, checked.document, checked.echo, **found)
         placed = place_points(job, _branches(job))
         study = _study(job, filled, placed, periods(placed.scenes))
@@ -173,7 +191,7 @@ def _study(
     count = placed.points.count
     unit = placed.declared.parameters[job.parameter].unit
     columns = columns_of(placed.scenes.scene(0), job.parameter, unit)
-    kept = Kept(observables=columns, record=SPECIALS * job.values.count)
+    kept = Kept(observables=columns, record=filled["record"])
     settle = job.settle * units.seconds
     spans = Spans(units.seconds, settle, settle + job.period * units.seconds)
     study = make_study(filled, placed, spans, kept)

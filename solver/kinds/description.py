@@ -27,7 +27,8 @@ def description() -> dict[str, Any]:
     ``choices``, ``words`` that may stand in place of such a value, and ``members``, the numbers
     that each distribution is made of; ``own`` fields are those of no other kind's documents.  A
     kind that can be asked for by one option of a command line has its ``option``: the ``fields``
-    that it stands for and the ``form`` in which they are typed.
+    that it stands for, the ``form`` in which they are typed, and its ``name`` if that is not the
+    kind's.
     """
     found: dict[str, Any] = {}
     for name, kind in KINDS.items():
@@ -41,9 +42,10 @@ def description() -> dict[str, Any]:
             for field in own + rest
         }
         option = _option({field: fields[field] for field in own})
+        named = {"name": kind.option} if kind.option else {}
         found[name] = {
             "help": schema["description"],
-            **({} if option is None else {"option": option}),
+            **({} if option is None else {"option": option | named}),
             "fields": fields,
         }
     return found

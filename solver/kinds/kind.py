@@ -27,6 +27,9 @@ class Kind(ABC, Generic[J]):
     loads_much: ClassVar[bool] = False
     """Whether checking a document loads what nothing else of an API needs."""
 
+    option: ClassVar[str] = ""
+    """Option of a command line that asks for it, if that is not its name."""
+
     @property
     def name(self) -> str:
         """Name by which documents ask for it."""

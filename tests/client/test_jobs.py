@@ -53,6 +53,13 @@ MADE = {
         samples=8,
         periods=2,
     ),
+    "continuation": jobs.continuation(
+        "impact-oscillator",
+        "speed",
+        {"from": 20.0, "to": 30.0, "count": np.int64(9)},
+        at=np.float64(25.0),
+        doublings=2,
+    ),
     "ensemble": jobs.ensemble("slider-crank", 4, seed=3, observables=["P.eccentricity_x"]),
 }
 

@@ -105,6 +105,10 @@ class HttpResults:
         names = {"output": None if output is None else [output], "failing": [failing]}
         return self._get("sensitivity", **names, limit=limit, confidence=confidence)
 
+    def branch(self) -> dict[str, Any]:
+        """Return the branches of a continuation."""
+        return self._get("branch")
+
     def study(
         self, observables: Names, channels: Names, sections: tuple[int, int] | None
     ) -> StudyDataset:

@@ -107,6 +107,14 @@ class ReadableJob(TabledJob):
         """
         return self.results.sensitivity(output, limit, failing, confidence)
 
+    @property
+    def branch(self) -> dict[str, Any]:
+        """Branches of a continuation as they are now: ``columns`` and ``special`` orbits of each.
+
+        `poincare` has the columns as a table.
+        """
+        return self.results.branch()
+
     def study(
         self,
         observables: Names | None = None,

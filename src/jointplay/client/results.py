@@ -101,6 +101,9 @@ class Results(Protocol):
     def attractors(self) -> dict[str, Any]:
         """Return the attractors of a map of basins, how often they are reached, the boundary."""
 
+    def branch(self) -> dict[str, Any]:
+        """Return the branches of a continuation."""
+
     def calibration(self) -> dict[str, Any]:
         """Return what a calibration found."""
 

@@ -14,6 +14,8 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 _OPTIONS: Final = {name: kind["option"] for name, kind in KINDS.items() if "option" in kind}
 """By kind, the option that asks for it; simulate is what is meant without one."""
+_NAMES: Final = {kind: option.get("name", kind) for kind, option in _OPTIONS.items()}
+"""Its name."""
 _RANGE: Final = "NAME=FROM:TO:COUNT"
 _SHORT: Final[dict[str, tuple[Any, str | None, str]]] = {
     "values": (list[str], _RANGE, "; append `:log` for equal ratios."),  # to refuse it twice
@@ -66,7 +68,7 @@ FIELDS: Final = _fields()
 def _short_option(kind: str) -> Any:
     option = _OPTIONS[kind]
     form, metavar, end = _SHORT[option["form"]]
-    names = [f"--{kind}"] if form is bool else []  # without one, typer adds the contrary
+    names = [f"--{_NAMES[kind]}"] if form is bool else []  # without one, typer adds the contrary
     text = KINDS[kind]["help"].removesuffix(".").partition("; ")[0] + end
     metavar = metavar or "".join(option["fields"]).upper() or None
     return Annotated[form | None, typer.Option(*names, metavar=metavar, help=text)]
@@ -90,7 +92,11 @@ def with_job_options(*only: str) -> Callable[[Command], Command]:
 
     They come as keywords; `fields_of` makes fields of a job of them.
     """
-    chosen = {} if only else {kind.replace("-", "_"): _short_option(kind) for kind in _OPTIONS}
+    chosen = (
+        {}
+        if only
+        else {name.replace("-", "_"): _short_option(kind) for kind, name in _NAMES.items()}
+    )
     chosen |= {name: _option(name) for name in (only or FIELDS)}
 
     def extend(command: Command) -> Command:
@@ -110,19 +116,19 @@ def with_job_options(*only: str) -> Callable[[Command], Command]:
 def fields_of(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return options as fields of a job, without those that were not given."""
     given = {name: value for name, value in options.items() if value not in (None, [], False)}
-    kinds = [kind for kind in _OPTIONS if kind.replace("-", "_") in given]
+    kinds = [kind for kind, name in _NAMES.items() if name.replace("-", "_") in given]
     if len(kinds) > 1:
-        raise Stopped(f"--{kinds[0]} and --{kinds[1]} are two jobs; give one.")
+        raise Stopped(f"--{_NAMES[kinds[0]]} and --{_NAMES[kinds[1]]} are two jobs; give one.")
     found: dict[str, Any] = {"kind": kinds[0]} if kinds else {}
     for kind in kinds:
-        found |= _asked(kind, given[kind.replace("-", "_")])
+        found |= _asked(kind, given[_NAMES[kind].replace("-", "_")])
     named = {name: value for name, value in options.items() if name in FIELDS and value is not None}
     return found | {name: _value(name, value) for name, value in named.items()}
 
 
 def _asked(kind: str, given: Any) -> dict[str, Any]:
     """Return the fields that the option of a kind stands for."""
-    option, fields, form = f"--{kind}", _OPTIONS[kind]["fields"], _OPTIONS[kind]["form"]
+    option, fields, form = f"--{_NAMES[kind]}", _OPTIONS[kind]["fields"], _OPTIONS[kind]["form"]
     if form == "grid":
         return {fields[0]: once(option, (_values(option, text) for text in given))}
     if form == "distributions":

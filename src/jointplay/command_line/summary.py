@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.accuracy import accuracy_lines
 from jointplay.command_line.attractors import attractor_lines
+from jointplay.command_line.branch_table import branch_lines
 from jointplay.command_line.calibration_table import calibration_lines
 from jointplay.command_line.certificate import headlines
 from jointplay.command_line.peaks import peak_rows, peak_table
@@ -23,9 +24,11 @@ def results_of(job: "Job") -> dict[str, Any]:
     """Return what is there so far: statistics and peaks, or the points of a study; else None."""
     from jointplay.client import NotFound, ResultsNotReady
 
-    found: dict[str, Any] = dict.fromkeys(
-        ("statistics", "peaks", "points", "accuracy", "attractors", "calibration", "sensitivity")
+    parts = (
+        *("statistics", "peaks", "points", "accuracy"),
+        *("attractors", "branch", "calibration", "sensitivity"),
     )
+    found: dict[str, Any] = dict.fromkeys(parts)
     try:
         if "accuracy" in job.links:
             found["accuracy"] = job.accuracy
@@ -36,6 +39,8 @@ def results_of(job: "Job") -> dict[str, Any]:
             found["attractors"] = job.attractors if "attractors" in job.links else None
             if "sensitivity" in job.links:
                 found["sensitivity"] = job.sensitivity()
+            if "branch" in job.links:
+                found["branch"] = job.branch
         elif job.is_finished:
             found["statistics"] = job.statistics
             found["peaks"] = peak_rows(job.results.peaks())
@@ -70,6 +75,8 @@ def result_lines(
         yield from attractor_lines(found["attractors"])
     if found["sensitivity"] is not None:
         yield from sensitivity_lines(found["sensitivity"])
+    if found["branch"] is not None:
+        yield from branch_lines(found["branch"])
     if found["accuracy"] is not None:
         yield from accuracy_lines(found["accuracy"])
     if found["calibration"] is not None:

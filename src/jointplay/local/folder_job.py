@@ -152,4 +152,5 @@ def _results_of(source: "ResultReader | StudyReader") -> list[str]:
         return ["points", "attractors"]
     if source.kind in ("calibration", "sensitivity"):
         return ["points", source.kind]
-    return ["points", "poincare" if source.record else "sweep"]
+    own = ["branch"] if "labels" in source.attributes else []
+    return ["points", *own, "poincare" if source.record else "sweep"]

@@ -12,6 +12,7 @@ from jointplay.client.window import Window
 from jointplay.figures import Options, Pace
 from jointplay.local.exact_windows import exact_peaks, exact_window, window_of
 from jointplay.records.attractor_table import attractor_table
+from jointplay.records.branch import branch_document
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.figure_form import Form
@@ -154,6 +155,13 @@ class FolderResults:
             return sensitivity(study, Question(output, limit, failing, confidence))
         except NoSuchOutput as error:
             raise _refused("output", str(error)) from None
+
+    def branch(self) -> dict[str, Any]:
+        """Return the branches of a continuation."""
+        study = self.study(None, None, None)
+        if "labels" not in study.attributes:
+            raise NotFound(f"{self._store} is of a {study.kind}; it has no branch.")
+        return branch_document(study)
 
     def study(
         self, observables: Names, channels: Names, sections: tuple[int, int] | None

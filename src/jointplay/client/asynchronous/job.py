@@ -67,4 +67,5 @@ class AsyncJob(JobRecord):
     certificate: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.certificate)
     accuracy: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.accuracy)
     attractors: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.attractors)
+    branch: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.branch)
     calibration: Attribute[Job, dict[str, Any]] = Attribute(lambda job: job.calibration)

@@ -1,0 +1,121 @@
+"""A continuation over HTTP: submitted, computed, and its branch read in every form."""
+
+import numpy as np
+import pytest
+
+from jointplay import jobs
+from jointplay.client import Client, Refused, ResultsNotReady
+from jointplay.local import run
+from jointplay.service.studies.schemas import Branches
+from tests.service.answers import get
+
+JOB = jobs.continuation(
+    "impact-oscillator",
+    "speed",
+    {"from": 30.0, "to": 24.0, "count": 80},
+    settle=20,
+    doublings=1,
+    stop_stiffness=1e8,
+)
+
+
+@pytest.fixture(scope="module")
+def client(service_url):
+    with Client(service_url) as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def finished(client, worker):
+    job = client.submit(JOB)
+    with pytest.raises(ResultsNotReady):
+        _ = job.branch
+    worker.work(job.id)
+    return job.refresh()
+
+
+def test_the_branch_is_what_a_local_run_finds(finished, http, tmp_path):
+    assert (finished.kind, finished.state) == ("continuation", "succeeded")
+    local = run(JOB, processes=1)
+    assert finished.branch == local.branch
+    answer = http.get(f"/v1/jobs/{finished.id}/branch")
+    document = Branches.model_validate_json(answer.content, strict=True)
+    assert document.model_dump(mode="json") == answer.json()
+    first, second = document.branches
+    assert [one.label for one in first.special][:1] == ["EP"]
+    assert first.columns["value"].unit == "rad/s"
+    lengths = {len(one.values) for one in first.columns.values()}
+    assert lengths == {int(finished.points["orbits"][0])}
+    assert second.status == "failed"
+    assert "no period doubling" in second.failure.detail
+
+
+def test_columns_are_chosen_and_wrong_ones_are_refused(finished, http):
+    address = f"/v1/jobs/{finished.id}/branch"
+    chosen = get(http, address, columns="value,multiplier_*")["branches"][0]["columns"]
+    assert set(chosen) == {"value"} | {
+        f"multiplier_{k}.{part}" for k in (1, 2) for part in ("real", "imaginary")
+    } | {"multiplier_error"}
+    refused = http.get(f"{address}?columns=valeu")
+    assert (refused.status_code, refused.json()["errors"][0]["parameter"]) == (422, "columns")
+
+
+def test_its_orbits_are_a_table_with_units_and_in_zarr(finished, tmp_path):
+    table = finished.poincare
+    (branch, _) = finished.branch["branches"]
+    assert table["value"].tolist() == branch["columns"]["value"]["values"]
+    file = finished.export(tmp_path / "branch.csv", "poincare")
+    assert "value [rad/s]" in file.read_text()
+    with finished.open("sections") as store:
+        values = store["value"]
+        assert values.attrs["units"] == "rad/s"
+        rows = np.isfinite(values.values[0])
+        assert values.values[0][rows].tolist() == table["value"].tolist()
+
+
+def test_every_link_leads_somewhere_and_its_figure_is_drawn(finished, http):
+    links = get(http, f"/v1/jobs/{finished.id}")["links"]
+    assert links.keys() >= {"branch", "points", "poincare", "figures", "zarr"}
+    for name, link in links.items():
+        answer = http.post(link) if name == "cancel" else http.get(link)
+        assert answer.is_success, (name, answer.text)
+    assert "branch" in finished.figures
+    for name in finished.figures:
+        assert finished.figure(name).content.startswith(b"\x89PNG"), name
+
+
+def test_a_continuation_is_estimated_before_it_is_queued(client):
+    estimate = client.estimate(JOB | {"doublings": 0})
+    assert (estimate.points, estimate.blocks, estimate.failure) == (1, 1, None)
+    assert estimate.steps > 1000
+
+
+@pytest.mark.parametrize(
+    ("change", "place"),
+    [
+        ({"values": {"from": 30.0, "to": 30.0, "count": 3}}, "/values/to"),
+        ({"values": [1.0, 2.0]}, "/values"),
+        ({"values": {"from": 30.0, "to": 20.0, "count": 3, "spacing": "log"}}, "/values/spacing"),
+        ({"values": {"from": 30.0, "to": 20.0, "count": 10**6}}, "/values/count"),
+        ({"values": {"from": 30.0, "to": 2000.0, "count": 3}}, "/values/to"),
+        ({"values": {"from": 30.0, "to": 0.0, "count": 3}}, "/values/to"),
+        ({"parameter": "slack"}, "/parameter"),
+        ({"at": 40.0}, "/at"),
+        ({"state": [0.0]}, "/state"),
+        ({"period": 0}, "/period"),
+        ({"doublings": 7}, "/doublings"),
+        ({"formulation": "lagrange"}, "/formulation"),
+        ({"method": "rk4", "step": 1e-3}, "/method"),
+    ],
+)
+def test_what_cannot_be_followed_is_refused_at_its_field(client, change, place):
+    with pytest.raises(Refused) as refusal:
+        client.submit(JOB | change)
+    assert place in [problem.place for problem in refusal.value.fields]
+
+
+def test_a_mechanism_without_a_period_is_refused(client):
+    job = jobs.continuation("pendulum", "mass", {"from": 0.5, "to": 1.0, "count": 3})
+    with pytest.raises(Refused) as refusal:
+        client.submit(job)
+    assert "period" in str(refusal.value)
