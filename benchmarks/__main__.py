@@ -19,6 +19,7 @@ ALL = (
     "sweep",
     "chart",
     "sensitivity",
+    "continuation",
     "joined",
     "bucket",
     "restitution",
