@@ -18,6 +18,14 @@ if TYPE_CHECKING:
     from jointplay.records.study import StudySource
 
 _MOST_FAILURES = 5
+_LINES = {
+    "attractors": attractor_lines,
+    "sensitivity": sensitivity_lines,
+    "branch": branch_lines,
+    "accuracy": accuracy_lines,
+    "calibration": calibration_lines,
+}
+"""Lines of results that only some kinds of jobs have."""
 
 
 def results_of(job: "Job") -> dict[str, Any]:
@@ -71,16 +79,9 @@ def result_lines(
             yield from headlines(job)
     if found["points"] is not None:
         yield from _study_lines(found["points"])
-    if found["attractors"] is not None:
-        yield from attractor_lines(found["attractors"])
-    if found["sensitivity"] is not None:
-        yield from sensitivity_lines(found["sensitivity"])
-    if found["branch"] is not None:
-        yield from branch_lines(found["branch"])
-    if found["accuracy"] is not None:
-        yield from accuracy_lines(found["accuracy"])
-    if found["calibration"] is not None:
-        yield from calibration_lines(found["calibration"])
+    for name, lines in _LINES.items():
+        if found[name] is not None:
+            yield from lines(found[name])
 
 
 def _summary_of(source: "StudySource") -> dict[str, Any]:
