@@ -184,7 +184,7 @@ SAMPLED = {
 }
 """In the short suite: those that draw, export, fetch and read what the package holds; the study
 runs in a folder of rooms."""
-ELSEWHERE = {"demo", "reproduce", "chaos", "key revoke", "retry", "worker"}
+ELSEWHERE = {"demo", "reproduce", "chaos", "key revoke", "retry", "sensitivity", "worker"}
 """Start what the others start too, services and processes, but for minutes, or need to know what
 another command said: see their own tests."""
 

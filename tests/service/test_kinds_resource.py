@@ -10,7 +10,8 @@ def test_kinds_are_described_as_the_command_line_has_them(http):
     assert list(found) == list(KINDS)
     for name, kind in job_fields.KINDS.items():
         assert found[name]["help"] == kind["help"]
-        assert found[name]["option"] == kind.get("option")
+        option = kind.get("option")
+        assert found[name]["option"] == (option and {"name": None, **option})
         assert found[name]["results"] == list(KINDS[name].results)
         assert list(found[name]["fields"]) == list(kind["fields"])
         for field, shown in found[name]["fields"].items():
