@@ -135,7 +135,7 @@ class Joint(Strict):
 
         `name` : of the joint. `between` : its second point against its first.
         """
-        raise NotImplementedError(f"{self.called} touches nowhere")
+        raise TypeError(f"{self.called} touches nowhere")
 
     def ideal_values(self, between: Ends, force: Pair) -> tuple[Scalar, ...]:
         """Return the values of `ideal_channels` under a force on its second body, N.
