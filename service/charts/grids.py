@@ -7,13 +7,14 @@ from collections import OrderedDict
 from collections.abc import Callable
 from threading import Lock
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records import pyramid
 from jointplay.records.arrays import Flags, Floats
-from jointplay.records.attractors import attractors_of, colour_of_attractor
+from jointplay.records.attractors import Attractors, attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import over_axes
 from jointplay.records.motion import WAITING, Labels, colour_of, motions, name_of
@@ -29,6 +30,8 @@ _VERDICT = "verdict"
 _EXTREMES = ("minimum", "maximum")
 _MOST_BYTES = 128_000_000
 _TURNS = 16
+_TOLD_APART: WeakKeyDictionary[StudyReader, Attractors] = WeakKeyDictionary()
+"""As long as a request has its store open."""
 
 
 def quantities(store: StudyReader) -> dict[str, Channel]:
@@ -54,9 +57,16 @@ def tells_attractors(store: StudyReader) -> bool:
     return "states" in store.attributes and store.verdicts is not None
 
 
+def _attractors(store: StudyReader) -> Attractors:
+    """Return the attractors of a store as it was opened, told apart once."""
+    if store not in _TOLD_APART:
+        _TOLD_APART[store] = attractors_of(store)
+    return _TOLD_APART[store]
+
+
 def names_of(store: StudyReader, name: str) -> Callable[[int], str]:
     """Return what names the labels of a quantity."""
-    return attractors_of(store).name_of if name == ATTRACTOR else name_of
+    return _attractors(store).name_of if name == ATTRACTOR else name_of
 
 
 def colours_of(name: str) -> Callable[[int], str]:
@@ -67,7 +77,7 @@ def colours_of(name: str) -> Callable[[int], str]:
 def column(store: StudyReader, name: str) -> NDArray[Any]:
     """Return a quantity of all points in the order of computing, labels as bytes."""
     if name == ATTRACTOR:
-        return attractors_of(store).labels
+        return _attractors(store).labels
     if name == MOTION:
         period = store.indicators.get("period", np.full(store.points, np.nan))
         verdict = store.indicators[_VERDICT]

@@ -25,6 +25,8 @@ MOST_GEOMETRIES = 2000
 """Geometries or structures of a study: each takes about two milliseconds to put together."""
 MOST_PERIODS = 1e8
 """Periods of all points of a study together."""
+MOST_NUMBERS_OF_A_MAP = 64_000_000
+"""Numbers of all points of a map together: who reads one quantity has all in memory."""
 MOST_PERIODS_OF_A_CHART = 4e9
 """Periods of all points of a chart together."""
 LONGEST_SETTLING = 2000
@@ -80,6 +82,17 @@ def check_size(study: Study, run: float, place: str, most: float = MOST_PERIODS)
         )
     if problems:
         raise LimitExceeded(Problem(place, sentence) for sentence in problems)
+
+
+def check_numbers(points: int, each: int) -> None:
+    """Refuse (LimitExceeded) a map whose points have too many numbers to be read at once."""
+    if points * each > MOST_NUMBERS_OF_A_MAP:
+        raise LimitExceeded.at(
+            "/by/values",
+            f"{points} points with {each} numbers each are more than {MOST_NUMBERS_OF_A_MAP};"
+            f" {MOST_NUMBERS_OF_A_MAP // each} such points fit. Ask for fewer points, or for fewer"
+            " channels and statistics.",
+        )
 
 
 def check_room(admitted: Admission | Study, most: float) -> None:

@@ -13,6 +13,7 @@ from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import (
     MOST_OF_A_CHART,
     MOST_PERIODS_OF_A_CHART,
+    check_numbers,
     check_size,
 )
 from jointplay.solver.kinds.map import MapJob, points_of_map
@@ -36,6 +37,7 @@ from jointplay.solver.kinds.statistics import (
     statistic_outputs,
 )
 from jointplay.solver.kinds.studies import Kept, PlacedPoints, make_study, place_points
+from jointplay.solver.runs.study.cycles import outputs_of
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.statistics import Output
 
@@ -63,6 +65,8 @@ class MotionMapJob(SectionsJob, MapJob):
 
 
 J = TypeVar("J", bound=MotionMapJob)
+NUMBERS, EXTREMES = 8, 4
+"""Numbers of every point at most, and of each channel."""
 
 
 class MotionMap(Kind[J]):
@@ -81,6 +85,14 @@ class MotionMap(Kind[J]):
         units = periods(checked.scenes)
         check_section(job.section, checked, units)
         check_statistics(job.statistics, checked.pairs(), len(channels))
+        pairs = len(checked.pairs())
+        check_numbers(
+            checked.points.count,
+            NUMBERS
+            + EXTREMES * len(channels)
+            + statistic_count(job.statistics, len(channels), pairs)
+            + (len(outputs_of(checked.declared)) if self.compares_cycles else 0),
+        )
         names = [channel.name for channel in channels]
         filled = documents.filled(
             job, checked.document, checked.echo, channels=names or None, indicators=list(indicators)

@@ -6,6 +6,7 @@ import numpy as np
 
 from jointplay.records.point import PointEnd
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
+from jointplay.solver.mechanics.start.given import Taken
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.document import Scene
 
@@ -21,6 +22,11 @@ def end_of_start(study: Study, point: int) -> PointEnd | None:
     return PointEnd(point, "start-not-held", sentence, 0.0, peaks, {"steps": 0.0}, {})
 
 
+def concerns(given: Taken, place: str) -> bool:
+    """Return whether what a scene gives of its start is, or has, the number at a place."""
+    return f"{place}/".startswith(f"{given.pointer}/")
+
+
 def obstacle(scene: Scene, varied: Iterable[str]) -> str:
     """Return why a scene does not start as numbers of it say, as a sentence; empty: it does.
 
@@ -30,6 +36,6 @@ def obstacle(scene: Scene, varied: Iterable[str]) -> str:
     if assembly.residual / shortest_link(scene) > ASSEMBLED:
         return "The mechanism does not close at this start."
     for one in assembly.misfits:
-        if any(place.startswith(one.pointer) for place in places):
+        if any(concerns(one, place) for place in places):
             return one.sentence
     return ""

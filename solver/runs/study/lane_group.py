@@ -9,6 +9,7 @@ from jointplay.records.point import PointEnd, SectionRows
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.study.finer import COST, periods_of
@@ -100,6 +101,7 @@ class LaneGroup:
             if end is None:
                 return run
             waiting.remove(run)
+            waiting += self._next_of_chain(run, None)
             self._refused.append(end)
         return None
 
@@ -160,7 +162,10 @@ class LaneGroup:
 
     def _following(self, lane: int, run: PointRun, end: PointEnd) -> Iterator[PointRun]:
         """Yield the next point of a chain, which starts where this one came to."""
+        yield from self._next_of_chain(run, None if end.code else self.bundle.state_of(lane))
+
+    def _next_of_chain(self, run: PointRun, start: LaneStart | None) -> Iterator[PointRun]:
+        """Yield the next point of a chain; without a start it begins as its scene says."""
         order, position = self.study.chain_order[run.chain], run.position + 1
         if position < len(order):
-            start = None if end.code else self.bundle.state_of(lane)
             yield PointRun(order[position], run.chain, position, start)

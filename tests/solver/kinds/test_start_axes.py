@@ -2,8 +2,10 @@
 
 import pytest
 
-from jointplay.records.failure import InvalidInput
+from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.kinds import admit, parse
+from jointplay.solver.mechanics.start.given import Taken
+from jointplay.solver.runs.study.held_starts import concerns
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.scene import presets
 
@@ -104,3 +106,49 @@ def test_an_axis_has_a_parameter_or_a_number_of_the_start():
     both = {"parameter": "speed", "start": PLACE, "values": [1.0, 2.0]}
     assert problems(chart() | {"along": both})
     assert problems(chart() | {"along": {"values": [1.0]}})
+
+
+def test_a_place_that_begins_like_another_has_its_own_number():
+    """What `mass` cannot have says nothing of a body that is called `mass2`."""
+    given = Taken("/start/velocities/mass", "m/s", (0.0, 0.3), (0.0, 0.0), 0.3)
+    assert concerns(given, "/start/velocities/mass/1")
+    assert not concerns(given, "/start/velocities/mass2/1")
+
+
+def test_a_block_of_points_that_cannot_start_ends():
+    found = ends(admit(chart(by="/start/velocities/mass/1", ys=(0.2, 0.3, 0.4))))
+    assert [end.code for end in found.values()] == ["start-not-held"] * 6
+
+
+def test_a_chain_goes_on_behind_a_point_that_cannot_start():
+    """The next point begins as its scene says, as behind any point that failed."""
+    document = presets.document("impact-oscillator")
+    document["start"] = document["start"] | {"velocities": {"mass": [0.0, 0.0]}}
+    target = {"path": "/start/velocities/mass/1", "factor": 1.0}
+    across = {"help": "Rate across the guide.", "unit": "m/s", "targets": [target]}
+    document["parameters"] = document["parameters"] | {"across": across}
+    job = {
+        "kind": "bifurcation",
+        "scene": document,
+        "parameter": "across",
+        "values": [0.3, 0.2, 0.0],
+        "continuation": "forward",
+        "chains": 1,
+        "settle": 1,
+        "record": 2,
+        "tolerance": 1e-6,
+    }
+    study = admit(job)
+    found = {}
+    for piece in StudyRun(study, 0).slices():
+        found |= {end.point: end for end in piece.ended}
+    assert [found[k].code for k in range(3)] == ["start-not-held", "start-not-held", ""]
+
+
+def test_maps_of_more_numbers_than_can_be_read_are_refused_and_told_what_fits():
+    job = chart(channels=["*"], statistics=["mean"])
+    job["along"] = {"start": PLACE, "values": {"from": 0.17, "to": 0.2, "count": 2000}}
+    job["by"] = {"start": RATE, "values": {"from": -0.5, "to": 0.5, "count": 1000}}
+    with pytest.raises(LimitExceeded, match=r"such points fit") as refused:
+        admit(job)
+    assert refused.value.problems[0].pointer == "/by/values"
