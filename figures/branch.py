@@ -15,6 +15,8 @@ _HEIGHT, _SINGLE_HEIGHT = 40.0, 65.0  # mm
 _FULL, _DASHED = "-", (0.0, (4.0, 2.0))
 _NEAR = 0.03
 """Share of a panel within which special orbits of a label share their name."""
+_BESIDE = 0.15
+"""Share of a panel's width at its right end where names stand on the left of their orbits."""
 _UNNAMED = "EP"
 
 
@@ -90,11 +92,13 @@ def _name_special(axes: page.Axes, branch: Branch, x: Floats, y: Floats) -> None
             crowd = sum(
                 abs(at - a) < _NEAR * width and abs(up - b) < _NEAR * height for _, a, b in written
             )
+            side = -1.0 if at > axes.get_xlim()[1] - _BESIDE * width else 1.0
             axes.annotate(
                 one.label,
                 (at, up),
-                xytext=(3.0 + 13.0 * crowd, 3.0),
+                xytext=(side * (3.0 + 13.0 * crowd), 3.0),
                 textcoords="offset points",
+                horizontalalignment="right" if side < 0.0 else "left",
                 fontsize=page.in_font(6.0),
             )
             written.append((one.label, at, up))

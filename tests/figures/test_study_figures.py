@@ -11,6 +11,8 @@ from matplotlib.colors import to_hex
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection, UnknownFigure, colours, page, saving
 from jointplay.records.channel import Channel
+from jointplay.records.point import PointStatus
+from jointplay.records.study import StudyDataset
 
 
 @pytest.mark.parametrize(
@@ -105,6 +107,24 @@ def test_verdicts_colour_the_sections_of_their_values():
     assert exponents.get_ylabel() == "exponent [1/s]"
     shown = np.concatenate([rows[:, 1] for rows in marks_of(exponents).values()])
     np.testing.assert_array_equal(np.sort(shown), np.sort(source.indicators["lyapunov"]))
+
+
+def test_names_of_special_orbits_stay_within_the_panel():
+    columns = {"value": [1.0, 2.0, 1.0], "length": [0.0, 1.0, 2.0], "label": [0.0, 1.0, 0.0]}
+    columns |= {"bound": [0.0] * 3, "unstable": [0.0, 0.0, 1.0], "state.x": [0.0, 1.0, 2.0]}
+    source = StudyDataset(
+        attributes={"job": {"kind": "continuation"}, "labels": {"": "", "LP": "fold"}},
+        parameters=(Channel("speed", "rad/s", "speed"),),
+        values=np.ones((1, 1)),
+        status=np.array([PointStatus.done], dtype=np.uint8),
+        observables=tuple(Channel(name, "1", name) for name in columns),
+        times=np.ones((1, 3)),
+        section_values={name: np.array([rows]) for name, rows in columns.items()},
+    )
+    figure = drawn_with(source, "branch", None)
+    (axes,) = figure.axes
+    (name,) = (text for text in axes.texts if text.get_text() == "LP")
+    assert name.get_window_extent().x1 < axes.get_window_extent().x1
 
 
 def test_directions_have_two_colours_and_their_verdicts_a_strip():
