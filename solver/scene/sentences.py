@@ -11,6 +11,7 @@ from pydantic_core import ErrorDetails
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import did_you_mean, instead
 from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.scene import start_places
 from jointplay.solver.scene.unions import is_form
 
 TYPES = frozenset({"float", "str", "none"})
@@ -40,6 +41,10 @@ SENTENCES = {
     "string_too_short": "'{field}' must not be empty.",
     "string_pattern_mismatch": (
         "'{field}' must begin with a letter and have at most 32 letters, digits, - or _."
+    ),
+    "start place": (
+        "'{field}' must lead to a number of the start, for example /start/joints/stop/rate/0, or to"
+        " the position of a driver: /drivers/motor/position."
     ),
     "reference": "'{field}' must be body.point, for example crank.pin or ground.O.",
 }
@@ -82,7 +87,9 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
     kind, context = item["type"], item.get("ctx", {})
     if kind not in SENTENCES:
         return f"{item['msg']}."
-    if r"\." in context.get("pattern", ""):
+    if context.get("pattern") == start_places.PATTERN:
+        kind = "start place"
+    elif r"\." in context.get("pattern", ""):
         kind = "reference"
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
     more = units | {"meant": _meant_word(item)}

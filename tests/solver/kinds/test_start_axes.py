@@ -91,7 +91,7 @@ def test_a_point_whose_joints_do_not_allow_its_start_fails_by_itself():
         ("/start/joints/stopp/eccentricity/0", "/along/start", "There is no joint 'stopp'"),
         ("/start/angles/wheel", "/along/start", "There is no body 'wheel'"),
         ("/drivers/engine/position", "/along/start", "There is no driver 'engine'"),
-        ("/bodies/mass/mass", "/along/start", ""),
+        ("/bodies/mass/mass", "/along/start", "must lead to a number of the start"),
         ("/start/joints/stop/eccentricity/2", "/along/start", ""),
         (RATE, "/by/start", "let another parameter vary"),
     ],
