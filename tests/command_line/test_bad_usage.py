@@ -54,6 +54,14 @@ WRONG = {
         [*TIMED, "--set", "friction=0.1", "--sweep", "friction=0.1,0.2"],
         "--set friction: the study varies friction",
     ),
+    "a value that an axis of a chart varies": (
+        [*PRESS, "--set", "speed=3", "--chart", "speed=3:9:4", "--by", "friction=0.1,0.2"],
+        "--set speed: the study varies speed",
+    ),
+    "a value that a sensitivity draws": (
+        [*PRESS, "--set", "friction=0.1", "--sensitivity", "friction=uniform:0:0.1"],
+        "--set friction: the study varies friction",
+    ),
     "no value": ([*TIMED, "--set", "clearance"], "NAME=VALUE"),
     "negative clearance": ([*TIMED, "--set", "clearance=-1e-4"], "/scene/parameters/clearance"),
     "clearance too large": ([*TIMED, "--set", "clearance=5e-3"], "/scene/parameters/clearance"),

@@ -34,7 +34,9 @@ def job_document(
     job.update(changed)
     scene = job.get("scene")
     values = once("--set", map(_setting, settings or ()))
-    varied = {changed.get("parameter"), *changed.get("grid", ())}
+    axes = (changed.get("along", {}), changed.get("by", {}))
+    varied = {one.get("parameter") for one in (changed, *axes)}
+    varied |= {*changed.get("grid", ()), *changed.get("parameters", ())}
     for name in values:
         if name in varied:
             raise Stopped(f"--set {name}: the study varies {name}; leave this value out.")
