@@ -13,9 +13,13 @@ export function keepKey(key) {
   sessionStorage.setItem(KEPT, key.trim());
 }
 
-/** Returns an address that pictures and downloads can have: a copy, where a key is needed. */
-export async function openAddress(path) {
-  if (!keyHeaders().Authorization) return path;
+/**
+ * Returns an address that pictures and downloads can have: a copy, where a key is needed.
+ *
+ * @param changes whether the picture does: a browser shows what it has of an address once more
+ */
+export async function openAddress(path, changes = false) {
+  if (!changes && !keyHeaders().Authorization) return path;
   const answer = await fetch(path, { headers: keyHeaders() });
   return answer.ok ? URL.createObjectURL(await answer.blob()) : path;
 }

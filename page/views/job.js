@@ -15,6 +15,7 @@ const TABS = {
   watch: ["Watch", () => import("./job/watch.js"), ["history"]],
   diagram: ["Diagram", () => import("./job/diagram.js"), ["bifurcation"]],
   chart: ["Chart", () => import("./job/chart.js"), ["chart"]],
+  branch: ["Branch", () => import("./job/branch.js"), ["branch"]],
   sweep: ["Sweep", () => import("./job/sweep.js"), ["sweep"]],
   sensitivity: ["Sensitivity", () => import("./job/sensitivity.js"), ["sensitivity"]],
   sections: ["Sections", () => import("./job/sections.js"), ["poincare"]],
@@ -32,7 +33,8 @@ export async function show(room, { parts, query, signal }) {
   const [job] = await Promise.all([
     get(`/v1/jobs/${encodeURIComponent(id ?? "")}`, {}, signal), kindsOfJobs(signal),
   ]);
-  const tabs = Object.entries(TABS).filter(([, [, , links]]) => links.some((one) => job.links[one]));
+  const tabs = Object.entries(TABS).filter(([name, [, , links]]) =>
+    links.some((one) => job.links[one]) && !(name === "sections" && job.links.branch)); // the branch shows them
   const tab = tabs.find(([name]) => name === wanted) ?? tabs[0];
   const name = job.label || sceneName(job.job).replaceAll("-", " ");
   document.title = `${name} · jointplay`;

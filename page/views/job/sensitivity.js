@@ -104,6 +104,7 @@ function within({ values, low, high }, i, unit) {
 
 function figure(path, output) {
   const image = element("img", { class: "figure", alt: `What ${output} owes to each parameter` });
-  openAddress(path).then((address) => (image.src = address));
+  image.onload = () => URL.revokeObjectURL(image.src);
+  openAddress(path, true).then((address) => (image.src = address));
   return image;
 }

@@ -1,0 +1,38 @@
+"""Branches of periodic orbits on the page: their picture, and the table of special orbits."""
+
+import httpx
+
+from tests.page.browsing import barriers, expect
+from tests.page.conftest import submitted
+
+BRANCH = {
+    "kind": "continuation",
+    "scene": {"preset": "impact-oscillator"},
+    "parameter": "speed",
+    "values": {"from": 25.0, "to": 33.0, "count": 120},
+}
+
+
+def test_a_branch_is_drawn_beside_a_table_of_its_special_orbits(browsing, url, artifacts):
+    job = submitted(url, BRANCH)
+    with browsing.page(f"{url}/#/job/{job}") as page:
+        fold = page.locator("tbody tr").filter(has_text="fold")
+        expect(fold).to_contain_text("31.9303900")
+        image = page.get_by_role("img", name="Branches of periodic orbits over speed")
+        expect(image).to_have_js_property("complete", True)
+        assert image.evaluate("one => one.naturalWidth") > 0
+        expect(page.get_by_role("link", name="Sections")).to_have_count(0)
+        page.screenshot(path=artifacts / "branch.png", full_page=True)
+        assert barriers(page) == []
+
+
+def test_the_picture_of_a_branch_grows_with_it(browsing, url):
+    values = {"from": 24.0, "to": 33.0, "count": 4000}
+    long = BRANCH | {"values": values, "largest_step": 1e-4}
+    job = httpx.post(f"{url}/v1/jobs", json=long).json()["id"]
+    with browsing.page(f"{url}/#/job/{job}") as page:
+        image = page.locator("img.figure")
+        first = image.get_attribute("src")
+        assert first
+        expect(image).not_to_have_attribute("src", first)
+    httpx.post(f"{url}/v1/jobs/{job}/cancel").raise_for_status()
