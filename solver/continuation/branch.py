@@ -68,7 +68,7 @@ def follow(start: Orbit, along: Floats, reach: Reach, sense: float = 1.0) -> Ite
             yield Row(found.orbit, at, one.label, found.bound, one.note)
         before, orbit, tangent = orbit, piece.last, piece.last_tangent
         length += curve.scales.length(orbit.vector - before.vector)
-        if not reach.low < orbit.value < reach.high:
+        if not reach.inside(orbit.value):
             yield Row(orbit, sense * length, "EP", note="end of the range")
             return
         if count >= ENOUGH and _closed(piece, start):
@@ -108,7 +108,7 @@ def _piece(
     """Return the branch up to the orbit a step farther, or to the end of the range."""
     guess = orbit.vector + step * tangent
     found = curve.orbit(guess, tangent)
-    inside = isinstance(found, Orbit) and reach.low < found.value < reach.high
+    inside = isinstance(found, Orbit) and reach.inside(found.value)
     if isinstance(found, Orbit) and not inside:
         found = _at_end(curve, orbit, found, reach)
     if isinstance(found, NoOrbit):
@@ -127,7 +127,7 @@ def _piece(
 
 def _at_end(curve: Curve, orbit: Orbit, beyond: Orbit, reach: Reach) -> Orbit | NoOrbit:
     """Return the orbit at the end of the range, between one inside and one beyond."""
-    end = reach.low if beyond.value <= reach.low else reach.high
+    end = reach.end(beyond.value)
     share = (end - orbit.value) / (beyond.value - orbit.value)
     guess = orbit.vector + share * (beyond.vector - orbit.vector)
     axis = np.zeros(len(guess))

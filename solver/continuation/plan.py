@@ -1,5 +1,6 @@
 """A continuation as a study: a point is a branch, its sections are the branch's orbits."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,6 +31,15 @@ class Reach:
     """Most orbits in one direction, special ones not counted."""
     step: float
     """Largest, as a length along the branch: about a share of the range."""
+
+    def inside(self, value: float) -> bool:
+        """Return whether a value lies in the range, and not at an end but for rounding."""
+        rounding = 8.0 * math.ulp(max(abs(self.low), abs(self.high)))
+        return self.low + rounding < value < self.high - rounding
+
+    def end(self, beyond: float) -> float:
+        """Return the end of the range next to a value that is not inside."""
+        return self.low if beyond < 0.5 * (self.low + self.high) else self.high
 
 
 @dataclass(frozen=True, eq=False)

@@ -165,3 +165,15 @@ def test_where_there_is_no_orbit_the_branch_fails_and_says_what_to_try() -> None
     assert [end.code for end in ends] == ["no-orbit", "no-orbit"]
     assert "ask for 'period' 1" in ends[0].detail
     assert "no period doubling" in ends[1].detail
+
+
+@pytest.mark.parametrize("to", [24.42, 24.62, 25.58])
+def test_a_branch_ends_at_the_end_of_its_range_whatever_rounding_does(to: float) -> None:
+    study = admitted(JOB | {"values": {"from": 25.0, "to": to, "count": 40}, "settle": 20})
+    slices = list(computation_of(study, 0).slices())
+    (end,) = [end for one in slices for end in one.ended]
+    last = end.document["special"][-1]  # type: ignore[index]
+    assert (last["label"], last["note"]) == ("EP", "end of the range")
+    values = table(slices, study)["value"]
+    assert values[[0, -1]] == pytest.approx([25.0, to], rel=1e-14)
+    assert len(set(values.tolist())) == len(values)
