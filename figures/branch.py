@@ -23,8 +23,7 @@ _UNNAMED = "EP"
 def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
     if "labels" not in source.attributes:
         raise NotDrawable("Branches are drawn of a job of kind continuation.")
-    study_facts.chosen_points(source, selection)
-    if not source.counts.any():
+    if not source.counts[study_facts.chosen_points(source, selection)].any():
         raise NotDrawable("No orbit of a branch has been found.")
     names = study_facts.known(selection.channels, source.observables)
     if names:
@@ -35,7 +34,8 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
     names = _chosen(source, selection)
     shown = study_facts.chosen_points(source, selection)
-    found = [one for one in branches(source) if one.index in range(shown.start, shown.stop)]
+    within = range(shown.start, shown.stop)
+    found = [one for one in branches(source) if one.index in within and source.counts[one.index]]
     (parameter,) = source.parameters
     across = scale(parameter.unit, *[one.column(VALUE) for one in found])
     units = by_name(source.observables)

@@ -1,0 +1,41 @@
+"""A fold as a continuation has it: stable above, unstable below, found from its upper end."""
+
+import numpy as np
+
+from jointplay.records.channel import Channel
+from jointplay.records.point import PointStatus
+from jointplay.records.study import StudyDataset
+
+HEIGHTS = np.array([2.0, 1.0, 0.0, -1.0, -2.0])
+"""m; the parameter is their square, less one."""
+NOTE = "the orbits meet"
+
+
+def folded() -> StudyDataset:
+    """Return a branch of five orbits, and one that has none."""
+    zero = np.zeros(5)
+    columns = {
+        "value": HEIGHTS**2 - 1.0,
+        "label": np.array([1.0, 0.0, 3.0, 0.0, 2.0]),
+        "bound": np.array([0.0, 0.0, 1e-6, 0.0, 0.0]),
+        "length": 2.0 - HEIGHTS,
+        "unstable": np.array([0.0, 0.0, 0.0, 1.0, 1.0]),
+        "state.mass.s": HEIGHTS,
+    }
+    special = [{"row": 2, "note": NOTE}, {"row": 4, "note": "lost here"}]
+    return StudyDataset(
+        attributes={
+            "job": {"kind": "continuation"},
+            "scene": {"name": "fold", "bodies": {}, "joints": {}},
+            "labels": {"": "orbit", "EP": "end", "MX": "lost", "LP": "fold"},
+        },
+        parameters=(Channel("speed", "rad/s", "speed"),),
+        values=np.zeros((2, 1)),
+        status=np.array([PointStatus.done, PointStatus.failed], np.uint8),
+        observables=tuple(
+            Channel(name, "m" if name.startswith("state") else "1", name) for name in columns
+        ),
+        times=np.array([np.arange(5.0), zero + np.nan]),
+        section_values={name: np.array([one, zero + np.nan]) for name, one in columns.items()},
+        documents={0: {"special": special}},
+    )
