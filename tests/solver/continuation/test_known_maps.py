@@ -1,0 +1,108 @@
+"""Labels, places and bounds of special orbits, of maps whose bifurcations are known exactly."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.branch import Row
+from tests.solver.continuation.known_maps import Formula, rows_of
+
+B = 0.3
+
+
+def henon(state: Floats, a: float) -> list[float]:
+    x, y = state.tolist()
+    return [a - x * x + B * y, x]
+
+
+def delayed_logistic(state: Floats, a: float) -> list[float]:
+    x, y = state.tolist()
+    return [a * x * (1.0 - y), x]
+
+
+def pitchfork(state: Floats, a: float) -> list[float]:
+    (x,) = state.tolist()
+    return [a * x - x**3]
+
+
+def neutral_saddle(state: Floats, a: float) -> list[float]:
+    return [2.0 * float(state[0]), a * float(state[1])]
+
+
+def circle(state: Floats, a: float) -> list[float]:
+    (x,) = state.tolist()
+    return [x + 0.3 * (x * x + a * a - 1.0)]
+
+
+def two_doublings(state: Floats, a: float) -> list[float]:
+    x, y = state.tolist()
+    return [-a * x, -(a + 1e-3) * y]
+
+
+def told(row: Row) -> tuple[str, str]:
+    return row.label, row.note
+
+
+@pytest.mark.parametrize(
+    ("formula", "start", "values", "known"),
+    [
+        # the stable fixed point, down to the fold and back up on the saddle
+        (henon, [0.3, 0.3], (0.2, -0.5), [("LP", -((1.0 - B) ** 2) / 4.0)]),
+        (henon, [0.3, 0.3], (0.2, 0.6), [("PD", 3.0 * (1.0 - B) ** 2 / 4.0)]),
+        (delayed_logistic, [0.4, 0.4], (1.7, 2.3), [("NS", 2.0)]),
+        (pitchfork, [0.0], (0.5, 1.4), [("BP", 1.0)]),
+        (neutral_saddle, [0.0, 0.0], (0.3, 0.8), []),
+        (two_doublings, [0.0, 0.0], (0.9, 1.1), [("PD", 0.999), ("PD", 1.0)]),
+    ],
+)
+def test_what_bifurcates_has_its_label_at_its_place_within_its_bound(
+    formula: Formula,
+    start: Sequence[float],
+    values: tuple[float, float],
+    known: list[tuple[str, float]],
+) -> None:
+    rows = rows_of(formula, start, values)
+    found = [row for row in rows if row.label not in ("", "EP")]
+    assert [row.label for row in found] == [label for label, _ in known]
+    for row, (_, at) in zip(found, known, strict=True):
+        assert abs(row.orbit.value - at) <= row.bound + 1e-12
+        assert row.bound < 1e-5
+    assert rows[-1].label == "EP"
+
+
+def test_a_branch_that_closes_is_gone_round_once() -> None:
+    rows = rows_of(circle, [-0.8], (0.6, 2.0), low=-2.0)
+    assert told(rows[-1]) == ("EP", "the branch has closed")
+    folds = [row.orbit.value for row in rows if row.label == "LP"]
+    assert folds == [pytest.approx(1.0, abs=1e-7), pytest.approx(-1.0, abs=1e-7)]
+    lengths = [row.length for row in rows]
+    assert lengths == sorted(lengths)
+    # once round, where the parameter counts in widths of 1.4
+    circumference = sum(
+        np.hypot(np.cos(t), np.sin(t) / 1.4) for t in np.linspace(0.0, 2.0 * np.pi, 1000)[1:]
+    )
+    assert max(lengths) == pytest.approx(circumference * 2.0 * np.pi / 999.0, rel=0.03)
+
+
+def test_impacts_begin_and_end_where_their_number_changes() -> None:
+    rows = rows_of(
+        pitchfork, [0.0], (0.1, 0.9), impacts=lambda _state, a: int(a > 0.31) + 2 * (a < 0.32)
+    )
+    found = [row for row in rows if row.label == "GR"]
+    assert [row.note for row in found] == [
+        "an impact begins: 2 before, 3 behind",
+        "an impact ends: 3 before, 1 behind",
+    ]
+    for row, at in zip(found, (0.31, 0.32), strict=True):
+        assert abs(row.orbit.value - at) <= row.bound < 1e-8
+
+
+def test_lengths_behind_the_start_are_negative_and_orbits_are_counted() -> None:
+    rows = rows_of(pitchfork, [0.0], (0.9, 0.1), sense=-1.0, orbits=5)
+    assert len(rows) == 5
+    assert told(rows[-1]) == ("EP", "5 orbits were asked for")
+    lengths = [row.length for row in rows]
+    assert lengths == sorted(lengths, reverse=True)
+    assert lengths[0] < 0.0
