@@ -89,8 +89,11 @@ def root(piece: Piece, test: Callable[[Orbit], float], coarser: Callable[[Orbit]
         x1, f1, best = x, f, orbit
         if abs(x2 - x1) > WIDE * piece.length:
             slope = (f2 - f1) / (x2 - x1)
+        if f == 0.0:
+            x2 = x1
+            break
         least = FINEST / abs(x2 - x1)
-        if f == 0.0 or least > 0.5:
+        if least > 0.5:
             break
         share, value = (x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2)
         t = 0.5

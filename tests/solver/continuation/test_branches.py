@@ -11,6 +11,7 @@ import pytest
 from jointplay.records.point import StudySlice
 from jointplay.solver.computations import computation_of
 from jointplay.solver.continuation.columns import LABELS
+from jointplay.solver.continuation.run import FULL
 from jointplay.solver.kinds import admit, parse
 from jointplay.solver.runs.study.plan import Study
 from tests.solver.continuation.oscillator import document, grazing
@@ -177,3 +178,18 @@ def test_a_branch_ends_at_the_end_of_its_range_whatever_rounding_does(to: float)
     values = table(slices, study)["value"]
     assert values[[0, -1]] == pytest.approx([25.0, to], rel=1e-14)
     assert len(set(values.tolist())) == len(values)
+
+
+def test_a_branch_begins_within_its_range_and_ends_at_its_most_orbits() -> None:
+    job = JOB | {"values": {"from": 26.0, "to": 25.0, "count": 4}, "at": 25.5, "settle": 20}
+    study = admitted(job | {"record": 7})
+    slices = list(computation_of(study, 0).slices())
+    found = table(slices, study)
+    assert (found["value"][1:5] < 25.5).all()  # towards 'to' first
+    assert (found["length"][1:5] > 0.0).all()
+    assert (found["value"][5:] > 25.5).all()
+    assert (found["length"][5:] < 0.0).all()
+    (end,) = [end for one in slices for end in one.ended]
+    notes = [one["note"] for one in end.document["special"]]  # type: ignore[index]
+    assert notes == ["start of the branch", "4 orbits were asked for", FULL]
+    assert end.statistics["orbits"] == len(found["value"]) == 7.0

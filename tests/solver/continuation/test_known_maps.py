@@ -38,7 +38,12 @@ def circle(state: Floats, a: float) -> list[float]:
 
 def two_doublings(state: Floats, a: float) -> list[float]:
     x, y = state.tolist()
-    return [-a * x, -(a + 1e-3) * y]
+    return [-a * x, -(a + 1e-4) * y]
+
+
+def bent(state: Floats, a: float) -> list[float]:
+    (x,) = state.tolist()
+    return [-a * np.sin(1000.0 * x) / 1000.0]
 
 
 def told(row: Row) -> tuple[str, str]:
@@ -54,7 +59,7 @@ def told(row: Row) -> tuple[str, str]:
         (delayed_logistic, [0.4, 0.4], (1.7, 2.3), [("NS", 2.0)]),
         (pitchfork, [0.0], (0.5, 1.4), [("BP", 1.0)]),
         (neutral_saddle, [0.0, 0.0], (0.3, 0.8), []),
-        (two_doublings, [0.0, 0.0], (0.9, 1.1), [("PD", 0.999), ("PD", 1.0)]),
+        (two_doublings, [0.0, 0.0], (0.9, 1.1), [("PD", 0.9999), ("PD", 1.0)]),
     ],
 )
 def test_what_bifurcates_has_its_label_at_its_place_within_its_bound(
@@ -106,3 +111,12 @@ def test_lengths_behind_the_start_are_negative_and_orbits_are_counted() -> None:
     lengths = [row.length for row in rows]
     assert lengths == sorted(lengths, reverse=True)
     assert lengths[0] < 0.0
+
+
+def test_bounds_and_errors_cover_what_differences_err_by() -> None:
+    rows = rows_of(bent, [0.0], (0.5, 1.4))
+    (doubling,) = [row for row in rows if row.label == "PD"]
+    assert 1e-6 < abs(doubling.orbit.value - 1.0) <= doubling.bound < 1e-3
+    for row in rows:
+        away = abs(row.orbit.multipliers[0] + row.orbit.value)
+        assert 1e-6 < away <= row.orbit.error < 1e-3
