@@ -21,6 +21,8 @@ CLOSE = 10.0
 """Residual at which Newton's method ends, in the tolerance of the runs."""
 CLOSE_ENOUGH = 1e-6
 """Residual that is taken where another round makes it no smaller: rounding of hard contacts."""
+FARTHEST = 1.0
+"""How far Newton's method may take the parameter, in its range: runs farther away may not end."""
 GAIN = 0.5
 FINER = (1.0, 0.03, 0.001)
 """Scales of differences that are tried: next to grazing the map bends within a micrometre."""
@@ -173,6 +175,8 @@ class Curve:
                 vector = vector + solve(self.bordered(linear, along), right)
             except LinAlgError:
                 return NoOrbit("the derivative of the section map is singular", residual)
+            if not abs(vector[-1] - guess[-1]) <= FARTHEST:
+                return NoOrbit("Newton's method went astray", residual)
             rates = vector[states:-1]
             rates[rates < 0.0] = 0.0
         sentence = f"Newton's method ended after {rounds} rounds with the residual {residual:.2g}"

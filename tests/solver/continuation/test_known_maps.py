@@ -120,3 +120,15 @@ def test_bounds_and_errors_cover_what_differences_err_by() -> None:
     for row in rows:
         away = abs(row.orbit.multipliers[0] + row.orbit.value)
         assert 1e-6 < away <= row.orbit.error < 1e-3
+
+
+def test_newtons_method_does_not_ask_for_runs_far_from_the_range() -> None:
+    asked = []
+
+    def steep(state: Floats, a: float) -> list[float]:
+        asked.append(a)
+        return [float(state[0]) - np.tanh(300.0 * (float(state[0]) - a * a))]
+
+    rows = rows_of(steep, [0.01], (0.1, 2.1), step=0.5)
+    assert told(rows[-1]) == ("EP", "end of the range")
+    assert -2.0 < min(asked) < max(asked) < 4.2
