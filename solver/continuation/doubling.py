@@ -9,7 +9,7 @@ from jointplay.solver.continuation.multipliers import direction_of
 from jointplay.solver.continuation.orbit import Curve, Orbit
 from jointplay.solver.continuation.start import NoStart, shorter_period
 
-FIRST, SHRINK, TRIES = 0.01, 0.4, 6
+DISTANCES = (1e-2, 4e-3, 1.6e-3, 6.4e-4, 2.56e-4, 1.024e-4)
 """Distances from the doubling, along the branch, at which an orbit is sought."""
 
 
@@ -27,15 +27,13 @@ def doubled(orbit: Orbit) -> tuple[Orbit, Floats]:
     along = direction_of(orbit.linear.jacobian, nearest) / extents[:-1]
     direction = np.append(along, 0.0)
     direction /= curve.scales.length(direction)
-    distance = FIRST
-    for _ in range(TRIES):
+    for distance in DISTANCES:
         for sense in (1.0, -1.0):
             guess = orbit.vector + sense * distance * direction
             found = curve.orbit(guess, direction)
             if isinstance(found, Orbit) and not shorter_period(found):
                 return found, sense * direction
-        distance *= SHRINK
     raise NoStart(
         f"No orbit of {curve.map.periods} periods was found next to the period doubling at"
-        f" {orbit.value:.9g}, down to {distance:.2g} from it; try a smaller tolerance."
+        f" {orbit.value:.9g}, down to {DISTANCES[-1]:.2g} from it; try a smaller tolerance."
     )

@@ -56,8 +56,6 @@ class Passage:
     """State there, as that of a `Section`."""
     onsets: int
     """Beginnings of contact."""
-    slowest: float
-    """Least approach rate of the contacts that ended, m/s; infinite if none did."""
     steps: int
     """Accepted."""
     failure: str
@@ -133,7 +131,7 @@ class SectionMap:
         """Return the runs from sections, eight lanes side by side."""
 
         def compute() -> Answers:
-            numbers, failures = [np.zeros((0, self.size + 3))], list[str]()
+            numbers, failures = [np.zeros((0, self.size + 2))], list[str]()
             for first in range(0, len(sections), BUNDLE):
                 part, failed = self._bundle(sections[first : first + BUNDLE])
                 numbers.append(part)
@@ -141,7 +139,7 @@ class SectionMap:
             return np.concatenate(numbers), failures
 
         return [
-            Passage(row[:-3], int(row[-3]), float(row[-2]), int(row[-1]), failure)
+            Passage(row[:-2], int(row[-2]), int(row[-1]), failure)
             for row, failure in zip(*self.recall(compute), strict=True)
         ]
 
@@ -153,22 +151,17 @@ class SectionMap:
             like = values.index(section.value) if section.value in values else None
             scenes.append(self.scene_at(section.value) if like is None else scenes[like])
             bundle.load(lane, self._problem(scenes[lane], section), like)
-        slowest = [math.inf] * len(sections)
-        running = len(sections)
-        while running:
-            running = bundle.advance(ATTEMPTS)
-            for lane in range(len(sections)):
-                rates = bundle.impacts(lane)["approach_rate"]
-                slowest[lane] = float(min([slowest[lane], *rates]))
+        while bundle.advance(ATTEMPTS):
             self.looked()
-        numbers, failures = np.empty((len(sections), self.size + 3)), list[str]()
+        self.looked()
+        numbers, failures = np.empty((len(sections), self.size + 2)), list[str]()
         for lane, scene in enumerate(scenes):
             at = bundle.lane(lane)
             done = at.status == Status.DONE
             failures.append("" if done else failure_of(bundle, lane, self.tolerance, scene).detail)
             numbers[lane, : self.kernel.states] = at["y"]
-            numbers[lane, self.kernel.states : -3] = at["impact_rate"] * at["mode"]
-            numbers[lane, -3:] = at.run["onsets"], slowest[lane], at.steps
+            numbers[lane, self.kernel.states : -2] = at["impact_rate"] * at["mode"]
+            numbers[lane, -2:] = at.run["onsets"], at.steps
         return numbers, failures
 
     def _problem(self, scene: Scene, section: Section) -> LaneProblem:

@@ -32,7 +32,7 @@ class KnownMap(SectionMap):
             for _ in range(self.periods):
                 end = np.array(self.formula(end, one.value), np.float64)
             onsets = self.impacts(one.state, one.value)
-            found.append(Passage(end, onsets, np.inf, 1, ""))
+            found.append(Passage(end, onsets, 1, ""))
         return found
 
 
