@@ -22,7 +22,7 @@ CLOSE = 10.0
 CLOSE_ENOUGH = 1e-6
 """Residual that is taken where another round makes it no smaller: rounding of hard contacts."""
 FARTHEST = 1.0
-"""How far Newton's method may take the parameter, in its range: runs farther away may not end."""
+"""Ranges by which Newton's method may move the parameter: runs farther away may not end."""
 GAIN = 0.5
 FINER = (1.0, 0.03, 0.001)
 """Scales of differences that are tried: next to grazing the map bends within a micrometre."""
