@@ -109,7 +109,7 @@ def test_an_axis_has_a_parameter_or_a_number_of_the_start():
 
 
 def test_a_place_that_begins_like_another_has_its_own_number():
-    """What `mass` cannot have says nothing of a body that is called `mass2`."""
+    """A rate that `mass` cannot have says nothing of a body that is called `mass2`."""
     given = Taken("/start/velocities/mass", "m/s", (0.0, 0.3), (0.0, 0.0), 0.3)
     assert concerns(given, "/start/velocities/mass/1")
     assert not concerns(given, "/start/velocities/mass2/1")
