@@ -129,7 +129,9 @@ class SpecialOrbit(BaseModel):
         " grazing: an impact begins or ends, MX the branch was lost."
     )
     value: float = in_unit("the parameter's unit")
-    bound: float = in_unit("the parameter's unit", "Largest error of the value.")
+    bound: float = in_unit(
+        "the parameter's unit", "Error of locating it; that of the runs' tolerance comes besides."
+    )
     note: str = Field(description="What happens there; of an end why, and what to try.")
 
 

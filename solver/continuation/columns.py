@@ -21,7 +21,7 @@ LABELS = {
 OF_ORBITS = (
     (LENGTH, "1", "length along the branch since its start, in scales of state and range"),
     (LABEL, "1", "special orbit, a position in the attribute labels; 0: none"),
-    (BOUND, "", "largest error of the parameter at a special orbit"),
+    (BOUND, "", "error of locating a special orbit; that of the runs comes besides"),
     ("duration", "s", "period of the orbit"),
     ("impacts", "1", "impacts in a period"),
     (UNSTABLE, "1", "multipliers outside of the unit circle; 0: the orbit is stable"),

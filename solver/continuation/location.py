@@ -4,6 +4,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit
 
@@ -22,7 +24,7 @@ class Found:
     """Length along the branch since the first orbit."""
     orbit: Orbit
     bound: float
-    """Largest error of the parameter."""
+    """Largest error of the parameter by locating it; the error of the runs comes besides."""
 
 
 class NotLocated(Exception):
@@ -104,8 +106,9 @@ def root(piece: Piece, test: Callable[[Orbit], float], coarser: Callable[[Orbit]
         t = min(max(t, least), 1.0 - least)
     away = abs(x2 - x1) + abs(coarser(best) / slope)
     turn = (piece.direction(piece.last) - piece.direction(piece.first)) / piece.length
-    bound = away * abs(piece.direction(best)) + 0.5 * abs(turn) * away * away
-    return Found(x1, best, bound * float(piece.curve.scales.extents[-1]))
+    bound = away * abs(piece.direction(best)) + 0.5 * abs(turn) * away * away + best.residual
+    least = float(np.spacing(abs(best.value)))  # of a fold, which is flat, nothing else is left
+    return Found(x1, best, max(bound * float(piece.curve.scales.extents[-1]), least))
 
 
 def change(piece: Piece, count: Callable[[Orbit], int], begin: float = 0.0) -> Found:
