@@ -3,7 +3,7 @@
 # make test       everything that continuous integration checks
 # make test-long  the tests that take longer
 # make bench      measure speed on this machine
-# make install    .venv with all packages (two minutes, 1.8 GB), and the integration loop compiled (most of a minute)
+# make install    .venv with all packages (two minutes, 1.8 GB), and the integration loop compiled (half a minute)
 # make docs       the documentation as a site: build/site/index.html
 # make clean      remove what the others made
 .DEFAULT_GOAL := help
@@ -35,7 +35,7 @@ $(STAMP): pyproject.toml
 	touch $(STAMP)
 
 install: $(STAMP)
-	@echo "compiling the integration loop (most of a minute, once)"
+	@echo "compiling the integration loop (half a minute, once)"
 	@$(BIN)/python -m jointplay.solver.kernels.compile_loop
 
 demo: $(STAMP)

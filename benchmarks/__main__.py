@@ -39,6 +39,7 @@ ALL = (
     "attack",
     "single_attacks",
     "start",
+    "first_frame",
     "first_hour",
     "compilation",
     "results_store",

@@ -26,6 +26,7 @@ from filelock import FileLock
 from numba.core.caching import UserProvidedCacheLocator
 
 from jointplay.solver.kernels.compiler import leave_out_slow_passes
+from jointplay.solver.kernels.inner_functions import link_inner_functions
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.watched import compile_if_watched
 from jointplay.solver.version import source_digest
@@ -55,6 +56,7 @@ def cache_folder() -> Path:
         except OSError:
             continue
         leave_out_slow_passes()
+        link_inner_functions()
         settings: Any = numba.config  # which Numba fills when it is imported
         settings.CACHE_DIR = str(folder)
         settings.CACHE_LOCATOR_CLASSES = f"{__name__}.OwnSources,UserProvidedCacheLocator"

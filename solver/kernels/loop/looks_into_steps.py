@@ -22,7 +22,8 @@ def look_at_suspects(chosen: np.ndarray, low: float, high: float, s: Step) -> No
     """Seek extremes of chosen rows that are known at even instants between two shares."""
     waiting, spacing = 0, (high - low) / (INSTANTS - 1)
     for r in chosen:
-        s.table[CLOSER : CLOSER + INSTANTS] = s.spare[s.at.channel + r]
+        for i in range(INSTANTS):  # a slice would take 2 s to compile, for what it raises
+            s.table[CLOSER + i] = s.spare[s.at.channel + r, i]
         waiting = open_windows(r, 1, low, spacing, INSTANTS, EXACT, waiting, s)
     if look_where_foretold(waiting, s) > 0:
         seek_in_turn(waiting, s)
