@@ -23,6 +23,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import (
     Block,
+    BlockEnd,
     BlockState,
     NewJob,
     Solver,
@@ -73,7 +74,7 @@ def compute(catalogue: Catalogue) -> None:
     """Claim a block, advance, and be done with it."""
     block = claim(catalogue)
     again(catalogue.record_progress, block.id, block.attempt, 30.0, time=1.0, fraction=0.5)
-    again(catalogue.finish, block.id, block.attempt, BlockState.done, time=2.0, steps=9)
+    again(catalogue.finish, block.id, block.attempt, BlockEnd(BlockState.done, time=2.0, steps=9))
 
 
 def again(ask: Callable[..., Any], *given: Any, **named: Any) -> Any:

@@ -21,7 +21,7 @@ from benchmarks.results_http import service
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState
+from jointplay.storage.catalogue.records import BlockEnd, BlockState
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
@@ -156,7 +156,7 @@ def main() -> None:
             running = settings.running_run(job, 1).folder
             sealed = settings.sealed_run(job, 1)
             execute(admission, running, sealed, report=lambda _: Answer.go_on)
-            catalogue.finish(claim.block.id, claim.block.attempt, BlockState.done)
+            catalogue.finish(claim.block.id, claim.block.attempt, BlockEnd(BlockState.done))
             catalogue.close()
             stored(settings, job)
             print("windows of 2000 spans, medians:")

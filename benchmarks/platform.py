@@ -31,7 +31,7 @@ from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage import durable
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, JobState, NewJob
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.store import create
@@ -177,7 +177,7 @@ def begin_and_end(barrier: Any, results: Any, index: int, url: str, blocks: list
     done, begun = 0, time.perf_counter()
     for block in blocks[index::CORES]:
         assert catalogue.claim_block(block, "benchmark", 600)
-        catalogue.finish_repeatable(block, 1, BlockState.done)
+        catalogue.finish(block, 1, BlockEnd(BlockState.done, repeatable=True))
         done += 2
         if time.perf_counter() - begun > SECONDS:
             break

@@ -25,7 +25,7 @@ from jointplay.records.impact import IMPACT
 from jointplay.service.app import create_app
 from jointplay.solver.kinds import admit
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState
+from jointplay.storage.catalogue.records import BlockEnd, BlockState
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from jointplay.storage.settings import Settings
@@ -119,7 +119,7 @@ def stored(http: httpx.Client, settings: Settings, channels: list[str], samples:
     writer.seal(target, peaks={}, summary={}, complete=samples == admission.samples)
     show(f"seal {target.size() / 1e6:.0f} MB", time.perf_counter() - begun)
     shutil.rmtree(settings.running_folder(job_id))
-    catalogue.finish(claim.block.id, claim.block.attempt, BlockState.done)
+    catalogue.finish(claim.block.id, claim.block.attempt, BlockEnd(BlockState.done))
     catalogue.close()
     return str(job_id)
 

@@ -16,7 +16,7 @@ from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.records.run import CertificateRecord
 from jointplay.solver.kinds import KINDS, Admission, Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, Claim
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, Claim
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.writer import ResultWriter
@@ -261,7 +261,7 @@ class Worker:
         return job_id
 
     def finish(self, claim: Claim, outcome: BlockState, error: JobError | None = None) -> None:
-        self._catalogue.finish(claim.block.id, claim.block.attempt, outcome, error)
+        self._catalogue.finish(claim.block.id, claim.block.attempt, BlockEnd(outcome, error))
 
     def finished(self, **fields: Any) -> str:
         """A job that succeeded, with its results."""

@@ -13,7 +13,7 @@ from jointplay.records.job import ErrorClass, JobError
 from jointplay.records.log_lines import about
 from jointplay.solver.kernels.watched import watched
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
-from jointplay.storage.catalogue.records import BlockState, Claim, Verdict
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, Claim, Verdict
 from jointplay.storage.errors import ResultsError
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import Answer, Outcome, Progress
@@ -95,21 +95,7 @@ class BlockRun:
                 if outcome.state == "left":
                     self._insist(self._catalogue.release)
                     return
-                recognised = (
-                    outcome.state == "succeeded"
-                    and self._work is not None
-                    and self._work.recognised
-                )
-                catalogue = self._catalogue
-                finish = catalogue.finish_repeatable if recognised else catalogue.finish
-                state = self._insist(
-                    finish,
-                    _BLOCK_STATES[outcome.state],
-                    outcome.error,
-                    time=outcome.time,
-                    fraction=outcome.fraction,
-                    steps=(outcome.statistics or {}).get("steps"),
-                )
+                state = self._insist(self._catalogue.finish, self._end(outcome))
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)
             withdraw(self._catalogue, self._settings, self._block)
@@ -118,7 +104,19 @@ class BlockRun:
         if state.terminal:
             tidy(self._settings, self._block)
 
-    def _insist(self, operation: Callable[..., Answered], *given: Any, **named: Any) -> Answered:
+    def _end(self, outcome: Outcome) -> BlockEnd:
+        return BlockEnd(
+            _BLOCK_STATES[outcome.state],
+            outcome.error,
+            outcome.time,
+            outcome.fraction,
+            (outcome.statistics or {}).get("steps"),
+            repeatable=outcome.state == "succeeded"
+            and self._work is not None
+            and self._work.recognised,
+        )
+
+    def _insist(self, operation: Callable[..., Answered], *given: Any) -> Answered:
         """Carry out an operation of the catalogue on the block, however long it takes.
 
         A process that shall end waits no longer than the lease: then the block is anybody's.
@@ -126,7 +124,7 @@ class BlockRun:
         began = time.monotonic()
         while True:
             try:
-                return operation(self._block.id, self._block.attempt, *given, **named)
+                return operation(self._block.id, self._block.attempt, *given)
             except Unavailable as fault:
                 if self._draining.is_set() and time.monotonic() - began > self._settings.lease:
                     raise

@@ -2,9 +2,8 @@
 
 from typing import Protocol
 
-from jointplay.records.job import JobError
 from jointplay.storage.catalogue.errors import CatalogueError
-from jointplay.storage.catalogue.records import BlockState, Job, JobState, Verdict
+from jointplay.storage.catalogue.records import BlockEnd, Job, JobState, Verdict
 
 
 class Refused(CatalogueError):
@@ -63,32 +62,6 @@ class Holding(Protocol):
         """Give the block back until a fault has passed."""
         ...
 
-    def finish(
-        self,
-        block_id: str,
-        attempt: int,
-        outcome: BlockState,
-        error: JobError | None = None,
-        /,
-        *,
-        time: float | None = None,
-        fraction: float | None = None,
-        steps: int | None = None,
-    ) -> JobState:
-        """End the block."""
-        ...
-
-    def finish_repeatable(
-        self,
-        block_id: str,
-        attempt: int,
-        outcome: BlockState,
-        error: JobError | None = None,
-        /,
-        *,
-        time: float | None = None,
-        fraction: float | None = None,
-        steps: int | None = None,
-    ) -> JobState:
-        """End a block that is quickly found to have ended."""
+    def finish(self, block_id: str, attempt: int, end: BlockEnd, /) -> JobState:
+        """End the block, and return the state of its job."""
         ...

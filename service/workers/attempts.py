@@ -9,6 +9,7 @@ from jointplay.service.problems import RequestRefused
 from jointplay.service.workers.bell import BellDependency
 from jointplay.service.workers.handed_in import HandedIn
 from jointplay.service.workers.words import HELD, Attempt, BlockId, HeldBlock, JobOfBlock, said
+from jointplay.storage.catalogue.records import BlockEnd
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.protocol import Answered, Finished
 from jointplay.worker.removal import tidy
@@ -95,17 +96,8 @@ def finish(
 ) -> Finished:
     """End the block, if its results are there, and, with its last block, the job."""
     HandedIn(catalogue, settings, job, held).require_end(told.outcome, told.steps)
-    end = catalogue.finish_repeatable if told.repeatable else catalogue.finish
     try:
-        state = end(
-            held.id,
-            held.attempt,
-            told.outcome,
-            told.error,
-            time=told.time,
-            fraction=told.fraction,
-            steps=told.steps,
-        )
+        state = catalogue.finish(held.id, held.attempt, BlockEnd(**dict(told)))
     except ValueError as error:
         raise RequestRefused.of_parameter("outcome", f"{error}.") from error
     if settings.most_running:  # its owner may have another block computed

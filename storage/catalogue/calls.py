@@ -14,6 +14,7 @@ from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import (
     QUEUES,
     Block,
+    BlockEnd,
     BlockState,
     Claim,
     Job,
@@ -111,27 +112,17 @@ def record_progress(
     return Verdict.go_on if state == JobState.running else Verdict.cancel
 
 
-def finish(
-    unit: Unit,
-    block_id: str,
-    attempt: int,
-    outcome: BlockState,
-    error: JobError | None,
-    *,
-    time: float | None,
-    fraction: float | None,
-    steps: int | None,
-) -> JobState:
+def finish(unit: Unit, block_id: str, attempt: int, end: BlockEnd) -> JobState:
     """See `ending.finish`."""
     asked = {
         "wanted": block_id,
         "number": attempt,
         "moment": unit.now,
-        "ending": outcome,
-        "failure": None if error is None else json.dumps(asdict(error)),
-        "reached": time,
-        "fraction": fraction,
-        "done": steps,
+        "ending": end.outcome,
+        "failure": None if end.error is None else json.dumps(asdict(end.error)),
+        "reached": end.time,
+        "fraction": end.fraction,
+        "done": end.steps,
     }
     state = unit.execute(_FINISH, asked).scalar_one()
     if state is None:

@@ -37,7 +37,9 @@ from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
 from jointplay.storage.catalogue.quotas import NO_QUOTA, Quota, use_of
 from jointplay.storage.catalogue.records import (
+    BlockEnd,
     Job,
+    JobState,
     NewJob,
     SubmissionKey,
     Submitted,
@@ -257,8 +259,13 @@ class Catalogue:
     refuse = durably(ending.refuse)
     note_cut_off = writing(ending.note_cut_off)
 
-    finish = durably(ending.finish)
-    finish_repeatable = writing(ending.finish)  # for what is quickly found again
+    _finish = writing(ending.finish)
+    _finish_durably = durably(ending.finish)
+
+    def finish(self, block_id: str, attempt: int, end: BlockEnd, /) -> JobState:
+        """Do as `ending.finish`; the end survives a power cut, unless it is repeatable."""
+        finish = self._finish if end.repeatable else self._finish_durably
+        return finish(block_id, attempt, end)
 
     mark_of = reading(installation.mark_of)
     note_mark = durably(installation.note_mark)

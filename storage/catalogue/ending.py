@@ -15,7 +15,7 @@ from jointplay.storage.catalogue import calls, tables, tally, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.counters import of_outcome
 from jointplay.storage.catalogue.holding import change_held, job_of, lock_held, sum_progress
-from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockState, Job, JobState
+from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockEnd, BlockState, Job, JobState
 from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
 from jointplay.storage.catalogue.solvers import last_heard_of, machine_of, workers
 from jointplay.storage.catalogue.submission import drop_blocks
@@ -40,49 +40,31 @@ _END: Final = (
 )
 
 
-def finish(
-    unit: Unit,
-    block_id: str,
-    attempt: int,
-    outcome: BlockState,
-    error: JobError | None = None,
-    *,
-    time: float | None = None,
-    fraction: float | None = None,
-    steps: int | None = None,
-) -> JobState:
-    """End a held block (done, failed or cancelled) and, with its last block, the job.
-
-    `time` [s], `fraction` (0..1) and `steps` say how far it came, if that is known; a block that
-    is done came all the way.
-
-    Returns
-    -------
-    JobState
-        The job's state after it.
+def finish(unit: Unit, block_id: str, attempt: int, end: BlockEnd) -> JobState:
+    """End a held block and, with its last block, the job; return the job's state after it.
 
     Raises
     ------
     Fenced
         The block is held no more; nothing was changed.
+    ValueError
+        The block ends as cancelled, of a job that nobody cancelled; nothing was changed.
     """
-    if (outcome is BlockState.failed) != (error is not None):
-        raise ValueError("a failed block, and no other, has an error")
-    if outcome is BlockState.done:
-        fraction = 1.0
     if unit.shared:
-        return calls.finish(
-            unit, block_id, attempt, outcome, error, time=time, fraction=fraction, steps=steps
-        )
-    reached = {"progress_time": time, "progress_fraction": fraction, "progress_steps": steps}
+        return calls.finish(unit, block_id, attempt, end)
+    reached = {
+        "progress_time": end.time,
+        "progress_fraction": end.fraction,
+        "progress_steps": end.steps,
+    }
     changes = {name: value for name, value in reached.items() if value is not None}
     job = lock_held(unit, block_id, attempt)
-    change_held(unit, block_id, attempt, state=outcome, lease_until=None, **changes)
-    if outcome is BlockState.cancelled and job.state is JobState.running:
+    change_held(unit, block_id, attempt, state=end.outcome, lease_until=None, **changes)
+    if end.outcome is BlockState.cancelled and job.state is JobState.running:
         raise ValueError(f"job {job.id} was not asked to be cancelled")
-    _end_attempt(unit, job, block_id, attempt, outcome.value)
+    _end_attempt(unit, job, block_id, attempt, end.outcome.value)
     sum_progress(unit, job.id)
-    return settle(unit, job.id, error)
+    return settle(unit, job.id, end.error)
 
 
 def settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:

@@ -234,6 +234,31 @@ class Block:
 
 
 @dataclass(frozen=True)
+class BlockEnd:
+    """End of a block, and how far it came, where that is known; one that is done came all the way.
+
+    Raises
+    ------
+    ValueError
+        A failed block, and no other, has an error.
+    """
+
+    outcome: BlockState  # done, failed or cancelled
+    error: JobError | None = None
+    time: float | None = None  # simulated seconds
+    fraction: float | None = None  # 0..1
+    steps: int | None = None
+    repeatable: bool = False
+    """Whether the block would quickly be found to have ended: no disk is waited for."""
+
+    def __post_init__(self) -> None:
+        if (self.outcome is BlockState.failed) != (self.error is not None):
+            raise ValueError("a failed block, and no other, has an error")
+        if self.outcome is BlockState.done:
+            object.__setattr__(self, "fraction", 1.0)
+
+
+@dataclass(frozen=True)
 class Attempt:
     """One try at a block; `outcome` is none while it runs, later a word."""
 

@@ -15,7 +15,7 @@ from jointplay.chaos.undisturbed import undisturbed
 from jointplay.solver.kinds import admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, NewJob
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob
 from jointplay.worker.execute import execute
 
 JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.1}
@@ -61,7 +61,7 @@ def left(tmp_path: Path) -> Left:
     claim = catalogue.claim_block(f"{job}-0", "here", 60.0)
     assert claim is not None
     execute(admission, tmp_path / "store", settings.sealed_run(job, 1), report=lambda _: "continue")
-    catalogue.finish(claim.block.id, 1, BlockState.done)
+    catalogue.finish(claim.block.id, 1, BlockEnd(BlockState.done))
     catalogue.close()
     submission = Submission("key", 0, job=job, state="succeeded")
     return Left(

@@ -14,7 +14,7 @@ from jointplay.service.app import create_app
 from jointplay.service.readiness import Readiness
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.counters import COMPILING, OUTCOMES, PUBLISHED, PUBLISHING
-from jointplay.storage.catalogue.records import QUEUES, BlockState, NewJob
+from jointplay.storage.catalogue.records import QUEUES, BlockEnd, BlockState, NewJob
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 from tests.waiting import until
@@ -68,7 +68,7 @@ def test_what_waits_and_what_runs_is_counted(tmp_path: Path) -> None:
         assert found["process_resident_memory_bytes"] > 1e6
         assert catalogue.reap(3).requeued == (f"{jobs[0]}-0",)
         catalogue.note_spent("worker", {PUBLISHED: 2, PUBLISHING: 0.5, COMPILING: 3.0})
-        assert catalogue.finish(f"{jobs[1]}-0", 1, BlockState.done).terminal
+        assert catalogue.finish(f"{jobs[1]}-0", 1, BlockEnd(BlockState.done)).terminal
         for _ in range(2):
             found = shown(http.get("/metrics"))
             assert found["jointplay_attempts_total lost"] == 1

@@ -12,7 +12,7 @@ from jointplay.service import checking
 from jointplay.service.app import create_app
 from jointplay.service.jobs.submission import checked
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState
+from jointplay.storage.catalogue.records import BlockEnd, BlockState
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 
@@ -69,7 +69,9 @@ def test_a_job_that_ended_badly_is_computed_again(own, ending):
         http.post(f"/v1/jobs/{first}/cancel")
     else:
         catalogue.claim_block(f"{first}-0", "test", 60)
-        catalogue.finish(f"{first}-0", 1, BlockState.failed, JobError("platform", "x", "X."))
+        catalogue.finish(
+            f"{first}-0", 1, BlockEnd(BlockState.failed, JobError("platform", "x", "X."))
+        )
     assert http.post("/v1/jobs", json=JOB).status_code == 202
 
 
@@ -209,7 +211,7 @@ def test_an_expired_job_is_gone(own):
     catalogue.claim_block(f"{job['id']}-0", "test", 60)
     assert http.get(address, params={"wait": 1}).json()["state"] == "running"
     assert http.get(address).status_code == 200  # what is being computed does not expire
-    catalogue.finish(f"{job['id']}-0", 1, BlockState.done)
+    catalogue.finish(f"{job['id']}-0", 1, BlockEnd(BlockState.done))
     for path in ("", "/peaks", "/events", "/figures/orbit.png"):
         answer = http.get(address + path)
         assert (answer.status_code, answer.json()["type"]) == (410, "/problems/expired-job")
@@ -224,7 +226,7 @@ def test_a_job_is_deleted_once_it_is_finished(own):
     assert (refused.status_code, refused.json()["type"]) == (409, "/problems/not-finished")
     assert job_id in refused.json()["detail"]
     catalogue.claim_block(f"{job_id}-0", "test", 60)
-    catalogue.finish(f"{job_id}-0", 1, BlockState.done)
+    catalogue.finish(f"{job_id}-0", 1, BlockEnd(BlockState.done))
     assert http.delete(f"/v1/jobs/{job_id}").json()["expires"] is not None
     assert http.delete(f"/v1/jobs/{job_id}").status_code == 410
     assert http.get(f"/v1/jobs/{job_id}").status_code == 410

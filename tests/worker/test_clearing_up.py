@@ -8,7 +8,7 @@ import pytest
 from jointplay.solver.kinds import admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, NewJob
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute
 from jointplay.worker.removal import clear_up
@@ -45,7 +45,7 @@ def leave(catalogue: Catalogue, settings: Settings) -> Left:
         execute(admission, folder, sealed, report=lambda _: "continue")
         if attempt == 1:
             catalogue.release(claim.block.id, attempt)
-    catalogue.finish(f"{job}-0", 2, BlockState.done)
+    catalogue.finish(f"{job}-0", 2, BlockEnd(BlockState.done))
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "late").write_bytes(b"late")
     return Left(job, settings)

@@ -7,7 +7,7 @@ import pytest
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, NewJob
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker.measuring import measure_results
 
@@ -36,7 +36,7 @@ def test_what_a_failed_job_left_counts_unless_it_goes(
         assert catalogue.claim_block(f"{job}-0", "worker", 60.0)
         settings.running_files(job).put("a1/documents", [b"documents"])
         settings.running_files(job).put("a1/rows/history-0.zip", [b"rows"])
-        catalogue.finish(f"{job}-0", 1, BlockState.failed, ERROR)
+        catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.failed, ERROR))
     settings.sealed_run(sealed, 1).put([b"results"])
     settings.sealed_study(study).put([b"points"])
     measure_results(catalogue, settings)

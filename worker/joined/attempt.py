@@ -4,9 +4,8 @@ import time
 from contextlib import suppress
 from typing import Final
 
-from jointplay.records.job import JobError
 from jointplay.storage.catalogue.errors import CatalogueError, Fenced, Unavailable
-from jointplay.storage.catalogue.records import BlockState, Claim, Job, JobState, Verdict
+from jointplay.storage.catalogue.records import BlockEnd, Claim, Job, JobState, Verdict
 from jointplay.worker.holding import Refused
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.connection import Connection
@@ -93,50 +92,12 @@ class JoinedAttempt:
         """Give the block back until a fault has passed."""
         self._tell("put-off", protocol.Activity(activity=activity))
 
-    def finish(
-        self,
-        block_id: str,
-        attempt: int,
-        outcome: BlockState,
-        error: JobError | None = None,
-        /,
-        *,
-        time: float | None = None,
-        fraction: float | None = None,
-        steps: int | None = None,
-        repeatable: bool = False,
-    ) -> JobState:
+    def finish(self, block_id: str, attempt: int, end: BlockEnd, /) -> JobState:
         """Send sealed results, then end the block."""
         with publishing(jobs=0.0):  # whose packing was counted
             self._scratch.send_sealed()
-        told = protocol.Finish(
-            outcome=outcome,
-            error=error,
-            time=time,
-            fraction=fraction,
-            steps=steps,
-            repeatable=repeatable,
-        )
-        answer = self._tell("finish", told)
+        answer = self._tell("finish", protocol.Finish(**vars(end)))
         return protocol.Finished.model_validate_json(answer).state
-
-    def finish_repeatable(
-        self,
-        block_id: str,
-        attempt: int,
-        outcome: BlockState,
-        error: JobError | None = None,
-        /,
-        *,
-        time: float | None = None,
-        fraction: float | None = None,
-        steps: int | None = None,
-    ) -> JobState:
-        """End a block that is quickly found to have ended."""
-        reached = {"time": time, "fraction": fraction}
-        return self.finish(
-            block_id, attempt, outcome, error, **reached, steps=steps, repeatable=True
-        )
 
     def _note_told(self, progress: protocol.Progress | None) -> None:
         if self._progress is progress:  # else the block has come further meanwhile

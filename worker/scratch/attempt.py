@@ -5,12 +5,11 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from threading import Lock
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from jointplay.records.job import JobError
 from jointplay.storage.attempt_files import STUDY
 from jointplay.storage.catalogue.errors import CatalogueError, Unavailable
-from jointplay.storage.catalogue.records import BlockState, JobState
+from jointplay.storage.catalogue.records import BlockEnd, JobState
 from jointplay.worker.holding import Holding
 from jointplay.worker.scratch.files import Scratch, Taken
 
@@ -91,31 +90,10 @@ class SentAttempt:
         self._await()
         self._catalogue.put_off(block_id, attempt, activity)
 
-    def finish(
-        self,
-        block_id: str,
-        attempt: int,
-        outcome: BlockState,
-        error: JobError | None = None,
-        /,
-        **reached: Any,
-    ) -> JobState:
+    def finish(self, block_id: str, attempt: int, end: BlockEnd, /) -> JobState:
         """Send what a block of a study computed, then end the block."""
         self._send_study()
-        return self._catalogue.finish(block_id, attempt, outcome, error, **reached)
-
-    def finish_repeatable(
-        self,
-        block_id: str,
-        attempt: int,
-        outcome: BlockState,
-        error: JobError | None = None,
-        /,
-        **reached: Any,
-    ) -> JobState:
-        """End a block that is quickly found to have ended."""
-        self._send_study()
-        return self._catalogue.finish_repeatable(block_id, attempt, outcome, error, **reached)
+        return self._catalogue.finish(block_id, attempt, end)
 
     def _send_study(self) -> None:
         """Send; what a run computed is sealed, where its results belong."""

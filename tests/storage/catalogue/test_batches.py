@@ -9,7 +9,13 @@ from stepped_clock import Clock
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import BatchNotFinished, BatchNotFound, KeyReused
-from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, SubmissionKey
+from jointplay.storage.catalogue.records import (
+    BlockEnd,
+    BlockState,
+    JobState,
+    NewJob,
+    SubmissionKey,
+)
 
 NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc")
 STUDY = replace(NEW, kind="sweep", blocks=((0, 8), (8, 8)), seal=True)
@@ -40,9 +46,9 @@ def test_progress_of_the_whole(catalogue: Catalogue) -> None:
     done, failed, running, study = submitted.jobs
     for job in submitted.jobs:
         assert catalogue.claim_block(f"{job}-0", "worker", 30)
-    catalogue.finish(f"{done}-0", 1, BlockState.done)
+    catalogue.finish(f"{done}-0", 1, BlockEnd(BlockState.done))
     error = JobError("solver", "step-size-underflow", "why", 0.5)
-    catalogue.finish(f"{failed}-0", 1, BlockState.failed, error, fraction=0.1)
+    catalogue.finish(f"{failed}-0", 1, BlockEnd(BlockState.failed, error, fraction=0.1))
     catalogue.record_progress(f"{running}-0", 1, 30, time=0.1, fraction=0.5)
     catalogue.record_progress(f"{study}-0", 1, 30, time=0.1, fraction=0.5)
     batch = catalogue.batch(submitted.batch.id)
@@ -53,9 +59,9 @@ def test_progress_of_the_whole(catalogue: Catalogue) -> None:
     }
     assert batch.fraction == pytest.approx((1 + 1 + 0.5 + 0.25) / 4)
     assert not batch.finished
-    catalogue.finish(f"{running}-0", 1, BlockState.done)
+    catalogue.finish(f"{running}-0", 1, BlockEnd(BlockState.done))
     catalogue.request_cancel(study)
-    catalogue.finish(f"{study}-0", 1, BlockState.cancelled)
+    catalogue.finish(f"{study}-0", 1, BlockEnd(BlockState.cancelled))
     batch = catalogue.batch(submitted.batch.id)
     assert batch.finished
     assert batch.fraction == 1.0
@@ -82,7 +88,7 @@ def test_cancelling_a_batch_cancels_what_has_not_ended(catalogue: Catalogue, clo
     for job in (done, held, half_done, given_back):
         assert catalogue.claim_block(f"{job}-0", "worker", 30)
     for job in (done, half_done):
-        catalogue.finish(f"{job}-0", 1, BlockState.done)
+        catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.done))
     catalogue.release(f"{given_back}-0", 1)
     clock.now += 1
     batch = catalogue.cancel_batch(submitted.batch.id)
@@ -158,7 +164,7 @@ def test_what_to_publish_and_how_far_a_batch_is_are_found_by_index_in_sqlite(
 def ended(catalogue: Catalogue, job: str, outcome: BlockState) -> None:
     assert catalogue.claim_block(f"{job}-0", "worker", 30)
     error = JobError("solver", "step-size-underflow", "why") if outcome == "failed" else None
-    catalogue.finish(f"{job}-0", 1, outcome, error)
+    catalogue.finish(f"{job}-0", 1, BlockEnd(outcome, error))
 
 
 def test_a_batch_is_deleted_with_its_jobs_once_all_have_ended(

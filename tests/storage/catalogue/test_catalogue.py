@@ -11,7 +11,13 @@ from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import JobNotFound, KeyReused
 from jointplay.storage.catalogue.identifiers import Identifiers
-from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, SubmissionKey
+from jointplay.storage.catalogue.records import (
+    BlockEnd,
+    BlockState,
+    JobState,
+    NewJob,
+    SubmissionKey,
+)
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 
@@ -89,7 +95,10 @@ def test_an_error_is_kept_word_for_word(catalogue: Catalogue, clock: Clock) -> N
     catalogue.claim_block(f"{job}-0", "worker", 30)
     error = JobError("solver", "step-size-underflow", "h = 1e-17 s at 0.3 s", 0.3)
     clock.now += 2
-    assert catalogue.finish(f"{job}-0", 1, BlockState.failed, error, time=0.3) is JobState.failed
+    assert (
+        catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.failed, error, time=0.3))
+        is JobState.failed
+    )
     failed = catalogue.get(job)
     assert failed.error == error
     assert failed.progress_time == 0.3

@@ -18,6 +18,7 @@ from hypothesis.stateful import (
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.errors import KeyReused
 from jointplay.storage.catalogue.records import (
+    BlockEnd,
     BlockState,
     JobState,
     NewJob,
@@ -124,7 +125,7 @@ class CatalogueModel(ModelledCatalogue):
         outcome = BlockState.failed if failed else BlockState.done
         error = JobError("solver", "step-size-underflow", "why", 0.5) if failed else None
         state = self.as_holder(
-            held, attempt, lambda: self.catalogue.finish(name, attempt, outcome, error)
+            held, attempt, lambda: self.catalogue.finish(name, attempt, BlockEnd(outcome, error))
         )
         if state is None:
             return
@@ -142,9 +143,9 @@ class CatalogueModel(ModelledCatalogue):
             return
         if job.state is JobState.running:
             with pytest.raises(ValueError, match="was not asked"):
-                self.catalogue.finish(name, held.attempt, BlockState.cancelled)
+                self.catalogue.finish(name, held.attempt, BlockEnd(BlockState.cancelled))
             return
-        self.catalogue.finish(name, held.attempt, BlockState.cancelled)
+        self.catalogue.finish(name, held.attempt, BlockEnd(BlockState.cancelled))
         held.state = BlockState.cancelled
         self.settle(job)
 

@@ -13,7 +13,7 @@ from stepped_clock import Clock
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced
-from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, JobState, NewJob
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 
@@ -52,12 +52,12 @@ def test_a_fenced_worker_changes_nothing(catalogue: Catalogue, clock: Clock) -> 
         lambda: catalogue.record_checkpoint(block, 1, watermark=9, checkpoint="late"),
         lambda: catalogue.release(block, 1),
         lambda: catalogue.verdict(block, 1),
-        lambda: catalogue.finish(block, 1, BlockState.done),
+        lambda: catalogue.finish(block, 1, BlockEnd(BlockState.done)),
     ):
         with pytest.raises(Fenced, match="attempt 1 does not hold"):
             act()
     assert (catalogue.get(job), catalogue.blocks(job), catalogue.events(job)) == before
-    assert catalogue.finish(block, 2, BlockState.done) is JobState.succeeded
+    assert catalogue.finish(block, 2, BlockEnd(BlockState.done)) is JobState.succeeded
     assert [attempt.outcome for attempt in catalogue.attempts(job)] == ["lost", "done"]
 
 
@@ -115,8 +115,8 @@ def test_progress_of_a_job_weighs_its_blocks(catalogue: Catalogue) -> None:
     progressed = catalogue.get(job)
     assert progressed.progress_fraction == pytest.approx((30 * 0.5 + 10 * 0.25) / 40)
     assert progressed.progress_time == 1.0
-    assert catalogue.finish(f"{job}-0", 1, BlockState.done) is JobState.running
-    assert catalogue.finish(f"{job}-1", 1, BlockState.done) is JobState.succeeded
+    assert catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.done)) is JobState.running
+    assert catalogue.finish(f"{job}-1", 1, BlockEnd(BlockState.done)) is JobState.succeeded
     assert catalogue.get(job).progress_fraction == 1.0
 
 
@@ -131,14 +131,14 @@ def test_the_block_that_seals_waits_for_all_others_and_goes_ahead_of_new_jobs(
     assert catalogue.claim_block(f"{job}-2", "worker", 30) is None
     for index in (1, 0):
         assert catalogue.claim_block(f"{job}-{index}", "worker", 30)
-        assert catalogue.finish(f"{job}-{index}", 1, BlockState.done) is JobState.running
+        assert catalogue.finish(f"{job}-{index}", 1, BlockEnd(BlockState.done)) is JobState.running
     assert catalogue.get(job).progress_fraction == 1.0
     assert [wake_up.block for wake_up in catalogue.due_wake_ups(10)] == [f"{job}-2", f"{other}-0"]
     assert catalogue.claim_block(f"{job}-2", "worker", 30)
     clock.now += 31
     assert catalogue.reap(3).requeued == (f"{job}-2",)  # sealing may be interrupted
     assert catalogue.claim_block(f"{job}-2", "worker", 30)
-    assert catalogue.finish(f"{job}-2", 2, BlockState.done) is JobState.succeeded
+    assert catalogue.finish(f"{job}-2", 2, BlockEnd(BlockState.done)) is JobState.succeeded
 
 
 @pytest.mark.parametrize("how", ["cancel", "fail"])
@@ -147,10 +147,10 @@ def test_nothing_is_sealed_of_a_job_that_ended_otherwise(catalogue: Catalogue, h
     assert catalogue.claim_block(f"{job}-0", "worker", 30)
     if how == "cancel":
         assert catalogue.request_cancel(job).state is JobState.cancelling
-        ended = catalogue.finish(f"{job}-0", 1, BlockState.cancelled)
+        ended = catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.cancelled))
     else:
         error = JobError("platform", "storage", "the disk is full")
-        ended = catalogue.finish(f"{job}-0", 1, BlockState.failed, error)
+        ended = catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.failed, error))
     assert ended is (JobState.cancelled if how == "cancel" else JobState.failed)
     states = [block.state for block in catalogue.blocks(job)]
     assert states[1:] == [BlockState.cancelled, BlockState.cancelled]

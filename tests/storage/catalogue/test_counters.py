@@ -9,7 +9,7 @@ from stepped_clock import Clock
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import solvers, tables
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, NewJob, Solver
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob, Solver
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
 ERROR = JobError("solver", "step-limit", "it took too many steps")
@@ -32,8 +32,8 @@ def claimed(catalogue: Catalogue, worker: str) -> str:
 def test_every_end_of_an_attempt_is_counted_for_good(catalogue: Catalogue, clock: Clock) -> None:
     for worker in ("one", "two"):
         catalogue.note_worker(worker, OWN)
-        catalogue.finish(claimed(catalogue, worker), 1, BlockState.done)
-        catalogue.finish(claimed(catalogue, worker), 1, BlockState.failed, ERROR)
+        catalogue.finish(claimed(catalogue, worker), 1, BlockEnd(BlockState.done))
+        catalogue.finish(claimed(catalogue, worker), 1, BlockEnd(BlockState.failed, ERROR))
         catalogue.release(claimed(catalogue, worker), 1)
         catalogue.put_off(claimed(catalogue, worker), 1, "waiting")
         claimed(catalogue, worker)
@@ -48,7 +48,7 @@ def test_every_end_of_an_attempt_is_counted_for_good(catalogue: Catalogue, clock
     with catalogue.connections.reading() as connection:
         rows = connection.execute(select(func.count()).select_from(tables.tally)).scalar_one()
     assert rows == len(expected)
-    catalogue.finish(claimed(catalogue, "one"), 1, BlockState.done)
+    catalogue.finish(claimed(catalogue, "one"), 1, BlockEnd(BlockState.done))
     assert catalogue.census().totals == expected | {"attempts done": 3.0}
 
 

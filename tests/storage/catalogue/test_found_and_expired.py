@@ -9,7 +9,7 @@ from jointplay.records.job import JobError
 from jointplay.storage.catalogue import labels
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import JobNotFinished
-from jointplay.storage.catalogue.records import BlockState, NewJob, SubmissionKey
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob, SubmissionKey
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 
@@ -17,7 +17,7 @@ NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 
 def succeed(catalogue: Catalogue, new: NewJob) -> str:
     job = catalogue.submit(new).job.id
     catalogue.claim_block(f"{job}-0", "worker", 30)
-    catalogue.finish(f"{job}-0", 1, BlockState.done, steps=1000)
+    catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.done, steps=1000))
     return job
 
 
@@ -47,7 +47,7 @@ def test_what_ended_badly_or_is_being_cancelled_is_not_found_again(catalogue: Ca
     catalogue.claim_block(f"{failed}-0", "worker", 30)
     assert catalogue.submit(NEW, reuse=True).job.id == failed  # it is running
     error = JobError("solver", "step-size-underflow", "The step fell below 1e-15 s.")
-    catalogue.finish(f"{failed}-0", 1, BlockState.failed, error)
+    catalogue.finish(f"{failed}-0", 1, BlockEnd(BlockState.failed, error))
     assert len({queued, cancelling, failed, catalogue.submit(NEW, reuse=True).job.id}) == 4
 
 

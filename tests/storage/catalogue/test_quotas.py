@@ -15,7 +15,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import QuotaExceeded
 from jointplay.storage.catalogue.quotas import Quota, Use
-from jointplay.storage.catalogue.records import BlockState, NewJob, SubmissionKey
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob, SubmissionKey
 
 NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc", owner="ada")
 MOST = 5
@@ -117,7 +117,7 @@ def test_processor_time_counts_for_a_day_however_attempts_end(
         ("one", 10.0, lambda: catalogue.release(f"{job}-0", 1)),
         ("one", 20.0, lambda: catalogue.put_off(f"{job}-0", 2, "waits")),
         ("two", 40.0, lambda: catalogue.reap(9)),
-        ("one", 20.0, lambda: catalogue.finish(f"{job}-0", 4, BlockState.done)),
+        ("one", 20.0, lambda: catalogue.finish(f"{job}-0", 4, BlockEnd(BlockState.done))),
     ):
         assert catalogue.claim_block(f"{job}-0", worker, seconds - 1.0)
         clock.now += seconds
@@ -129,7 +129,7 @@ def test_processor_time_counts_for_a_day_however_attempts_end(
     clock.now += 12.0  # what runs counts as well
     with pytest.raises(QuotaExceeded, match=r"has computed 102 core seconds .* may compute 100;"):
         catalogue.submit(NEW, quota=day)
-    catalogue.finish(f"{other}-0", 1, BlockState.done)
+    catalogue.finish(f"{other}-0", 1, BlockEnd(BlockState.done))
     clock.now += 24 * HOUR - 300.0  # in the 24th hour, with that of the attempts
     assert catalogue.use_of("ada").computed == pytest.approx(102.0)
     clock.now += HOUR
@@ -140,7 +140,7 @@ def test_processor_time_counts_for_a_day_however_attempts_end(
 def test_hours_that_count_no_longer_are_forgotten(catalogue: Catalogue, clock: Clock) -> None:
     job = catalogue.submit(NEW).job.id
     assert catalogue.claim_block(f"{job}-0", "one", HOUR)
-    catalogue.finish(f"{job}-0", 1, BlockState.done)
+    catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.done))
 
     def rows() -> int:
         with catalogue.connections.reading() as connection:

@@ -15,7 +15,13 @@ import pytest
 from jointplay.storage.catalogue import connections
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
-from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, SubmissionKey
+from jointplay.storage.catalogue.records import (
+    BlockEnd,
+    BlockState,
+    JobState,
+    NewJob,
+    SubmissionKey,
+)
 from tests.postgresql_server import Server
 from tests.waiting import until
 
@@ -101,7 +107,7 @@ def test_of_last_blocks_that_end_together_one_has_the_study_sealed(
         job = apis[0].submit(replace(NEW, blocks=blocks, seal=True)).job.id
         held = [*zip(apis, [f"{job}-{number}" for number in range(APIS)], strict=True)]
         at_once(*(partial(api.claim_block, block, "worker", 30) for api, block in held))
-        at_once(*(partial(api.finish, block, 1, BlockState.done) for api, block in held))
+        at_once(*(partial(api.finish, block, 1, BlockEnd(BlockState.done)) for api, block in held))
         assert apis[0].blocks(job)[-1].state is BlockState.queued
         assert apis[0].get(job).progress_fraction == 1.0
         sequence = [event.seq for event in apis[0].events(job)]
@@ -119,7 +125,7 @@ def test_lost_connections_are_not_noticed(
         lambda: apis[0].record_progress(f"{job}-0", 1, 30, time=1.0, fraction=0.5),
         lambda: apis[0].submit(NEW, SubmissionKey("key", "f")),
         lambda: apis[0].reap(3),
-        lambda: apis[0].finish(f"{job}-0", 1, BlockState.done),
+        lambda: apis[0].finish(f"{job}-0", 1, BlockEnd(BlockState.done)),
     ):
         postgresql.cut(url)
         act()
@@ -151,7 +157,7 @@ def test_a_server_that_is_restarted_is_waited_for(
     assert apis[0].claim_block(f"{job}-0", "worker", 30)
     postgresql.stop()
     with ThreadPoolExecutor(1) as threads:
-        waiting = threads.submit(apis[0].finish, f"{job}-0", 1, BlockState.done)
+        waiting = threads.submit(apis[0].finish, f"{job}-0", 1, BlockEnd(BlockState.done))
         with pytest.raises(TimeoutError):
             waiting.result(0.1)
         postgresql.start()
@@ -160,7 +166,7 @@ def test_a_server_that_is_restarted_is_waited_for(
                 assert waiting.result() is JobState.succeeded
                 break
             except Unavailable:
-                waiting = threads.submit(apis[0].finish, f"{job}-0", 1, BlockState.done)
+                waiting = threads.submit(apis[0].finish, f"{job}-0", 1, BlockEnd(BlockState.done))
 
 
 def test_a_server_that_stays_away_is_said_to(

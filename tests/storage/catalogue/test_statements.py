@@ -8,7 +8,7 @@ from sqlalchemy import Engine, event
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, Solver
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, JobState, NewJob, Solver
 
 SOLVER = Solver("1", "skylake")
 
@@ -42,7 +42,7 @@ def test_claim_progress_and_end_are_a_statement_each_where_there_are_functions(
     counts = [
         asked(lambda: catalogue.claim_next("worker", 30.0, SOLVER)),
         asked(lambda: catalogue.record_progress(block, 1, 30.0, time=1.0, fraction=0.5)),
-        asked(lambda: catalogue.finish(block, 1, BlockState.done, time=2.0, steps=9)),
+        asked(lambda: catalogue.finish(block, 1, BlockEnd(BlockState.done, time=2.0, steps=9))),
     ]
     if shared:
         assert counts == [1, 1, 1]
@@ -55,9 +55,9 @@ def test_a_failed_block_ends_the_others(catalogue: Catalogue) -> None:
     for index in range(2):
         assert catalogue.claim_block(f"{job}-{index}", "worker", 30.0)
     error = JobError("solver", "diverged", 'it\'s "wide"', time=1.5)
-    assert catalogue.finish(f"{job}-0", 1, BlockState.failed, error) is JobState.failed
+    assert catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.failed, error)) is JobState.failed
     late = JobError("solver", "late", "second")
-    assert catalogue.finish(f"{job}-1", 1, BlockState.failed, late) is JobState.failed
+    assert catalogue.finish(f"{job}-1", 1, BlockEnd(BlockState.failed, late)) is JobState.failed
     found = catalogue.get(job)
     assert (found.error, found.finished is not None) == (error, True)
     assert [block.state.value for block in catalogue.blocks(job)] == [
@@ -78,7 +78,7 @@ def test_the_last_block_has_the_store_sealed(catalogue: Catalogue) -> None:
         claim = catalogue.claim_next("worker", 30.0, SOLVER)
         assert claim is not None
         assert claim.block.id == f"{job}-{index}"
-        states.append(catalogue.finish(claim.block.id, 1, BlockState.done))
+        states.append(catalogue.finish(claim.block.id, 1, BlockEnd(BlockState.done)))
     assert states == [JobState.running, JobState.running, JobState.succeeded]
     assert catalogue.get(job).progress_fraction == 1.0
     assert catalogue.use_of("ada").live == 0
@@ -88,7 +88,7 @@ def test_a_block_of_a_job_that_nobody_cancelled_is_not(catalogue: Catalogue) -> 
     job = study(catalogue, 1)
     assert catalogue.claim_block(f"{job}-0", "worker", 30.0)
     with pytest.raises(ValueError, match="was not asked to be cancelled"):
-        catalogue.finish(f"{job}-0", 1, BlockState.cancelled)
+        catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.cancelled))
     assert catalogue.blocks(job)[0].state is BlockState.running
     catalogue.request_cancel(job)
-    assert catalogue.finish(f"{job}-0", 1, BlockState.cancelled) is JobState.cancelled
+    assert catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.cancelled)) is JobState.cancelled

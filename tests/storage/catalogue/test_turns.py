@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from stepped_clock import Clock
 
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, Claim, NewJob, Solver
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, Claim, NewJob, Solver
 from jointplay.storage.catalogue.turns import HEAD_START, MOST_BEHIND
 
 SOLVER = Solver("1", "skylake")
@@ -80,7 +80,7 @@ def served(catalogue: Catalogue, clock: Clock, seconds: float) -> str:
     held = claim(catalogue)
     assert held is not None
     clock.now += seconds
-    catalogue.finish(held.block.id, 1, BlockState.done)
+    catalogue.finish(held.block.id, 1, BlockEnd(BlockState.done))
     catalogue.settle()
     return held.job.owner
 
@@ -112,7 +112,7 @@ def test_one_owners_jobs_that_come_alone_are_before_his_studies(
         assert held is not None
         assert held.job.id == alone
         clock.now += 10.0
-        catalogue.finish(held.block.id, 1, BlockState.done)
+        catalogue.finish(held.block.id, 1, BlockEnd(BlockState.done))
         catalogue.settle()
 
 
@@ -190,7 +190,7 @@ def test_no_owner_with_work_waiting_gets_less_time_by_more_than_a_block_of_each_
                 waiting.add(OWNERS[2])
             if len(running) == workers:
                 clock.now, block = heappop(running)
-                catalogue.finish(block, 1, BlockState.done)
+                catalogue.finish(block, 1, BlockEnd(BlockState.done))
                 catalogue.settle()
             held = claim(catalogue)
             assert held is not None
@@ -214,7 +214,7 @@ def test_whoever_has_long_blocks_has_fewer_turns(catalogue: Catalogue, clock: Cl
         assert held is not None
         owners.append(held.job.owner)
         clock.now += seconds[held.job.owner]
-        catalogue.finish(held.block.id, 1, BlockState.done)
+        catalogue.finish(held.block.id, 1, BlockEnd(BlockState.done))
         catalogue.settle()
     assert owners.count("ada") == 3
 
@@ -231,7 +231,7 @@ def test_what_was_given_back_counts_as_well(catalogue: Catalogue, clock: Clock) 
     assert again is not None
     assert again.job.id == held.job.id
     clock.now += 1.0
-    catalogue.finish(again.block.id, 2, BlockState.done)
+    catalogue.finish(again.block.id, 2, BlockEnd(BlockState.done))
     catalogue.settle()
     assert claimed(catalogue, 9) == ["bob"] * 9  # of a second, as it is thought
 
@@ -242,7 +242,7 @@ def test_owners_are_computed_at_most_so_many_blocks_at_a_time(catalogue: Catalog
     assert sorted(claimed(catalogue, 10, most_running=3)) == ["ada"] * 3 + ["bob"] * 2
     assert catalogue.due_wake_ups(10, 3) == ()
     running = next(job for job in catalogue.every_job() if job.started and job.owner == "ada")
-    catalogue.finish(f"{running.id}-0", 1, BlockState.done)
+    catalogue.finish(f"{running.id}-0", 1, BlockEnd(BlockState.done))
     assert [catalogue.get(one.block[:26]).owner for one in catalogue.due_wake_ups(10, 3)] == [
         "ada"
     ] * 2

@@ -16,7 +16,7 @@ from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, Claim, NewJob
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, Claim, NewJob
 from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation import Finding, findings
 from jointplay.storage.running_files import RunningFiles
@@ -99,7 +99,7 @@ class Installed:
         folder = self.settings.running_run(claim.job.id, 1).folder
         execute(admission, folder, self.settings.sealed_run(claim.job.id, 1), report=report)
         error = JobError("platform", "worker-lost", "its workers were lost")
-        self.catalogue.finish(claim.block.id, 1, BlockState.failed, error)
+        self.catalogue.finish(claim.block.id, 1, BlockEnd(BlockState.failed, error))
 
     def sweep(self, label: str, *, sealed: bool, angle: float = 0.4) -> str:
         job = self.submit(SWEEP | {"grid": {"angle": [angle, 0.5]}}, label)
@@ -108,11 +108,11 @@ class Installed:
         folder = self.settings.running_study(job).folder
         claim = self.claim(job)
         run_block(study, 0, folder)
-        self.catalogue.finish(claim.block.id, 1, BlockState.done)
+        self.catalogue.finish(claim.block.id, 1, BlockEnd(BlockState.done))
         if sealed:
             claim = self.claim(job, 1)
             seal(folder, layout_of_study(study), self.settings.sealed_study(job))
-            self.catalogue.finish(claim.block.id, 1, BlockState.done)
+            self.catalogue.finish(claim.block.id, 1, BlockEnd(BlockState.done))
             self.remove_running(job)
         return job
 
@@ -167,11 +167,11 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str
         made.catalogue.migrate()
         made.clock.ahead = -2 * made.settings.lease
         claim = made.simulate("succeeded")
-        made.catalogue.finish(claim.block.id, 1, BlockState.done)
+        made.catalogue.finish(claim.block.id, 1, BlockEnd(BlockState.done))
         made.remove_running(claim.job.id)
         claim = made.simulate("cancelled", answer="cancel")
         made.catalogue.request_cancel(claim.job.id)
-        made.catalogue.finish(claim.block.id, 1, BlockState.cancelled)
+        made.catalogue.finish(claim.block.id, 1, BlockEnd(BlockState.cancelled))
         made.remove_running(claim.job.id)
         made.sweep("swept", sealed=True)
         made.catalogue.request_cancel(made.sweep("cut short", sealed=False))
