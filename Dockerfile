@@ -19,10 +19,8 @@ COPY scenes scenes
 COPY storage storage
 COPY worker worker
 COPY service service
-COPY chaos chaos
 COPY records records
 COPY figures figures
-COPY paper paper
 COPY page page
 RUN pip install --no-cache-dir '.[cluster]'
 

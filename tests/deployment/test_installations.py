@@ -13,11 +13,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import packages_distributions
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 import typer
 
-from jointplay.command_line.application import application
+from jointplay.command_line.application import EXTRAS, application
 from tests.command_line.test_every_command import commands_of
 from tests.deployment.test_containers import ROOT, instructions
 
@@ -58,12 +59,13 @@ class Installation:
         return ended.stdout
 
 
-def wheel(folder: Path) -> Path:
-    """Build a wheel from the files that the image is made of."""
+def wheel(folder: Path, *extras: str) -> Path:
+    """Build a wheel from the files that the image is made of, and packages of extras."""
     sources = folder / "sources"
     sources.mkdir()
     copied = [word for line in instructions("COPY") for word in line.split()[:-1]]
-    subprocess.run(["cp", "-r", *(str(ROOT / word) for word in copied), sources], check=True)
+    words = (str(ROOT / word) for word in (*copied, *extras))
+    subprocess.run(["cp", "-r", *words, sources], check=True)
     command = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-index"]
     command += ["--no-build-isolation", "--wheel-dir", str(folder), str(sources)]
     subprocess.run(command, check=True)
@@ -137,6 +139,16 @@ def test_the_program_and_its_data_come_from_the_installation(
     found = installation.call(installation.python, "-P", "-c", program, folder=folder)
     place = str(BUILD / "installed") if "build" in str(installation.python) else str(ROOT)
     assert place in found.stdout.split("]")[0], found.stderr
+
+
+@pytest.mark.parametrize("installation", ["wheel"], indirect=True)
+@pytest.mark.parametrize(("command", "extra"), EXTRAS.items())
+def test_without_an_extra_its_command_says_so(
+    installation: Installation, folder: Path, command: str, extra: str
+) -> None:
+    ended = installation.call(installation.program, command, "--seed", 7, folder=folder)
+    said = f"`jointplay {command}` needs jointplay.{extra}: pip install 'jointplay[{extra}]'"
+    assert (ended.returncode, ended.stderr) == (2, f"jointplay: {said}\n")
 
 
 FIT = "--fit stiffness=1e8:1e11:log --target bearing.normal_force@0:0.018=834"
@@ -236,10 +248,8 @@ def test_a_folder_called_like_a_room_does_no_harm_to_python_m(
     assert ended.returncode == 0, ended.stderr
 
 
-def test_a_wheel_holds_one_package_with_everything_that_is_read(built: Path) -> None:
-    from zipfile import ZipFile
-
-    names = set(ZipFile(built).namelist())
+def test_a_wheel_holds_one_package_with_everything_that_is_read(tmp_path: Path) -> None:
+    names = set(ZipFile(wheel(tmp_path, *EXTRAS.values())).namelist())
     held = {name for name in names if ".dist-info/" not in name}
     assert {name.partition("/")[0] for name in held} == {"jointplay"}
     tracked = subprocess.run(

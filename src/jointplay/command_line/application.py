@@ -39,6 +39,10 @@ COMMANDS: Final = (
     "chaos",
 )
 """In the order of the help; each is the function of this name in the file of this name."""
+EXTRAS: Final = {"reproduce": "paper", "chaos": "chaos"}
+"""Commands that a package of its own brings, in its file `command`; an extra has its name. Nothing
+else knows it, and all works without it."""
+ANYTHING: Final = {"allow_extra_args": True, "ignore_unknown_options": True}
 
 application = typer.Typer(
     name="jointplay",
@@ -74,8 +78,24 @@ def _before_any_command(
     """Simulate planar mechanisms whose joints have play."""
 
 
+def _add(name: str) -> None:
+    """Add a command, or, where what an extra brings is not there, one that says so."""
+    extra = EXTRAS.get(name)
+    place = f"jointplay.command_line.{name}" if extra is None else f"jointplay.{extra}.command"
+    try:
+        application.command(name)(getattr(import_module(place), name))
+    except ModuleNotFoundError as error:
+        if extra is None:
+            raise
+        line = f"`jointplay {name}` needs {error.name}: pip install 'jointplay[{extra}]'"
+
+        @application.command(name, help=f"{line}.", context_settings=ANYTHING)
+        def say() -> None:
+            raise Stopped(line)
+
+
 for name in COMMANDS:
-    application.command(name)(getattr(import_module(f"jointplay.command_line.{name}"), name))
+    _add(name)
 application.add_typer(scene.application, name="scene")
 application.add_typer(key.application, name="key")
 

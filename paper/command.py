@@ -2,6 +2,7 @@
 
 import json
 import shlex
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -11,6 +12,8 @@ from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.options import AS_JSON, PROCESSES
 from jointplay.command_line.output import json_text, make_folder, tell
 
+if find_spec("jinja2") is None:
+    raise ModuleNotFoundError("of the extra", name="jinja2")
 _SIZE: Final = "reproduction.json"
 """File that says what was begun in a folder."""
 
