@@ -11,8 +11,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block, BlockState, Job
 from jointplay.storage.errors import CorruptStore
-from jointplay.storage.packed.in_file import InFile
-from jointplay.storage.packed.in_parts import InParts
+from jointplay.storage.packed.ranges import InFile, InParts
 from jointplay.storage.places import StoredObject
 from jointplay.storage.settings import Settings
 from jointplay.worker.handed_in import names, results

@@ -7,6 +7,7 @@ from typing import NamedTuple, Protocol
 from zlib import crc32
 
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
+from jointplay.storage.packed.ranges import Ranges
 from jointplay.storage.packed.writing import (
     CENTRAL,
     COMMENT,
@@ -53,18 +54,6 @@ class Files(Protocol):
         FileNotFoundError
             There is none of this key.
         """
-        ...
-
-
-class Ranges(Protocol):
-    """Bytes that are read by ranges, such as an object of a place."""
-
-    def size(self) -> int:
-        """Return how many there are; FileNotFoundError if there is nothing."""
-        ...
-
-    def read(self, start: int, stop: int) -> bytes:
-        """Return bytes [start, stop)."""
         ...
 
 

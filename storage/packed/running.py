@@ -15,7 +15,7 @@ from typing import Any, Final, TypeVar
 
 from jointplay.storage import durable
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
-from jointplay.storage.packed.in_memory import InMemory
+from jointplay.storage.packed.ranges import InMemory
 from jointplay.storage.packed.reading import Entry, Packed
 from jointplay.storage.packed.writing import pack
 from jointplay.storage.places import StoredObject

@@ -13,7 +13,8 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from jointplay.storage.errors import CorruptStore, NotAStore
-from jointplay.storage.packed.reading import Packed, Ranges
+from jointplay.storage.packed.ranges import Ranges
+from jointplay.storage.packed.reading import Packed
 from jointplay.storage.results.chunk_files import ChunkFiles
 from jointplay.storage.results.layout import MANIFEST
 from jointplay.storage.results.manifest import listed

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from jointplay.storage.errors import CorruptStore
-from jointplay.storage.packed.reading import Packed, Ranges
+from jointplay.storage.packed.ranges import Ranges
+from jointplay.storage.packed.reading import Packed
 from jointplay.storage.packed.running import Running
 from jointplay.storage.results import metadata
 from jointplay.storage.results.certificate_group import CERTIFICATE

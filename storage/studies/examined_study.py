@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import Any, Final
 
 from jointplay.storage.errors import CorruptStore
-from jointplay.storage.packed.reading import Packed, Ranges
+from jointplay.storage.packed.ranges import Ranges
+from jointplay.storage.packed.reading import Packed
 from jointplay.storage.packed.running import DOCUMENTS
 from jointplay.storage.results import metadata
 from jointplay.storage.results.examination import (

@@ -21,7 +21,7 @@ from jointplay.storage.errors import (
     StoreExists,
 )
 from jointplay.storage.packed import Running, pack
-from jointplay.storage.packed.in_parts import InParts
+from jointplay.storage.packed.ranges import InParts
 from jointplay.storage.packed.running import DOCUMENTS
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata, shards

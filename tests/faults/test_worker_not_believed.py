@@ -9,7 +9,7 @@ from jointplay.command_line.application import run as command
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import CONTRADICTED, BlockState
 from jointplay.storage.packed import pack
-from jointplay.storage.packed.in_memory import InMemory
+from jointplay.storage.packed.ranges import InMemory
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.reconciliation import findings
 from jointplay.storage.results.layout import MANIFEST

@@ -11,7 +11,8 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Block, BlockState, Job
 from jointplay.storage.errors import CorruptStore, NotAStore, ResultsError
 from jointplay.storage.identity import require_results_of
-from jointplay.storage.packed.reading import Packed, Ranges
+from jointplay.storage.packed.ranges import Ranges
+from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results.examination import ODD, opened
 from jointplay.storage.results.examined_run import examined_run

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.packed import Packed, files_at, pack
-from jointplay.storage.packed.in_memory import InMemory
+from jointplay.storage.packed.ranges import InMemory
 
 keys = st.text(st.characters(codec="utf-8", exclude_characters="\\\0"), min_size=1, max_size=30)
 
