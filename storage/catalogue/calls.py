@@ -1,26 +1,21 @@
 """Calls of the functions that PostgreSQL carries out by itself; see `functions`."""
 
-import json
 from collections.abc import Collection
-from dataclasses import asdict
 from typing import Any, Final
 
-from sqlalchemy import Float, Table, text
+from sqlalchemy import Float, Table
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import (
     QUEUES,
     Block,
-    BlockEnd,
     BlockState,
     Claim,
     Job,
     JobState,
     Solver,
-    Verdict,
 )
 
 _OF_FLOATS: Final = {
@@ -40,13 +35,6 @@ _CLAIM = _claiming(
 _CLAIM_NEXT = _claiming(
     "claim_next(%(claimant)s, %(moment)s, %(lease)s, %(version)s, %(processor)s, %(queues)s,"
     " %(busy)s)"
-)
-_PROGRESS = text(
-    "SELECT record_progress(:wanted, :number, :until, :reached, :fraction, CAST(:done AS bigint))"
-)
-_FINISH = text(
-    "SELECT finish_block(:wanted, :number, :moment, :ending, CAST(:failure AS json), :reached,"
-    " :fraction, CAST(:done AS bigint))"
 )
 
 
@@ -85,48 +73,3 @@ def _read(table: Table, document: dict[str, Any]) -> dict[str, Any]:
         name: float(document[name]) if is_float and document[name] is not None else document[name]
         for name, is_float in _OF_FLOATS[table]
     }
-
-
-def record_progress(
-    unit: Unit,
-    block_id: str,
-    attempt: int,
-    lease: float,
-    *,
-    time: float,
-    fraction: float,
-    steps: int | None = None,
-) -> Verdict:
-    """See `holding.record_progress`."""
-    asked = {
-        "wanted": block_id,
-        "number": attempt,
-        "until": unit.now + lease,
-        "reached": time,
-        "fraction": fraction,
-        "done": steps,
-    }
-    state = unit.execute(_PROGRESS, asked).scalar_one()
-    if state is None:
-        raise Fenced(block_id, attempt)
-    return Verdict.go_on if state == JobState.running else Verdict.cancel
-
-
-def finish(unit: Unit, block_id: str, attempt: int, end: BlockEnd) -> JobState:
-    """See `ending.finish`."""
-    asked = {
-        "wanted": block_id,
-        "number": attempt,
-        "moment": unit.now,
-        "ending": end.outcome,
-        "failure": None if end.error is None else json.dumps(asdict(end.error)),
-        "reached": end.time,
-        "fraction": end.fraction,
-        "done": end.steps,
-    }
-    state = unit.execute(_FINISH, asked).scalar_one()
-    if state is None:
-        raise Fenced(block_id, attempt)
-    if state not in set(JobState):
-        raise ValueError(f"the job of block {block_id} {state}")
-    return JobState(state)

@@ -11,12 +11,18 @@ from typing import Any, Final
 from sqlalchemy import bindparam, func, insert, select, update
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import calls, tables, tally, usage
+from jointplay.storage.catalogue import tables, tally, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.counters import of_outcome
-from jointplay.storage.catalogue.holding import change_held, job_of, lock_held, sum_progress
-from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockEnd, BlockState, Job, JobState
-from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
+from jointplay.storage.catalogue.holding import (
+    HeldJob,
+    change_held,
+    job_of,
+    lock_held,
+    sum_progress,
+)
+from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockEnd, BlockState, JobState
+from jointplay.storage.catalogue.rows import record_event, step_job
 from jointplay.storage.catalogue.solvers import last_heard_of, machine_of, workers
 from jointplay.storage.catalogue.submission import drop_blocks
 
@@ -50,8 +56,6 @@ def finish(unit: Unit, block_id: str, attempt: int, end: BlockEnd) -> JobState:
     ValueError
         The block ends as cancelled, of a job that nobody cancelled; nothing was changed.
     """
-    if unit.shared:
-        return calls.finish(unit, block_id, attempt, end)
     reached = {
         "progress_time": end.time,
         "progress_fraction": end.fraction,
@@ -64,27 +68,26 @@ def finish(unit: Unit, block_id: str, attempt: int, end: BlockEnd) -> JobState:
         raise ValueError(f"job {job.id} was not asked to be cancelled")
     _end_attempt(unit, job, block_id, attempt, end.outcome.value)
     sum_progress(unit, job.id)
-    return settle(unit, job.id, end.error)
+    return settle(unit, job.id, end.error) or job.state
 
 
-def settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
+def settle(unit: Unit, job_id: str, error: JobError | None) -> JobState | None:
     """End the job if nothing of it is left to do, or at once if a block failed.
 
     When only the block that seals is left, it is queued, ahead of blocks that never started.
+    Returns the state in which the job ended; none if it did not, or had ended.
     """
     if error is not None:
         drop_blocks(unit, _block.c.job == job_id, untouched=False)
-        step_job(unit, job_id, JobState.failed, error=error)
-        return lock_job(unit, job_id).state
+        end = JobState.failed
+        return end if step_job(unit, job_id, end, error=error) else None
     states = set(unit.execute(_STATES, {"of_job": job_id}).scalars())
     if states == {BlockState.done, BlockState.waiting}:
         _queue_waiting(unit, job_id)
     elif not states & {BlockState.queued, BlockState.running}:
-        all_done = states == {BlockState.done}
-        end = JobState.succeeded if all_done else JobState.cancelled
-        if step_job(unit, job_id, end):
-            return end
-    return lock_job(unit, job_id).state
+        end = JobState.succeeded if states == {BlockState.done} else JobState.cancelled
+        return end if step_job(unit, job_id, end) else None
+    return None
 
 
 def _queue_waiting(unit: Unit, job_id: str) -> None:
@@ -122,7 +125,7 @@ def put_off(unit: Unit, block_id: str, attempt: int, activity: str) -> None:
     _requeue(unit, block_id, job, min(_FIRST_PAUSE * 2.0**in_vain, LONGEST_PAUSE))
 
 
-def _requeue(unit: Unit, block_id: str, job: Job, pause: float = 0.0) -> None:
+def _requeue(unit: Unit, block_id: str, job: HeldJob, pause: float = 0.0) -> None:
     """Queue a block that was given back, to be claimed after a pause [s]."""
     if job.state.terminal:
         drop_blocks(unit, _block.c.job == job.id, untouched=False)
@@ -182,7 +185,7 @@ def refuse(unit: Unit, block_id: str, attempt: int, max_attempts: int, reason: s
 
 def _again(
     unit: Unit,
-    job: Job,
+    job: HeldJob,
     block_id: str,
     lost: Counter[str],
     in_vain: int,
@@ -241,7 +244,7 @@ def _take_back(
     outcome: str,
     about: Mapping[str, Any] = MappingProxyType({}),
     **changes: Any,
-) -> Job:
+) -> HeldJob:
     """End an attempt without a result and return its job; Fenced if it does not hold the block.
 
     `about` : facts for the event of it.
@@ -271,7 +274,7 @@ def queue_again(unit: Unit, block_id: str, pause: float = 0.0) -> None:
     )
 
 
-def _end_attempt(unit: Unit, job: Job, block_id: str, attempt: int, outcome: str) -> str:
+def _end_attempt(unit: Unit, job: HeldJob, block_id: str, attempt: int, outcome: str) -> str:
     """End an attempt, and return the name of its worker."""
     of_attempt = {"of_block": block_id, "of_number": attempt}
     row = unit.execute(_END, {**of_attempt, "moment": unit.now, "ending": outcome}).one()

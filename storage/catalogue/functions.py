@@ -1,9 +1,8 @@
-"""Operations that PostgreSQL carries out by itself, each in one exchange with it; see `calls`.
+"""Claims, which PostgreSQL carries out by itself, each in one exchange with it; see `calls`.
 
-They do what the statements of `claims`, `holding` and `ending` do one by one, as which SQLite, that
-is asked without a network between, carries them out; the specifications of the catalogue are those
-of both. The job is locked first: every later statement of a function sees what others committed
-before that.
+Claimants wait for each other: a claim of ten exchanges would hold what others want as long. The
+functions do what the statements of `claims` do one by one on SQLite, to the same specifications.
+The job is locked first: every later statement sees what others committed before that.
 """
 
 from functools import reduce
@@ -104,111 +103,6 @@ BEGIN
       END IF;
     END LOOP;
   END LOOP;
-END $$
-""",
-    """
-CREATE OR REPLACE FUNCTION record_progress(wanted text, number integer, until float8,
-  reached float8, fraction float8, done bigint)
-RETURNS text LANGUAGE plpgsql AS $$
-#variable_conflict use_column
-DECLARE
-  of_job text;
-  answer text;
-BEGIN
-  SELECT id, state INTO of_job, answer FROM job
-    WHERE id = (SELECT block.job FROM block WHERE block.id = wanted) FOR NO KEY UPDATE;
-  UPDATE block
-    SET lease_until = until, progress_time = reached, progress_fraction = fraction,
-      losses = CASE WHEN progress_fraction < fraction THEN 0 ELSE losses END,
-      progress_steps = coalesce(done, progress_steps)
-    WHERE id = wanted AND attempt = number AND state = 'running';
-  IF NOT FOUND THEN
-    RETURN NULL;
-  END IF;
-  UPDATE job
-    SET progress_fraction = of_all.fraction, progress_time = of_all.reached, steps = of_all.steps,
-      activity = NULL
-    FROM (
-      SELECT sum(count * progress_fraction) / sum(count) AS fraction,
-        max(progress_time) AS reached, sum(progress_steps) AS steps
-      FROM block WHERE job = of_job) AS of_all
-    WHERE id = of_job;
-  RETURN answer;
-END $$
-""",
-    """
-CREATE OR REPLACE FUNCTION finish_block(wanted text, holder integer, moment float8, ending text,
-  failure json, reached float8, fraction float8, done bigint)
-RETURNS text LANGUAGE plpgsql AS $$
-#variable_conflict use_column
-DECLARE
-  of_job job;
-  by_worker text;
-  since float8;
-  states text[];
-  last text;
-BEGIN
-  SELECT * INTO of_job FROM job
-    WHERE id = (SELECT block.job FROM block WHERE block.id = wanted) FOR NO KEY UPDATE;
-  UPDATE block
-    SET state = ending, lease_until = NULL, progress_time = coalesce(reached, progress_time),
-      progress_fraction = coalesce(fraction, progress_fraction),
-      progress_steps = coalesce(done, progress_steps)
-    WHERE id = wanted AND attempt = holder AND state = 'running';
-  IF NOT FOUND THEN
-    RETURN NULL;
-  END IF;
-  IF ending = 'cancelled' AND of_job.state = 'running' THEN
-    RETURN 'was not asked to be cancelled';
-  END IF;
-  UPDATE attempt SET ended = moment, outcome = ending
-    WHERE block = wanted AND number = holder RETURNING worker, started INTO by_worker, since;
-  INSERT INTO tally (name, worker, value) VALUES ('attempts ' || ending, by_worker, 1)
-    ON CONFLICT (name, worker) DO UPDATE SET value = tally.value + 1;
-  IF of_job.owner <> '' THEN
-    INSERT INTO usage (owner, hour, worker, seconds) VALUES
-      (of_job.owner, floor(moment / 3600), by_worker, greatest(moment - since, 0))
-      ON CONFLICT (owner, hour, worker) DO UPDATE SET seconds = usage.seconds + excluded.seconds;
-  END IF;
-  IF ending = 'failed' THEN
-    DELETE FROM outbox WHERE block IN
-      (SELECT id FROM block WHERE job = of_job.id AND state IN ('queued', 'waiting'));
-    UPDATE block SET state = 'cancelled'
-      WHERE job = of_job.id AND state IN ('queued', 'waiting');
-  END IF;
-  SELECT array_agg(DISTINCT state) INTO states FROM block WHERE job = of_job.id;
-  IF ending = 'failed' THEN
-    last := 'failed';
-  ELSIF states = '{done,waiting}' THEN
-    WITH freed AS (
-      UPDATE block SET state = 'queued' WHERE job = of_job.id AND state = 'waiting' RETURNING id)
-    INSERT INTO outbox (block, queue, owner, created, due, tries)
-      SELECT id, 'recovered', of_job.owner, moment, moment, 0 FROM freed;
-  ELSIF NOT states && '{queued,running}' THEN
-    last := CASE WHEN states = '{done}' THEN 'succeeded' ELSE 'cancelled' END;
-  END IF;
-  IF of_job.state = 'cancelling' OR of_job.state = 'running' AND last <> 'cancelled' THEN
-    of_job.state := coalesce(last, of_job.state);
-  ELSE
-    last := NULL;
-  END IF;
-  UPDATE job
-    SET progress_fraction = of_all.fraction, progress_time = of_all.reached, steps = of_all.steps,
-      activity = NULL, state = of_job.state,
-      error = CASE WHEN last IS NULL THEN error ELSE failure END,
-      finished = CASE WHEN last IS NULL THEN finished ELSE moment END
-    FROM (
-      SELECT sum(count * progress_fraction) / sum(count) AS fraction,
-        max(progress_time) AS reached, sum(progress_steps) AS steps
-      FROM block WHERE job = of_job.id) AS of_all
-    WHERE id = of_job.id;
-  IF last IS NOT NULL THEN
-    INSERT INTO event (job, seq, time, type, data)
-      SELECT of_job.id, coalesce(max(seq), 0) + 1, moment, last,
-        CASE WHEN failure IS NULL THEN '{}' ELSE json_build_object('error', failure) END
-      FROM event WHERE job = of_job.id;
-  END IF;
-  RETURN of_job.state;
 END $$
 """,
 )

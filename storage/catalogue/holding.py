@@ -4,11 +4,11 @@ Every statement that changes a held block names the attempt that holds it. A wor
 thought dead and comes back finds its attempt fenced: nothing it does counts any more.
 """
 
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from sqlalchemy import ColumnElement, and_, bindparam, case, func, select, update
 
-from jointplay.storage.catalogue import calls, solvers, tables
+from jointplay.storage.catalogue import solvers, tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block, BlockState, Job, JobState, Verdict
@@ -34,6 +34,12 @@ _JOB_OF: Final = (
     .where(_block.c.id == bindparam("of_block"))
     .with_for_update(of=_job, key_share=True)
 )
+_HELD_JOB: Final = (
+    select(_job.c.id, _job.c.state, _job.c.owner)
+    .join(_block, _block.c.job == _job.c.id)
+    .where(_block.c.id == bindparam("of_block"))
+    .with_for_update(of=_job, key_share=True)
+)
 _STATE: Final = select(_job.c.state).join(_block, _block.c.job == _job.c.id).where(_IS_HELD)
 _WEIGHTED = func.sum(_block.c.count * _block.c.progress_fraction) / func.sum(_block.c.count)
 _SUM: Final = (
@@ -48,22 +54,30 @@ _SUM: Final = (
 )
 
 
-def change_held(unit: Unit, block_id: str, attempt: int, **values: Any) -> str:
-    """Change a block this attempt holds and return its job; Fenced if it does not hold it."""
-    change = update(_block).where(_IS_HELD).values(values).returning(_block.c.job)
-    asked = {"of_block": block_id, "of_attempt": attempt}
-    job_id = unit.execute(change, asked).scalar_one_or_none()
-    if job_id is None:
-        raise Fenced(block_id, attempt)
-    return str(job_id)
+class HeldJob(NamedTuple):
+    """A job that is locked until the unit ends, as far as its blocks need to know it."""
+
+    id: str
+    state: JobState
+    owner: str
 
 
-def lock_held(unit: Unit, block_id: str, attempt: int) -> Job:
-    """Lock and return the job of a block; Fenced if there is no such block."""
-    job = job_of(unit, block_id)
-    if job is None:
+def change_held(unit: Unit, block_id: str, attempt: int, **values: Any) -> None:
+    """Change a block that this attempt holds; Fenced if it does not."""
+    change = update(_block).where(_IS_HELD).values(values)
+    if not unit.execute(change, {"of_block": block_id, "of_attempt": attempt}).rowcount:
         raise Fenced(block_id, attempt)
-    return job
+
+
+def lock_held(unit: Unit, block_id: str, attempt: int) -> HeldJob:
+    """Lock and return the job of a block; Fenced if there is no such block.
+
+    What follows in the unit sees whatever others committed before.
+    """
+    row = unit.execute(_HELD_JOB, {"of_block": block_id}).one_or_none()
+    if row is None:
+        raise Fenced(block_id, attempt)
+    return HeldJob(*row)
 
 
 def job_of(unit: Unit, block_id: str) -> Job | None:
@@ -87,6 +101,10 @@ def verdict(unit: Unit, block_id: str, attempt: int) -> Verdict:
     state = unit.execute(_STATE, asked).scalar_one_or_none()
     if state is None:
         raise Fenced(block_id, attempt)
+    return _verdict(state)
+
+
+def _verdict(state: JobState) -> Verdict:
     return Verdict.go_on if state is JobState.running else Verdict.cancel
 
 
@@ -111,11 +129,8 @@ def record_progress(
 
     Coming further than any attempt before ends a row of losses.
     """
-    if unit.shared:
-        return calls.record_progress(
-            unit, block_id, attempt, lease, time=time, fraction=fraction, steps=steps
-        )
-    job_id = change_held(
+    job = lock_held(unit, block_id, attempt)
+    change_held(
         unit,
         block_id,
         attempt,
@@ -125,8 +140,8 @@ def record_progress(
         progress_fraction=fraction,
         **({} if steps is None else {"progress_steps": steps}),
     )
-    sum_progress(unit, job_id)
-    return verdict(unit, block_id, attempt)
+    sum_progress(unit, job.id)
+    return _verdict(job.state)
 
 
 def record_checkpoint(

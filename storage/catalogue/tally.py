@@ -5,21 +5,23 @@ known no more are added up.
 """
 
 from collections.abc import Mapping
+from typing import Final
 
-from sqlalchemy import delete, func, insert, select, update
+from sqlalchemy import delete, func, select, text
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 
 _tally = tables.tally
+_ADD: Final = text(
+    "INSERT INTO tally (name, worker, value) VALUES (:name, :worker, :amount)"
+    " ON CONFLICT (name, worker) DO UPDATE SET value = tally.value + excluded.value"
+)
 
 
 def add(unit: Unit, name: str, worker: str, amount: float = 1.0) -> None:
     """Count what one worker did."""
-    same = (_tally.c.name == name) & (_tally.c.worker == worker)
-    more = update(_tally).where(same).values(value=_tally.c.value + amount)
-    if not unit.execute(more).rowcount:
-        unit.execute(insert(_tally).values(name=name, worker=worker, value=amount))
+    unit.execute(_ADD, {"name": name, "worker": worker, "amount": amount})
 
 
 def note_spent(unit: Unit, worker: str, amounts: Mapping[str, float]) -> None:

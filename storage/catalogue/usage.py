@@ -9,7 +9,7 @@ units wait for each other. What runs is added when it is asked for.
 
 from typing import Final
 
-from sqlalchemy import and_, delete, func, insert, select, update
+from sqlalchemy import and_, delete, func, select, text
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
@@ -18,15 +18,16 @@ from jointplay.storage.catalogue.records import BlockState
 _HOUR: Final = 3600.0  # s
 _DAY: Final = 24  # hours
 _usage = tables.usage
+_ADD: Final = text(
+    "INSERT INTO usage (owner, hour, worker, seconds) VALUES (:owner, :hour, :worker, :seconds)"
+    " ON CONFLICT (owner, hour, worker) DO UPDATE SET seconds = usage.seconds + excluded.seconds"
+)
 
 
 def add(unit: Unit, owner: str, worker: str, seconds: float) -> None:
     """Count core seconds that an attempt of this worker took."""
-    row = {"owner": owner, "worker": worker, "hour": int(unit.now // _HOUR)}
-    same = and_(*(_usage.c[name] == value for name, value in row.items()))
-    more = update(_usage).where(same).values(seconds=_usage.c.seconds + seconds)
-    if not unit.execute(more).rowcount:
-        unit.execute(insert(_usage).values(**row, seconds=seconds))
+    hour = int(unit.now // _HOUR)
+    unit.execute(_ADD, {"owner": owner, "hour": hour, "worker": worker, "seconds": seconds})
 
 
 def core_seconds_of(unit: Unit, owner: str) -> float:

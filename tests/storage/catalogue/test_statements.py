@@ -33,21 +33,19 @@ def study(catalogue: Catalogue, blocks: int) -> str:
 
 
 @pytest.mark.parametrize("blocks", [1, 40])
-def test_claim_progress_and_end_are_a_statement_each_where_there_are_functions(
-    catalogue: Catalogue, blocks: int
-) -> None:
+def test_what_a_worker_asks_takes_few_statements(catalogue: Catalogue, blocks: int) -> None:
+    """However many blocks there are; PostgreSQL claims in one: claimants wait for each other."""
     block = f"{study(catalogue, blocks)}-0"
     with catalogue.connections.reading() as connection:
-        shared = connection.dialect.name == "postgresql"
+        most = 1 if connection.dialect.name == "postgresql" else 15
     counts = [
         asked(lambda: catalogue.claim_next("worker", 30.0, SOLVER)),
         asked(lambda: catalogue.record_progress(block, 1, 30.0, time=1.0, fraction=0.5)),
         asked(lambda: catalogue.finish(block, 1, BlockEnd(BlockState.done, time=2.0, steps=9))),
     ]
-    if shared:
-        assert counts == [1, 1, 1]
-    else:  # in the same process, however many blocks there are
-        assert all(1 < count <= 20 for count in counts), counts
+    assert counts[0] <= most
+    assert counts[1] == 3
+    assert counts[2] <= 9
 
 
 def test_a_failed_block_ends_the_others(catalogue: Catalogue) -> None:
