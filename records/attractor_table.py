@@ -7,7 +7,7 @@ import numpy as np
 
 from jointplay.records.attractors import MEAN, SPREAD, attractors_of, colour_of_attractor
 from jointplay.records.basin_boundary import boundary_dimension
-from jointplay.records.coarse_to_fine import coarse_to_fine, over_axes
+from jointplay.records.coarse_to_fine import order_of, over_axes
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudySource
 
@@ -18,7 +18,7 @@ def attractor_table(source: StudySource) -> dict[str, Any]:
     Each has its label, name and colour, its points and their share of those that have ended with
     the binomial standard error, and one point that ends on it with what is known of that.
     """
-    found, order = attractors_of(source), coarse_to_fine(source.shape)
+    found, order = attractors_of(source), order_of(source.attributes.get("job", {}), source.shape)
     boundary = boundary_dimension(over_axes(found.labels, order, source.shape))
     return {
         "complete": source.complete,

@@ -2,9 +2,11 @@
 
 Every 64th point of both axes comes first, then what every 32nd adds, and so on: after a 64th of the
 work a picture of an eighth of the resolution stands. Points of one level come tile by tile, so that
-those of a tile are near one another in the order.
+those of a tile are near one another in the order.  Where each point starts from its neighbour along
+a row, whole rows come coarse to fine.
 """
 
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -30,6 +32,31 @@ def levels(y: Integers, x: Integers) -> Integers:
     """Return the level of points: the largest k, at most 6, for which 2^k divides both indices."""
     either = y | x | (1 << COARSEST)
     return np.asarray(np.log2(either & -either), np.int64)  # of a power of two, exactly
+
+
+def order_of(job: Mapping[str, Any], shape: tuple[int, ...]) -> Integers:
+    """Return (points,) the flat index of each point of a map in the order of computing.
+
+    Parameters
+    ----------
+    job
+        The map's document: its start rule decides.
+    shape
+        (height, width): numbers of values along y and x.
+    """
+    chained = job.get("continuation", "none") != "none"
+    return rows_coarse_to_fine(shape) if chained else coarse_to_fine(shape)
+
+
+@lru_cache(4)
+def rows_coarse_to_fine(shape: tuple[int, ...]) -> Integers:
+    """Return the order of whole rows: every 64th, then what every 32nd adds, and so on."""
+    height, width = shape
+    rows = np.arange(height)
+    coarse_first = np.argsort(-levels(rows, np.zeros_like(rows)), kind="stable")
+    order = (coarse_first[:, None] * width + np.arange(width)).ravel()
+    order.flags.writeable = False
+    return order
 
 
 @lru_cache(4)  # of a million points it takes a tenth of a second, and 8 MB

@@ -1,14 +1,64 @@
 """The kind ``chart``: which motion there is over two parameters, point by point."""
 
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
+from pydantic import Field
+
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds.map import AlongStart
 from jointplay.solver.kinds.motion_map import MotionMap, MotionMapJob
+from jointplay.solver.kinds.section_study import indicators_of
+from jointplay.solver.quantities.units import quantity
+from jointplay.solver.runs.starts import Perturbation
+from jointplay.solver.runs.study.plan import Study
 
 
 class ChartJob(MotionMapJob):
     """A map over two parameters: what each point's motion is, and what is asked of it beside."""
 
     kind: Literal["chart"]
+    continuation: Annotated[
+        Literal["none", "forward", "backward"],
+        Field(
+            description=(
+                "none: every point starts by the scene's start rule; forward, backward: from the"
+                " last state of its neighbour along x, and the first of each row as the scene says"
+            )
+        ),
+    ] = "none"
+    starts: Annotated[
+        int,
+        quantity(
+            "1",
+            ge=1,
+            le=64,
+            description=(
+                "starts that each point is computed from: the scene's, and perturbed ones; how many"
+                " different attractors they end on is a quantity of the map"
+            ),
+        ),
+    ] = 1
+    spread: Annotated[
+        float,
+        quantity(
+            "1",
+            ge=0.0,
+            le=10.0,
+            description=(
+                "standard deviation of the starts' perturbation: positions relative to the finest"
+                " clearance, velocities to that per period/2pi"
+            ),
+        ),
+    ] = 0.5
+    seed: Annotated[
+        int,
+        quantity(
+            "1",
+            ge=0,
+            le=2**53 - 1,
+            description="seed of the perturbations; the same gives the same",
+        ),
+    ] = 0
 
 
 class Chart(MotionMap[ChartJob]):
@@ -16,3 +66,43 @@ class Chart(MotionMap[ChartJob]):
 
     document = ChartJob
     results: ClassVar = ("points", "chart", "figures", "zarr")
+
+    def admit(self, job: ChartJob) -> Study:
+        """Check and fill in; see `Kind.admit`."""
+        if job.continuation != "none" and isinstance(job.along, AlongStart):
+            sentence = (
+                "A point that starts from its neighbour has no start of its own; let a parameter"
+                " vary along x, or leave out 'continuation'."
+            )
+            raise InvalidInput.at("/along/start", sentence)
+        if job.starts > 1:
+            _check_starts(job)
+        return super().admit(job)
+
+    def continuation(self, job: ChartJob) -> str:
+        """Return in which direction a point starts from its neighbour along x."""
+        return job.continuation
+
+    def perturbation(self, job: ChartJob) -> Perturbation | None:
+        """Return how several starts of a point lie apart."""
+        return Perturbation(job.spread, job.seed) if job.starts > 1 else None
+
+    def starts(self, job: ChartJob) -> int:
+        """Return from how many starts each point is computed."""
+        return job.starts
+
+
+def _check_starts(job: ChartJob) -> None:
+    """Refuse several starts where they, or what they end on, cannot be told."""
+    if job.continuation != "none":
+        sentence = "A point starts from its neighbour or from several starts; choose one of them."
+        raise InvalidInput.at("/starts", sentence)
+    if job.formulation != "reduced":
+        sentence = (
+            "Starts lie apart in joint coordinates, which only the formulation 'reduced' has;"
+            " choose that."
+        )
+        raise InvalidInput.at("/formulation", sentence)
+    if "recurrence" not in indicators_of(job):
+        sentence = "Attractors are told apart by 'recurrence'; ask for that, too."
+        raise InvalidInput.at("/indicators", sentence)

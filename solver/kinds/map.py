@@ -82,7 +82,8 @@ class MapJob(MechanismJob):
 def points_of_map(job: MapJob, most: int = MOST_POINTS) -> Points:
     """Return the points of a map, coarse to fine; see `Kind.admit` for how they are refused."""
     check_count(count(job.by.values) * count(job.along.values), "/by/values", most)
-    return plane(_axis(job.by, "/by"), _axis(job.along, "/along"), "/by")
+    document = job.model_dump(include={"continuation", "refine"})
+    return plane(_axis(job.by, "/by"), _axis(job.along, "/along"), "/by", document)
 
 
 def _axis(one: Along | AlongStart, place: str) -> Axis:

@@ -37,6 +37,7 @@ from jointplay.solver.kinds.statistics import (
     statistic_outputs,
 )
 from jointplay.solver.kinds.studies import Kept, PlacedPoints, make_study, place_points
+from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.cycles import outputs_of
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.statistics import Output
@@ -75,6 +76,18 @@ class MotionMap(Kind[J]):
     compares_cycles: ClassVar = False
     """Whether points keep what tells their attractors apart."""
 
+    def continuation(self, job: J) -> str:
+        """Return in which direction a point starts from its neighbour along x."""
+        return "none"
+
+    def perturbation(self, job: J) -> Perturbation | None:
+        """Return how several starts of a point lie apart."""
+        return None
+
+    def starts(self, job: J) -> int:
+        """Return from how many starts each point is computed."""
+        return 1
+
     def admit(self, job: J) -> Study:
         """Check and fill in; see `Kind.admit`."""
         indicators = indicators_of(job)
@@ -102,7 +115,7 @@ class MotionMap(Kind[J]):
             check_samples(study, job.samples_per_period)
         settle, recording = most_periods(job)
         place = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
-        check_size(study, settle + recording, place, MOST_PERIODS_OF_A_CHART)
+        check_size(study, self.starts(job) * (settle + recording), place, MOST_PERIODS_OF_A_CHART)
         return study
 
     def plan(self, job: J, filled: dict[str, Any]) -> Study:
@@ -123,8 +136,16 @@ class MotionMap(Kind[J]):
             indicators=tuple(filled["indicators"]),
             brief=True,
             compares_cycles=self.compares_cycles,
+            starts=self.starts(job),
         )
-        return make_study(filled, placed, section_spans(job, units), kept)
+        return make_study(
+            filled,
+            placed,
+            section_spans(job, units),
+            kept,
+            (self.continuation(job), placed.points.shape[0]),  # a chain is a row
+            self.perturbation(job),
+        )
 
 
 def _check_length(job: MotionMapJob) -> None:

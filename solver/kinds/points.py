@@ -1,12 +1,13 @@
 """The points of a study as they are written: which parameters, which values, where they stand."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from jointplay.records.arrays import Floats, Integers
-from jointplay.records.coarse_to_fine import coarse_to_fine
+from jointplay.records.coarse_to_fine import order_of
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene import start_places
@@ -102,16 +103,16 @@ def product(axes: Sequence[Axis], place: str) -> Points:
     return Points(tuple(axes), index.reshape(len(axes), -1).T, lambda _point: place)
 
 
-def plane(y: Axis, x: Axis, place: str) -> Points:
+def plane(y: Axis, x: Axis, place: str, job: Mapping[str, Any]) -> Points:
     """Return the points of a map over two axes, coarse to fine.
 
-    InvalidInput: both axes are of one parameter.
+    `job` : the map's document; see `order_of`. InvalidInput: both axes are of one parameter.
     """
     if y.parameter == x.parameter:
         sentence = f"Both axes are '{x.parameter}'; let another parameter vary along this one."
         raise InvalidInput.at(y.name_place, sentence)
     shape = len(y.values), len(x.values)
-    written = np.stack(np.divmod(coarse_to_fine(shape), shape[1]), axis=1)
+    written = np.stack(np.divmod(order_of(job, shape), shape[1]), axis=1)
     return Points((y, x), written, lambda _point: place, grid=shape)
 
 

@@ -101,6 +101,7 @@ class Kept:
     indicators: tuple[str, ...] = ()
     brief: bool = False
     compares_cycles: bool = False
+    starts: int = 1
 
 
 def make_study(
@@ -143,6 +144,7 @@ def make_study(
         indicators=kept.indicators,
         brief=kept.brief,
         compares_cycles=kept.compares_cycles,
+        starts=kept.starts,
         perturbation=perturbation,
         blocks=(
             independent_blocks(total)

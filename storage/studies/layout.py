@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Integers
 from jointplay.records.channel import TIME, Channel
-from jointplay.records.coarse_to_fine import coarse_to_fine, over_axes
+from jointplay.records.coarse_to_fine import order_of, over_axes
 from jointplay.storage.errors import InvalidLayout
 from jointplay.storage.results.layout import check_attributes, check_names
 
@@ -123,7 +123,7 @@ class StudyLayout:
     @cached_property
     def order(self) -> Integers:
         """(points,) place of each point of a map in arrays over (y, x), row by row."""
-        return coarse_to_fine(self.shape)
+        return order_of(self.attributes.get("job", {}), self.shape)
 
     @cached_property
     def coordinates(self) -> dict[str, tuple[Channel, NDArray[np.float64]]]:

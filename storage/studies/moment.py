@@ -12,7 +12,7 @@ import zarr
 from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
-from jointplay.records.coarse_to_fine import coarse_to_fine
+from jointplay.records.coarse_to_fine import order_of
 from jointplay.records.point import Failure
 from jointplay.records.run import Floats
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore, LostObject, NotAStore
@@ -134,7 +134,8 @@ class StudyMoment(StoreReader):
         fields = self.parameters, self.observables, self.record, self.channels, self.blocks
         if len(self.shape) == 2:
             y, x = (np.asarray(self._array(axis)[:], np.float64) for axis in ("y", "x"))
-            return _layout_of_map(*fields, self.shape, y.tobytes(), x.tobytes())
+            job = json.dumps(self.attributes.get("job", {}))
+            return _layout_of_map(*fields, self.shape, (y.tobytes(), x.tobytes()), job)
         parameters, observables, record, channels, blocks = fields
         return StudyLayout(parameters, self.values, observables, record, channels, blocks)
 
@@ -228,10 +229,14 @@ def _layout_of_map(
     channels: tuple[Channel, ...],
     blocks: tuple[tuple[int, int], ...],
     shape: tuple[int, ...],
-    y: bytes,
-    x: bytes,
+    axes: tuple[bytes, bytes],
+    job: str,
 ) -> StudyLayout:
     """Return the layout of a map; of a million points making it takes a quarter of a second."""
-    values = on_map(np.frombuffer(y), np.frombuffer(x), coarse_to_fine(shape))
+    of_map: dict[str, Any] = {"job": json.loads(job)}
+    y, x = (np.frombuffer(axis) for axis in axes)
+    values = on_map(y, x, order_of(of_map["job"], shape))
     values.flags.writeable = False
-    return StudyLayout(parameters, values, observables, record, channels, blocks, shape=shape)
+    return StudyLayout(
+        parameters, values, observables, record, channels, blocks, of_map, shape=shape
+    )

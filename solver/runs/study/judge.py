@@ -58,7 +58,7 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     found, verdict = indicators_of(
         study.indicators, states, scales, angles, *growths, period, run.settled
     )
-    if study.compares_cycles:
+    if study.compares_cycles or study.starts > 1:
         turned = unwound(states, angles)
         cycle = cycle_of(kernel.coordinates, turned, angles, verdict.period)
         run.ended = replace(run.ended, statistics={**run.ended.statistics, **cycle})

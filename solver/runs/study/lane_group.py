@@ -21,6 +21,7 @@ from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.problem import begin_point, problem_of, ready
 from jointplay.solver.runs.study.record import Recording
 from jointplay.solver.runs.study.settle import goes_on
+from jointplay.solver.runs.study.several_starts import from_next_start, of_all_starts
 
 AT_ONCE = 64
 """Points that are made ready together."""
@@ -66,7 +67,9 @@ class LaneGroup:
     def under_way(self) -> float:
         """Return how many points the parts of those under way amount to."""
         return sum(
-            self._computed(lane, run) for lane, run in enumerate(self.lanes) if run is not None
+            (len(run.tried) + self._computed(lane, run)) / self.study.starts
+            for lane, run in enumerate(self.lanes)
+            if run is not None
         )
 
     def _computed(self, lane: int, run: PointRun) -> float:
@@ -145,7 +148,12 @@ class LaneGroup:
                 run.finer.append(self.bundle.growth(lane))
             if status == Status.RUNNING or self._goes_on(lane, run, status, following):
                 continue
-            ended.append(judged(self.study, self.bundle.kernel, run))
+            end = judged(self.study, self.bundle.kernel, run)
+            again = from_next_start(self.study, self.bundle.kernel, run, end)
+            if again is None:
+                ended.append(of_all_starts(self.study, run, end))
+            else:
+                following.append(again)
             self.lanes[lane] = None
         return sections, ended, following
 

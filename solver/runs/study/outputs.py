@@ -17,6 +17,7 @@ STATISTICS = {
     "settled_periods": ("1", "periods left out before the first recorded section"),
     "settling": ("1", "how settling ended, a position in the attribute settlings"),
     "from_neighbour": ("1", "1 if it started from its neighbour's last state, else 0"),
+    "attractors": ("1", "different attractors that its starts end on"),
 }
 INDICATORS = {
     "lyapunov": ("1/s", "largest Lyapunov exponent"),

@@ -39,7 +39,8 @@ class Study:
     """Only steps, onsets and what the job chose are kept of a point's statistics, and no grounds of
     its verdict."""
     perturbation: Perturbation | None
-    """Perturbation of starts of points that differ in nothing else; none: the start rule."""
+    """Perturbation of starts of points that differ in nothing else, or of several starts of each
+    point; none: the start rule."""
     blocks: tuple[tuple[int, int], ...]
     """(first, count) of contiguous points. Without continuation whole bundles, the last one
     shorter; with it up to eight whole chains of one direction, of any length."""
@@ -64,6 +65,8 @@ class Study:
     scenes: PointScenes
     compares_cycles: bool = field(default=False, kw_only=True)
     """Points keep mean and spread of their states over a cycle, by which attractors are told."""
+    starts: int = field(default=1, kw_only=True)
+    """From which each point is computed: as the scene says, and perturbed."""
 
     @property
     def points(self) -> int:

@@ -44,6 +44,8 @@ class PointRun:
     """Its end, once its record is full; the indicators are still missing."""
     lasting: str = ""
     """Contacts that lasted throughout the record, as a sentence."""
+    tried: list[PointEnd] = field(default_factory=list)
+    """Ends of the point's runs from earlier starts, where it has several."""
     tallies: list[Floats] = field(default_factory=list)
     """Tallies of the job's statistics, in its order; see `begin_tallies`."""
     sampled: int = 0

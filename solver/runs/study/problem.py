@@ -13,7 +13,7 @@ from jointplay.solver.kernels.loop.binding import own_start
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes, make_ready
 from jointplay.solver.kernels.loop.runs import SectionKind
-from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
+from jointplay.solver.runs.starts import perturbed_start, start_scales
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun, begin_tallies, window_of
 from jointplay.solver.scene.document import Scene
@@ -50,8 +50,8 @@ def problem_of(
 ) -> LaneProblem:
     """Return what a lane computes first of a point: all of it, or the time until it settles."""
     period = float(study.period[point])
-    if study.perturbation is not None:
-        start = _perturbed(study, kernel, point, study.perturbation)
+    if study.perturbation is not None and study.starts == 1:
+        start = LaneStart(perturbed(study, kernel, point, point))
     if study.record == 0:
         duration = float(study.duration[point])
         step, samples, first_sample = _sampled(study, point, duration)
@@ -133,9 +133,10 @@ def _event(study: Study, kernel: Kernel, point: int) -> Event | None:
     return Event(SectionKind.CROSSING, row, value, sense, turn, not_before)
 
 
-def _perturbed(study: Study, kernel: Kernel, point: int, perturbation: Perturbation) -> LaneStart:
-    """Return the start of a member of an ensemble."""
-    scene = study.point_scene(point)  # that of all members
+def perturbed(study: Study, kernel: Kernel, point: int, member: int) -> Floats:
+    """Return the start of a member of an ensemble, or one of several starts of a point."""
+    assert study.perturbation is not None  # noqa: S101  (narrows the type)
+    scene = study.point_scene(point)
     state = own_start(kernel, scene)
     scales = start_scales(scene, kernel.coordinates, float(study.period[point]))
-    return LaneStart(perturbed_start(state, scales, perturbation, point))
+    return perturbed_start(state, scales, study.perturbation, member)

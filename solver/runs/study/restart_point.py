@@ -105,22 +105,31 @@ def _facts(run: PointRun) -> dict[str, Any]:
     )
     facts = {name: getattr(run, name) for name in (*names, "finer_from")}
     facts |= {name: len(getattr(run, name)) for name in SERIES}
-    ended = run.ended and {**asdict(run.ended), "peaks": run.ended.peaks.tolist()}
-    return facts | {"starts": run.start is not None, "ended": ended}
+    ended = run.ended and _fields(run.ended)
+    tried = [_fields(one) for one in run.tried]
+    return facts | {"starts": run.start is not None, "ended": ended, "tried": tried}
 
 
 def _run(facts: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PointRun:
-    starts, ended = facts.pop("starts"), facts.pop("ended")
+    starts, ended, tried = (facts.pop(name) for name in ("starts", "ended", "tried"))
     counts = {name: facts.pop(name) for name in SERIES}
     run = PointRun(**facts)
     for name, count in counts.items():
         setattr(run, name, [arrays[f"{name}{run.point}-{i}"] for i in range(count)])
     kept = {name: f"{name}-{run.point}" for name in STATE}
     run.extremes = {name: arrays[place] for name, place in kept.items() if place in arrays}
-    if ended:
-        peaks = np.array(ended.pop("peaks")).reshape(-1, 4)
-        run.ended = PointEnd(**ended, peaks=peaks)
+    run.ended = _end(ended) if ended else None
+    run.tried = [_end(one) for one in tried]
     if starts:
         names = ("state", "contact", "impact_rate")
         run.start = LaneStart(*(arrays.get(f"start{run.point}-{name}") for name in names))  # type: ignore[arg-type]
     return run
+
+
+def _fields(end: PointEnd) -> dict[str, Any]:
+    return {**asdict(end), "peaks": end.peaks.tolist()}
+
+
+def _end(fields: dict[str, Any]) -> PointEnd:
+    peaks = np.array(fields.pop("peaks")).reshape(-1, 4)
+    return PointEnd(**fields, peaks=peaks)

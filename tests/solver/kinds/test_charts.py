@@ -33,6 +33,19 @@ def across(count, parameter="speed"):
         ({"settle": "auto", "channels": ["*.x"]}, "/settle", "not 'auto'"),
         ({"statistics": ["impact"]}, "/statistics/0", "impacts"),
         ({"observables": ["*"]}, "/observables", "no field 'observables'"),
+        ({"starts": 2, "continuation": "forward"}, "/starts", "neighbour or from several"),
+        ({"starts": 2, "formulation": "lagrange"}, "/formulation", "reduced"),
+        ({"starts": 2, "indicators": ["lyapunov"]}, "/indicators", "recurrence"),
+        ({"starts": 65}, "/starts", "at most 64"),
+        ({"continuation": "both"}, "/continuation", "backward"),
+        (
+            {
+                "continuation": "forward",
+                "along": {"start": "/start/joints/stop/rate/0", "values": [0.0, 0.1]},
+            },
+            "/along/start",
+            "no start of its own",
+        ),
     ],
 )
 def test_a_chart_that_cannot_be_is_refused_at_its_field(changes, pointer, words):
@@ -48,6 +61,7 @@ def test_a_chart_that_cannot_be_is_refused_at_its_field(changes, pointer, words)
     [
         ({"along": across(600_000)}, "/by/values", "4200000 points; the limit is 4000000"),
         ({"along": across(1000), "record": 900_000}, "/record", "the limit is 4e+09"),
+        ({"along": across(1000), "record": 20_000, "starts": 30}, "/record", "limit is 4e+09"),
     ],
 )
 def test_what_is_too_large_is_told_with_what_fits(changes, pointer, words):
@@ -70,13 +84,20 @@ def test_points_come_coarse_to_fine_and_cover_the_grid():
     assert {x for _, x in pairs} == set(np.linspace(10.0, 40.0, 9))
 
 
-def test_a_planned_chart_is_the_one_that_was_admitted():
-    admitted = admit(CHART | {"channels": ["stop.penetration"], "statistics": ["impacts", "mean"]})
+@pytest.mark.parametrize(
+    "rule", [{}, {"continuation": "backward"}, {"starts": 3, "spread": 0.1, "seed": 4}]
+)
+def test_a_planned_chart_is_the_one_that_was_admitted(rule):
+    asked = {"channels": ["stop.penetration"], "statistics": ["impacts", "mean"]}
+    admitted = admit(CHART | asked | rule)
     planned = parse(admitted.job)
     assert planned.digest == admitted.digest
     np.testing.assert_array_equal(planned.values, admitted.values)
     assert planned.blocks == admitted.blocks
     assert planned.shape == admitted.shape
+    assert planned.perturbation == admitted.perturbation
+    assert planned.starts == admitted.starts
+    assert len(planned.chain_order) == len(admitted.chain_order)
 
 
 def test_a_large_chart_has_few_blocks_and_no_python_object_a_point():
