@@ -12,7 +12,9 @@ from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
 from jointplay.records.attractors import attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
+from jointplay.records.inherited import inheriting
 from jointplay.records.motion import WAITING, Labels, colour_of, motions, name_of
+from jointplay.records.point import PointStatus
 from jointplay.records.pyramid import averaged, in_majority
 from jointplay.records.study import StudySource
 
@@ -55,8 +57,10 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     stride = -(-max(shape) // _MOST_CELLS)
     shown = _labelled(source, name)
     entries = _legend(shown)
+    inherited = _inherited(source)
     height = _HEIGHT + page.AXIS_HEIGHT + page.legend_rows(entries) * page.LEGEND_HEIGHT
-    figure, ((axes,),) = page.panels(1, 1, height)
+    figure, ((axes,),) = page.panels(1, 1, height + page.caption_height(inherited))
+    page.caption(figure, inherited)
     axes.set_facecolor(colours.UNKNOWN)
     edges = _edges(across, stride), _edges(up, stride)
     if name in LABELS:
@@ -78,6 +82,18 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     axes.set_ylabel(up.label)
     page.legend_of_marks(figure, entries)
     return figure
+
+
+def _inherited(source: StudySource) -> str:
+    """Return how many points of a chart were not computed, as a sentence; empty: all were."""
+    count = inheriting(source)
+    if not count:
+        return ""
+    ended = np.isin(source.status, (PointStatus.done, PointStatus.failed)).sum()
+    return (
+        f"{count / ended:.1%} of the points were not computed: the corners of their cell are alike,"
+        " and they have the results of one of them."
+    )
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,8 @@
 Every 64th point of both axes comes first, then what every 32nd adds, and so on: after a 64th of the
 work a picture of an eighth of the resolution stands. Points of one level come tile by tile, so that
 those of a tile are near one another in the order.  Where each point starts from its neighbour along
-a row, whole rows come coarse to fine.
+a row, whole rows come coarse to fine. Where a coarse grid is refined, that comes first, in the same
+order, and then tile by tile what is between.
 """
 
 from collections.abc import Mapping
@@ -40,10 +41,12 @@ def order_of(job: Mapping[str, Any], shape: tuple[int, ...]) -> Integers:
     Parameters
     ----------
     job
-        The map's document: its start rule decides.
+        The map's document: its start rule decides, and to which depth it is refined.
     shape
         (height, width): numbers of values along y and x.
     """
+    if depth := int(job.get("refine", 0)):
+        return refined(shape, depth)
     chained = job.get("continuation", "none") != "none"
     return rows_coarse_to_fine(shape) if chained else coarse_to_fine(shape)
 
@@ -57,6 +60,27 @@ def rows_coarse_to_fine(shape: tuple[int, ...]) -> Integers:
     order = (coarse_first[:, None] * width + np.arange(width)).ravel()
     order.flags.writeable = False
     return order
+
+
+def coarse_points(shape: tuple[int, ...], depth: int) -> int:
+    """Return how many points a grid of every 2^depth-th point has."""
+    return -(-shape[0] >> depth) * (-(-shape[1] >> depth))
+
+
+@lru_cache(4)
+def refined(shape: tuple[int, ...], depth: int) -> Integers:
+    """Return the order of a map whose every 2^depth-th point comes first, then tile by tile."""
+    order, coarse = coarse_to_fine(shape), coarse_points(shape, depth)
+    by_tile = np.argsort(tiles(order[coarse:], shape), kind="stable")
+    found = np.concatenate([order[:coarse], order[coarse:][by_tile]])
+    found.flags.writeable = False
+    return found
+
+
+def tiles(places: Integers, shape: tuple[int, ...]) -> Integers:
+    """Return the number of the tile of 64 x 64 points that each lies in, row by row."""
+    y, x = np.divmod(places, shape[1])
+    return np.asarray((y >> COARSEST) * (-(-shape[1] >> COARSEST)) + (x >> COARSEST), np.int64)
 
 
 @lru_cache(4)  # of a million points it takes a tenth of a second, and 8 MB

@@ -10,6 +10,7 @@ from jointplay.records.point import StudySlice
 from jointplay.solver.calibration.run import CalibrationRun
 from jointplay.solver.continuation.run import ContinuationRun
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.refined_run import RefinedRun
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
 
@@ -44,4 +45,5 @@ def computation_of(study: Study, block: int, checkpoint: bytes | None = None) ->
 
     LimitExceeded: the scene's equations are too long to compile.
     """
-    return COMPUTATIONS.get(study.kind, StudyRun)(study, block, checkpoint)
+    run = RefinedRun if study.refine else COMPUTATIONS.get(study.kind, StudyRun)
+    return run(study, block, checkpoint)

@@ -240,6 +240,7 @@ class Worker:
             0.7,
             np.full_like(peaks, np.nan) if failed else peaks,
             {"steps": 1000.0 + point}
+            | ({"inherited": float(point % 2)} if study.refine else {})
             | ({} if failed else dict.fromkeys(KINDS[study.kind].outputs(study), 0.5 * point)),
             indicators if study.indicators and not failed else {},
             f"point {point} was judged" if study.indicators and not failed else "",

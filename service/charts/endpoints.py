@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import TILE
+from jointplay.records.inherited import inheriting
 from jointplay.records.point import PointStatus
 from jointplay.service.charts import colouring, grids, schemas
 from jointplay.service.fields import BINARY
@@ -76,6 +77,7 @@ def show_chart(study: StudyOfThePath, results: ResultsOfThePath) -> Response:
             complete=study.complete,
             points=study.points,
             ended=count,
+            inherited=inheriting(study),
             x=of["x"],
             y=of["y"],
             levels=_levels(study.shape),

@@ -34,6 +34,10 @@ class Chart(BaseModel):
     complete: bool
     points: int
     ended: int = Field(description="Points that are done or have failed.")
+    inherited: int = Field(
+        description="Points among them that have the results of another point of their cell, whose"
+        " corners were alike: of a chart that is refined."
+    )
     x: Axis
     y: Axis
     levels: int = Field(

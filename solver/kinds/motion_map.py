@@ -88,6 +88,10 @@ class MotionMap(Kind[J]):
         """Return from how many starts each point is computed."""
         return 1
 
+    def refine(self, job: J) -> int:
+        """Return how often cells may be split; 0: every point is computed."""
+        return 0
+
     def admit(self, job: J) -> Study:
         """Check and fill in; see `Kind.admit`."""
         indicators = indicators_of(job)
@@ -137,6 +141,7 @@ class MotionMap(Kind[J]):
             brief=True,
             compares_cycles=self.compares_cycles,
             starts=self.starts(job),
+            refine=self.refine(job),
         )
         return make_study(
             filled,

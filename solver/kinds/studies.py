@@ -15,7 +15,15 @@ from jointplay.solver.kinds.limits import BYTES_PER_BRIEF_POINT, BYTES_PER_POINT
 from jointplay.solver.kinds.mechanism import Echo, written
 from jointplay.solver.kinds.points import Points
 from jointplay.solver.runs.starts import Perturbation
-from jointplay.solver.runs.study.blocks import chained_blocks, chains_of, independent_blocks
+from jointplay.solver.runs.study.blocks import (
+    Alone,
+    Blocks,
+    Chains,
+    chained_blocks,
+    chains_of,
+    independent_blocks,
+    refined_blocks,
+)
 from jointplay.solver.runs.study.fields import distinct, structure_columns
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
@@ -102,6 +110,7 @@ class Kept:
     brief: bool = False
     compares_cycles: bool = False
     starts: int = 1
+    refine: int = 0
 
 
 def make_study(
@@ -145,12 +154,9 @@ def make_study(
         brief=kept.brief,
         compares_cycles=kept.compares_cycles,
         starts=kept.starts,
+        refine=kept.refine,
         perturbation=perturbation,
-        blocks=(
-            independent_blocks(total)
-            if direction == "none"
-            else chained_blocks(chains, points.count)
-        ),
+        blocks=_blocks(chains, points, kept.refine),
         shape=points.shape if total == points.count else (total,),
         chain_of=chain_of,
         chain_order=chains,
@@ -162,3 +168,12 @@ def make_study(
         stored_bytes=int(total * (BYTES_PER_VALUE * numbers + own)),
         scenes=placed.scenes.at_rows(row),
     )
+
+
+def _blocks(chains: Chains, points: Points, refine: int) -> Blocks:
+    """Return how points are cut up that are computed in chains, or on a map that is refined."""
+    if refine:
+        return refined_blocks(points.shape, refine)
+    if isinstance(chains, Alone):
+        return independent_blocks(points.count)
+    return chained_blocks(chains, points.count)

@@ -195,3 +195,39 @@ def test_basins_tell_their_attractors(jointplay, tmp_path):
     shown = json.loads(jointplay("show", str(tmp_path / "OUT"), "--json").out)
     assert sum(one["share"] for one in shown["attractors"]["attractors"]) == 1.0
     assert jointplay("plot", str(tmp_path / "OUT"), "chart", "-o", str(tmp_path)).code == 0
+
+
+def test_a_refined_chart_marks_what_it_inherits(jointplay, tmp_path):
+    output = tmp_path / "OUT"
+    ended = jointplay(
+        *("run", "impact-oscillator", "--chart", "speed=24:40:33", "-o", str(output)),
+        *("--by", "amplitude=2e-3:9e-3:9", "--refine", "2", "--settle", "10", "--record", "6"),
+        *("--indicators", "recurrence", "--statistics", "impacts", "--accuracy", "draft"),
+    )
+    assert ended.code == 0, ended.err
+    with (output / "points.csv").open() as file:
+        inherited = [row["inherited [1]"] for row in csv.DictReader(file)]
+    assert len(inherited) == 33 * 9
+    count = inherited.count("1")
+    assert 27 < inherited.count("0") == len(inherited) - count < 250
+    plotted = jointplay("plot", str(output), "chart", "-o", str(tmp_path), "--format", "svg")
+    assert plotted.code == 0
+    (figure,) = tmp_path.glob("*.svg")
+    assert f"{count / len(inherited):.1%} of the points were not computed" in figure.read_text()
+
+
+def test_rows_of_a_chart_follow_their_neighbours(jointplay, tmp_path):
+    """Upwards impacts last to the fold, downwards they begin at grazing."""
+    struck = {}
+    for way in ("forward", "backward"):
+        ended = jointplay(
+            *("run", "impact-oscillator", "--chart", "speed=24:34:11", "-o", str(tmp_path / way)),
+            *("--by", "amplitude=0.0045,0.005", "--continuation", way, "--settle", "30"),
+            *("--record", "4", "--indicators", "recurrence", "--accuracy", "draft"),
+            *("--statistics", "impacts"),
+        )
+        assert ended.code == 0, ended.err
+        with (tmp_path / way / "points.csv").open() as file:
+            rows = [row for row in csv.DictReader(file) if float(row["stop.impacts [1]"]) > 0]
+        struck[way] = {(row["amplitude [m]"], row["speed [rad/s]"]) for row in rows}
+    assert struck["backward"] < struck["forward"]

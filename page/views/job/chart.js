@@ -25,10 +25,11 @@ class Chart {
     this.place = element("div");
     this.legend = element("ul", { class: "legend" });
     this.under = element("p", { class: "quiet small" });
+    this.inherited = element("p", { class: "quiet small" });
     this.attractors = element("div");
     this.chosen = element("div", { role: "status" });
     this.element = element("section", { class: "panel" },
-      this.filters, this.place, this.legend, this.under, this.chosen, this.attractors);
+      this.filters, this.place, this.legend, this.inherited, this.under, this.chosen, this.attractors);
   }
 
   /** Takes what the chart holds by now. */
@@ -39,13 +40,16 @@ class Chart {
       this.map = new ChartMap(answer, this.signal, (point) => this.pick(point), (point) => this.hover(point));
       fill(this.place, this.map.canvas);
     }
-    const { quantities, ended, points } = answer;
+    const { quantities, ended, points, inherited } = answer;
     if (!quantities.some(({ name }) => name === this.wanted)) this.wanted = quantities[0].name;
     this.offerQuantities();
     this.tell();
     this.under.textContent = ended < points
       ? `${short(ended, 7)} of ${short(points, 7)} points are computed; others show the nearest that is.`
       : `${short(points, 7)} points. Drag to move, scroll to scale, double click for all of it.`;
+    this.inherited.textContent = inherited > 0
+      ? `${short(inherited, 7)} points were not computed: the corners of their cell are alike, and they have the results of one of them.`
+      : "";
     if (!grown) return;
     this.showTiles();
     this.showAttractors();
@@ -111,11 +115,15 @@ class Chart {
 
   /** Returns the diagrams along both lines through a point, as jobs of its values. */
   cuts() {
-    const { along, by, scene, settle, record, section, tolerance, method } = this.job.job;
+    const { along, by, scene, settle, record, section, tolerance, method, continuation } = this.job.job;
     if (along.start || by.start) return {}; // a diagram begins as its scene says
     const shared = { kind: "bifurcation", settle, record, section, tolerance, method };
+    const chained = continuation && continuation !== "none" ? { continuation, chains: 1 } : {};
     return Object.fromEntries([along, by].map(({ parameter, values }) => [`Diagram over ${parameter}`,
-      ({ [parameter]: _, ...held }) => ({ ...shared, scene: sceneWith(scene, held), parameter, values })]));
+      ({ [parameter]: _, ...held }) => ({
+        ...shared, scene: sceneWith(scene, held), parameter, values,
+        ...(parameter === along.parameter ? chained : {}),
+      })]));
   }
 
   /** Returns the numbers of the start at a point, by their pointers into the scene. */

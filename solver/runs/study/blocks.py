@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from typing import overload
 
+import numpy as np
+
+from jointplay.records.coarse_to_fine import coarse_points, refined, tiles
 from jointplay.solver.kernels.layout import BUNDLE
 
 MOST_POINTS = 64
@@ -30,6 +33,16 @@ def independent_blocks(points: int) -> Blocks:
     count = min(bundles, max(BLOCKS, -(-bundles * BUNDLE // MOST_POINTS)), MOST_BLOCKS)
     ends = [BUNDLE * part.stop for part in segments(bundles, count)]
     return tuple((first, min(end, points) - first) for first, end in pairwise([0, *ends]))
+
+
+def refined_blocks(shape: tuple[int, ...], depth: int) -> Blocks:
+    """Return blocks of a map that is refined: of its coarse grid, then of whole tiles."""
+    order, coarse = refined(shape, depth), coarse_points(shape, depth)
+    found = independent_blocks(coarse)
+    begins = np.flatnonzero(np.diff(tiles(order[coarse:], shape), prepend=-1)).tolist()
+    parts = segments(len(begins), MOST_BLOCKS) if begins else []
+    ends = [coarse + begins[part.start] for part in parts] + [len(order)]
+    return found + tuple((first, end - first) for first, end in pairwise(ends))
 
 
 def segments(values: int, count: int) -> list[range]:

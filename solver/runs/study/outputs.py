@@ -18,6 +18,7 @@ STATISTICS = {
     "settling": ("1", "how settling ended, a position in the attribute settlings"),
     "from_neighbour": ("1", "1 if it started from its neighbour's last state, else 0"),
     "attractors": ("1", "different attractors that its starts end on"),
+    "inherited": ("1", "1 if it has the results of another point of its cell, else 0"),
 }
 INDICATORS = {
     "lyapunov": ("1/s", "largest Lyapunov exponent"),

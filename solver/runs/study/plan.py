@@ -67,6 +67,8 @@ class Study:
     """Points keep mean and spread of their states over a cycle, by which attractors are told."""
     starts: int = field(default=1, kw_only=True)
     """From which each point is computed: as the scene says, and perturbed."""
+    refine: int = field(default=0, kw_only=True)
+    """Times that cells of the coarse grid of a map may be split; 0: every point is computed."""
 
     @property
     def points(self) -> int:

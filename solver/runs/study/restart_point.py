@@ -105,8 +105,8 @@ def _facts(run: PointRun) -> dict[str, Any]:
     )
     facts = {name: getattr(run, name) for name in (*names, "finer_from")}
     facts |= {name: len(getattr(run, name)) for name in SERIES}
-    ended = run.ended and _fields(run.ended)
-    tried = [_fields(one) for one in run.tried]
+    ended = run.ended and facts_of_end(run.ended)
+    tried = [facts_of_end(one) for one in run.tried]
     return facts | {"starts": run.start is not None, "ended": ended, "tried": tried}
 
 
@@ -118,18 +118,20 @@ def _run(facts: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PointRun:
         setattr(run, name, [arrays[f"{name}{run.point}-{i}"] for i in range(count)])
     kept = {name: f"{name}-{run.point}" for name in STATE}
     run.extremes = {name: arrays[place] for name, place in kept.items() if place in arrays}
-    run.ended = _end(ended) if ended else None
-    run.tried = [_end(one) for one in tried]
+    run.ended = end_of_facts(ended) if ended else None
+    run.tried = [end_of_facts(one) for one in tried]
     if starts:
         names = ("state", "contact", "impact_rate")
         run.start = LaneStart(*(arrays.get(f"start{run.point}-{name}") for name in names))  # type: ignore[arg-type]
     return run
 
 
-def _fields(end: PointEnd) -> dict[str, Any]:
+def facts_of_end(end: PointEnd) -> dict[str, Any]:
+    """Return the end of a point as JSON has it."""
     return {**asdict(end), "peaks": end.peaks.tolist()}
 
 
-def _end(fields: dict[str, Any]) -> PointEnd:
+def end_of_facts(fields: dict[str, Any]) -> PointEnd:
+    """Return the end of a point that was written as `facts_of_end` has it."""
     peaks = np.array(fields.pop("peaks")).reshape(-1, 4)
     return PointEnd(**fields, peaks=peaks)

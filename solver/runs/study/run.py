@@ -6,9 +6,9 @@ the lanes of this one are done.
 """
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from jointplay.records.point import StudySlice
+from jointplay.records.point import PointEnd, StudySlice
 from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.study.lane_group import LaneGroup
 from jointplay.solver.runs.study.plan import Study
@@ -46,8 +46,12 @@ class StudyRun:
         if checkpoint is not None:
             self._restore(checkpoint)
             return
-        for chain in sorted({int(chain) for chain in study.chain_of[first : first + self.count]}):
-            self.waiting.append(PointRun(study.chain_order[chain][0], chain, 0))
+        self.waiting = self._begin(first)
+
+    def _begin(self, first: int) -> list[PointRun]:
+        """Return the points that may begin, given the block's first."""
+        chains = sorted({int(one) for one in self.study.chain_of[first : first + self.count]})
+        return [PointRun(self.study.chain_order[chain][0], chain, 0) for chain in chains]
 
     @property
     def steps(self) -> float:
@@ -65,11 +69,12 @@ class StudyRun:
             group.bundle.advance(budget.attempts)
             rows, ended, following = group.collect()
             self.waiting += following
-            self.ended += len(ended)
+            own = self._own(ended)
+            self.ended += len(own)
             self._ended_steps += sum(end.statistics["steps"] for end in ended)
             budget.adapt(group.bundle.attempts - before, time.perf_counter() - begun)
             self.seconds += time.process_time() - worked
-            yield StudySlice(self._fraction(group), started, tuple(rows), tuple(ended))
+            yield StudySlice(self._fraction(group), self._begun(started), tuple(rows), own)
 
     def _group(self) -> LaneGroup:
         """Return the lanes that go on; those of another structure once all are free."""
@@ -79,6 +84,14 @@ class StudyRun:
         if self.group is None or self.group.structure not in structures:
             self.group = LaneGroup(self.study, int(structures.min()))
         return self.group
+
+    def _own(self, ended: Sequence[PointEnd]) -> tuple[PointEnd, ...]:
+        """Return the ends that are results of the block."""
+        return tuple(ended)
+
+    def _begun(self, started: Sequence[int]) -> tuple[int, ...]:
+        """Return those of points that were started whose results the block has."""
+        return tuple(started)
 
     def _fraction(self, group: LaneGroup) -> float:
         """Return how much of the block is computed, 0..1; it never falls."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from jointplay.records.coarse_to_fine import coarse_to_fine, over_axes
+from jointplay.records.coarse_to_fine import coarse_to_fine, order_of, over_axes
 from jointplay.records.motion import colour_of
 from jointplay.service.charts import schemas
 from tests.service.answers import get
@@ -111,6 +111,31 @@ def test_a_growing_chart_shows_the_nearest_point_that_is_known(http, growing):
     assert steps[0][0] == known[0] == steps[4][63]
     assert steps[0][64] == known[64] == steps[3][100]
     assert steps[0][299] is None  # 256 and 299 wait, and so does what is coarser
+
+
+@pytest.mark.parametrize("rule", [{"refine": 2}, {"continuation": "backward"}])
+def test_values_lie_where_their_points_are_in_other_orders(http, worker, rule):
+    order = order_of(rule, (HEIGHT, WIDTH))
+    assert order.tolist() != ORDER.tolist()
+    shown = worker.finished_study(**CHART, **rule)
+    steps = over_axes(1000.0 + np.arange(1500.0), order, (HEIGHT, WIDTH))
+    found = get(http, f"/v1/jobs/{shown}/chart/values", quantity="steps")
+    assert found["values"] == steps.tolist()
+    begun = worker.submit(**CHART, **rule)
+    worker.compute(worker.start(begun), points=4)
+    growing = get(http, f"/v1/jobs/{begun}/chart/values", quantity="steps")["values"]
+    assert [growing[0][place] for place in order[:4].tolist()] == [1000.0, 1001.0, 1002.0, 1003.0]
+    at = int(np.flatnonzero(order == 2 * WIDTH + 3)[0])
+    point = get(http, f"/v1/jobs/{shown}/chart/point", column=3, row=2)
+    assert point["quantities"]["steps"]["value"] == 1000.0 + at
+
+
+def test_a_refined_chart_says_how_many_points_inherit(http, worker, chart):
+    refined = worker.finished_study(**CHART, refine=2)
+    found = get(http, f"/v1/jobs/{refined}/chart")
+    assert (found["ended"], found["inherited"]) == (1500, 750)
+    assert "inherited" in [one["name"] for one in found["quantities"]]
+    assert get(http, f"/v1/jobs/{chart}/chart")["inherited"] == 0
 
 
 @pytest.mark.parametrize(

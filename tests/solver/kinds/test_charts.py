@@ -36,6 +36,9 @@ def across(count, parameter="speed"):
         ({"starts": 2, "continuation": "forward"}, "/starts", "neighbour or from several"),
         ({"starts": 2, "formulation": "lagrange"}, "/formulation", "reduced"),
         ({"starts": 2, "indicators": ["lyapunov"]}, "/indicators", "recurrence"),
+        ({"refine": 1, "continuation": "forward"}, "/refine", "none can be left out"),
+        ({"refine": 1, "indicators": []}, "/indicators", "where the motion differs"),
+        ({"refine": 7}, "/refine", "at most 6"),
         ({"starts": 65}, "/starts", "at most 64"),
         ({"continuation": "both"}, "/continuation", "backward"),
         (
@@ -85,7 +88,13 @@ def test_points_come_coarse_to_fine_and_cover_the_grid():
 
 
 @pytest.mark.parametrize(
-    "rule", [{}, {"continuation": "backward"}, {"starts": 3, "spread": 0.1, "seed": 4}]
+    "rule",
+    [
+        {},
+        {"continuation": "backward"},
+        {"starts": 3, "spread": 0.1, "seed": 4},
+        {"refine": 2},
+    ],
 )
 def test_a_planned_chart_is_the_one_that_was_admitted(rule):
     asked = {"channels": ["stop.penetration"], "statistics": ["impacts", "mean"]}
@@ -96,12 +105,13 @@ def test_a_planned_chart_is_the_one_that_was_admitted(rule):
     assert planned.blocks == admitted.blocks
     assert planned.shape == admitted.shape
     assert planned.perturbation == admitted.perturbation
-    assert planned.starts == admitted.starts
+    assert (planned.starts, planned.refine) == (admitted.starts, admitted.refine)
     assert len(planned.chain_order) == len(admitted.chain_order)
 
 
-def test_a_large_chart_has_few_blocks_and_no_python_object_a_point():
-    study = admit(CHART | {"along": across(60_000)})
+@pytest.mark.parametrize("rule", [{}, {"refine": 3}])
+def test_a_large_chart_has_few_blocks_and_no_python_object_a_point(rule):
+    study = admit(CHART | {"along": across(60_000)} | rule)
     assert study.points == 420_000
     assert len(study.blocks) <= MOST_BLOCKS
     assert sum(count for _, count in study.blocks) == study.points

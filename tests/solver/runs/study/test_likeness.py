@@ -1,0 +1,56 @@
+"""Corners of cells: what makes them differ."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from jointplay.records.point import PointEnd
+from jointplay.solver.runs.study.likeness import Likeness
+
+PERIODIC = {"verdict": 1.0, "period": 1.0, "lyapunov": -1.0, "lyapunov_error": 1e-9}
+CHAOTIC = {"verdict": 3.0, "period": 0.0, "lyapunov": 2.0, "lyapunov_error": 0.1}
+
+
+def end(indicators, code="", **statistics):
+    return PointEnd(0, code, "", 1.0, np.empty((0, 4)), statistics, indicators)
+
+
+def differ(one, other, record=10):
+    study = SimpleNamespace(record=record)
+    (found,) = Likeness(study).differ([[one, one, other, one]])
+    assert Likeness(study).differ([[other, one, one, one]]) == [found]
+    return bool(found)
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "apart"),
+    [
+        (end(PERIODIC), end(PERIODIC), False),
+        (end(PERIODIC), end(PERIODIC | {"lyapunov": -2.0}), False),
+        (end(PERIODIC), end(PERIODIC | {"period": 2.0}), True),
+        (end(PERIODIC), end(CHAOTIC), True),
+        (end(CHAOTIC), end(CHAOTIC | {"lyapunov": 2.4}), False),
+        (end(CHAOTIC), end(CHAOTIC | {"lyapunov": 2.5}), True),
+        (end(CHAOTIC), end(CHAOTIC | {"lyapunov": float("nan")}), False),
+        (end(CHAOTIC | {"period": float("nan")}), end(CHAOTIC), False),
+        (end({}, "a"), end({}, "a"), False),
+        (end({}, "a"), end({}, "b"), True),
+        (end({}, "a"), end(PERIODIC), True),
+        (end(PERIODIC, attractors=1.0), end(PERIODIC, attractors=2.0), True),
+    ],
+)
+def test_labels_differ_or_exponents_of_what_does_not_recur(one, other, apart):
+    assert differ(one, other) == apart
+
+
+def test_impacts_count_by_period_whatever_the_ends_of_the_record_cut():
+    def strikes(count, period=1.0):
+        return end(PERIODIC | {"period": period}, **{"stop.impacts": count})
+
+    assert not differ(strikes(10.0), strikes(9.0))
+    assert not differ(strikes(10.0), strikes(11.0))
+    assert differ(strikes(10.0), strikes(0.0))
+    assert differ(strikes(10.0), strikes(20.0))
+    assert not differ(strikes(5.0, 4.0), strikes(6.0, 4.0))  # 2 or 2.4 in four periods
+    assert not differ(strikes(2.0, 5.0), strikes(3.0, 5.0))  # nothing to be told by two cycles
