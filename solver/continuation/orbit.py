@@ -27,7 +27,7 @@ GAIN = 0.5
 FINER = (1.0, 0.03, 0.001)
 """Scales of differences that are tried: next to grazing the map bends within a micrometre."""
 SHARP = 1e-3
-"""Error of the multipliers, in the largest, above which a finer scale is tried."""
+"""Error of the multipliers, in the largest, above which a finer scale may be tried."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +102,12 @@ class Orbit:
         """Bar of the multipliers: how far differences at two scales are apart."""
         return spread(self.multipliers, multipliers_of(self.coarser.jacobian))
 
+    @cached_property
+    def sure(self) -> bool:
+        """Whether the bar of the multipliers is small, or no matter: all stay inside the circle."""
+        largest = float(np.abs(self.multipliers).max())
+        return self.error <= SHARP * max(1.0, largest) or largest + self.error < 1.0
+
     def tangent(self, along: Floats, linear: Linear | None = None) -> Floats | None:
         """Return the branch's direction, of length 1, on the side of `along`; None: it has none."""
         matrix = self.curve.bordered(linear or self.linear, along)
@@ -147,11 +153,13 @@ class Curve:
         for scale in FINER:
             found = self._newton(guess, along, scale)
             if isinstance(found, Orbit):
-                if found.error <= SHARP * max(1.0, float(np.abs(found.multipliers).max())):
+                if found.sure:
                     return found
                 if not isinstance(best, Orbit) or found.error < best.error:
                     best = found
             best = best or found
+            if isinstance(found, NoOrbit) and not found.grazing:
+                return best
         assert best is not None  # noqa: S101  (there are scales)
         return best
 

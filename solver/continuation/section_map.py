@@ -28,6 +28,9 @@ ATTEMPTS = 20_000
 """Attempts at steps between two looks at the lanes."""
 DIFFERENCE = 1e-5
 """Differences of states and of the parameter, in the scale of each."""
+SLOWEST, SPARE = 30.0, 10 * ATTEMPTS
+"""Steps of a run at most, in those of the motion that a branch begins with, and besides: a run that
+Newton's method asks for may begin deep in a contact, and then take for ever."""
 COARSER = 4.0
 """The second scale of differences, in the first."""
 
@@ -94,6 +97,8 @@ class SectionMap:
     """Called after every look at the lanes."""
     recall: Callable[[Callable[[], Answers]], Answers] = lambda compute: compute()
     """Returns what `compute` does, or did before at the same place of the same continuation."""
+    steps: float = math.inf
+    """Of the motion that the branch begins with, a period."""
 
     @property
     def size(self) -> int:
@@ -151,14 +156,20 @@ class SectionMap:
             like = values.index(section.value) if section.value in values else None
             scenes.append(self.scene_at(section.value) if like is None else scenes[like])
             bundle.load(lane, self._problem(scenes[lane], section), like)
-        while bundle.advance(ATTEMPTS):
+        attempts, most = 0, SLOWEST * self.steps * self.periods + SPARE
+        while bundle.advance(ATTEMPTS) and attempts < most:
+            attempts += ATTEMPTS
             self.looked()
         self.looked()
         numbers, failures = np.empty((len(sections), self.size + 2)), list[str]()
         for lane, scene in enumerate(scenes):
             at = bundle.lane(lane)
-            done = at.status == Status.DONE
-            failures.append("" if done else failure_of(bundle, lane, self.tolerance, scene).detail)
+            if at.status == Status.RUNNING:
+                failures.append(f"a run beside it takes more than {most:.2g} steps")
+            elif at.status == Status.DONE:
+                failures.append("")
+            else:
+                failures.append(failure_of(bundle, lane, self.tolerance, scene).detail)
             numbers[lane, : self.kernel.states] = at["y"]
             numbers[lane, self.kernel.states : -2] = at["impact_rate"] * at["mode"]
             numbers[lane, -2:] = at.run["onsets"], at.steps

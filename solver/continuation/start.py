@@ -34,6 +34,8 @@ class Settled:
     """(states + pairs,) at the section there; see `Section`."""
     extents: Floats
     """(states,) how far each state moved in the last periods."""
+    steps: float
+    """A period."""
 
 
 def settle(map_: SectionMap, value: float, state: Floats | None, periods: int) -> Settled:
@@ -49,7 +51,8 @@ def settle(map_: SectionMap, value: float, state: Floats | None, periods: int) -
     (numbers,), (failure,) = map_.recall(lambda: _settled(map_, value, state, periods))
     if failure:
         raise NoStart(failure)
-    return Settled(numbers[: map_.size], numbers[map_.size : -1])
+    total = periods + map_.periods
+    return Settled(numbers[: map_.size], numbers[map_.size : -1], float(numbers[-1]) / total)
 
 
 def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int) -> Answers:
@@ -64,7 +67,7 @@ def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int)
         SAMPLES_PER_PERIOD * total + 1,
         0,
         0.0,
-        start=None if state is None else LaneStart(state),
+        start=None if state is None else _started(kernel.states, state),
         first_sample=SAMPLES_PER_PERIOD * periods,
     )
     bundle = Bundle(kernel, [problem], watch=False)
@@ -83,6 +86,14 @@ def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int)
     return numbers[None], [failure]
 
 
+def _started(states: int, state: Floats) -> LaneStart:
+    """Return the start at a section, of which the impact rates may be left out."""
+    if len(state) == states:
+        return LaneStart(state)
+    rates = state[states:]
+    return LaneStart(state[:states].copy(), rates > 0.0, rates.copy())
+
+
 def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
     """Return the curve of orbits in the scales of a motion.
 
@@ -99,7 +110,8 @@ def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
     scales = np.concatenate([np.minimum(one, extents), rates])
     weight = np.concatenate([np.full(kernel.states, 1.0 / kernel.states), np.zeros(pairs), [1.0]])
     whole = np.concatenate([extents, rates, [map_.width]])
-    return Curve(replace(map_, scales=scales), Scales(whole, weight))
+    map_ = replace(map_, scales=scales, steps=settled.steps)
+    return Curve(map_, Scales(whole, weight))
 
 
 def first_orbit(curve: Curve, section: Section) -> Orbit:

@@ -69,8 +69,8 @@ class ContinuationJob(Job):
             min_length=1,
             max_length=4096,
             description=(
-                "section to begin at, instead of the scene's start: coordinates, their rates, inner"
-                " states, in the order of the results"
+                "section to begin at, instead of the scene's start: columns 'state.' and 'rate.'"
+                " of a branch and, of pairs in contact, 'impact_rate.', which may be left out"
             ),
         ),
     ] = None
@@ -129,15 +129,9 @@ class Continuation(Kind[ContinuationJob]):
         filled = documents.filled(job, checked.document, checked.echo, **found)
         placed = place_points(job, _branches(job))
         study = _study(job, filled, placed, periods(placed.scenes))
-        states = sum(column.name.startswith(("state.", "rate.")) for column in study.observables)
-        if job.state is not None and len(job.state) != states:
-            names = ", ".join(c.name for c in study.observables if c.name.startswith("state."))
-            sentence = (
-                f"A section has {states} numbers, here are {len(job.state)}: {names}, rates behind"
-                " their coordinates."
-            )
-            raise InvalidInput.at("/state", sentence)
+        _check_state(job, study)
         longest = job.period * 2**job.doublings
+        states = sum(c.name.startswith(("state.", "rate.")) for c in study.observables)
         runs = 2 * job.values.count * MAPS * (2 * states + 3)
         check_size(study, job.settle + runs * longest, "/values/count")
         return study
@@ -168,6 +162,23 @@ def _check_range(job: ContinuationJob) -> None:
         problems.append(Problem("/formulation", f"{sentence} Choose that."))
     if problems:
         raise InvalidInput(problems)
+
+
+def _check_state(job: ContinuationJob, study: ContinuationStudy) -> None:
+    names = [c.name for c in study.observables]
+    states = [name for name in names if name.startswith(("state.", "rate."))]
+    rates = [name for name in names if name.startswith("impact_rate.")]
+    if job.state is None:
+        return
+    given = len(job.state)
+    if given not in (len(states), len(states) + len(rates)):
+        sentence = (
+            f"A section has {len(states)} numbers, here are {given}: {', '.join(states)}; and"
+            f" {', '.join(rates)} may follow."
+        )
+        raise InvalidInput.at("/state", sentence)
+    if any(one < 0.0 for one in job.state[len(states) :]):
+        raise InvalidInput.at("/state", "An impact rate is positive in contact, and 0 apart.")
 
 
 def _range(job: ContinuationJob) -> Points:

@@ -132,3 +132,30 @@ def test_newtons_method_does_not_ask_for_runs_far_from_the_range() -> None:
     rows = rows_of(steep, [0.01], (0.1, 2.1), step=0.5)
     assert told(rows[-1]) == ("EP", "end of the range")
     assert -2.0 < min(asked) < max(asked) < 4.2
+
+
+def test_differences_are_finer_only_where_their_error_leaves_stability_open() -> None:
+    def finely_bent(state: Floats, a: float) -> list[float]:
+        (x,) = state.tolist()
+        return [-a * np.sin(2e4 * x) / 2e4]
+
+    rows = rows_of(finely_bent, [0.0], (0.5, 1.4))
+    scales = {row.orbit.scale for row in rows if row.orbit.value < 0.8}
+    assert scales == {1.0}
+    assert {row.orbit.scale for row in rows if row.orbit.value > 0.9995} == {0.03}
+    (doubling,) = [row for row in rows if row.label == "PD"]
+    assert abs(doubling.orbit.value - 1.0) <= doubling.bound < 1e-3
+
+
+def test_where_newtons_method_finds_nothing_a_shorter_step_is_tried_not_finer_differences() -> None:
+    asked = []
+
+    def sharp(state: Floats, a: float) -> list[float]:
+        asked.append(a)
+        x = float(state[0])
+        return [x + 0.005 * (a - 1.0 - 1e4 * x * x)]
+
+    rows = rows_of(sharp, [0.5**0.5 / 100.0], (1.5, 0.7))
+    (fold,) = [row for row in rows if row.label == "LP"]
+    assert fold.orbit.value == pytest.approx(1.0, abs=1e-8)
+    assert len(asked) < 2250

@@ -1,6 +1,7 @@
 """Section maps and their derivatives, against closed forms and against themselves."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -53,3 +54,14 @@ def test_where_no_orbit_is_near_the_residual_is_told() -> None:
     away = Section(25.0, section.state + np.array([-0.3, 40.0, 0.0]))
     with pytest.raises(NoStart, match=r"no orbit of period 1 near .* residual .*Try another"):
         first_orbit(found, away)
+
+
+def test_runs_that_take_far_longer_than_the_motion_are_given_up() -> None:
+    found, section = curve(1e12, 25.0)
+    assert 100.0 < found.map.steps < 5000.0
+    slow = replace(found.map, steps=0.0, periods=1000)
+    (passage,) = slow.passages([section])
+    assert passage.failure == "a run beside it takes more than 2e+05 steps"
+    (passage,) = replace(found.map, periods=1000).passages([section])
+    assert not passage.failure
+    assert passage.steps > 220_000
