@@ -19,9 +19,10 @@ UNKNOWN: Final = "#E8E8E8"
 PERIODIC: Final = "#009E73"
 QUASI_PERIODIC: Final = "#56B4E9"
 CHAOTIC: Final = "#CC79A7"
+EQUILIBRIUM: Final = "#1F3A5F"
 UNDECIDED: Final = AUXILIARY
 NO_VERDICT: Final = "#B4B4B4"
-"""Verdicts on a motion: green, light blue, purple, grey, and lighter grey without one."""
+"""Verdicts: green, light blue, purple, dark blue, grey, and lighter grey without one."""
 
 FORWARD: Final = COMPUTED
 BACKWARD: Final = "#E69F00"

@@ -23,6 +23,7 @@ COLOURS = {
     "periodic": colours.PERIODIC,
     "quasi-periodic": colours.QUASI_PERIODIC,
     "chaotic": colours.CHAOTIC,
+    "equilibrium": colours.EQUILIBRIUM,
     "undecided": colours.UNDECIDED,
 }
 """By verdict, in the order of legends."""

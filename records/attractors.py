@@ -12,8 +12,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from jointplay.records.arrays import Flags, Floats
+from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.records.motion import (
+    EQUILIBRIUM,
     MIXED,
     NAMES,
     PERIODS,
@@ -94,23 +95,23 @@ def attractors_of(source: StudySource) -> Attractors:
 
 def _labelled(motion: Labels, places: Floats, scales: Floats, angles: Flags) -> Attractors:
     """Return labels, given the motions of points and where in the states' space they end."""
-    labels = np.minimum(motion, len(NAMES)).astype(np.uint8)
+    labels = np.minimum(motion, EQUILIBRIUM).astype(np.uint8)
     names = dict(enumerate(NAMES))
-    periodic = motion >= len(NAMES)
-    widths = np.maximum(scales, _ranges(places[periodic], angles)) * SAME
-    leaders: list[tuple[int, int]] = []
-    for period in np.unique(motion[periodic]).tolist():
-        left = np.flatnonzero(motion == period)
+    closed = motion >= EQUILIBRIUM
+    widths = np.maximum(scales, _ranges(places[closed], angles)) * SAME
+    groups: list[tuple[str, Integers]] = []
+    for code in np.unique(motion[closed]).tolist():
+        left = np.flatnonzero(motion == code)
         while len(left):
             near = _near(places[left], places[left[0]], widths, angles)
-            leaders.append((period - len(NAMES) + 1, int(left[0])))
-            labels[left[near]] = len(NAMES) + min(len(leaders) - 1, MOST)
+            groups.append((name_of(code), left[near]))
             left = left[~near]
-    alike = [period for period, _ in leaders]
-    for index, (period, _) in enumerate(leaders[: MOST + 1]):
-        nth = alike[:index].count(period)
-        letter = f" {_letter(nth)}" if alike.count(period) > 1 else ""
-        names[len(NAMES) + index] = "others" if index == MOST else f"period-{period}{letter}"
+    alike = [name for name, _ in groups]
+    for index, (name, members) in enumerate(groups):
+        code = len(NAMES) + min(index, MOST)
+        labels[members] = code
+        letter = f" {_letter(alike[:index].count(name))}" if alike.count(name) > 1 else ""
+        names[code] = "others" if index >= MOST else name + letter
     return Attractors(labels, tuple(_table(labels, names)))
 
 

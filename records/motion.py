@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.records.point import PointStatus
 
-NAMES = ("waiting", "failed", "undecided", "quasi-periodic", "chaotic")
+NAMES = ("waiting", "failed", "undecided", "quasi-periodic", "chaotic", "equilibrium")
 """Names of the first codes; those behind them are period-1, period-2 and so on."""
-WAITING, FAILED, UNDECIDED, QUASI_PERIODIC, CHAOTIC = range(len(NAMES))
+WAITING, FAILED, UNDECIDED, QUASI_PERIODIC, CHAOTIC, EQUILIBRIUM = range(len(NAMES))
 MIXED = 255
 """Code of a cell of several points where no label is that of more than half of them."""
 LONGEST = 200
@@ -25,6 +25,7 @@ COLOURS = {
     UNDECIDED: "#8f8f8f",
     QUASI_PERIODIC: "#56b4e9",
     CHAOTIC: "#b0468a",
+    EQUILIBRIUM: "#1f3a5f",
     MIXED: "#dedede",
 }
 """As #rrggbb."""
@@ -63,7 +64,7 @@ def motions(
     found[status == PointStatus.failed] = FAILED
     done = status == PointStatus.done
     found[done] = UNDECIDED
-    for name in ("quasi-periodic", "chaotic"):
+    for name in {"quasi-periodic", "chaotic", "equilibrium"}.intersection(names):
         found[done & (verdict == names.index(name))] = NAMES.index(name)
     periodic = done & (verdict == names.index("periodic")) & (period >= 1.0)
     found[periodic] = len(NAMES) + np.minimum(period[periodic], LONGEST + 1.0) - 1.0

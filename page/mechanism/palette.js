@@ -4,7 +4,7 @@ const NAMES = [
   "paper", "ink", "quiet", "faint", "edge", "ground", "play", "force", "trail", "accent",
   "tint-0", "tint-1", "tint-2", "tint-3", "tint-4", "tint-5",
   "curve-0", "curve-1", "curve-2", "curve-3",
-  "backward", "periodic", "quasi-periodic", "chaotic", "undecided",
+  "backward", "periodic", "quasi-periodic", "chaotic", "equilibrium", "undecided",
 ];
 const dark = matchMedia("(prefers-color-scheme: dark)");
 let known = null;

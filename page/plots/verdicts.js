@@ -1,7 +1,7 @@
 /** What the points of a diagram were judged to be: a band of verdicts, and exponents. */
 
 /** Verdicts, each of which has a colour of its own in the style sheet. */
-export const VERDICTS = ["periodic", "quasi-periodic", "chaotic", "undecided"];
+export const VERDICTS = ["periodic", "quasi-periodic", "chaotic", "equilibrium", "undecided"];
 
 /** Draws a band in the colours of the verdicts; of two directions forward is the upper half. */
 export function drawVerdicts(context, to, points, colours) {

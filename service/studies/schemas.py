@@ -49,7 +49,8 @@ class JudgedPoints(StudyPoints):
         "and others, as far as they were asked for."
     )
     verdicts: list[str | None] | None = Field(
-        description="periodic, quasi-periodic, chaotic or undecided; null: not asked for."
+        description="periodic, quasi-periodic, chaotic, equilibrium or undecided; null: not asked "
+        "for."
     )
     reasons: list[str | None] | None = Field(
         description="Grounds of each verdict, and why an indicator says nothing; null: not asked "

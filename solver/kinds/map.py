@@ -35,10 +35,10 @@ class AlongStart(Strict):
         str,
         Field(
             pattern=start_places.PATTERN,
-            max_length=80,
+            max_length=96,
             description=(
                 "a JSON pointer into the scene, such as '/start/joints/stop/eccentricity/0',"
-                " '/start/angles/rod' or '/drivers/motor/position'"
+                " '/start/points/mass.centre/0', '/start/angles/rod' or '/drivers/motor/position'"
             ),
         ),
     ]

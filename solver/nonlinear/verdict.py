@@ -1,4 +1,4 @@
-"""Periodic, quasi-periodic, chaotic, or undecided: what the indicators say together."""
+"""Periodic, quasi-periodic, chaotic, at rest, or undecided: what the indicators say together."""
 
 import math
 from dataclasses import dataclass
@@ -7,12 +7,13 @@ from jointplay.solver.nonlinear.estimate import Estimate
 from jointplay.solver.nonlinear.lyapunov import confirmed, contradicts
 from jointplay.solver.nonlinear.zero_one import FEWEST_TELLING
 
-UNDECIDED, PERIODIC, QUASI_PERIODIC, CHAOTIC = range(4)
+UNDECIDED, PERIODIC, QUASI_PERIODIC, CHAOTIC, EQUILIBRIUM = range(5)
 VERDICTS = {
     "undecided": UNDECIDED,
     "periodic": PERIODIC,
     "quasi-periodic": QUASI_PERIODIC,
     "chaotic": CHAOTIC,
+    "equilibrium": EQUILIBRIUM,
 }
 """Codes as they are stored (unsigned byte); a code never changes its meaning."""
 

@@ -12,6 +12,7 @@ from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Parameter, Scene, Target
 
 _NAME: Final = r"([A-Za-z][A-Za-z0-9_-]{0,31})"
+_POINT: Final = r"([A-Za-z][A-Za-z0-9_-]{0,31}\.[A-Za-z][A-Za-z0-9_-]{0,31})"
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,7 @@ class StartPlace:
     """A number of a start, or two of a vector in world axes."""
 
     path: str
-    """With the part's name as NAME; of a vector without the index."""
+    """With the part's name as NAME, or as POINT with one of its points; a vector without index."""
     part: str
     """Field of the scene that has the part."""
     name: str
@@ -31,11 +32,13 @@ class StartPlace:
     @property
     def pattern(self) -> str:
         """Regular expression of its pointers."""
-        return self.path.replace("NAME", _NAME) + ("/([01])" if self.is_vector else "")
+        path = self.path.replace("NAME", _NAME).replace("POINT", _POINT)
+        return path + ("/([01])" if self.is_vector else "")
 
 
 PLACES: Final = (
     StartPlace("/start/angles/NAME", "bodies", "angle", "rad"),
+    StartPlace("/start/points/POINT", "bodies", "place", "m", is_vector=True),
     StartPlace("/start/angular_velocities/NAME", "bodies", "angular_velocity", "rad/s"),
     StartPlace("/start/velocities/NAME", "bodies", "velocity", "m/s", is_vector=True),
     StartPlace("/start/joints/NAME/eccentricity", "joints", "eccentricity", "m", is_vector=True),
@@ -60,10 +63,13 @@ def obstacle(scene: Scene, pointer: str) -> str:
     """Return why a scene has no such number, as a sentence; empty: it has."""
     place, name, _ = _read(pointer)
     parts: Mapping[str, Any] = getattr(scene, place.part)
-    if name in parts:
-        return ""
-    kind = {"bodies": "body", "joints": "joint", "drivers": "driver"}[place.part]
-    return unknown(kind, name, parts)
+    owner, _, point = name.partition(".")
+    if owner not in parts:
+        kind = {"bodies": "body", "joints": "joint", "drivers": "driver"}[place.part]
+        return unknown(kind, owner, parts)
+    if point and point not in parts[owner].points:
+        return unknown("point", name, [f"{owner}.{one}" for one in parts[owner].points])
+    return ""
 
 
 def with_places(

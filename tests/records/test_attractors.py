@@ -45,7 +45,8 @@ def study(periods, means, spreads=None, verdicts=PERIODIC, status=PointStatus.do
 def test_cycles_of_one_period_are_told_apart_by_where_they_are():
     found = attractors_of(study([1, 1, 1, 2], [[0.0, 0.0], [0.5, 0.0], [1e-6, 0.0], [0.0, 0.0]]))
     assert [one.name for one in found.found] == ["period-1 A", "period-1 B", "period-2"]
-    assert found.labels.tolist() == [5, 6, 5, 7]
+    first = len(NAMES)
+    assert found.labels.tolist() == [first, first + 1, first, first + 2]
 
 
 def test_mirror_images_are_two_attractors():

@@ -63,9 +63,13 @@ def cycle_of(
         (states,) which are angles: their means are within half a turn of zero.
     period
         Sections of a cycle; 0: the record is all there is of one.
+
+    Without sections nothing is known: NaN.
     """
     count = 2 * len(coordinates)
-    cycle = max(period, 1) if period else len(sections)
+    if not len(sections):
+        sections = np.full((1, count), math.nan)
+    cycle = period or len(sections)
     whole = sections[len(sections) % cycle :, :count]
     mean, spread = whole.mean(axis=0), whole.std(axis=0)
     turns = np.round(mean / (2.0 * math.pi)) * angles[:count]

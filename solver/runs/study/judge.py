@@ -22,6 +22,7 @@ from jointplay.solver.runs.study.indicators import (
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.problem import scales_of
+from jointplay.solver.runs.study.rest import RESTS
 
 
 def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
@@ -58,6 +59,9 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     found, verdict = indicators_of(
         study.indicators, states, scales, angles, *growths, period, run.settled
     )
+    if run.rest:
+        states, verdict = np.stack(run.rest), RESTS
+        found["verdict"] = float(verdict.code)
     if study.compares_cycles or study.starts > 1:
         turned = unwound(states, angles)
         cycle = cycle_of(kernel.coordinates, turned, angles, verdict.period)

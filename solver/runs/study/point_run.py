@@ -42,6 +42,8 @@ class PointRun:
     """Periods after which that counts."""
     ended: PointEnd | None = None
     """Its end, once its record is full; the indicators are still missing."""
+    rest: list[Floats] = field(default_factory=list)
+    """Its state, (states,), if it has come to rest at the end of its record."""
     lasting: str = ""
     """Contacts that lasted throughout the record, as a sentence."""
     tried: list[PointEnd] = field(default_factory=list)

@@ -19,6 +19,7 @@ from jointplay.solver.runs.study.point_run import (
     take_contacts,
     take_samples,
 )
+from jointplay.solver.runs.study.rest import state_at_rest
 
 BRIEF = ("steps", "onsets")
 OF_SETTLING = ("settled_periods", "settling")
@@ -58,6 +59,7 @@ class Recording:
             settled = run.settled * float(study.period[run.point])
             scene = study.point_scene(run.point)
             run.lasting = lasting_contacts(bundle, lane, scene, settled)
+            run.rest = [*state_at_rest(bundle, lane, scene, float(study.period[run.point]))]
         return PointEnd(
             run.point,
             failure.code if failure else "",

@@ -2,6 +2,7 @@
 
 import pytest
 
+from benchmarks.basin_scenes import cubic_oscillator, shaking
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.kinds import admit, parse
 from jointplay.solver.mechanics.start.given import Taken
@@ -68,6 +69,25 @@ def test_a_point_has_the_bits_of_a_scene_that_starts_there():
     assert found.time == end.time
 
 
+def test_a_place_of_a_body_is_that_of_one_of_its_points():
+    """Without a driver, a joint with play or a guide, this is where a slide starts."""
+    place = "/start/points/mass.centre/0"
+    study = admit(
+        chart(
+            cubic_oscillator(shaking=shaking(0.2)),
+            place,
+            xs=(0.5, -0.25),
+            ys=(0.0,),
+            by="/start/velocities/mass/0",
+        )
+    )
+    assert study.parameters[1] == "mass.centre.place_x"
+    assert study.parameter_units[1] == "m"
+    starts = [study.point_scene(point).start.points["mass.centre"] for point in range(2)]
+    assert sorted(starts) == [[-0.25, 0.0], [0.5, 0.0]]
+    assert not any(end.code for end in ends(study).values())
+
+
 def test_a_phase_moves_the_driver():
     study = admit(chart(along="/drivers/motor/position", xs=(0.0, 1.5)))
     assert study.parameters[1] == "motor.position"
@@ -89,6 +109,8 @@ def test_a_point_whose_joints_do_not_allow_its_start_fails_by_itself():
     ("along", "pointer", "words"),
     [
         ("/start/joints/stopp/eccentricity/0", "/along/start", "There is no joint 'stopp'"),
+        ("/start/points/mas.centre/0", "/along/start", "There is no body 'mas'"),
+        ("/start/points/mass.center/0", "/along/start", "did you mean 'mass.centre'"),
         ("/start/angles/wheel", "/along/start", "There is no body 'wheel'"),
         ("/drivers/engine/position", "/along/start", "There is no driver 'engine'"),
         ("/bodies/mass/mass", "/along/start", "must lead to a number of the start"),

@@ -40,7 +40,13 @@ TURNING, HESITANT = Estimate(0.3, 1e-6), Estimate(0.3, 0.1)
 
 def test_codes_keep_their_meaning() -> None:
     """They are stored: a change would rewrite old results."""
-    assert VERDICTS == {"undecided": 0, "periodic": 1, "quasi-periodic": 2, "chaotic": 3}
+    assert VERDICTS == {
+        "undecided": 0,
+        "periodic": 1,
+        "quasi-periodic": 2,
+        "chaotic": 3,
+        "equilibrium": 4,
+    }
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,158 @@
+"""Mechanisms whose shares of basins are known: published, or counted on a fine grid.
+
+The pendulum, Duffing's oscillator and the oscillator on a belt are those of Stender and Hoffmann
+2022, Nonlinear Dyn. 107:1451 (bSTAB), in SI units.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from jointplay.solver.kinds import admit
+from jointplay.solver.runs.study.plan import Study
+
+GROUND = {"points": {"O": [0.0, 0.0], "anchor": [-100.0, 0.0]}}
+SLIDE = {
+    "guide": {
+        "type": "prismatic",
+        "guide": "ground.O",
+        "slider": "mass.centre",
+        "axis": [1.0, 0.0],
+    }
+}
+MASS = {"mass": {"mass": 1.0, "inertia": 1.0, "points": {"centre": [0.0, 0.0]}}}
+ON_THE_MASS = {"first": "ground.O", "second": "mass.centre"}
+BELT_SPEED, STICKS = 1.5, 1e-3
+"""m/s; the belt's friction grows linearly within the latter of the belt's speed."""
+
+
+def pendulum() -> dict[str, Any]:
+    """Return theta'' = -0.1 theta' + 0.5 - sin(theta): it comes to rest, or turns for ever."""
+    ends = {"first": "ground.O", "second": "rod.pivot"}
+    return {
+        "name": "pushed-pendulum",
+        "gravity": [1.0, 0.0],
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {"rod": {"mass": 1.0, "inertia": 1e-12, "points": {"pivot": [-1.0, 0.0]}}},
+        "joints": {"pivot": {"type": "revolute", "bearing": "ground.O", "journal": "rod.pivot"}},
+        "forces": {
+            "push": {"type": "torque", **ends, "moment": 0.5},
+            "drag": {"type": "torsion-spring", **ends, "damping": 0.1},
+        },
+        "parameters": {
+            "push": {
+                "help": "Torque.",
+                "unit": "N m",
+                "default": 0.5,
+                "targets": [{"path": "/forces/push/moment"}],
+            }
+        },
+    }
+
+
+def cubic_oscillator(**forces: Any) -> dict[str, Any]:
+    """Return x'' = -0.08 x' - x^3, and further forces on the mass."""
+    return {
+        "name": "cubic-oscillator",
+        "ground": GROUND,
+        "bodies": MASS,
+        "joints": SLIDE,
+        "forces": {
+            "damper": {
+                "type": "spring-damper",
+                "first": "ground.anchor",
+                "second": "mass.centre",
+                "damping": 0.08,
+            },
+            "spring": along_the_slide([0.0, 0.0, 0.0, -1.0]),
+            **forces,
+        },
+    }
+
+
+def along_the_slide(coefficients: list[float]) -> dict[str, Any]:
+    """Return a force on the mass that is a polynomial of its place."""
+    return {
+        "type": "force",
+        **ON_THE_MASS,
+        "magnitude": 1.0,
+        "direction": [1.0, 0.0],
+        "over": {"quantity": "x"},
+        "course": {"type": "polynomial", "coefficients": coefficients},
+    }
+
+
+def shaking(magnitude: float, frequency: float = 1.0) -> dict[str, Any]:
+    """Return the force magnitude * cos(frequency * t) on the mass."""
+    course = {
+        "type": "sinusoidal",
+        "amplitude": 1.0,
+        "frequency": frequency,
+        "phase": math.pi / 2.0,
+    }
+    return {
+        "type": "force",
+        **ON_THE_MASS,
+        "magnitude": magnitude,
+        "direction": [1.0, 0.0],
+        "course": course,
+    }
+
+
+def duffing() -> dict[str, Any]:
+    """Return x'' = -0.08 x' - x^3 + 0.2 cos(t): five attractors."""
+    return cubic_oscillator(shaking=shaking(0.2))
+
+
+def belt() -> dict[str, Any]:
+    """Return x'' = -0.1 x' - x + mu(u) sgn(u), u = 1.5 - x', mu(u) = 0.5 (1 + exp(-2 |u|)).
+
+    The mass comes to rest while the belt slides under it, or sticks and slips.
+    """
+    apart = np.concatenate([[STICKS], np.geomspace(0.05, 6.0, 26)])
+    friction = 0.5 + 0.5 * np.exp(-apart / 0.5)
+    knots = np.concatenate([BELT_SPEED - apart[::-1], BELT_SPEED + apart])
+    return {
+        "name": "belt-oscillator",
+        "period": 2.0 * math.pi,
+        "ground": GROUND,
+        "bodies": MASS,
+        "joints": SLIDE,
+        "forces": {
+            "damper": {
+                "type": "spring-damper",
+                "first": "ground.anchor",
+                "second": "mass.centre",
+                "damping": 0.1,
+            },
+            "spring": {"type": "spring-damper", **ON_THE_MASS, "stiffness": 1.0},
+            "friction": {
+                "type": "force",
+                **ON_THE_MASS,
+                "magnitude": 1.0,
+                "direction": [1.0, 0.0],
+                "over": {"quantity": "x", "rate": True},
+                "course": {
+                    "type": "table",
+                    "knots": knots.tolist(),
+                    "values": [*friction[::-1].tolist(), *(-friction).tolist()],
+                    "outside": "held",
+                },
+            },
+        },
+    }
+
+
+def impact_oscillator() -> dict[str, Any]:
+    """Return the preset at 28 rad/s, whose stiff stop has exactly the restitution 0.8."""
+    study = admit({"kind": "poincare", "scene": {"preset": "impact-oscillator"}, "settle": 0})
+    assert isinstance(study, Study)
+    found = study.point_scene(0).model_dump(mode="json", exclude_none=True)
+    found["joints"]["stop"]["clearance"]["contact"] = {
+        "law": "stiffness-and-dissipation",
+        "stiffness": {"law": "power", "stiffness": 1e11, "exponent": 1.5},
+        "dissipation": {"law": "exact", "restitution": 0.8},
+    }
+    found["drivers"]["motor"]["speed"] = 28.0
+    return {name: part for name, part in found.items() if name not in ("parameters", "outputs")}
