@@ -132,7 +132,7 @@ def _said(struck: Struck) -> str:
 
 
 def _wait(user: User) -> list[str]:
-    """Wait until all jobs ended; return what is wrong if they do not."""
+    """Wait until all jobs ended. Returns what is wrong if they do not."""
     before: object = None
     moved = time.monotonic()
     while not user.satisfied:

@@ -26,7 +26,7 @@ def carry_out(
     workers: int,
     places: tuple[str, str] = ("", ""),
 ) -> Report:
-    """Run a campaign in a folder, which is there and empty, as are the places; return its report.
+    """Run a campaign in a folder, which is there and empty, as are the places. Returns its report.
 
     Raises
     ------

@@ -70,7 +70,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
 def _draw_panel(
     axes: page.Axes, curves: Curves, ledger: dict[str, float], time: Floats, across: TimeAxis
 ) -> list[Any]:
-    """Draw curves, and a ring where the ledger has the end of one; return the curves."""
+    """Draw curves, and a ring where the ledger has the end of one. Returns the curves."""
     lines, joules = [], scale("J", *curves.values())
     for (name, curve), (colour, dashes, _) in zip(curves.items(), colours.COMPARED, strict=False):
         look: page.Look = {"color": colour, "linestyle": dashes, "label": name}

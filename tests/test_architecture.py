@@ -56,6 +56,12 @@ def test_docstrings_begin_with_what_a_thing_is():
     assert [relative(path) for path in written if begins.search(path.read_text())] == []
 
 
+def test_docstrings_say_what_is_returned_in_a_sentence_of_its_own():
+    """Which begins with Returns; behind a semicolon it reads as a part of what is done."""
+    clause = re.compile(r'"""[^"]*?;\s+(return|how many|whether)\s')
+    assert [relative(path) for path in SOURCES if clause.search(path.read_text())] == []
+
+
 def test_types_of_joints_are_named_only_in_their_family() -> None:
     """Others ask a joint what it does, so that a new type needs nothing of them."""
     named = re.compile("[\"']({})[\"']".format("|".join(JOINTS)))

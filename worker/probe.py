@@ -110,7 +110,7 @@ def _of_simulation(admission: Admission) -> Cost:
 
 
 def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int, int, int]:
-    """Compute for `budget` seconds; return also bytes: of documents, of numbers, of steps."""
+    """Compute for `budget` seconds. Returns also bytes of documents, numbers and steps."""
     marks: list[Mark] = []
     began = time.process_time()
 

@@ -61,7 +61,7 @@ def tidy(settings: Settings, block: Block) -> None:
 
 
 def clear_up(catalogue: Catalogue, settings: Settings) -> int:
-    """Remove what jobs needed that ended a lease ago; return of how many.
+    """Remove what jobs needed that ended a lease ago. Returns the number of these jobs.
 
     Their last worker may have ended before it could, or the place have been out of reach.
     """

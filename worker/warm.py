@@ -22,7 +22,7 @@ from jointplay.solver.scene import presets
 
 
 def warm(name: str) -> float:
-    """Compile or load a preset's kernels, those of exponents too; return the seconds."""
+    """Compile or load a preset's kernels, those of exponents too. Returns the seconds."""
     began = time.perf_counter()
     job = {"kind": "simulate", "scene": {"preset": name}, "duration": 1e-3}
     admission = cast("Admission", admit(job))

@@ -34,7 +34,7 @@ FIELDS: dict[str, dict[str, Any]] = {
 
 
 def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
-    """Check a job's document; return what the catalogue takes, and whether to reuse a result.
+    """Check a job's document. Returns what the catalogue takes, and whether to reuse a result.
 
     Raises
     ------

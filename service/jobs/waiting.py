@@ -85,7 +85,7 @@ class Watcher:
                 del self._watches[job_id]
 
     async def finished(self, job_id: str, seconds: float) -> bool:
-        """Return as soon as a job is finished, or after `seconds`; the answer is whether it is."""
+        """Wait until a job is finished, at most for `seconds`. Returns whether it is."""
         # no timeout around that of `change`: where a change comes as it ends, `wait_for` of Python
         # 3.11 swallows the cancellation, which does not come again
         loop = asyncio.get_running_loop()

@@ -18,7 +18,7 @@ class Bell:
         self._waiting: deque[asyncio.Future[None]] = deque()
 
     async def wait(self, seconds: float) -> bool:
-        """Wait until it rings, at most for some seconds; return whether it did."""
+        """Wait until it rings, at most for some seconds. Returns whether it did."""
         rung = self._loop.create_future()
         self._waiting.append(rung)
         try:

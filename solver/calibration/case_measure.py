@@ -75,7 +75,7 @@ class CaseMeasure:
         self._starts: dict[tuple[int, ...], LaneStart] = {}
 
     def prepare(self) -> list[Problem]:
-        """Compile what the first candidates need; return targets that cannot be measured."""
+        """Compile what the first candidates need. Returns targets that cannot be measured."""
         scene = self.case.study.point_scene(0)
         rows = self._kernel(_forms(self.scenes)[0], scene).rows
         return [
@@ -141,7 +141,7 @@ class CaseMeasure:
             self.looked(ended, steps)
 
     def _goes_on(self, bundle: Bundle, lane: int, run: _Run) -> bool:
-        """Take what a leg gave, at its end; whether there was a next stop to go to."""
+        """Take what a leg gave, at its end. Returns whether there was a next stop to go to."""
         run.stops += 1
         ended = run.stops % 2 == 0
         if ended:

@@ -117,7 +117,7 @@ OUT_OF_MEMORY = 3
 
 
 def attend(process: subprocess.Popen[bytes]) -> None:
-    """Wait until a process ends that compiles; raises what `watched` does, which ends it not."""
+    """Wait until a process that compiles ends; raise what `watched` does, and leave it running."""
     watch = _watch.get()
     if watch is None:
         process.wait()

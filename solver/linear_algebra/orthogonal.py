@@ -38,7 +38,7 @@ class _Reflection:
         self.factor = 1.0 / (size * (size + abs(first)))
 
     def of(self, column: list[Entry]) -> bool:
-        """Reflect a column in place; return whether that changed it."""
+        """Reflect a column in place. Returns whether that changed it."""
         share: Entry = 0.0
         for i, entry in self.vector:
             share += entry * column[i]

@@ -68,7 +68,7 @@ class _Dragging:
         return here
 
     def _close(self, pose: Floats) -> tuple[Floats, bool]:
-        """Move a pose to where the joints close; return their Jacobian, and whether they do."""
+        """Move a pose to where the joints close. Returns their Jacobian, and whether they do."""
         close(self.mechanism, pose, self.clocks, self.scale, None, ITERATIONS, CONVERGED)
         rows = self.mechanism.rows(pose, self.still, self.clocks)
         residual, jacobian = arrays(rows, len(pose))

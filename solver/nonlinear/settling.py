@@ -89,7 +89,7 @@ class Settling:
         return self._sections[: self._count].copy()
 
     def feed(self, sections: Floats) -> Settled | None:
-        """Take the next sections, (k, d); return how settling ended, None: not yet.
+        """Take the next sections, (k, d). Returns how settling ended, None: not yet.
 
         Sections after the decision change nothing.
 

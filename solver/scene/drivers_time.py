@@ -18,7 +18,7 @@ RESTING = 1e-6
 
 
 class DriversTime(NamedTuple):
-    """The time in which all drivers show their motion, s; whether all are back then.
+    """The time in which all drivers show their motion, s, and whether all are back then.
 
     `quickest` is the time of the one that is first through, s.
     """

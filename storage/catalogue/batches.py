@@ -134,7 +134,7 @@ def _with_progress(unit: Unit, rows: Sequence[Any]) -> list[Batch]:
 
 
 def delete_batch(unit: Unit, batch_id: str) -> Batch:
-    """Delete a batch, with its jobs as `upkeep.expire` does; return it as it was.
+    """Delete a batch, with its jobs as `upkeep.expire` does. Returns it as it was.
 
     A request that is sent again with its key makes a batch anew.
 

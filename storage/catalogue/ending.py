@@ -47,7 +47,7 @@ _END: Final = (
 
 
 def finish(unit: Unit, block_id: str, attempt: int, end: BlockEnd) -> JobState:
-    """End a held block and, with its last block, the job; return the job's state after it.
+    """End a held block and, with its last block, the job. Returns the job's state after it.
 
     Raises
     ------

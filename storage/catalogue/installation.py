@@ -14,7 +14,7 @@ def mark_of(unit: Unit, place: str) -> str | None:
 
 
 def note_mark(unit: Unit, place: str, mark: str) -> str:
-    """Note the mark of a place, unless there is one already; return the one that holds."""
+    """Note the mark of a place, unless there is one already. Returns the one that holds."""
     known = mark_of(unit, place)
     if known is None:
         unit.execute(insert(tables.installation).values(place=place, mark=mark))

@@ -59,7 +59,7 @@ def id_in(text: str) -> str | None:
 def make_key(
     unit: Unit, owner: str, scopes: Sequence[str], note: str, seconds: float | None
 ) -> tuple[str, Key]:
-    """Make a key that lasts for some seconds, or until it is revoked; return its text, too.
+    """Make a key that lasts for some seconds, or until it is revoked. Returns its text, too.
 
     Raises
     ------

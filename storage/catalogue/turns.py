@@ -109,7 +109,7 @@ def in_turn(unit: Unit) -> list[tuple[str, str]]:
 
 
 def charge(unit: Unit, owner: str) -> float:
-    """Charge an owner what a block will probably cost; return the seconds."""
+    """Charge an owner what a block will probably cost. Returns the seconds."""
     return float(unit.execute(_CHARGE, {"of_owner": owner}).scalar_one_or_none() or 0.0)
 
 

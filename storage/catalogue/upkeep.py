@@ -94,7 +94,7 @@ def mark_published(
 
 
 def announce_again(unit: Unit) -> int:
-    """Make every wake-up that was sent due again, because it was lost; return their number."""
+    """Make every wake-up that was sent due again, because it was lost. Returns their number."""
     again = update(tables.outbox).where(_sent(unit)).values(due=unit.now)
     return int(unit.execute(again).rowcount)
 

@@ -69,12 +69,12 @@ class Packed:
     NotAStore
         There is no such object, or another program packed it.
     CorruptStore
-        It was cut off, its directory has other bytes than it had, or it is another owner's.
+        It was cut off, its directory has other bytes than it had, or it is of something else.
     """
 
     source: Ranges
-    owner: bytes = b""
-    """Whose it must be, for files that do not say so themselves; see `pack`."""
+    digest: bytes = b""
+    """Digest of what is stored, for files that do not hold it; see `pack`."""
     most: float = inf
     """Bytes of a directory that is read."""
     entries: dict[str, Entry] = field(init=False)
@@ -101,7 +101,7 @@ class Packed:
             raise CorruptStore(f"the directory of {self.source} has more than {self.most:g} bytes")
         behind = size - first
         end = tail[-behind:] if behind <= len(tail) else self.source.read(first, size)
-        if comment(end[: -COMMENT.size], self.owner) != end[-COMMENT.size :]:
+        if comment(end[: -COMMENT.size], self.digest) != end[-COMMENT.size :]:
             raise CorruptStore(f"the directory of {self.source} has other bytes than it had")
         self.entries = dict(_entries(end[:length], count))
 

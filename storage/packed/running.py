@@ -42,20 +42,19 @@ class Running:
     sealed
         Where the store will be once it is sealed. The folder goes then; what is not found in it
         any more is read there, where every chunk has the same bytes.
-    owner
-        Digest of what is computed: rows of anything else are damage. By default that of the
-        documents.
+    digest
+        Of what is computed: rows of anything else are damage. By default that of the documents.
     """
 
     def __init__(
         self,
         source: RunningFiles | Path,
         sealed: StoredObject | None = None,
-        owner: str | None = None,
+        digest: str | None = None,
     ) -> None:
         self._source = InFolder(source) if isinstance(source, Path) else source
         self._target = sealed
-        self._owner = owner
+        self._digest = digest
         self._packed: Packed | None = None
         self._synced = False
         self._packs: dict[str, tuple[str, Packed]] = {}
@@ -83,7 +82,7 @@ class Running:
     def write(self, entries: Iterable[tuple[str, bytes]], key: str) -> None:
         """Write the chunks that share a file with that of a key; durable on return."""
         self._sync_folders()
-        durable.write(self._path(key), pack(entries, self.owner))
+        durable.write(self._path(key), pack(entries, self.digest))
 
     def adopt(self, lost: "Running", key: str) -> None:
         """Take over a lost attempt's file with the chunk of a key; durable on return.
@@ -153,7 +152,7 @@ class Running:
             A file has other bytes than were written.
         """
         objects = [self._source.object(name) for name in self._source.names(ROWS)]
-        for packed in (self.documents, *(Packed(one, self.owner) for one in objects)):
+        for packed in (self.documents, *(Packed(one, self.digest) for one in objects)):
             for key in packed:
                 packed.read(key)
 
@@ -198,10 +197,10 @@ class Running:
             raise NotAStore(f"{self} holds no results") from error
 
     @cached_property
-    def owner(self) -> bytes:
-        """Begins the checksums of all files but the documents, which say whose they are."""
-        owner = owner_in(self.attributes) if self._owner is None else self._owner
-        return owner.encode()
+    def digest(self) -> bytes:
+        """Begins the checksums of all files but the documents, which hold it."""
+        digest = digest_in(self.attributes) if self._digest is None else self._digest
+        return digest.encode()
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -247,7 +246,7 @@ class Running:
         known = self._packs.get(name)
         if known is None or known[0] != version:
             try:
-                packed = Packed(found, self.owner)
+                packed = Packed(found, self.digest)
             except NotAStore as error:  # removed meanwhile
                 raise FileNotFoundError(str(error)) from error
             if any(_name(one) != name for one in packed):
@@ -280,7 +279,7 @@ def _make(folder: Path) -> None:
     return folder.mkdir(parents=True)
 
 
-def owner_in(attributes: Mapping[str, Any]) -> str:
+def digest_in(attributes: Mapping[str, Any]) -> str:
     """Return the digest of what is computed by a root's attributes; of a study, of its layout."""
     return str(attributes.get("layout") or attributes.get("digest") or "")
 

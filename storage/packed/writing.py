@@ -11,7 +11,8 @@ from typing import Final
 from zlib import crc32
 
 COMMENT: Final = struct.Struct("<17s4s")
-"""At the end of a packed file: `MARK`, CRC-32 of the owner and all from the directory on."""
+"""At the end of a packed file: `MARK`, and a CRC-32 that begins with the `digest` that `pack` is
+given and goes over all from the directory on."""
 MARK: Final = b"jointplay results"
 """Name of the form: entries are uncompressed and right behind the names of their headers."""
 LOCAL: Final = struct.Struct("<4s5H3I2H")
@@ -30,16 +31,16 @@ _SHORT: Final = 2**16 - 1
 LONG: Final = 2**32 - 1
 
 
-def pack(entries: Iterable[tuple[str, bytes]], owner: bytes = b"") -> Iterator[bytes]:
+def pack(entries: Iterable[tuple[str, bytes]], digest: bytes = b"") -> Iterator[bytes]:
     """Give the bytes of a zip of entries, in their order; memory is bounded by the largest.
 
     Parameters
     ----------
     entries
         Key and content of each, less than 4 GiB; a key comes once.
-    owner
-        Whose they are: begins the checksum at the end, so that a file is not taken for another
-        owner's.
+    digest
+        Of what is stored: begins the checksum at the end, so that a file is not taken for one of
+        anything else.
     """
     central: list[bytes] = []
     offset = 0
@@ -61,7 +62,7 @@ def pack(entries: Iterable[tuple[str, bytes]], owner: bytes = b"") -> Iterator[b
     few = min(count, _SHORT)
     end += END.pack(b"PK\5\6", 0, 0, few, few, min(length, LONG), min(offset, LONG), COMMENT.size)
     yield end
-    yield comment(end, owner)
+    yield comment(end, digest)
 
 
 def local_header(name: bytes, crc: int, size: int) -> bytes:
@@ -69,9 +70,9 @@ def local_header(name: bytes, crc: int, size: int) -> bytes:
     return _local(_about(name, crc, size), name)
 
 
-def comment(end: bytes, owner: bytes) -> bytes:
+def comment(end: bytes, digest: bytes) -> bytes:
     """Return the comment of a packed file whose directory and end records are these."""
-    return COMMENT.pack(MARK, crc32(end, crc32(owner)).to_bytes(4, "little"))
+    return COMMENT.pack(MARK, crc32(end, crc32(digest)).to_bytes(4, "little"))
 
 
 def _local(about: bytes, name: bytes) -> bytes:

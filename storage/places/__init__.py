@@ -87,7 +87,9 @@ class Place(Protocol):
         ...
 
     def adopt(self, key: str, lost: str) -> bool:
-        """Give the object of a lost attempt this key as well, durably; whether there was one.
+        """Give the object of a lost attempt this key as well, durably.
+
+        Returns whether there was one.
 
         An object that is there already stays.
         """

@@ -60,7 +60,7 @@ class Expected:
 
 
 def opened(source: Ranges, files: int = _MOST_FILES) -> tuple[Packed, Document]:
-    """Open a store of so many files at most; return it with the attributes of its root.
+    """Open a store of so many files at most. Returns it with the attributes of its root.
 
     Raises
     ------

@@ -7,7 +7,7 @@ next one. So no generation holds more than the buffers of the tables.
 A generation begins with a line: its CRC-32, then JSON with how many rows of each table are in
 shards, and how many bytes a row takes. Then follows, for each checkpoint and table, a frame: the
 number of new rows and their columns; behind the frames of a checkpoint stands the CRC-32 of all
-before. Checksums begin with the owner of the store. `storage.results.waiting` reads it.
+before. Checksums begin with the digest of what is computed. `storage.results.waiting` reads it.
 """
 
 import hashlib
@@ -59,7 +59,7 @@ class Journal:
         durable = [table.durable for table in tables]
         if durable != self._durable:
             self._begin(durable)
-        checksum = self._checksum if self._size else crc32(self._files.owner)
+        checksum = self._checksum if self._size else crc32(self._files.digest)
         digest, size = self._hash.copy(), self._size
         descriptor = os.open(self._path(self._generation), os.O_WRONLY | os.O_CREAT, 0o666)
         with open(descriptor, "wb") as file:
@@ -99,7 +99,7 @@ class Journal:
     def _pieces(self, tables: Sequence[GrowingTable]) -> Iterator[bytes | memoryview]:
         """Give what a checkpoint adds, without copies: what waits is most of a worker's memory."""
         if self._size == 0:
-            yield _header(tables, crc32(self._files.owner))
+            yield _header(tables, crc32(self._files.digest))
         for table, first in zip(tables, self._journalled, strict=True):
             yield ROWS.pack(table.rows - first)
             for column in table.pending(first):

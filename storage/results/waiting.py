@@ -62,7 +62,7 @@ class Checkpoint:
             raise CorruptStore(
                 f"{PARTS}/{name} of {lost} has not the bytes that the checkpoint describes"
             )
-        _, frames = _read(content, lost.owner)
+        _, frames = _read(content, lost.digest)
         for position, table in enumerate(tables):
             dtypes = [column.dtype for column in table.table.columns]
             table.append(_columns(content, [one[position] for one in frames], dtypes))
@@ -103,17 +103,17 @@ def waiting_rows(
     """
     for name in reversed(files.parts()):
         with suppress(FileNotFoundError):
-            found = _at(files.part(name), files.owner, samples, dtypes)
+            found = _at(files.part(name), files.digest, samples, dtypes)
             if found is not None:
                 return found
     return None
 
 
 def _at(
-    content: bytes, owner: bytes, samples: int, dtypes: Sequence[Sequence[np.dtype[Any]]]
+    content: bytes, digest: bytes, samples: int, dtypes: Sequence[Sequence[np.dtype[Any]]]
 ) -> list[Waiting] | None:
     """Find the last checkpoint of a generation that has this many samples."""
-    durable, frames = _read(content, owner)
+    durable, frames = _read(content, digest)
     if not frames:
         return None
     rows = durable[0] + np.cumsum([frame[0].rows for frame in frames])
@@ -133,12 +133,12 @@ class _Frame(NamedTuple):
     rows: int
 
 
-def _read(content: bytes, owner: bytes) -> tuple[list[int], list[list[_Frame]]]:
+def _read(content: bytes, digest: bytes) -> tuple[list[int], list[list[_Frame]]]:
     """Find rows in shards by table, and the frames, one a table, of every whole checkpoint.
 
     What follows a checkpoint that is being written, or has other bytes than were written, is none.
     """
-    checksum = crc32(owner)
+    checksum = crc32(digest)
     begin = content.find(b"\n") + 1
     line = content[9 : begin - 1]
     if not begin or content[:9] != b"%08x " % crc32(line, checksum):

@@ -12,7 +12,7 @@ from jointplay.records.peak import Peak
 from jointplay.records.run import CertificateRecord
 from jointplay.storage.errors import InvalidAppend, StoreExists, StoreSealed
 from jointplay.storage.packed import Running, pack
-from jointplay.storage.packed.running import DOCUMENTS, owner_in
+from jointplay.storage.packed.running import DOCUMENTS, digest_in
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import certificate_group, manifest, metadata
 from jointplay.storage.results.growing_table import GrowingTable
@@ -37,7 +37,7 @@ class ResultWriter:
 
     def __init__(self, path: Path, layout: ResultLayout) -> None:
         self._layout = layout
-        self._files = Running(path, owner=owner_in(layout.attributes))
+        self._files = Running(path, digest=digest_in(layout.attributes))
         self._journal = Journal(self._files, layout.digest)
         self._tables = [GrowingTable(table, self._files) for table in tables(layout)]
         self._history, self._sections, self._impacts, self._peaks = self._tables
@@ -101,7 +101,7 @@ class ResultWriter:
         taken_over_from = Path(taken_over_from)
         state = Checkpoint(checkpoint, layout.digest)
         writer = cls.create(path, layout)
-        lost = Running(taken_over_from, owner=owner_in(layout.attributes))
+        lost = Running(taken_over_from, digest=digest_in(layout.attributes))
         for table, durable in zip(writer._growing, state.durable, strict=True):
             table.take_over(lost, durable)
         state.replay(lost, writer._growing)

@@ -66,7 +66,7 @@ class RunningFiles(Protocol):
         ...
 
     def adopt(self, name: str, source: str) -> bool:
-        """Give a file that is written once a second name; whether there was one."""
+        """Give a file that is written once a second name. Returns whether there was one."""
         ...
 
     def remove(self, name: str) -> None:

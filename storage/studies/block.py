@@ -46,7 +46,7 @@ class StudyBlock:
         self._layout = layout
         self._first, self._count = layout.blocks[index]
         self._attempt = attempt
-        self._files = Running(folder, owner=layout.digest)
+        self._files = Running(folder, digest=layout.digest)
         self._part = Part.empty(layout, index)
 
     @classmethod
@@ -80,7 +80,7 @@ class StudyBlock:
     def done(folder: Path, layout: StudyLayout, index: int) -> bool:
         """Whether some attempt finished this block; then there is nothing left to compute."""
         try:
-            files = Running(folder, owner=layout.digest)
+            files = Running(folder, digest=layout.digest)
             found = Part.read(files, part.final_name(index), layout.digest)
             require_chunks(files, layout, found)
         except (FileNotFoundError, ResultsError):

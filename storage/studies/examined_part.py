@@ -35,7 +35,7 @@ def require_part(files: Running, layout: StudyLayout, index: int) -> None:
     `files` : of the running study, whose documents say by what digest it is known.
     """
     try:
-        found = Part.read(files, part.final_name(index), files.owner.decode())
+        found = Part.read(files, part.final_name(index), files.digest.decode())
         _require_points(found, layout)
         _require_words(found)
         _require_chunks(files, found, layout)

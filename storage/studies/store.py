@@ -60,7 +60,7 @@ def create(folder: Path, layout: StudyLayout) -> None:
             " the program; choose another folder, or submit the study again"
         )
     shown = metadata.serialised(documents.running(layout))
-    files = Running(folder, owner=layout.digest)
+    files = Running(folder, digest=layout.digest)
     files.write_documents(chain(_values(layout), shown))
 
 
@@ -144,7 +144,7 @@ def _files(
     folder: Path, layout: StudyLayout, advanced: Callable[[], None]
 ) -> Iterator[tuple[str, bytes]]:
     """Give key and content of every file of the sealed store, in the same order always."""
-    files = Running(folder, owner=layout.digest)
+    files = Running(folder, digest=layout.digest)
     there = frozenset(files.parts())
     finals = [part.final_name(index) for index in range(len(layout.blocks))]
     missing = [index for index, name in enumerate(finals) if name not in there]

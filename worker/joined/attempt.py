@@ -67,7 +67,7 @@ class JoinedAttempt:
         fraction: float,
         steps: int | None = None,
     ) -> Verdict:
-        """Note how far the block is, which is told soon; return what the service answered last."""
+        """Note how far the block is, which is told soon. Returns what the service answered last."""
         self._progress = protocol.Progress(time=time, fraction=fraction, steps=steps)
         return self.verdict(block_id, attempt)
 

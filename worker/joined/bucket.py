@@ -32,7 +32,7 @@ class BucketOfService:
         self._next = 0.0
 
     def put(self, block: Block, name: str, pieces: Iterable[bytes], size: int, digest: str) -> bool:
-        """Put a file with the SHA-256 `digest`; whether the service took it.
+        """Put a file with the SHA-256 `digest`. Returns whether the service took it.
 
         The pieces are gone through more than once.
         """

@@ -82,7 +82,7 @@ class Connection:
         *,
         within: float | None = None,
     ) -> bytes:
-        """POST something about a block that is held; return the answer.
+        """POST something about a block that is held. Returns the answer.
 
         `Unavailable` also if there is none within some seconds, for what is of no use later.
         """
@@ -129,7 +129,7 @@ class Connection:
         _require_success(response, block)
 
     def offered(self, block: Block, drop: Drop) -> str | None:
-        """POST what shall be put into the bucket; return the address there, or None."""
+        """POST what shall be put into the bucket. Returns the address there, or None."""
         with self._answering():
             response = self._http.post(f"{_path(block)}/drops", **_json(drop))
         if response.status_code in (httpx.codes.NO_CONTENT, httpx.codes.NOT_FOUND):
@@ -138,7 +138,7 @@ class Connection:
         return DropAt.model_validate_json(response.content).address
 
     def taken(self, block: Block, drop: Drop) -> bool:
-        """POST what was put; whether the service found it, with the right bytes."""
+        """POST what was put. Returns whether the service found it, with the right bytes."""
         patient = httpx.Timeout(_LONGEST_TAKING, connect=5.0)
         with self._answering():
             response = self._http.post(

@@ -49,7 +49,7 @@ class Elsewhere(Protocol):
         ...
 
     def adopt(self, name: str, source: str) -> bool:
-        """Give a file a second name; whether that can be done."""
+        """Give a file a second name. Returns whether that can be done."""
         ...
 
     def remove(self, name: str) -> None:
@@ -116,7 +116,7 @@ class Scratch:
     def take(self, folder: str = "") -> Taken:
         """Take all files, or those in a folder, that are not as they were sent.
 
-        Those last that build on others.
+        Files that build on others come last.
         """
         if not self._sends:
             return Taken((), (), ExitStack())

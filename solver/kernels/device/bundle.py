@@ -150,7 +150,10 @@ class DeviceBundle(Bundle):
         self._touched(i)
 
     def advance(self, budget: int) -> int:
-        """Attempt at most `budget` steps; how many lanes still run. Rows are handed out once."""
+        """Attempt at most `budget` steps.
+
+        Returns how many lanes still run. Rows are handed out once.
+        """
         self.launch(budget)
         return self.land()
 
@@ -169,7 +172,10 @@ class DeviceBundle(Bundle):
         lanes.launch(budget)
 
     def land(self) -> int:
-        """Wait for what was launched, fetch what is new of it; how many of its lanes still run."""
+        """Wait for what was launched, fetch what is new of it.
+
+        Returns how many of its lanes still run.
+        """
         (group,), lanes, launched = self.groups, self._lanes, self._launched
         lanes.device.finish()
         group.attempts += int(lanes.made().max(initial=0))

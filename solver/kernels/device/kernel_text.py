@@ -100,7 +100,7 @@ def kernel_text(
     places
         Of the kernel, or of its tangents.
     sizes
-        What a lane has; how many lanes there are is known when they are launched.
+        What a lane has. The number of lanes is known when they are launched.
     on_host
         For this processor, whose `LANE` does what a thread of the device does.
     """

@@ -83,8 +83,8 @@ class StepRow:
 
 
 COUNTS = ("states", "inner_states", "ledger", "pairs", "clocks", "rows", "watched_closely")
-"""Numbers of states, states of friction's own, terms of the ledger, contact pairs, clocks, and
-scanned channels; whether steps of contacts are looked at inside."""
+"""Numbers of states, states of friction's own, terms of the ledger, contact pairs, clocks,
+scanned channels, and whether steps of contacts are looked at inside."""
 _SLOTS = """
 numbers time step tried arrival stage_time theta active accept flag next_step end next_due marked
 stage total gap gap_rate gap_start gap_rate_start mode impact_rate before_time phase wound

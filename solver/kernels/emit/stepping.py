@@ -153,7 +153,7 @@ class StepRecorder(JudgedStep):
         return f"kledger{s}_{i}"
 
     def _attempt(self) -> str:
-        """Attempt a step; the largest flag of a lane."""
+        """Attempt a step. Returns the largest flag of a lane."""
         calls = self._calls()
         if self.equations.corrections:  # where the step ends, before its slopes are evaluated
             calls.insert(-1, "project")

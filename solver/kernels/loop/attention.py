@@ -36,7 +36,7 @@ grows as a root of time may ask for it. So short a one need not move time, but i
 
 @inner_kernel()
 def attend(flag: int, s: Step, rows: np.ndarray) -> bool:
-    """Look after one lane between its attempt and its commit; whether a buffer is full."""
+    """Look after one lane between its attempt and its commit. Returns whether a buffer is full."""
     lane, run, at, work = s.lane, s.run, s.at, s.work
     run.attended += 1
     opening = 1.0
@@ -69,7 +69,7 @@ def attend(flag: int, s: Step, rows: np.ndarray) -> bool:
 
 @inner_kernel()
 def settle(flag: int, s: Step, buffers: Buffers) -> bool:
-    """Look after one lane once its step is taken; whether a buffer is nearly full."""
+    """Look after one lane once its step is taken. Returns whether a buffer is nearly full."""
     lane, run, at, work, call = s.lane, s.run, s.at, s.work, functions_at(s.call)
     tangents = buffers.growths.shape[1] > 0
     begun = float(run.periods) * run.period

@@ -78,7 +78,7 @@ def may_pass_bend(s: Step) -> bool:
 
 @inner_kernel()
 def find_in_reach(s: Step, found: np.ndarray) -> int:
-    """Write the rows that friction may bring to a record in this step; how many.
+    """Write the rows that friction may bring to a record in this step. Returns how many.
 
     It is as large as the normal force allows, and so it was where that was largest.
     """

@@ -1,7 +1,7 @@
 """Book of a bin: records of all rows of the channel block, and what is known of each beforehand.
 
 An array (`LINES`, width): a column for each row, and some more that make the width a multiple of
-eight. A row that nobody asks for has records that nothing can surpass.
+eight. Of a row that nobody asks for, no value is ever a new extreme.
 """
 
 import math

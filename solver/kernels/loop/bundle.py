@@ -216,7 +216,9 @@ class Bundle:
         return max(made) - min(made) if made else 0
 
     def advance(self, budget: int) -> int:
-        """Attempt at most `budget` steps; how many lanes still run. Rows are handed out once.
+        """Attempt at most `budget` steps.
+
+        Returns how many lanes still run. Rows are handed out once.
 
         Comes back early when a lane ends or has as many rows as it can hold.
         """

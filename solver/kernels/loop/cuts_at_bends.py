@@ -53,7 +53,7 @@ def find_cuts(low: float, high: float, s: Step, cuts: np.ndarray) -> int:
     """Find where slips pass bends between two shares of a step, in the order of time.
 
     cuts : (MOST_PLACES, 2)
-        Where the shares just before and just behind each bend are written; how many is returned.
+        Where the shares just before and just behind each bend are written. Returns how many.
     """
     shares, slips, wanted = np.empty(MOST_PLACES), np.empty(MOST_PLACES), np.empty(MOST_PLACES)
     found = 0
@@ -85,7 +85,7 @@ def find_cuts(low: float, high: float, s: Step, cuts: np.ndarray) -> int:
 
 @inner_kernel()
 def insert(share: float, value: float, shares: np.ndarray, values: np.ndarray, count: int) -> int:
-    """Put a share of the step and a value among ascending ones; how many there are now."""
+    """Put a share of the step and a value among ascending ones. Returns how many there are now."""
     i = count
     while i > 0 and shares[i - 1] > share:
         shares[i], values[i] = shares[i - 1], values[i - 1]
@@ -104,7 +104,10 @@ def want_more(
     s: Step,
     wanted: np.ndarray,
 ) -> int:
-    """Write places next to those where a slip passes a bend, or turns near one; how many."""
+    """Write places next to those where a slip passes a bend, or turns near one.
+
+    Returns how many.
+    """
     more = 0
     for i in range(count):
         left, right = max(i - 1, 0), min(i + 1, count - 1)

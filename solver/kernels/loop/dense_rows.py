@@ -45,7 +45,9 @@ def read_row(row: np.ndarray, i: int, at: Places, target: np.ndarray) -> None:
 
 @inner_kernel()
 def hand_out(s: Step, rows: np.ndarray) -> bool:
-    """Write the samples and sections inside this step; whether a buffer was too full for them.
+    """Write the samples and sections inside this step.
+
+    Returns whether a buffer was too full for them.
 
     A full buffer postpones the step: the same attempt is made again once there is room.
     """

@@ -48,7 +48,10 @@ def has_all_events(run: Run) -> bool:
 
 @inner_kernel()
 def record_event(i: int, s: Step, source: np.ndarray, rows: np.ndarray) -> bool:
-    """Write the state in column i of `source` as a section; whether the buffer is full now."""
+    """Write the state in column i of `source` as a section.
+
+    Returns whether the buffer is full now.
+    """
     lane, run, at, work = s.lane, s.run, s.at, s.work
     begun = float(run.periods) * run.period
     if begun + source[at.stage_time, i] < run.section_from or has_all_events(run):
@@ -114,7 +117,7 @@ def may_cross(s: Step) -> bool:
 
 @inner_kernel()
 def record_crossings(s: Step, rows: np.ndarray) -> bool:
-    """Write a section for each crossing inside the step; whether the buffer is full now."""
+    """Write a section for each crossing inside the step. Returns whether the buffer is full now."""
     run = s.run
     shares, heights = np.empty(MOST_PLACES), np.empty(MOST_PLACES)
     count = places_to_look_at(s, shares)
@@ -139,7 +142,10 @@ def record_crossings(s: Step, rows: np.ndarray) -> bool:
 
 @inner_kernel()
 def places_to_look_at(s: Step, shares: np.ndarray) -> int:
-    """Set the shares of the step at which to look first, in their order; how many there are."""
+    """Set the shares of the step at which to look first, in their order.
+
+    Returns how many there are.
+    """
     for i in range(INSTANTS):
         shares[i] = i / (INSTANTS - 1)
     count = INSTANTS
@@ -155,7 +161,7 @@ def places_to_look_at(s: Step, shares: np.ndarray) -> int:
 
 @inner_kernel()
 def ordered(shares: np.ndarray, count: int) -> int:
-    """Sort shares and leave out those that are there already; how many are left."""
+    """Sort shares and leave out those that are there already. Returns how many are left."""
     shares[:count].sort()
     kept = 1
     for i in range(1, count):
@@ -185,7 +191,10 @@ def look_at(shares: np.ndarray, count: int, heights: np.ndarray, s: Step) -> Non
 
 @inner_kernel()
 def refined(shares: np.ndarray, heights: np.ndarray, count: int, run: Run) -> int:
-    """Add places next to those where a channel may turn at a level; how many there are now."""
+    """Add places next to those where a channel may turn at a level.
+
+    Returns how many there are now.
+    """
     total = count
     for i in range(count):
         left, right = max(i - 1, 0), min(i + 1, count - 1)

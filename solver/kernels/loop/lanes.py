@@ -44,7 +44,7 @@ def still_landing(runs: np.ndarray) -> bool:
 
 @inner_kernel(borrows=True)
 def attend_lanes(group: Group, rows: np.ndarray) -> bool:
-    """Look after lanes between their attempts and the commit; return whether a buffer is full."""
+    """Look after lanes between their attempts and the commit. Returns whether a buffer is full."""
     full = False
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
@@ -57,7 +57,10 @@ def attend_lanes(group: Group, rows: np.ndarray) -> bool:
 
 @inner_kernel(borrows=True)
 def cross_lanes(group: Group, rows: np.ndarray) -> tuple[bool, bool]:
-    """Write sections where channels cross; return whether one may, and whether a buffer is full."""
+    """Write sections where channels cross.
+
+    Returns whether one may, and whether a buffer is full.
+    """
     crossed, full = False, False
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
@@ -85,7 +88,7 @@ def refine_lanes(candidates: int, group: Group, marked: np.ndarray) -> None:
 
 @inner_kernel(borrows=True)
 def keep_steps(group: Group, steps: np.ndarray) -> bool:
-    """Write the steps that lanes take which keep them; return whether a buffer is full now."""
+    """Write the steps that lanes take which keep them. Returns whether a buffer is full now."""
     full = False
     for lane in range(len(steps)):
         if group.work[group.at.accept, lane] > 0.0:
@@ -98,7 +101,7 @@ def keep_steps(group: Group, steps: np.ndarray) -> bool:
 
 @inner_kernel(borrows=True)
 def settle_lanes(group: Group, buffers: Buffers) -> bool:
-    """Look after lanes whose steps are taken; return whether a buffer is nearly full."""
+    """Look after lanes whose steps are taken. Returns whether a buffer is nearly full."""
     full = False
     for lane in range(len(group.runs)):
         s = step_of(lane, group)

@@ -31,7 +31,7 @@ def look_at_suspects(chosen: np.ndarray, low: float, high: float, s: Step) -> No
 
 @inner_kernel()
 def find_cornered(chosen: np.ndarray, s: Step, book: np.ndarray, found: np.ndarray) -> int:
-    """Write those of chosen rows that no polynomial describes; how many is returned."""
+    """Write those of chosen rows that no polynomial describes. Returns how many."""
     count = 0
     for r in chosen:
         if has_corner(r, s, book):

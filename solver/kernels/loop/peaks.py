@@ -48,7 +48,10 @@ def refine_peaks(s: Step, marked: np.ndarray) -> None:
 
 @inner_kernel(borrows=True)
 def find_marked(s: Step, marked: np.ndarray, rows: np.ndarray) -> int:
-    """Write the rows that the scan marked for a lane; how many. `marked` : from the marks on."""
+    """Write the rows that the scan marked for a lane.
+
+    Returns how many. `marked` : from the marks on.
+    """
     count = 0
     lanes_bits = np.uint64(ONE_OF_EIGHT << s.lane)
     for word in range((s.at.rows + BYTES - 1) // BYTES):
@@ -90,7 +93,10 @@ def look_at_extremes(waiting: int, s: Step) -> None:
 
 @inner_kernel(borrows=True)
 def look_where_foretold(waiting: int, s: Step) -> int:
-    """Evaluate the channels of windows where their extremes seem to be; how many are not sharp."""
+    """Evaluate the channels of windows where their extremes seem to be.
+
+    Returns how many are not sharp.
+    """
     table = s.table
     done = 0
     while done < waiting:

@@ -44,7 +44,9 @@ value changes by the square of that."""
 def count_if_polynomial(
     r: int, begin: float, spacing: float, s: Step, book: np.ndarray, powers: np.ndarray
 ) -> bool:
-    """Let extremes of a row inside a part of a step count, if it is a polynomial; whether it is.
+    """Let extremes of a row inside a part of a step count, if it is a polynomial.
+
+    Returns whether it is.
 
     The seventh difference shows a corner by no less than this goes beyond the values. Without one,
     the polynomial through them is off by a hundredth of that difference.

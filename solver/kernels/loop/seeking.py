@@ -71,7 +71,7 @@ def is_done(w: int, sharp: float, s: Step) -> bool:
 
 @inner_kernel(forceinline=True, borrows=True)
 def is_done_by(value: float, w: int, s: Step) -> bool:
-    """Let the value at the place of a window's extreme count; whether it is sharp.
+    """Let the value at the place of a window's extreme count. Returns whether it is sharp.
 
     What is beyond the value found is the square of the slope there by twice the second derivative.
     """

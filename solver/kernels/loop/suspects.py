@@ -99,7 +99,7 @@ def find_suspects(
     close : (slots, INSTANTS)
         Room for instants with hardly a distance.
     found : (width of the book,)
-        Where rows are written; how many is returned.
+        Where rows are written. Returns how many.
     """
     at, begin, spacing, sharp = s.at, part.begin, part.spacing, part.sharp
     count, looked = 0, False

@@ -55,7 +55,9 @@ def latch_tangent(j: int, s: Step) -> None:
 
 @inner_kernel()
 def record_growth(now: float, s: Step, growths: np.ndarray) -> bool:
-    """Hand out by how much a lane's tangent grew since the record before; whether none fits more.
+    """Hand out by how much a lane's tangent grew since the record before.
+
+    Returns whether none fits more.
 
     now : end of that time, s since the start.
     """
@@ -69,7 +71,7 @@ def record_growth(now: float, s: Step, growths: np.ndarray) -> bool:
 
 @inner_kernel()
 def renormalise(lane: int, at: Places, work: np.ndarray) -> float:
-    """Bring a lane's tangent back to length 1; the logarithm of the length that it had.
+    """Bring a lane's tangent back to length 1. Returns the logarithm of the length that it had.
 
     A tangent that has vanished stays so, with growth -inf; one that has overflowed is NaN from
     then on.

@@ -69,7 +69,7 @@ class Windows:
         return np.array([self.bundle.lane(lane).time for lane in range(BUNDLE)])
 
     def advance(self, budget: int) -> bool:
-        """Make some attempts; whether more are to be made."""
+        """Make some attempts. Returns whether more are to be made."""
         aligning = math.ceil(ALIGNING * self.attempts)
         goal = aligning if self.bundle.attempts < aligning else self.attempts
         running = self._grow(min(budget, goal - self.bundle.attempts))

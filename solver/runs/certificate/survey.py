@@ -100,7 +100,7 @@ class Survey:
         self.goes_on = self.windows.advance(budget)
 
     def _follow(self, budget: int) -> int:
-        """Make attempts until a lane ends, at most `budget`; return how many."""
+        """Make attempts until a lane ends, at most `budget`. Returns how many."""
         before = self.bundle.attempts
         self.bundle.advance(self.companions.allowance(budget))
         self.companions.collect()

@@ -49,7 +49,7 @@ class IdealMotion:
         self.lost = self._followed(duration)
 
     def _followed(self, duration: float) -> SimulationFailed | None:
-        """Follow the path until the mechanism repeats; return how it is lost before, if it is."""
+        """Follow the path until the mechanism repeats. Returns how it is lost before, if it is."""
         period = self.period
         if period is None:
             return None if self.path.follow(duration) else lost_at(self.path, self.scene)

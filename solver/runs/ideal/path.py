@@ -85,7 +85,7 @@ class Path:
         return np.asarray(self.end.pose - self._poses[0], np.float64)
 
     def follow(self, until: float, most: float = np.inf) -> bool:
-        """Go on to a time in s, over at most so many poses; return whether it came there."""
+        """Go on to a time in s, over at most so many poses. Returns whether it came there."""
         self._tables = None
         largest = self.scale / FEWEST_A_SCALE
         while self.end.time < until and self.end.consistent and len(self.times) < most:

@@ -63,7 +63,10 @@ def go_on_finer(
 def go_on_longer(
     bundle: Bundle, lane: int, scene: Scene, first: int, period: float, record: int
 ) -> bool:
-    """Double the stretch that began after `first` periods; whether the record is longer than it."""
+    """Double the stretch that began after `first` periods.
+
+    Returns whether the record is longer than it.
+    """
     periods = round(float(bundle.lane(lane).run["duration"]) / period) - first
     if periods >= record:
         return False

@@ -26,7 +26,7 @@ from jointplay.solver.runs.study.rest import RESTS
 
 
 def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
-    """Let a point whose exponent is wanted go on in smaller steps; return whether it does."""
+    """Let a point whose exponent is wanted go on in smaller steps. Returns whether it does."""
     if run.ended is None or run.ended.code or not study.carries_exponents:
         return False
     scene, period = study.point_scene(run.point), float(study.period[run.point])
@@ -35,7 +35,7 @@ def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
 
 
 def looks_longer(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
-    """Lengthen the stretch in smaller steps while it settles nothing; return whether it does."""
+    """Lengthen the stretch in smaller steps while it settles nothing. Returns whether it does."""
     if not open_still(study, run):
         return False
     scene, period = study.point_scene(run.point), float(study.period[run.point])

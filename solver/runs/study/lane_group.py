@@ -83,7 +83,7 @@ class LaneGroup:
         return max(1.0 - COST * (float(at.run["duration"]) - at.time) / (whole + stretch), 0.0)
 
     def fill(self, waiting: list[PointRun]) -> tuple[int, ...]:
-        """Give free lanes waiting points of this structure; return those points."""
+        """Give free lanes waiting points of this structure. Returns those points."""
         started = []
         for lane, computed in enumerate(self.lanes):
             if computed is not None:
@@ -158,7 +158,10 @@ class LaneGroup:
         return sections, ended, following
 
     def _goes_on(self, lane: int, run: PointRun, status: Status, following: list[PointRun]) -> bool:
-        """Give a lane that has stopped the next part of its point; return whether there was one."""
+        """Give a lane that has stopped the next part of its point.
+
+        Returns whether there was one.
+        """
         at = self.study, self.bundle, lane, run
         if run.ended is not None:
             return status == Status.DONE and looks_longer(*at)

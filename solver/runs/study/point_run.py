@@ -59,7 +59,7 @@ class PointRun:
     settling: Settling | None = field(default=None, repr=False)
 
     def has_settled(self, scales: Floats, angles: Flags, most: int) -> bool:
-        """Look at the sections of the last leg; return whether the motion has settled."""
+        """Look at the sections of the last leg. Returns whether the motion has settled."""
         found = self.settling or Settling(scales, RECURS, max(most, 1))
         if found.result is None:
             states = np.concatenate([np.zeros((0, len(scales))), *self.seen])
@@ -73,7 +73,7 @@ SAME = 1e-5
 
 
 @dataclass(frozen=True)
-class Window:
+class Stretch:
     """Time after settling, and the samples in it: at whole multiples of the step.
 
     The first may lie at the start; none lies at the end, which repeats the start of whole periods.
@@ -88,18 +88,18 @@ class Window:
     grid: Grid
 
 
-def window_of(study: Study, point: int) -> Window:
+def stretch_of(study: Study, point: int) -> Stretch:
     """Return the stretch of a point's statistics."""
     start, end = float(study.settle[point]), float(study.duration[point])
     per_period = int(study.job["samples_per_period"])
     step = float(study.period[point]) / per_period
     first, stop = (math.ceil(time / step - SAME) for time in (start, end))
-    return Window(start, end, step, first, Grid(stop - first, per_period))
+    return Stretch(start, end, step, first, Grid(stop - first, per_period))
 
 
 def begin_tallies(study: Study, run: PointRun, pairs: int) -> None:
     """Give a point the tallies of its statistics: of channels, of contacts, as the job has them."""
-    grid, channels = window_of(study, run.point).grid, len(study.channels)
+    grid, channels = stretch_of(study, run.point).grid, len(study.channels)
     run.tallies = [
         OF_CHANNELS[name].begin(grid, channels) if name in OF_CHANNELS else np.zeros(pairs)
         for name in study.statistics
@@ -108,7 +108,7 @@ def begin_tallies(study: Study, run: PointRun, pairs: int) -> None:
 
 def take_samples(study: Study, run: PointRun, values: Floats) -> None:
     """Take (samples, channels) values that follow those before; one at the end is left out."""
-    grid = window_of(study, run.point).grid
+    grid = stretch_of(study, run.point).grid
     values = values[: grid.samples - run.sampled]
     if not len(values):
         return
@@ -120,15 +120,15 @@ def take_samples(study: Study, run: PointRun, values: Floats) -> None:
 
 def take_contacts(study: Study, run: PointRun, contacts: NDArray[np.void]) -> None:
     """Take contacts that ended."""
-    window = window_of(study, run.point)
+    stretch = stretch_of(study, run.point)
     for name, tally in zip(study.statistics, run.tallies, strict=True):
         if name in OF_CONTACTS:
-            OF_CONTACTS[name].add(tally, contacts, window.start, window.end)
+            OF_CONTACTS[name].add(tally, contacts, stretch.start, stretch.end)
 
 
 def statistics_in(study: Study, run: PointRun, pairs: tuple[str, ...]) -> dict[str, float]:
     """Return the statistics of a point that has ended; `solver.statistics` says how named."""
-    window = window_of(study, run.point)
+    stretch = stretch_of(study, run.point)
     found: dict[str, float] = {}
     for name, tally in zip(study.statistics, run.tallies, strict=True):
         if name in OF_CHANNELS:
@@ -136,6 +136,6 @@ def statistics_in(study: Study, run: PointRun, pairs: tuple[str, ...]) -> dict[s
             values = OF_CHANNELS[name].value(tally, run.sampled)
         else:
             owners = pairs
-            values = OF_CONTACTS[name].value(tally, window.start, window.end)
+            values = OF_CONTACTS[name].value(tally, stretch.start, stretch.end)
         found |= {f"{owner}.{name}": float(x) for owner, x in zip(owners, values, strict=True)}
     return found

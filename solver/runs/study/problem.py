@@ -15,7 +15,7 @@ from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes, make_ready
 from jointplay.solver.kernels.loop.runs import SectionKind
 from jointplay.solver.runs.starts import perturbed_start, start_scales
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.study.point_run import PointRun, begin_tallies, window_of
+from jointplay.solver.runs.study.point_run import PointRun, begin_tallies, stretch_of
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.statistics import OF_CHANNELS
 
@@ -96,9 +96,9 @@ def _sampled(study: Study, point: int, duration: float) -> tuple[float, int, int
     """Return step, number and first of the samples that statistics of channels need."""
     if OF_CHANNELS.keys().isdisjoint(study.statistics):
         return duration, 0, 0
-    window = window_of(study, point)
-    samples = window.first + window.grid.samples + 1  # the last one is taken at the end
-    return window.step, samples, window.first
+    stretch = stretch_of(study, point)
+    samples = stretch.first + stretch.grid.samples + 1  # the last one is taken at the end
+    return stretch.step, samples, stretch.first
 
 
 def scales_of(study: Study, kernel: Kernel, point: int) -> tuple[Floats, Flags]:

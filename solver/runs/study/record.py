@@ -40,7 +40,7 @@ class Recording:
         """Rows of the observables, and of the channels, in the kernel's block of channels."""
 
     def take(self, lane: int, run: PointRun) -> list[SectionRows]:
-        """Take what a lane has handed out; return new sections, if they are to be recorded."""
+        """Take what a lane has handed out. Returns new sections, if they are to be recorded."""
         if run.settled >= 0:
             run.growth.append(self._bundle.growth(lane))
         sections = self._sections(lane, run)

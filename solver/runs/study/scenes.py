@@ -68,7 +68,7 @@ class PointScenes:
         return PointScenes(self.base, self.leaves, self.values[rows])
 
     def scene(self, point: int) -> Scene:
-        """Return the scene of a point; whether its numbers are admissible is not checked."""
+        """Return the scene of a point, of which no number was checked."""
         row = self.values[point].tolist()
         return self._with([row[leaf.column] * leaf.factor for leaf in self.leaves])
 

@@ -8,7 +8,7 @@ from jointplay.solver.runs.study.problem import ENDLESS, WINDOW, most_settling, 
 
 
 def goes_on(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
-    """Give a lane at the end of a leg the next one; return whether there was one."""
+    """Give a lane at the end of a leg the next one. Returns whether there was one."""
     if run.settled >= 0:
         return False
     point = run.point

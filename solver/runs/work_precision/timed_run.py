@@ -54,7 +54,7 @@ class TimedRun:
         return min(self.bundle.lane(0).time / self.duration, 1.0)
 
     def advance(self) -> bool:
-        """Make some steps; return whether more are to be made."""
+        """Make some steps. Returns whether more are to be made."""
         bundle = self.bundle
         begun = time.perf_counter()
         running = bundle.advance(BUDGET)

@@ -25,7 +25,7 @@ def is_film(names: list[str] | None, form: str | None, pace: dict[str, Any]) -> 
 
 
 def draw_film(job: "Job", folder: Path, form: str, **shown: Any) -> list[dict[str, str]]:
-    """Write the film of a job into a folder; return its name and path."""
+    """Write the film of a job into a folder. Returns its name and path."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{ANIMATION}.{form}"
     with progress(ANIMATION) as report:

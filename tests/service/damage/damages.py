@@ -84,7 +84,7 @@ def _places(
     if not file.name.endswith(".zip"):
         yield "content", chance.randrange(size), None
         return
-    found = Packed(file.stored, _owner_of(subject, file))
+    found = Packed(file.stored, _digest_of(subject, file))
     for key in found:
         entry = found.entry(key)
         if entry.size and chance.random() < 0.7:
@@ -104,8 +104,8 @@ def _sibling(subject: Subject, file: File) -> File | None:
     return next(alike, None)
 
 
-def _owner_of(subject: Subject, file: File) -> bytes:
-    """Return whose a packed file is: only files of rows do not say it themselves."""
+def _digest_of(subject: Subject, file: File) -> bytes:
+    """Return the digest that a packed file is checked with: files of rows alone do not hold it."""
     if subject.filled is None or file.folder != ROWS:
         return b""
-    return Running(subject.filled).owner
+    return Running(subject.filled).digest

@@ -73,7 +73,7 @@ def test_a_growing_store_shows_those_that_are_committed_and_is_taken_over(
     append(lost, run, rows, 0, kept)
     checkpoint = lost.checkpoint()
     append(lost, run, rows, kept, SAMPLES - 5)  # nobody was told of these
-    growing = ResultReader(Running(tmp_path / "lost", owner=""), kept)
+    growing = ResultReader(Running(tmp_path / "lost", digest=""), kept)
     if kept > FIRST:
         check(growing, run, rows, kept)
     else:

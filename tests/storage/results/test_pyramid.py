@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from zarr.storage import ZipStore
 
 from jointplay.storage.errors import LostObject
-from jointplay.storage.packed.running import Running, owner_in
+from jointplay.storage.packed.running import Running, digest_in
 from jointplay.storage.results.layout import Partition
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.writer import ResultWriter
@@ -93,7 +93,7 @@ def test_while_it_grows_a_file_has_chunks_of_four_places(memory, run):
     found = sorted(path.name for path in (memory / "store" / "rows").glob("pyramid-4-*"))
     whole = writer.samples // (4 * 32 * 4)  # samples of a bucket, buckets of a chunk, chunks
     assert found == sorted(f"pyramid-4-{4 * k}-{4 * k + 3}.zip" for k in range(whole))
-    growing = Running(memory / "store", owner=owner_in(run.layout.attributes))
+    growing = Running(memory / "store", digest=digest_in(run.layout.attributes))
     pattern = "pyramid/4/extremes/c/{}/0"
     assert growing.shards(pattern) == 4 * whole
     (memory / "store" / "rows" / "pyramid-4-4-7.zip").unlink()

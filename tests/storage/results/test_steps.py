@@ -63,7 +63,7 @@ def test_a_run_that_is_taken_over_loses_no_step_and_gives_the_same_store(run, tm
     run.append(lost, 0.0, kept)
     checkpoint = lost.checkpoint()
     run.append(lost, kept, 0.9)  # nobody was told of these
-    growing = ResultReader(Running(tmp_path / "lost", owner=""), round(kept * 8000))
+    growing = ResultReader(Running(tmp_path / "lost", digest=""), round(kept * 8000))
     seen = growing.steps
     assert seen.count == round(kept * len(run.steps))
     assert np.array_equal(seen.read(0, seen.count), run.steps[: seen.count])
