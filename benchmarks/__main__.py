@@ -18,6 +18,7 @@ ALL = (
     "double_pendulum",
     "sweep",
     "chart",
+    "chart_curves",
     "sensitivity",
     "continuation",
     "joined",
