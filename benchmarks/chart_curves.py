@@ -23,7 +23,7 @@ import numpy as np
 
 from benchmarks import rigid_stop
 from benchmarks.continuation import scene
-from jointplay.local import load
+from jointplay.local import load, run
 from jointplay.records.arrays import Flags, Floats
 
 SPEEDS, AMPLITUDES = (10.0, 40.0), (1e-3, 2e-2)  # rad/s, m
@@ -107,18 +107,34 @@ def computed(job: dict[str, Any], folder: Path, kills: int = 0) -> tuple[float, 
             return spent, killed
 
 
-def found(folder: Path) -> tuple[Flags, Flags, Any]:
-    """Return over (speed, amplitude) where it strikes, where once a period, and the dataset."""
-    data = load(folder).dataset.transpose("speed", "amplitude")
-    impacts, period = data["stop.impacts"].values, data["period"].values
+def classes(data: Any) -> tuple[Flags, Flags]:
+    """Return over (speed, amplitude) where a chart strikes, and where once a period."""
+    ordered = data.transpose("speed", "amplitude")
+    impacts, period = ordered["stop.impacts"].values, ordered["period"].values
     once = (period == 1.0) & (np.abs(impacts - SHARED["record"]) <= 1.0)
-    return impacts > 0.0, once, data
+    return impacts > 0.0, once
 
 
-def distances(curve: str, classes: Flags, speeds: Floats, amplitudes: Floats) -> Floats:
+def same_alone(data: Any, side: int) -> bool:
+    """Return whether a rectangle of a chart has its bits if it is computed alone, by one process.
+
+    It begins at points of the coarse grid. Cells that its far edges cut are left out.
+    """
+    begin, cells, size = side // 3 // 2**DEPTH * 2**DEPTH, 4 * 2**DEPTH, 5 * 2**DEPTH
+    part = data.isel(speed=slice(begin, begin + size), amplitude=slice(begin, begin + size))
+    job = refined(side)
+    for name in ("along", "by"):
+        job[name] = {"parameter": job[name]["parameter"]}
+        job[name]["values"] = part[job[name]["parameter"]].values.tolist()
+    alone = run(job, processes=1).dataset
+    inside = {"speed": slice(0, cells), "amplitude": slice(0, cells)}
+    return bool(alone.isel(inside).identical(part.isel(inside)))
+
+
+def distances(curve: str, shown: Flags, speeds: Floats, amplitudes: Floats) -> Floats:
     """Return how far the nearest boundary is from a curve, in pixels; NaN where there is none.
 
-    `classes` : (speed, amplitude). Across the curve, from the distance in its row and its slope.
+    `shown` : (speed, amplitude). Across the curve, from the distance in its row and its slope.
     """
     pixel = amplitudes[1] - amplitudes[0]
     slope_over = (SPEEDS[1] - SPEEDS[0]) / (len(amplitudes) - 1)  # a pixel of a square chart
@@ -130,7 +146,7 @@ def distances(curve: str, classes: Flags, speeds: Floats, amplitudes: Floats) ->
     inside = here.admissible & (column > 1.0) & (column < len(amplitudes) - 2.0)
     away = np.full(len(speeds), np.nan)
     for row in np.flatnonzero(inside):
-        edges = np.flatnonzero(np.diff(classes[row])) + 0.5
+        edges = np.flatnonzero(np.diff(shown[row])) + 0.5
         nearest = np.abs(edges - column[row]).min(initial=np.inf)
         away[row] = nearest / np.hypot(1.0, slope[row])
     return away
@@ -166,16 +182,18 @@ def measured(side: int, count: int, folder: Path) -> None:
     """Compute and print."""
     amplitudes, every = (np.linspace(*ends, side) for ends in (AMPLITUDES, SPEEDS))
     seconds, killed = computed(refined(side), folder / "refined", KILLS)
-    _, once, data = found(folder / "refined")
+    data = load(folder / "refined").dataset
+    _, once = classes(data)
     share = float((data["inherited"].values == 0.0).mean())
     print(f"{side} x {side}, refined, killed {killed} times: {seconds / 60.0:.1f} core-minutes,")
     print(f"{share:.1%} of the points computed, {data['steps'].values.sum():.3g} steps")
+    print(f"a rectangle of it alone has the same bits: {same_alone(data, side)}")
     told("doubling, from the scene's start", distances("doubling", once, every, amplitudes), every)
     speeds = every[np.linspace(0, side - 1, count).round().astype(int)]
     for direction, curve in (("forward", "grazing"), ("backward", "fold")):
         place = folder / direction
         seconds, _ = computed(rows(side, speeds, direction), place)
-        strikes, once, _ = found(place)
+        strikes, once = classes(load(place).dataset)
         print(f"{count} rows {direction}: {seconds / 60.0:.1f} core-minutes")
         told(f"{curve}, {direction}", distances(curve, strikes, speeds, amplitudes), speeds)
         away = distances("doubling", once, speeds, amplitudes)
