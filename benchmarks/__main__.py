@@ -19,6 +19,7 @@ ALL = (
     "sweep",
     "chart",
     "chart_curves",
+    "basins",
     "sensitivity",
     "continuation",
     "joined",

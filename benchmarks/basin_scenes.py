@@ -51,8 +51,8 @@ def pendulum() -> dict[str, Any]:
     }
 
 
-def cubic_oscillator(**forces: Any) -> dict[str, Any]:
-    """Return x'' = -0.08 x' - x^3, and further forces on the mass."""
+def cubic_oscillator(damping: float = 0.08, linear: float = 0.0, **forces: Any) -> dict[str, Any]:
+    """Return x'' = -damping x' - linear x - x^3, and further forces on the mass."""
     return {
         "name": "cubic-oscillator",
         "ground": GROUND,
@@ -63,9 +63,9 @@ def cubic_oscillator(**forces: Any) -> dict[str, Any]:
                 "type": "spring-damper",
                 "first": "ground.anchor",
                 "second": "mass.centre",
-                "damping": 0.08,
+                "damping": damping,
             },
-            "spring": along_the_slide([0.0, 0.0, 0.0, -1.0]),
+            "spring": along_the_slide([0.0, -linear, 0.0, -1.0]),
             **forces,
         },
     }

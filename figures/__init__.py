@@ -16,6 +16,7 @@ from typing import Any, Final, NamedTuple
 from jointplay.figures import page, saving, scene_facts, study_facts
 from jointplay.figures.adjustment import drawn
 from jointplay.figures.animation import ANIMATION, Pace, film
+from jointplay.figures.basin_stability import BASIN_STABILITY
 from jointplay.figures.bifurcation import BIFURCATION
 from jointplay.figures.branch import BRANCH
 from jointplay.figures.calibration import CALIBRATION
@@ -106,6 +107,7 @@ STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
         BIFURCATION,
         BRANCH,
         CHART,
+        BASIN_STABILITY,
         EXPONENTS,
         SWEEP,
         SENSITIVITY,

@@ -1,29 +1,40 @@
-"""The attractors of a map of basins as a document: shares, cycles, exponents, the boundary."""
+"""The attractors of starts as a document: shares, cycles, exponents, the boundary of a map."""
 
 import math
 from typing import Any
 
 import numpy as np
 
-from jointplay.records.attractors import MEAN, SPREAD, attractors_of, colour_of_attractor
+from jointplay.records.arrays import Floats, Integers
+from jointplay.records.attractors import (
+    MEAN,
+    SPREAD,
+    Attractors,
+    attractors_of,
+    colour_of_attractor,
+    parameter_of,
+)
 from jointplay.records.basin_boundary import boundary_dimension
 from jointplay.records.coarse_to_fine import order_of, over_axes
+from jointplay.records.motion import WAITING
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudySource
 
 
 def attractor_table(source: StudySource) -> dict[str, Any]:
-    """Return the attractors that are known of a map of basins.
+    """Return the attractors that are known of many starts.
 
     Each has its label, name and colour, its points and their share of those that have ended with
-    the binomial standard error, and one point that ends on it with what is known of that.
+    the binomial standard error, and one point that ends on it with what is known of that; over a
+    parameter also its shares at each value. A map has the dimension of its boundary.
     """
-    found, order = attractors_of(source), order_of(source.attributes.get("job", {}), source.shape)
-    boundary = boundary_dimension(over_axes(found.labels, order, source.shape))
+    found = attractors_of(source)
+    over = shares_along(source, found)
     return {
         "complete": source.complete,
         "points": source.points,
         "ended": int(np.isin(source.status, (PointStatus.done, PointStatus.failed)).sum()),
+        "along": None if over is None else over.document(source),
         "attractors": [
             {
                 "code": one.code,
@@ -32,23 +43,80 @@ def attractor_table(source: StudySource) -> dict[str, Any]:
                 "points": one.points,
                 "share": one.share,
                 "share_error": one.error,
-                **_example(source, one.example, int(order[one.example])),
+                "shares": None if over is None else _known(over.shares[k]),
+                "share_errors": None if over is None else _known(over.errors[k]),
+                **_example(source, one.example),
             }
-            for one in found.found
+            for k, one in enumerate(found.found)
         ],
-        "boundary": boundary
-        and {
-            "dimension": boundary.value,
-            "error": boundary.error,
-            "distances": list(boundary.distances),
-            "shares": list(boundary.shares),
-        },
+        "boundary": _boundary(source, found),
     }
 
 
-def _example(source: StudySource, point: int, place: int) -> dict[str, Any]:
-    """Return what is known of one point, which lies at a place of the map, row by row."""
-    row, column = divmod(place, source.shape[1])
+class SharesAlong:
+    """Shares of attractors over the values of a parameter."""
+
+    def __init__(self, column: int, values: Floats, ended: Integers, counts: Integers) -> None:
+        self.column = column
+        """Column of the parameter."""
+        self.values = values
+        """(values,) ascending, in its unit."""
+        self.ended = ended
+        """(values,) points that have ended."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            self.shares: Floats = counts / ended
+            """(attractors, values) of these; NaN where none has."""
+            self.errors: Floats = np.sqrt(self.shares * (1.0 - self.shares) / ended)
+            """(attractors, values) binomial standard errors."""
+
+    def document(self, source: StudySource) -> dict[str, Any]:
+        """Return the parameter, its values, and how many points of each have ended."""
+        parameter = source.parameters[self.column]
+        return {
+            "parameter": parameter.name,
+            "unit": parameter.unit,
+            "values": self.values.tolist(),
+            "ended": self.ended.tolist(),
+        }
+
+
+def shares_along(source: StudySource, found: Attractors) -> SharesAlong | None:
+    """Return the shares at each value of the parameter along which they are wanted; None: none."""
+    column = parameter_of(source)
+    if column is None:
+        return None
+    values, which = np.unique(source.values[:, column], return_inverse=True)
+
+    def counted(points: Any) -> Integers:
+        return np.bincount(which[points], minlength=len(values))
+
+    ended = counted(found.labels != WAITING)
+    rows = [counted(found.labels == one.code) for one in found.found]
+    counts = np.array(rows, np.int64).reshape(len(rows), len(values))
+    return SharesAlong(column, values, ended, counts)
+
+
+def _boundary(source: StudySource, found: Attractors) -> dict[str, Any] | None:
+    if len(source.shape) != 2:
+        return None
+    order = order_of(source.attributes.get("job", {}), source.shape)
+    boundary = boundary_dimension(over_axes(found.labels, order, source.shape))
+    if boundary is None:
+        return None
+    return {
+        "dimension": boundary.value,
+        "error": boundary.error,
+        "distances": list(boundary.distances),
+        "shares": list(boundary.shares),
+    }
+
+
+def _example(source: StudySource, point: int) -> dict[str, Any]:
+    """Return what is known of one point, and where it lies in a map."""
+    row = column = None
+    if len(source.shape) == 2:
+        place = int(order_of(source.attributes.get("job", {}), source.shape)[point])
+        row, column = divmod(place, source.shape[1])
     known = {
         name: float(values[point])
         for name, values in {**source.statistics, **source.indicators}.items()
@@ -59,4 +127,8 @@ def _example(source: StudySource, point: int, place: int) -> dict[str, Any]:
         for field, kind in (("mean", MEAN), ("spread", SPREAD))
     }
     numbers = {name: known.get(name) for name in ("period", "lyapunov", "lyapunov_error")}
-    return {"column": column, "row": row, **numbers, **cycle}
+    return {"point": point, "column": column, "row": row, **numbers, **cycle}
+
+
+def _known(values: Floats) -> list[float | None]:
+    return [x if math.isfinite(x) else None for x in values.tolist()]

@@ -1,12 +1,13 @@
 """Attractors that the points of a study end on: labels of points, and how often each is reached.
 
-Periodic motions are told apart by the mean and the spread of their states over a cycle of sections,
-which are the same wherever on the cycle a record ends. Motions that do not recur are told apart by
-their verdicts alone: two chaotic attractors of one mechanism count as one.
+Motions that recur, or have come to rest, are told apart by the mean and the spread of their states
+over a cycle of sections, which are the same wherever on the cycle a record ends. Others are told
+apart where these differ beyond their own scatter (`scattered`). Over a parameter, attractors are
+those of the value before that they are nearest to.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -14,24 +15,33 @@ import numpy as np
 
 from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.records.motion import (
+    CHAOTIC,
     EQUILIBRIUM,
     MIXED,
     NAMES,
     PERIODS,
+    QUASI_PERIODIC,
     WAITING,
     Labels,
     colour_of,
     motions,
     name_of,
 )
+from jointplay.records.scattered import Places, told_apart
 from jointplay.records.study import StudySource
 
 MEAN: Final = "cycle_mean."
 SPREAD: Final = "cycle_spread."
 """Beginnings of names of statistics: of each state, its mean over a cycle and its spread."""
+INDEPENDENT: Final = "independent_sections"
+"""Name of a statistic of motions that do not recur: of so many independent sections means and
+spreads would scatter as they do."""
 SAME: Final = 2e-3
 """Share of what counts as one in a state, or of the range of all attractors if that is more: closer
 attractors are one. It is twice what sections may differ by that recur."""
+CARRIED: Final = 0.2
+"""Share of the range of all attractors: by less does one that recurs move from one value of a
+parameter to the next."""
 MOST: Final = 200
 """Attractors that have a label of their own; further ones share the next."""
 
@@ -79,40 +89,161 @@ def attractors_of(source: StudySource) -> Attractors:
     period = indicators.get("period", np.full(source.points, np.nan))
     verdict = indicators.get("verdict", np.full(source.points, np.nan))
     motion = motions(source.status, verdict, period, source.verdict_names)
+    cycles = _cycles(source)
+    labels = np.minimum(motion, EQUILIBRIUM).astype(np.uint8)
+    names = dict(enumerate(NAMES))
+    chains: list[_Chain] = []
+    for chosen in _by_value(source):
+        found = list(_groups(motion[chosen], cycles.of(chosen)))
+        if len([one for one in found if one.code == CHAOTIC]) > 1:
+            names[CHAOTIC] = "chaotic (not told apart)"
+        _carry_on(chains, found, chosen, cycles.of(motion >= QUASI_PERIODIC))
+    alike = [chain.code for chain in chains]
+    several = {code for code in alike if alike.count(code) > 1}
+    shown = [one for one in chains if one.code >= EQUILIBRIUM or one.code in several]
+    for index, chain in enumerate(shown):
+        code = len(NAMES) + min(index, MOST)
+        labels[np.concatenate(chain.members)] = code
+        nth = [one.code for one in shown[:index]].count(chain.code)
+        letter = f" {_letter(nth)}" if chain.code in several else ""
+        names[code] = "others" if index >= MOST else name_of(chain.code) + letter
+    return Attractors(labels, tuple(_table(labels, names)))
+
+
+@dataclass(frozen=True)
+class _Cycles:
+    """Where in the states' space points end: means and spreads over a cycle."""
+
+    places: Floats
+    """(points, columns)."""
+    scales: Floats
+    """(columns,) what counts as one."""
+    angles: Flags
+    """(columns,) of which whole turns do not count."""
+    independent: Floats
+    """(points,) independent sections of motions that do not recur."""
+
+    def of(self, points: Any) -> "_Cycles":
+        """Return those of some points."""
+        return _Cycles(self.places[points], self.scales, self.angles, self.independent[points])
+
+    def apart(self, places: Floats, one: Floats) -> Floats:
+        """Return by how much places differ from one, but for whole turns of angles."""
+        found = places - one
+        return np.asarray(found - 2.0 * np.pi * np.round(found / (2.0 * np.pi)) * self.angles)
+
+    def ranges(self) -> Floats:
+        """Return the range of each column, at least its scale, of angles at most half a turn."""
+        found = np.zeros_like(self.scales)
+        if len(self.places):
+            found = np.nanmax(self.places, axis=0) - np.nanmin(self.places, axis=0)
+        found = np.where(self.angles, np.minimum(found, np.pi), found)
+        return np.asarray(np.maximum(self.scales, found), np.float64)
+
+    def scatter(self) -> Floats:
+        """Return (points, columns) standard errors of means and spreads."""
+        spread = self.places[:, self.places.shape[1] // 2 :]
+        errors = spread / np.sqrt(self.independent)[:, None]
+        turning = self.angles[: spread.shape[1]]
+        # the direction of a mean of unit vectors whose length is 1 - spread^2 / 2
+        length = np.where(turning, np.maximum(1.0 - 0.5 * spread**2, 1e-3), 1.0)
+        both = np.concatenate([errors / length, errors], axis=1)
+        return np.asarray(np.maximum(np.nan_to_num(both, nan=np.inf), self.scales * SAME))
+
+
+@dataclass
+class _Group:
+    """Points of one value that end on one attractor."""
+
+    code: int
+    """Label of their motion."""
+    members: Integers
+    place: Floats
+
+
+@dataclass
+class _Chain:
+    """An attractor over the values of a parameter."""
+
+    code: int
+    members: list[Integers]
+    place: Floats
+    """At the last value where it was found."""
+
+
+def _cycles(source: StudySource) -> _Cycles:
     states: Mapping[str, Any] = source.attributes["states"]
     names = list(states["scales"])
     scales = np.array([states["scales"][name] for name in names])
     angles = np.array([name in states["angles"] for name in names])
-    numbers = source.statistics
-    missing = np.full(source.points, np.nan)
-    means, spreads = (
-        np.stack([numbers.get(f"{kind}{name}", missing) for name in names], axis=1)
-        for kind in (MEAN, SPREAD)
+    numbers, missing = source.statistics, np.full(source.points, np.nan)
+    columns = [numbers.get(f"{kind}{name}", missing) for kind in (MEAN, SPREAD) for name in names]
+    return _Cycles(
+        np.stack(columns, axis=1),
+        np.tile(scales, 2),
+        np.concatenate([angles, np.zeros_like(angles)]),
+        numbers.get(INDEPENDENT, missing),
     )
-    places = np.concatenate([means, spreads], axis=1)
-    return _labelled(motion, places, np.tile(scales, 2), np.concatenate([angles, 0 * angles > 0]))
 
 
-def _labelled(motion: Labels, places: Floats, scales: Floats, angles: Flags) -> Attractors:
-    """Return labels, given the motions of points and where in the states' space they end."""
-    labels = np.minimum(motion, EQUILIBRIUM).astype(np.uint8)
-    names = dict(enumerate(NAMES))
+def parameter_of(source: StudySource) -> int | None:
+    """Return the column of the values over which shares are wanted; None: there is none."""
+    job = source.attributes["job"]
+    return 0 if job["kind"] == "basin-stability" and job.get("along") else None
+
+
+def _by_value(source: StudySource) -> Iterator[Integers]:
+    """Yield the points of each value of the parameter along which attractors are followed."""
+    column = parameter_of(source)
+    if column is None:
+        yield np.arange(source.points)
+        return
+    order = np.argsort(source.values[:, column], kind="stable")
+    values = source.values[order, column]
+    yield from np.split(order, np.flatnonzero(np.diff(values)) + 1)
+
+
+def _groups(motion: Labels, cycles: _Cycles) -> Iterator[_Group]:
+    """Yield the attractors of points that differ in their starts alone."""
     closed = motion >= EQUILIBRIUM
-    widths = np.maximum(scales, _ranges(places[closed], angles)) * SAME
-    groups: list[tuple[str, Integers]] = []
+    widths = np.maximum(cycles.scales, cycles.of(closed).ranges()) * SAME
     for code in np.unique(motion[closed]).tolist():
         left = np.flatnonzero(motion == code)
         while len(left):
-            near = _near(places[left], places[left[0]], widths, angles)
-            groups.append((name_of(code), left[near]))
+            place = cycles.places[left[0]]
+            near = (np.abs(cycles.apart(cycles.places[left], place)) <= widths).all(axis=1)
+            yield _Group(code, left[near], place)
             left = left[~near]
-    alike = [name for name, _ in groups]
-    for index, (name, members) in enumerate(groups):
-        code = len(NAMES) + min(index, MOST)
-        labels[members] = code
-        letter = f" {_letter(alike[:index].count(name))}" if alike.count(name) > 1 else ""
-        names[code] = "others" if index >= MOST else name + letter
-    return Attractors(labels, tuple(_table(labels, names)))
+    for code in (QUASI_PERIODIC, CHAOTIC):
+        points = np.flatnonzero(motion == code)
+        if len(points):
+            own = cycles.of(points)
+            for members in told_apart(Places(own.places, own.scatter(), own.angles)):
+                yield _Group(code, points[members], own.places[members[0]])
+
+
+def _carry_on(chains: list[_Chain], found: list[_Group], points: Integers, cycles: _Cycles) -> None:
+    """Add the attractors of a value to the nearest of those before, one to one, or as new ones."""
+    ranges = cycles.ranges()
+    near = sorted(
+        (float(np.abs(cycles.apart(group.place, chain.place) / ranges).max()), g, c)
+        for g, group in enumerate(found)
+        for c, chain in enumerate(chains)
+        if group.code == chain.code
+    )
+    taken: dict[int, int] = {}
+    for distance, g, c in near:
+        recurs = found[g].code >= EQUILIBRIUM
+        if (distance <= CARRIED or not recurs) and g not in taken and c not in taken.values():
+            taken[g] = c
+    for g, group in enumerate(found):
+        members = points[group.members]
+        if g in taken:
+            chain = chains[taken[g]]
+            chain.members.append(members)
+            chain.place = group.place
+        else:
+            chains.append(_Chain(group.code, [members], group.place))
 
 
 def _table(labels: Labels, names: Mapping[int, str]) -> list[Attractor]:
@@ -132,14 +263,6 @@ def _near(places: Floats, one: Floats, widths: Floats, angles: Flags) -> Flags:
     apart = places - one
     apart -= 2.0 * np.pi * np.round(apart / (2.0 * np.pi)) * angles
     return np.asarray((np.abs(apart) <= widths).all(axis=1), np.bool_)
-
-
-def _ranges(places: Floats, angles: Flags) -> Floats:
-    """Return the range of each column, of angles at most a turn; nothing has the range 0."""
-    if not len(places):
-        return np.zeros(places.shape[1])
-    found = np.ptp(places, axis=0)
-    return np.asarray(np.where(angles, np.minimum(found, np.pi), found), np.float64)
 
 
 def _letter(index: int) -> str:

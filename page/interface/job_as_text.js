@@ -47,7 +47,7 @@ export function jobAsText(document) {
 /** What a job of each kind has found, as the client calls it; of all others their points. */
 const FOUND = {
   simulate: "peaks", poincare: "poincare", chart: "dataset", "accuracy-study": "accuracy",
-  calibration: "calibration", sensitivity: "sensitivity()",
+  calibration: "calibration", sensitivity: "sensitivity()", "basin-stability": "attractors",
 };
 const FORMS = {
   Python: python,

@@ -19,6 +19,7 @@ export function jobWords(document, declared) {
   const axes = [document, ...Object.values(document)].filter((one) => (one?.parameter ?? one?.start) && one.values);
   const verb = { calibration: "finds", sensitivity: "draws" }[kind];
   const varied = verb ? [`${verb} ${Object.keys(parameters).join(", ")}`] : [
+    document.starts && `draws ${Object.keys(document.starts).join(", ")}`,
     ...axes.map((one) => over(one.parameter ?? one.start, one.values)),
     ...Object.entries(grid ?? {}).map(([name, all]) => over(name, all)),
   ];

@@ -15,6 +15,7 @@ const TABS = {
   watch: ["Watch", () => import("./job/watch.js"), ["history"]],
   diagram: ["Diagram", () => import("./job/diagram.js"), ["bifurcation"]],
   chart: ["Chart", () => import("./job/chart.js"), ["chart"]],
+  attractors: ["Attractors", () => import("./job/shares.js"), ["attractors"]],
   branch: ["Branch", () => import("./job/branch.js"), ["branch"]],
   sweep: ["Sweep", () => import("./job/sweep.js"), ["sweep"]],
   sensitivity: ["Sensitivity", () => import("./job/sensitivity.js"), ["sensitivity"]],
@@ -34,7 +35,8 @@ export async function show(room, { parts, query, signal }) {
     get(`/v1/jobs/${encodeURIComponent(id ?? "")}`, {}, signal), kindsOfJobs(signal),
   ]);
   const tabs = Object.entries(TABS).filter(([name, [, , links]]) =>
-    links.some((one) => job.links[one]) && !(name === "sections" && job.links.branch)); // the branch shows them
+    links.some((one) => job.links[one]) && !(name === "sections" && job.links.branch) // the branch shows them
+    && !(name === "attractors" && job.links.chart)); // the chart does
   const tab = tabs.find(([name]) => name === wanted) ?? tabs[0];
   const name = job.label || sceneName(job.job).replaceAll("-", " ");
   document.title = `${name} · jointplay`;

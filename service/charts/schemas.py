@@ -82,8 +82,13 @@ class Attractor(BaseModel):
     points: int
     share: float = Field(description="Of the points that have ended.")
     share_error: float = Field(description="Standard error of the share, binomial.")
-    column: int = Field(description="Index along x of a point that ends on it.")
-    row: int = Field(description="Index along y of that point.")
+    shares: list[float | None] | None = Field(
+        description="At each value of `along`; null: nothing has ended there, or no parameter."
+    )
+    share_errors: list[float | None] | None = Field(description="Their standard errors.")
+    point: int = Field(description="A point that ends on it.")
+    column: int | None = Field(description="Index along x of that point; null: no map.")
+    row: int | None = Field(description="Index along y of that point.")
     period: float | None = Field(description="Sections after which it recurs; 0: none.")
     lyapunov: float | None = in_unit("1/s", "Largest Lyapunov exponent at that point.")
     lyapunov_error: float | None = in_unit("1/s", "Its standard error.")
@@ -93,6 +98,15 @@ class Attractor(BaseModel):
     spread: dict[str, float] = Field(
         description="Root mean square deviation over a cycle, in SI units."
     )
+
+
+class Along(BaseModel):
+    """A parameter over which the same starts were computed."""
+
+    parameter: str
+    unit: str
+    values: list[float] = Field(description="Ascending.")
+    ended: list[int] = Field(description="Points of each value that are done or have failed.")
 
 
 class Boundary(BaseModel):
@@ -105,10 +119,11 @@ class Boundary(BaseModel):
 
 
 class Attractors(BaseModel):
-    """The attractors of a map, as far as it is computed."""
+    """The attractors of many starts, as far as they are computed."""
 
     complete: bool
     points: int
     ended: int = Field(description="Points that are done or have failed.")
+    along: Along | None = Field(description="null: the shares are not over a parameter.")
     attractors: list[Attractor]
-    boundary: Boundary | None = Field(description="null: too few points tell it.")
+    boundary: Boundary | None = Field(description="null: no map, or too few points tell it.")

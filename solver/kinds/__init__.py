@@ -14,6 +14,7 @@ from jointplay.records.remarks import without_remarks
 from jointplay.solver.calibration.plan import CalibrationStudy
 from jointplay.solver.calibration.problem import Calibration
 from jointplay.solver.kinds.accuracy_study import AccuracyStudy
+from jointplay.solver.kinds.basin_stability import BasinStability
 from jointplay.solver.kinds.basins import Basins
 from jointplay.solver.kinds.bifurcation import Bifurcation
 from jointplay.solver.kinds.calibration import CalibrationKind
@@ -39,6 +40,7 @@ KINDS: dict[str, Kind[Any]] = {
         Sweep(),
         Chart(),
         Basins(),
+        BasinStability(),
         SensitivityKind(),
         Continuation(),
         Poincare(),

@@ -1,14 +1,9 @@
 """The kind ``basins``: which attractor each start ends on, over two axes."""
 
-from collections.abc import Mapping
 from typing import ClassVar, Literal
 
-from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds.attractors import AttractorKind
 from jointplay.solver.kinds.motion_map import MotionMap, MotionMapJob
-from jointplay.solver.kinds.section_study import indicators_of
-from jointplay.solver.runs.study.cycles import outputs_of
-from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.statistics import Output
 
 
 class BasinsJob(MotionMapJob):
@@ -17,26 +12,8 @@ class BasinsJob(MotionMapJob):
     kind: Literal["basins"]
 
 
-class Basins(MotionMap[BasinsJob]):
+class Basins(AttractorKind[BasinsJob], MotionMap[BasinsJob]):
     """A map whose points keep what tells their attractors apart."""
 
     document = BasinsJob
     results: ClassVar = ("points", "chart", "attractors", "figures", "zarr")
-    compares_cycles: ClassVar = True
-
-    def admit(self, job: BasinsJob) -> Study:
-        """Check and fill in; see `Kind.admit`."""
-        if job.formulation != "reduced":
-            sentence = (
-                "Attractors are told apart by joint coordinates, which only the formulation"
-                " 'reduced' has; choose that."
-            )
-            raise InvalidInput.at("/formulation", sentence)
-        if "recurrence" not in indicators_of(job):
-            sentence = "Attractors are told apart by 'recurrence'; ask for that, too."
-            raise InvalidInput.at("/indicators", sentence)
-        return super().admit(job)
-
-    def outputs(self, study: Study) -> Mapping[str, Output]:
-        """Return the statistics that the job chose, and what tells attractors apart."""
-        return {**super().outputs(study), **outputs_of(study.point_scene(0))}

@@ -84,11 +84,11 @@ def check_size(study: Study, run: float, place: str, most: float = MOST_PERIODS)
         raise LimitExceeded(Problem(place, sentence) for sentence in problems)
 
 
-def check_numbers(points: int, each: int) -> None:
+def check_numbers(points: int, each: int, pointer: str) -> None:
     """Refuse (LimitExceeded) a map whose points have too many numbers to be read at once."""
     if points * each > MOST_NUMBERS_OF_A_MAP:
         raise LimitExceeded.at(
-            "/by/values",
+            pointer,
             f"{points} points with {each} numbers each are more than {MOST_NUMBERS_OF_A_MAP};"
             f" {MOST_NUMBERS_OF_A_MAP // each} such points fit. Ask for fewer points, or for fewer"
             " channels and statistics.",

@@ -1,5 +1,6 @@
-"""The kinds that map the motion over two axes: document, admission and plan."""
+"""The kinds that tell the motion of very many points: document, admission and plan."""
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, TypeVar
 
@@ -20,6 +21,7 @@ from jointplay.solver.kinds.map import MapJob, points_of_map
 from jointplay.solver.kinds.methods import check_study
 from jointplay.solver.kinds.observables import chosen
 from jointplay.solver.kinds.periods import Periods, periods
+from jointplay.solver.kinds.points import Points
 from jointplay.solver.kinds.section_checks import check_section
 from jointplay.solver.kinds.section_study import (
     IndicatorChoice,
@@ -43,8 +45,8 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.statistics import Output
 
 
-class MotionMapJob(SectionsJob, MapJob):
-    """A map whose points tell their motion, and what is asked of it beside."""
+class MotionsJob(SectionsJob):
+    """Many points that tell their motion, and what is asked of it beside."""
 
     indicators: IndicatorChoice = ["lyapunov", "recurrence"]
     channels: Annotated[
@@ -65,16 +67,27 @@ class MotionMapJob(SectionsJob, MapJob):
         return [*(self.channels or []), *super().named_channels]
 
 
-J = TypeVar("J", bound=MotionMapJob)
+class MotionMapJob(MotionsJob, MapJob):
+    """A map of motions."""
+
+
+J = TypeVar("J", bound=MotionsJob)
+M = TypeVar("M", bound=MotionMapJob)
 NUMBERS, EXTREMES = 8, 4
 """Numbers of every point at most, and of each channel."""
 
 
-class MotionMap(Kind[J]):
-    """A point for each pair of values, numbered coarse to fine; a member may ask for more."""
+class Motions(Kind[J]):
+    """A kind that tells the motion of many points; a member has these, and may ask for more."""
 
     compares_cycles: ClassVar = False
     """Whether points keep what tells their attractors apart."""
+    counted: ClassVar = "/by/values"
+    """JSON pointer to what says how many points there are."""
+
+    @abstractmethod
+    def points(self, job: J) -> Points:
+        """Return the points of a job; see `Kind.admit` for how they are refused."""
 
     def continuation(self, job: J) -> str:
         """Return in which direction a point starts from its neighbour along x."""
@@ -97,7 +110,7 @@ class MotionMap(Kind[J]):
         indicators = indicators_of(job)
         check_study(job, tangents="lyapunov" in indicators)
         _check_length(job)
-        checked = check_points(job, points_of_map(job, MOST_OF_A_CHART))
+        checked = check_points(job, self.points(job))
         channels = chosen(checked, job.channels, (), "/channels")
         units = periods(checked.scenes)
         check_section(job.section, checked, units)
@@ -109,6 +122,7 @@ class MotionMap(Kind[J]):
             + EXTREMES * len(channels)
             + statistic_count(job.statistics, len(channels), pairs)
             + (len(outputs_of(checked.declared)) if self.compares_cycles else 0),
+            self.counted,
         )
         names = [channel.name for channel in channels]
         filled = documents.filled(
@@ -124,7 +138,7 @@ class MotionMap(Kind[J]):
 
     def plan(self, job: J, filled: dict[str, Any]) -> Study:
         """Return what `admit` returned; see `Kind.plan`."""
-        placed = place_points(job, points_of_map(job, MOST_OF_A_CHART))
+        placed = place_points(job, self.points(job))
         return self._study(job, filled, placed, periods(placed.scenes))
 
     def outputs(self, study: Study) -> Mapping[str, Output]:
@@ -153,7 +167,15 @@ class MotionMap(Kind[J]):
         )
 
 
-def _check_length(job: MotionMapJob) -> None:
+class MotionMap(Motions[M]):
+    """A point for each pair of values, numbered coarse to fine."""
+
+    def points(self, job: M) -> Points:
+        """Return the points of the map."""
+        return points_of_map(job, MOST_OF_A_CHART)
+
+
+def _check_length(job: MotionsJob) -> None:
     """Refuse what needs to be known when settling ends where that is found out on the way."""
     if job.settle != "auto":
         return

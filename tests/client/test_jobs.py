@@ -46,6 +46,13 @@ MADE = {
         {"parameter": "friction", "values": (0.0, 0.1)},
         indicators="recurrence",
     ),
+    "basin-stability": jobs.basin_stability(
+        "slider-crank",
+        {"/drivers/motor/position": {"distribution": "uniform", "low": 0.0, "high": np.float64(6)}},
+        samples=np.int64(8),
+        along={"parameter": "friction", "values": np.array([0.0, 0.1])},
+        indicators="recurrence",
+    ),
     "sensitivity": jobs.sensitivity(
         "slider-crank",
         {"clearance": {"distribution": "uniform", "low": np.float64(1e-4), "high": 5e-4}},

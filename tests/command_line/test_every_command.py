@@ -110,8 +110,8 @@ def test_what_a_job_has_not_is_one_line(jointplay, service_url, finished_job, fi
 
 
 BY_COMMAND = {
-    "submit": "Client.submit simulate bifurcation chart continuation basins sweep sensitivity"
-    " poincare ensemble accuracy_study calibration estimate",
+    "submit": "Client.submit simulate bifurcation chart continuation basins basin_stability sweep"
+    " sensitivity poincare ensemble accuracy_study calibration estimate",
     "ls": "Client.jobs Batch.jobs",
     "show": "Client.job Job.refresh wait follow check statistics points accuracy attractors"
     " branch calibration study results",

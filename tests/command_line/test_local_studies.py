@@ -5,6 +5,7 @@ import json
 import signal
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -180,6 +181,36 @@ def test_a_study_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(
     done = int((reader.status == 2).sum())
     assert 0 < done < 400
     assert np.isfinite(reader.sections("P.eccentricity_x")[reader.status == 2]).all()
+
+
+def test_shares_of_drawn_starts_are_told_over_a_parameter(jointplay, tmp_path):
+    ended = jointplay(
+        *("run", "impact-oscillator", "-o", str(tmp_path / "OUT"), "--samples", "6"),
+        *("--basin-stability", "/start/joints/stop/eccentricity/0=uniform:0.17:0.2"),
+        *("--basin-stability", "/drivers/motor/position=uniform:0:6", "--along", "speed=5,28"),
+        *("--settle", "60", "--record", "4", "--indicators", "recurrence", "--accuracy", "draft"),
+    )
+    assert ended.code == 0, ended.err
+    assert [line.split("  ")[0] for line in ended.out.splitlines() if "speed = " in line] == [
+        "speed = 5 rad/s",
+        "speed = 28 rad/s",
+    ]
+    (table,) = (tmp_path / "OUT").glob("*.csv")
+    named = [row["attractor"] for row in csv.DictReader(table.read_text().splitlines())]
+    shown = json.loads(jointplay("show", str(tmp_path / "OUT"), "--json").out)["attractors"]
+    counts = {one["name"]: one["points"] for one in shown["attractors"]}
+    assert counts == Counter(named)
+    assert (
+        jointplay("plot", str(tmp_path / "OUT"), "basin-stability", "-o", str(tmp_path)).code == 0
+    )
+
+
+def test_a_parameter_over_which_starts_are_drawn_is_not_set(jointplay, tmp_path):
+    ended = jointplay(
+        *("run", "impact-oscillator", "--set", "speed=28", "-o", str(tmp_path / "OUT")),
+        *("--basin-stability", "/drivers/motor/position=uniform:0:6", "--along", "speed=5,28"),
+    )
+    assert "the study varies speed" in ended.line()
 
 
 def test_basins_tell_their_attractors(jointplay, tmp_path):

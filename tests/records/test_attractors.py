@@ -4,42 +4,12 @@ import numpy as np
 import pytest
 
 from jointplay.records.attractor_table import attractor_table
-from jointplay.records.attractors import MEAN, SPREAD, attractors_of
+from jointplay.records.attractors import attractors_of
 from jointplay.records.basin_boundary import boundary_dimension
-from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import coarse_to_fine
 from jointplay.records.motion import CHAOTIC, FAILED, NAMES
 from jointplay.records.point import PointStatus
-from jointplay.records.study import StudyDataset
-
-VERDICTS = ("undecided", "periodic", "quasi-periodic", "chaotic")
-PERIODIC = 1.0
-
-
-def study(periods, means, spreads=None, verdicts=PERIODIC, status=PointStatus.done, grid=()):
-    """Return a study of a pendulum's cycles: means of its angle and rate."""
-    count = len(periods)
-    names = ("rod.theta", "rod.theta_rate")
-    means = np.asarray(means, np.float64).reshape(count, 2)
-    spreads = np.zeros((count, 2)) if spreads is None else np.asarray(spreads).reshape(count, 2)
-    numbers = {f"{MEAN}{name}": means[:, k] for k, name in enumerate(names)}
-    numbers |= {f"{SPREAD}{name}": spreads[:, k] for k, name in enumerate(names)}
-    return StudyDataset(
-        {
-            "job": {"kind": "basins"},
-            "states": {"scales": dict(zip(names, (0.1, 1.0), strict=True)), "angles": names[:1]},
-        },
-        (Channel("y", "1", ""), Channel("x", "1", "")),
-        np.zeros((count, 2)),
-        np.full(count, status, np.uint8),
-        statistics=numbers,
-        indicators={
-            "period": np.asarray(periods, np.float64),
-            "verdict": np.broadcast_to(np.asarray(verdicts, np.float64), count),
-        },
-        verdict_names=VERDICTS,
-        grid=grid or (1, count),
-    )
+from tests.starts_by_hand import study
 
 
 def test_cycles_of_one_period_are_told_apart_by_where_they_are():

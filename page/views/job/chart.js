@@ -1,6 +1,6 @@
 /** A chart: the motion, or a quantity, over two parameters, while it is computed and after. */
 
-import { attractorTable } from "../../charts/attractors.js";
+import { mapOfAttractors } from "../../charts/attractors.js";
 import { ChartMap } from "../../charts/map.js";
 import { Tiles } from "../../charts/tiles.js";
 import { element, fill } from "../../interface/element.js";
@@ -57,7 +57,7 @@ class Chart {
 
   async showAttractors() {
     const { attractors } = this.job.links;
-    if (attractors) fill(this.attractors, attractorTable(await get(attractors, {}, this.signal)));
+    if (attractors) fill(this.attractors, mapOfAttractors(await get(attractors, {}, this.signal)));
   }
 
   get quantity() {

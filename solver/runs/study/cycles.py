@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.records.attractors import MEAN, SPREAD
+from jointplay.records.attractors import INDEPENDENT, MEAN, SPREAD
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.document import Scene
@@ -29,11 +29,12 @@ def outputs_of(scene: Scene) -> dict[str, Output]:
     """Return unit and long name of the numbers that a point has."""
     coordinates = spanning_tree(scene).coordinates
     units = [_UNITS[name.split(".")[1]][rate] for rate in (0, 1) for name in coordinates]
-    return {
+    found = {
         f"{kind}{name}": (unit, f"{what} over a cycle of {name}")
         for kind, what in ((MEAN, "mean"), (SPREAD, "spread"))
         for name, unit in zip(names_of(coordinates), units, strict=True)
     }
+    return {**found, INDEPENDENT: ("1", "independent sections of a motion that does not recur")}
 
 
 def attributes_of(scene: Scene, period: float) -> dict[str, Any]:
@@ -65,16 +66,53 @@ def cycle_of(
         Sections of a cycle; 0: the record is all there is of one.
 
     Without sections nothing is known: NaN.
+
+    Returns
+    -------
+    Numbers by name. Of angles the mean is the direction of the mean of their unit vectors, zero
+    where that has none, and the spread the root mean square of the chords from it, so that neither
+    depends on where a turn begins.
     """
     count = 2 * len(coordinates)
     if not len(sections):
         sections = np.full((1, count), math.nan)
     cycle = period or len(sections)
-    whole = sections[len(sections) % cycle :, :count]
-    mean, spread = whole.mean(axis=0), whole.std(axis=0)
-    turns = np.round(mean / (2.0 * math.pi)) * angles[:count]
-    mean = mean - 2.0 * math.pi * turns
+    whole, turning = sections[len(sections) % cycle :, :count], angles[:count]
+    cosine, sine = np.cos(whole).mean(axis=0), np.sin(whole).mean(axis=0)
+    length = np.hypot(cosine, sine)
+    direction = np.where(length < DIRECTED, 0.0, np.arctan2(sine, cosine))
+    mean = np.where(turning, direction, whole.mean(axis=0))
+    chord = np.sqrt(np.maximum(2.0 * (1.0 - length), 0.0))
+    spread = np.where(turning, chord, whole.std(axis=0))
     found: dict[str, float] = {}
     for name, centre, width in zip(names_of(coordinates), mean, spread, strict=True):
         found |= {f"{MEAN}{name}": float(centre), f"{SPREAD}{name}": float(width)}
-    return found
+    return found | {INDEPENDENT: math.nan if period else independent(whole, turning)}
+
+
+DIRECTED = 1e-3
+"""Length of a mean of unit vectors below which it has no direction."""
+BATCHES = 8
+"""Parts of a record whose means tell how sections depend on those before."""
+
+
+def independent(sections: Floats, angles: Flags) -> float:
+    """Return of how many independent sections means and spreads would scatter as these do.
+
+    By batch means: those of dependent sections vary by more than the sections' variance over their
+    number. NaN: fewer than two sections a batch.
+    """
+    size = len(sections) // BATCHES
+    if size < 2:
+        return math.nan
+    columns = np.hstack(
+        [sections[:, ~angles], np.cos(sections[:, angles]), np.sin(sections[:, angles])]
+    )
+    columns = columns[len(columns) - BATCHES * size :]
+    columns = columns - columns.mean(axis=0)
+    columns = np.hstack([columns, columns**2 - (columns**2).mean(axis=0)])
+    batches = columns.reshape(BATCHES, size, -1).mean(axis=1).var(axis=0, ddof=1)
+    variance = columns.var(axis=0)
+    varies = variance > 0.0
+    dependence = size * batches[varies] / variance[varies]
+    return float(len(columns) / max(1.0, dependence.max(initial=1.0)))

@@ -91,7 +91,7 @@ class HttpResults:
         return self._get("accuracy")
 
     def attractors(self) -> dict[str, Any]:
-        """Return the attractors of a map of basins."""
+        """Return the attractors of many starts."""
         return self._get("attractors")
 
     def calibration(self) -> dict[str, Any]:

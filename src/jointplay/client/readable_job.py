@@ -65,7 +65,7 @@ class ReadableJob(TabledJob):
 
     @property
     def attractors(self) -> dict[str, Any]:
-        """Attractors of a map of basins, their shares with errors, and the boundary's dimension."""
+        """Attractors of many starts, their shares with errors; of a map its boundary."""
         return self.results.attractors()
 
     @property

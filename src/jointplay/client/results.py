@@ -99,7 +99,7 @@ class Results(Protocol):
         """Return what every method and tolerance costs and buys, of an accuracy-study."""
 
     def attractors(self) -> dict[str, Any]:
-        """Return the attractors of a map of basins, how often they are reached, the boundary."""
+        """Return the attractors of many starts, and how often they are reached."""
 
     def branch(self) -> dict[str, Any]:
         """Return the branches of a continuation."""

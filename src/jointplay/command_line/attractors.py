@@ -1,4 +1,4 @@
-"""Attractors of a map of basins, as lines."""
+"""Attractors of many starts, as lines."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -16,5 +16,21 @@ def attractor_lines(found: Mapping[str, Any]) -> Iterator[str]:
             else f", exponent {one['lyapunov']:.4g} +- {one['lyapunov_error'] or 0.0:.2g} 1/s"
         )
         yield f"attractor {one['name']:{width}}  {one['points']} points, {share}{exponent}"
+    if (along := found["along"]) is not None:
+        yield from _over_values(along, rows, width)
     if (boundary := found["boundary"]) is not None:
         yield f"boundary  dimension {boundary['dimension']:.3f} +- {boundary['error']:.3f}"
+
+
+def _over_values(
+    along: Mapping[str, Any], rows: list[Mapping[str, Any]], width: int
+) -> Iterator[str]:
+    unit = "" if along["unit"] == "1" else f" {along['unit']}"
+    for index, value in enumerate(along["values"]):
+        parts = [
+            f"{one['name']:{width}} {100.0 * one['shares'][index]:.4g} +-"
+            f" {100.0 * one['share_errors'][index]:.2g} %"
+            for one in rows
+            if one["shares"][index]
+        ]
+        yield f"{along['parameter']} = {value:.6g}{unit}  {', '.join(parts)}"

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.attractors import attractors_of
 from jointplay.records.channel import TIME, by_name
 from jointplay.records.point import PointStatus
 from jointplay.records.run import Floats
@@ -102,13 +103,13 @@ def point_json(
     Yields
     ------
     str
-        Pieces of `{"complete", "values", "status", "verdict", "reason", "columns"}`, the last by
-        title.
+        Pieces of `{"complete", "values", "status", "verdict", "reason", "attractor", "columns"}`,
+        the last by title.
     """
     part = slice(points.start, points.stop)
     document = _head(source, points)
     words = words_of_points(source)
-    for name in ("verdict", "reason"):
+    for name in ("verdict", "reason", "attractor"):
         if name in words:
             document[name] = [json.dumps(words[name][part])]
     found = columns_of_points(source, channels, units)
@@ -167,12 +168,16 @@ def columns_of_points(
 
 
 def words_of_points(source: StudySource) -> dict[str, list[str]]:
-    """Return status, verdict with its reason, and code of a failure of all points."""
+    """Return status, verdict with its reason, attractor, and code of a failure of all points."""
     words = {"status": [PointStatus(code).name for code in source.status]}
     if source.verdicts is not None:
         names: NDArray[np.str_] = np.array([*source.verdict_names, ""])
         words["verdict"] = names[source.verdicts].tolist()
         words["reason"] = [source.reasons.get(point, "") for point in range(source.points)]
+    if "states" in source.attributes:
+        found = attractors_of(source)
+        named = {code: found.name_of(code) for code in np.unique(found.labels).tolist()}
+        words["attractor"] = [named[code] for code in found.labels.tolist()]
     failures = source.failures
     words["failure"] = [
         failures[point].code if point in failures else "" for point in range(source.points)

@@ -125,9 +125,9 @@ class FolderResults:
         return WorkPrecision.of(study).document()
 
     def attractors(self) -> dict[str, Any]:
-        """Return the attractors of a map of basins."""
+        """Return the attractors of a map of basins, or of starts that were drawn."""
         study = self.study(None, None, None)
-        if study.kind != "basins":
+        if "states" not in study.attributes:
             raise NotFound(f"{self._store} is of a {study.kind}; it has no attractors.")
         return attractor_table(study)
 

@@ -176,6 +176,25 @@ def test_basins_have_attractors_with_names_of_their_own(http, basins):
     assert picture(http, basins, "attractor", "0/0/0")[255, 0, 3] == 255
 
 
+def test_drawn_starts_have_attractors_over_a_parameter_and_no_chart(http, worker):
+    drawn = {"/drivers/drive1/position": {"distribution": "uniform", "low": 0.0, "high": 6.0}}
+    fields = {name: field for name, field in CHART.items() if name not in ("along", "by")}
+    along = {"parameter": "clearance", "values": [1e-4, 2e-4, 3e-4]}
+    fields |= {"kind": "basin-stability", "starts": drawn, "samples": 40, "along": along}
+    job = worker.finished_study(**fields)
+    answer = http.get(f"/v1/jobs/{job}/attractors")
+    document = schemas.Attractors.model_validate_json(answer.content, strict=True)
+    assert document.model_dump(mode="json") == answer.json()
+    assert document.along.values == along["values"]
+    assert document.along.ended == [40, 40, 40]
+    for index in range(3):
+        assert sum(one.shares[index] for one in document.attractors) == pytest.approx(1.0)
+    assert document.attractors[0].row is None
+    refused = http.get(f"/v1/jobs/{job}/chart")
+    assert refused.status_code == 404
+    assert "has no chart" in refused.json()["detail"]
+
+
 def test_a_chart_has_no_attractors(http, chart):
     assert http.get(f"/v1/jobs/{chart}/attractors").status_code == 404
 

@@ -1,0 +1,34 @@
+"""The kinds that say on which attractor each of many starts ends."""
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds.motion_map import J, Motions
+from jointplay.solver.kinds.section_study import indicators_of
+from jointplay.solver.runs.study.cycles import outputs_of
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.statistics import Output
+
+
+class AttractorKind(Motions[J]):
+    """A kind whose points keep what tells their attractors apart; a member has these points."""
+
+    compares_cycles: ClassVar = True
+
+    def admit(self, job: J) -> Study:
+        """Check and fill in; see `Kind.admit`."""
+        if job.formulation != "reduced":
+            sentence = (
+                "Attractors are told apart by joint coordinates, which only the formulation"
+                " 'reduced' has; choose that."
+            )
+            raise InvalidInput.at("/formulation", sentence)
+        if "recurrence" not in indicators_of(job):
+            sentence = "Attractors are told apart by 'recurrence'; ask for that, too."
+            raise InvalidInput.at("/indicators", sentence)
+        return super().admit(job)
+
+    def outputs(self, study: Study) -> Mapping[str, Output]:
+        """Return the statistics that the job chose, and what tells attractors apart."""
+        return {**super().outputs(study), **outputs_of(study.point_scene(0))}
