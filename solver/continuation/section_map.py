@@ -98,7 +98,7 @@ class SectionMap:
     recall: Callable[[Callable[[], Answers]], Answers] = lambda compute: compute()
     """Returns what `compute` does, or did before at the same place of the same continuation."""
     steps: float = math.inf
-    """Of the motion that the branch begins with, a period."""
+    """Accepted steps in a period of the motion that the branch begins with."""
 
     @property
     def size(self) -> int:
