@@ -3,10 +3,18 @@
 import pytest
 from hypothesis import settings
 
+from tests import dear
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Take a seed: another one damages other bytes."""
     parser.addoption("--seed", type=int, default=0, help="of the damages to files")
+
+
+@pytest.hookimpl(tryfirst=True)  # before tests are chosen by their marks
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Leave dear tests to the long ones."""
+    dear.mark(items)
 
 
 # the machine that tests run on may be busy: a slow example is no failure

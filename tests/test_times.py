@@ -3,10 +3,11 @@
 import json
 import subprocess
 import sys
+import time
 from dataclasses import asdict
 from pathlib import Path
 
-from tests.times import Spent, dearest
+from tests.times import Spent, dearest, processor
 
 ROOT = Path(__file__).parents[1]
 BUSY = "import time; [None for _ in iter(lambda: time.process_time() < 0.5, False)]"
@@ -23,24 +24,39 @@ def test_elsewhere():
 """
 
 
-def test_files_have_their_tests_processes_and_seconds(tmp_path: Path) -> None:
+def test_tests_have_their_processes_and_seconds(tmp_path: Path) -> None:
     (tmp_path / "test_some.py").write_text(TESTS)
     (tmp_path / "test_other.py").write_text("def test_none(): assert True")
     times = tmp_path / "build" / "times.json"
     command = [sys.executable, "-m", "pytest", "-p", "tests.times", "--times", str(times)]
     subprocess.run([*command, str(tmp_path)], check=True, cwd=ROOT, capture_output=True)
-    found = {Path(name).name: Spent(**one) for name, one in json.loads(times.read_text()).items()}
-    some, other = found["test_some.py"], found["test_other.py"]
-    assert (some.tests, some.processes, other.tests, other.processes) == (2, 1, 1, 0)
-    assert some.processor >= 0.1 + 0.5 - 0.02  # of both processes, by clocks of 10 ms
-    assert other.processor < some.processor
-    assert some.seconds >= 0.1
+    written = json.loads(times.read_text()).items()
+    found = {name.rpartition("::")[2]: Spent(**one) for name, one in written}
+    here, elsewhere, none = (found[f"test_{name}"] for name in ("here", "elsewhere", "none"))
+    assert [(one.tests, one.processes) for one in (here, elsewhere, none)] == [
+        (1, 0),
+        (1, 1),
+        (1, 0),
+    ]
+    assert here.processor >= 0.1 - 0.02  # clocks of 10 ms
+    assert elsewhere.processor >= 0.5 - 0.02
+    assert none.processor < here.processor
+    assert here.seconds >= 0.1
+
+
+def test_a_process_that_lives_on_counts_for_the_test_that_makes_it_work() -> None:
+    before = processor()
+    with subprocess.Popen([sys.executable, "-c", BUSY + "; input()"], stdin=subprocess.PIPE) as one:
+        while processor() < before + 0.5:
+            time.sleep(0.01)
+        assert one.poll() is None
 
 
 def test_the_dearest_come_first_and_all_are_added() -> None:
-    files = {f"test_{i}.py": asdict(Spent(i, 2 * i, 0.0, 1, 3)) for i in (2, 30, 4)}
-    head, first, second, total = dearest(files, 2).splitlines()
+    names = {2: "test_2.py::a", 10: "test_30.py::a", 20: "test_30.py::b", 4: "test_4.py::a[::]"}
+    tests = {name: asdict(Spent(i, 2 * i, 0.0, 1, 1)) for i, name in names.items()}
+    head, first, second, total = dearest(tests, 2).splitlines()
     assert head.split()[-1] == "file"
-    assert first.split() == ["30.0", "60.0", "0.0", "1", "3", "test_30.py"]
+    assert first.split() == ["30.0", "60.0", "0.0", "2", "2", "test_30.py"]
     assert second.split()[-1] == "test_4.py"
-    assert total.split()[:5] == ["36.0", "72.0", "0.0", "3", "9"]
+    assert total.split()[:5] == ["36.0", "72.0", "0.0", "4", "4"]

@@ -1,14 +1,14 @@
-"""Where the tests' processor time goes, file by file: `pytest -p tests.times --times FILE`.
+"""Where the tests' processor time goes, test by test: `pytest -p tests.times --times FILE`.
 
-Processor seconds are those of pytest and of the processes that ended during a file's tests; what a
-service took that several files share is that of the last one.
+Processor seconds are those of pytest and of all processes that it started, whether these have ended
+or not: what a service takes that several tests share is that of those which make it work.
 """
 
 import json
 import os
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, astuple, dataclass
 from pathlib import Path
 
@@ -38,12 +38,26 @@ class Spent:
         return Spent(*(one - less for one, less in zip(astuple(self), astuple(other), strict=True)))
 
 
+def processor() -> float:
+    """Return the processor seconds of this process and of all that it started, living or not."""
+    ticks, waiting = 0, [os.getpid()]
+    while waiting:
+        process = Path(f"/proc/{waiting.pop()}")
+        try:
+            ticks += sum(map(int, (process / "stat").read_text().rpartition(")")[2].split()[11:15]))
+            for task in (process / "task").iterdir():
+                waiting += map(int, (task / "children").read_text().split())
+        except OSError:
+            continue  # it has ended
+    return ticks / os.sysconf("SC_CLK_TCK") if ticks else sum(os.times()[:4])
+
+
 class Times:
-    """Adds up what each file of tests takes, and writes it in the end."""
+    """Notes what each test takes, and writes it in the end."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._files: dict[str, Spent] = {}
+        self._spent: dict[str, Spent] = {}
         self._tests = self._processes = 0
         sys.addaudithook(self._hear)
 
@@ -53,8 +67,7 @@ class Times:
     def _until_now(self) -> Spent:
         cache = sys.modules.get("jointplay.solver.kernels.cache")  # not for those who need none
         compiling = 0.0 if cache is None else cache.SPENT.seconds
-        own = sum(os.times()[:4])
-        return Spent(own, time.monotonic(), compiling, self._processes, self._tests)
+        return Spent(processor(), time.monotonic(), compiling, self._processes, self._tests)
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
@@ -62,14 +75,13 @@ class Times:
         before = self._until_now()
         self._tests += 1
         result = yield
-        file = item.location[0]
-        self._files[file] = self._files.get(file, Spent()) + (self._until_now() - before)
+        self._spent[item.nodeid] = self._until_now() - before
         return result
 
     def pytest_unconfigure(self) -> None:
-        """Write the files' times."""
+        """Write the tests' times."""
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        self._path.write_text(json.dumps({name: asdict(one) for name, one in self._files.items()}))
+        self._path.write_text(json.dumps({name: asdict(one) for name, one in self._spent.items()}))
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -83,17 +95,20 @@ def pytest_configure(config: pytest.Config) -> None:
         config.pluginmanager.register(Times(path))
 
 
-def dearest(files: dict[str, dict[str, float]], count: int = 25) -> str:
+def dearest(tests: Mapping[str, Mapping[str, float]], count: int = 25) -> str:
     """Return a table of the files that take most of the processor, and of all together."""
-    ordered = sorted(files.items(), key=lambda named: -named[1]["processor"])
-    total = sum((Spent(**one) for one in files.values()), Spent())  # type: ignore[arg-type]
-    rows = [*ordered[:count], (f"all {len(files)} files", asdict(total))]
+    files: dict[str, Spent] = {}
+    for name, one in tests.items():
+        file = name.partition("::")[0]
+        files[file] = files.get(file, Spent()) + Spent(**one)  # type: ignore[arg-type]
+    ordered = sorted(files.items(), key=lambda named: -named[1].processor)
+    rows = [*ordered[:count], (f"all {len(files)} files", sum(files.values(), Spent()))]
     head = "processor  seconds  compiling  processes  tests  file"
     return "\n".join([head, *(_row(name, one) for name, one in rows)])
 
 
-def _row(name: str, one: dict[str, float]) -> str:
+def _row(name: str, one: Spent) -> str:
     return (
-        f"{one['processor']:9.1f} {one['seconds']:8.1f} {one['compiling']:10.1f}"
-        f" {one['processes']:10.0f} {one['tests']:6.0f}  {name}"
+        f"{one.processor:9.1f} {one.seconds:8.1f} {one.compiling:10.1f}"
+        f" {one.processes:10.0f} {one.tests:6.0f}  {name}"
     )
