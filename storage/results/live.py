@@ -16,7 +16,14 @@ from jointplay.storage.packed import Files, Running
 from jointplay.storage.packed.running import PARTS
 from jointplay.storage.results import intervals, shards, steps
 from jointplay.storage.results.layout import SCHEMA_VERSION
-from jointplay.storage.results.metadata import DOUBLE, FILE, Document, documents, serialise
+from jointplay.storage.results.metadata import (
+    DOUBLE,
+    FILE,
+    Document,
+    documents,
+    serialise,
+    shape_of,
+)
 from jointplay.storage.results.waiting import Waiting, waiting_rows
 from jointplay.storage.results.wide_table import ARRAY, rows_in_files
 
@@ -104,16 +111,6 @@ def loosened(array: Document | None, content: bytes) -> bytes | None:
     dtype = np.dtype(array["data_type"])
     chunks = shards.chunks_of(content, shard_rows // chunk_rows, dtype)
     return shards.loose(chunks, chunk_rows)
-
-
-def shape_of(array: Document) -> tuple[int, int]:
-    """Give rows of a shard and of a chunk of an array's document."""
-    (shard_rows,) = array["chunk_grid"]["configuration"]["chunk_shape"]
-    first = array["codecs"][0]
-    if first["name"] != "sharding_indexed":
-        return int(shard_rows), int(shard_rows)
-    (chunk_rows,) = first["configuration"]["chunk_shape"]
-    return int(shard_rows), int(chunk_rows)
 
 
 def columns_of(attributes: dict[str, Any]) -> dict[str, tuple[str, ...]]:

@@ -59,6 +59,16 @@ def arrays_among(documents: Mapping[str, Document]) -> dict[str, Document]:
     }
 
 
+def shape_of(array: Document) -> tuple[int, int]:
+    """Give rows of a file and of a chunk of an array's document."""
+    rows, *_ = array["chunk_grid"]["configuration"]["chunk_shape"]
+    first = array["codecs"][0]
+    if first["name"] != "sharding_indexed":
+        return int(rows), int(rows)
+    chunk_rows, *_ = first["configuration"]["chunk_shape"]
+    return int(rows), int(chunk_rows)
+
+
 def serialise(document: Mapping[str, Any]) -> bytes:
     """Give the bytes of a document: the same for the same document, everywhere.
 

@@ -25,7 +25,7 @@ from jointplay.storage.results.metadata import Document
 from jointplay.storage.results.steps import GROUP as STEPS
 from jointplay.storage.results.steps import StoredSteps, stored_steps
 from jointplay.storage.results.store_reader import StoreReader
-from jointplay.storage.results.stored_column import StoredColumn
+from jointplay.storage.results.stored_columns import StoredColumns
 from jointplay.storage.results.waiting import Waiting
 
 
@@ -251,20 +251,15 @@ class ResultReader(StoreReader):
 
     def _column(self, group: str, name: str, start: int, stop: int) -> NDArray[Any]:
         """Read rows of one array: from shards, then from those that wait for theirs."""
-        column = self._stored(group, name)
-        waiting = self._waiting.get(group)
-        if waiting is None or not waiting.columns or stop <= waiting.durable:
-            return column.read(start, stop)
-        durable = waiting.durable
-        tail = waiting.columns[columns_of(self.attributes)[group].index(name)]
-        tail = tail[max(start - durable, 0) : stop - durable]
-        if start >= durable:
-            return tail
-        return np.concatenate([column.read(start, durable), tail])
+        stored, waiting = self._stored(group, name), self._waiting.get(group)
+        if waiting is None or not waiting.columns:
+            return stored.read(start, stop)
+        column = columns_of(self.attributes)[group].index(name)
+        return stored.read(start, stop, tail=waiting.column(column))
 
-    def _stored(self, group: str, name: str) -> StoredColumn:
+    def _stored(self, group: str, name: str) -> StoredColumns:
         path = f"{group}/{name}" if group else name
-        return StoredColumn(self.files, path, self._members[path])
+        return StoredColumns(self.files, path, self._members[path])
 
     def _names(self, channels: Sequence[str] | None) -> tuple[str, ...]:
         known = tuple(self.attributes["channels"])

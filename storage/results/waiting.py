@@ -68,6 +68,10 @@ class Checkpoint:
             table.append(_columns(content, [one[position] for one in frames], dtypes))
 
 
+Tail = tuple[int, NDArray[Any]]
+"""Rows of a column that are in shards: how many, and those that follow."""
+
+
 @dataclass(frozen=True)
 class Waiting:
     """Rows of one table: `durable` are in shards, the columns hold those that follow."""
@@ -79,6 +83,10 @@ class Waiting:
     def rows(self) -> int:
         """Rows in shards and after them."""
         return self.durable + (len(self.columns[0]) if self.columns else 0)
+
+    def column(self, position: int) -> Tail | None:
+        """Return the rows of one column that wait; None where no row does."""
+        return (self.durable, self.columns[position]) if self.columns else None
 
 
 def waiting_rows(

@@ -14,7 +14,8 @@ from jointplay.records.arrays import Floats
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import metadata, shards
 from jointplay.storage.results.growing_table import Columns, GrowingTable
-from jointplay.storage.results.metadata import DOUBLE
+from jointplay.storage.results.metadata import DOUBLE, shape_of
+from jointplay.storage.results.stored_columns import StoredColumns
 from jointplay.storage.results.tables import Column, Table
 from jointplay.storage.results.waiting import Waiting
 
@@ -107,11 +108,9 @@ class StoredRows:
             waiting = Waiting(int(document["shape"][0]), ())
         self.attributes: dict[str, Any] = document["attributes"]
         self.columns = tuple(self.attributes["columns"])
-        self._rows = int(document["chunk_grid"]["configuration"]["chunk_shape"][0])
-        self._files = files
-        self._group = group
-        self._waiting = waiting or Waiting(rows_in_files(files, group, self._rows), ())
-        self._indices: dict[int, list[tuple[int, int]]] = {}
+        rows, _ = shape_of(document)
+        self._stored = StoredColumns(files, f"{group}/{ARRAY}", document)
+        self._waiting = waiting or Waiting(rows_in_files(files, group, rows), ())
 
     @property
     def count(self) -> int:
@@ -120,28 +119,7 @@ class StoredRows:
 
     def column(self, column: int, first: int, last: int) -> Floats:
         """Read rows [first, last) of a column."""
-        target = np.empty(last - first)
-        rows, durable = self._rows, self._waiting.durable
-        for file in range(first // rows, -(-min(last, durable) // rows)):
-            begin = file * rows
-            low, high = max(first, begin), min(last, begin + rows, durable)
-            target[low - first : high - first] = self._chunk(file, column)[
-                low - begin : high - begin
-            ]
-        if last > durable:
-            low = max(first, durable)
-            target[low - first :] = self._waiting.columns[column][low - durable : last - durable]
-        return target
-
-    def _chunk(self, file: int, column: int) -> Floats:
-        key = f"{self._group}/{ARRAY}/c/{file}/0"
-        index = self._indices.get(file)
-        if index is None:
-            size = self._files.entry(key).size
-            packed = self._files.read(key, size - shards.index_bytes(len(self.columns)), size)
-            index = self._indices[file] = shards.unpack_index(packed)
-        offset, length = index[column]
-        return shards.decompress(self._files.read(key, offset, offset + length), DOUBLE)
+        return self._stored.read(first, last, column, self._waiting.column(column))
 
 
 def rows_in_files(files: Files, group: str, rows: int) -> int:

@@ -9,6 +9,7 @@ import typer
 from jointplay.command_line.exporting import Asked, Form, Table, Text, text_of
 from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, URL, job_of, listed
 from jointplay.command_line.typed_window import check_start
+from jointplay.records.window_query import WindowQuery
 
 
 def export(
@@ -67,7 +68,8 @@ def export(
     binary = output is not None and text_form is None and _is_binary(output)
     if text_form is None and output is not None and output.suffix == ".json":
         text_form = "json"
-    asked = Asked(table, channels, start, stop, points, text_form or "csv", step)
+    query = WindowQuery(listed(channels), start, stop, points, step)
+    asked = Asked(table, query, text_form or "csv")
     asked.check()
     with job_of(results, url) as job:
         check_start(job, start)

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from jointplay.command_line.exits import Stopped
-from jointplay.command_line.options import listed
 from jointplay.command_line.typed_window import check_ends
 from jointplay.records.window_query import WindowQuery
 
@@ -23,20 +22,17 @@ class Asked(NamedTuple):
     """Part of the results to write, as it was typed."""
 
     table: Table | None
-    channels: str | None
-    start: float | None
-    stop: float | None
-    points: int | None
+    query: WindowQuery
     form: Form
-    step: float | None = None
 
     def check(self) -> None:
         """Refuse windows that are none, with `Stopped`."""
-        check_ends(self.start, self.stop)
-        for option, asked in (("--points", self.points), ("--step", self.step)):
+        points, step = self.query.points, self.query.step
+        check_ends(self.query.start, self.query.stop)
+        for option, asked in (("--points", points), ("--step", step)):
             if asked is not None and self.table not in (None, "history"):
                 raise Stopped(f"{option} is of a history; {self.table} is written as it is.")
-        if self.step is not None and (self.points is not None or not self.step > 0.0):
+        if step is not None and (points is not None or not step > 0.0):
             raise Stopped("--step is a time in seconds between instants, without --points.")
 
 
@@ -55,23 +51,21 @@ def text_of(job: "Job", asked: Asked) -> Text:
         raise Stopped(f"--table {asked.table}: {what} has {', '.join(known)}.")
     if job.is_study:
         return _study(job, asked)
-    channels = listed(asked.channels)
     if asked.table in ("peaks", "impacts"):
         return _rows(job, asked)
     if asked.table == "poincare":
-        return _channels(job.results.sections(channels).dataset(), asked)
-    if asked.points is not None or asked.step is not None:
-        window = job.window(channels, asked.start, asked.stop, points=asked.points, step=asked.step)
-        asked = asked._replace(channels=None, start=None, stop=None)
-        return _channels(window.dataset(), asked)
-    return _channels(job.results.source(WindowQuery(channels, asked.start, asked.stop)), asked)
+        return _channels(job.results.sections(asked.query.channels).dataset(), asked)
+    if asked.query.of_samples:
+        return _channels(job.results.source(asked.query), asked)
+    window = job.results.window(asked.query).dataset()
+    return _channels(window, asked._replace(query=WindowQuery()))
 
 
 def _channels(source: "Source", asked: Asked) -> Text:
     from jointplay.exports.run import csv_lines, json_pieces
 
-    names = _chosen(asked.channels, [channel.name for channel in source.channels])
-    window = asked.start, asked.stop
+    names = _chosen(asked, [channel.name for channel in source.channels])
+    window = asked.query.start, asked.query.stop
     first, last = source.between(*window)
     if first == last:
         raise Stopped("There are no samples in this window of time.")
@@ -86,12 +80,13 @@ def _rows(job: "Job", asked: Asked) -> Text:
     from jointplay.command_line.output import json_text
     from jointplay.command_line.peaks import impact_lines, impact_rows, peak_lines, peak_rows
 
+    start, stop = asked.query.start, asked.query.stop
     if asked.table == "peaks":
-        peaks = job.results.peaks(asked.start, asked.stop)
-        names = _chosen(asked.channels, list(peaks))
+        peaks = job.results.peaks(start, stop)
+        names = _chosen(asked, list(peaks))
         rows, lines = peak_rows({name: peaks[name] for name in names}), peak_lines
     else:
-        rows, lines = impact_rows(job.results.impacts(), asked.start, asked.stop), impact_lines
+        rows, lines = impact_rows(job.results.impacts(), start, stop), impact_lines
     if asked.form == "json":
         return Text(iter([json_text({asked.table: rows}) + "\n"]), len(rows))
     return Text(lines(rows), 6 * len(rows))
@@ -101,14 +96,14 @@ def _study(job: "Job", asked: Asked) -> Text:
     from jointplay.command_line.summary import units
     from jointplay.exports.study import point_json, point_lines, section_json, section_lines
 
-    wanted = listed(asked.channels)
-    source = job.study(wanted, wanted)
-    chosen = _point_range(source.points, asked.start, asked.stop)
-    if asked.points is not None or asked.step is not None:
+    query = asked.query
+    source = job.study(query.channels, query.channels)
+    chosen = _point_range(source.points, query.start, query.stop)
+    if not query.of_samples:
         raise Stopped("--points and --step are of simulations; this is a study.")
     of_points = asked.table == "points" or not source.observables
     offered = source.channels if of_points else source.observables
-    names = _chosen(asked.channels, [one.name for one in offered])
+    names = _chosen(asked, [one.name for one in offered])
     comments = _comments(source)
     if of_points:
         values = len(chosen) * (4 * len(names) + len(source.parameters) + 3)
@@ -140,10 +135,11 @@ def _comments(source: "Source | StudySource") -> list[str]:
     return comments
 
 
-def _chosen(channels: str | None, names: list[str]) -> list[str]:
+def _chosen(asked: Asked, names: list[str]) -> list[str]:
     from jointplay.records.channel_choice import NoSuchChannel, choose
 
+    channels = asked.query.channels
     try:
-        return choose(channels, names)
+        return choose(None if channels is None else ",".join(channels), names)
     except NoSuchChannel as error:
         raise Stopped(f"--channels: {error}") from None
