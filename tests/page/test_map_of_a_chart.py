@@ -108,6 +108,29 @@ def test_a_line_of_a_chart_is_cut_as_a_diagram(browsing, url, chart):
         page.get_by_text("speed 10 rad/s … 40 rad/s, amplitude").wait_for()
 
 
+def test_a_refined_chart_says_how_much_of_it_inherits(browsing, url):
+    refined = submitted(url, CHART | {"refine": 2, "statistics": ["impacts"]})
+    with browsing.page(f"{url}/#/job/{refined}") as page:
+        painted(page)
+        page.get_by_text(re.compile(r"^\d+ points were not computed: the corners")).wait_for()
+        page.get_by_label("Shown").select_option("inherited")
+        painted(page)
+        assert barriers(page) == []
+
+
+def test_a_diagram_cut_from_rows_follows_their_neighbours(browsing, url):
+    chained = submitted(url, CHART | {"continuation": "backward"})
+    with browsing.page(f"{url}/#/job/{chained}") as page:
+        painted(page)
+        place = page.get_by_label(MAP).bounding_box()
+        page.mouse.click(place["x"] + place["width"] / 2, place["y"] + place["height"] / 2)
+        page.get_by_role("button", name="Diagram over speed").click()
+        page.get_by_role("heading", name="bifurcation").wait_for()
+        found = page.url.rpartition("/")[2].partition("?")[0]
+        job = page.request.get(f"{url}/v1/jobs/{found}").json()["job"]
+        assert (job["continuation"], job["chains"]) == ("backward", 1)
+
+
 def test_a_chart_is_asked_for_in_the_form(browsing, url):
     with browsing.page(f"{url}/#/new/impact-oscillator?kind=chart") as page:
         page.get_by_label("Along", exact=True).select_option("speed")
