@@ -32,6 +32,7 @@ SIGNATURES: Mapping[str, types.FunctionType] = {
     "weigh": OVER_LANES,
     "observe": OVER_LANES,
     "observe_rest": OVER_LANES,
+    "foresee_bends": OVER_LANES,
     "scan": MARKING,
     "scan_some": MARKING,
     "states_within": WITHIN_STEP,

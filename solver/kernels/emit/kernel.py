@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from jointplay.solver.integrators import Method
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.cache import load
-from jointplay.solver.kernels.emit import implicit, inside, scanning, stepping
+from jointplay.solver.kernels.emit import bends, implicit, inside, scanning, stepping
 from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function, module_source
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.places import DenseRow, StepRow, places_of
-from jointplay.solver.kernels.layout import BENDS, Layout
+from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import (
     Equations,
     needed_again,
@@ -92,7 +92,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     layout.add_block("normal_row", pairs)
     inner = states - 2 * len(equations.coordinates)
     layout.add_block("inner_row", inner)
-    layout.add_block("bend", BENDS * pairs)
+    bends.allocate(layout, pairs)
     for name in ("clock_start", "clock_travel", "clock_turn"):
         layout.add_block(name, clocks)
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
@@ -121,6 +121,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
             lane_function("weigh", energies, layout, fixed, known),
             steps.source(energies, fixed),
             scanning.source(layout, rows.scanned),
+            bends.source(layout, pairs),
             inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
         ]
     )

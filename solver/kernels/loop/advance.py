@@ -83,6 +83,7 @@ def advance(
             crossed, filled = cross_lanes(group, rows)
             quiet, full = quiet and not crossed, full or filled
         if watch:
+            call.foresee_bends(work)
             look_closer_at_lanes(group)
         if watch or crossing:  # a scan also keeps the values from which channels go on
             candidates = call.scan(work) if quiet else call.scan_some(work)

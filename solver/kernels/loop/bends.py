@@ -1,79 +1,20 @@
 """Extremes inside steps whose slip comes to where friction bends: each piece between is looked at.
 
 A step may enter a steep ramp of friction and leave it again, as if nothing had happened between its
-ends. From one passage of a bend to the next everything is smooth.
+ends; `solver.kernels.emit.bends` says which may. From one passage of a bend to the next everything
+is smooth.
 """
-
-import math
 
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.cuts_at_bends import (
-    MOST_PLACES,
-    bends_below,
-    find_cuts,
-    has_bend,
-)
+from jointplay.solver.kernels.loop.cuts_at_bends import MOST_PLACES, find_cuts, has_bend
 from jointplay.solver.kernels.loop.inner_peaks import place_evenly
 from jointplay.solver.kernels.loop.looks_into_steps import look_at_suspects
 from jointplay.solver.kernels.loop.step import Step, channels_within
 
-BEYOND = 0.5
-"""Part of what a cubic goes beyond its ends by which slip may go further than the cubic."""
-RATES = 0.02
-"""Part of the way at the rates of both ends by which slip may go further, too."""
 SWAY = 2.0
 """Part of its range that friction may make of a channel in a step with the largest normal force."""
-
-
-@inner_kernel()
-def beyond_ends(change: float, begin: float, end: float) -> tuple[float, float]:
-    """Return how far a cubic goes below and above both of its ends, from 0 to `change`.
-
-    begin, end
-        Its slopes there, as changes over the whole step.
-    """
-    curving, bending = 6.0 * change - 4.0 * begin - 2.0 * end, 3.0 * (begin + end) - 6.0 * change
-    below, above = min(0.0, change), max(0.0, change)
-    least, most = below, above
-    root = curving * curving - 4.0 * bending * begin  # of the cubic's slope, a parabola
-    if root >= 0.0:
-        q = -0.5 * (curving + math.copysign(math.sqrt(root), curving))
-        for above_line, below_line in ((q, bending), (begin, q)):
-            if 0.0 < above_line * below_line < below_line * below_line:
-                share = above_line / below_line
-                value = share * (begin + share * (0.5 * curving + share * bending / 3.0))
-                least, most = min(least, value), max(most, value)
-    return below - least, most - above
-
-
-@inner_kernel(forceinline=True, borrows=True)
-def may_pass_bend(s: Step) -> bool:
-    """Whether a slip may pass a bend and come back in this step, or pass more than one.
-
-    Both is told by its values and rates at both ends: one bend that is passed once shows there.
-    """
-    lane, at, work = s.lane, s.at, s.work
-    step = work[at.tried, lane]
-    for j in range(at.pairs):
-        if has_bend(j, s):
-            before, now = work[at.slip_start + j, lane], work[at.slip + j, lane]
-            begin = step * work[at.slip_rate_start + j, lane]
-            end = step * work[at.slip_rate + j, lane]
-            below, above = beyond_ends(now - before, begin, end)
-            margin = RATES * (abs(begin) + abs(end))
-            low, high = min(before, now), max(before, now)
-            least = low - (1.0 + BEYOND) * below - margin
-            most = high + (1.0 + BEYOND) * above + margin
-            first, last = bends_below(low, j, s), bends_below(high, j, s)
-            if (
-                last - first > 1
-                or bends_below(least, j, s) < first
-                or bends_below(most, j, s) > last
-            ):
-                return True
-    return False
 
 
 @inner_kernel()

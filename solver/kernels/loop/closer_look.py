@@ -4,7 +4,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.judging import DUE, INSIDE
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.bends import find_in_reach, look_between_bends, may_pass_bend
+from jointplay.solver.kernels.loop.bends import find_in_reach, look_between_bends
 from jointplay.solver.kernels.loop.inner_peaks import look_at_passages, look_inside
 from jointplay.solver.kernels.loop.inner_states import look_at_inner_states
 from jointplay.solver.kernels.loop.roughness import is_due
@@ -23,6 +23,6 @@ def look_closer(s: Step) -> None:
         look_inside(s)
     if s.at.inner_states > 0:
         look_at_inner_states(s)
-    if may_pass_bend(s):
+    if s.work[s.at.may_pass_bend, s.lane] > 0.0:
         rows = np.empty(s.at.rows, np.int64)
         look_between_bends(rows[: find_in_reach(s, rows)], 0.0, 1.0, s)

@@ -10,7 +10,7 @@ from jointplay.solver.kernels.emit.places import PLACES
 from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
-from jointplay.solver.kernels.loop.bends import look_between_bends, may_pass_bend
+from jointplay.solver.kernels.loop.bends import look_between_bends
 from jointplay.solver.kernels.loop.book import (
     HIGHEST,
     HIGHEST_TIME,
@@ -123,7 +123,8 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
     place_evenly(low, high, s)
     channels_within(s)
     behind = find_suspects(part, wanted.blocks, s, wanted.close, book, wanted.suspects)
-    passing, bending = any_passes(s), may_pass_bend(s)
+    functions_at(s.call).foresee_bends(s.work)
+    passing, bending = any_passes(s), s.work[s.at.may_pass_bend, s.lane] > 0.0
     chosen = wanted.every if passing or bending else wanted.suspects[:behind]
     if len(chosen) == 0:
         return
