@@ -168,7 +168,7 @@ def extremes_in_steps(
     work, spare, runs
         As `states_in_steps` takes them.
     table
-        See `solver.kernels.loop.windows`.
+        See `solver.kernels.loop.brackets`.
     steps : (n, width)
         Consecutive steps, as `write_step` wrote them.
     parts : (k, 2)

@@ -11,6 +11,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.brackets import CLOSER
 from jointplay.solver.kernels.loop.passages import (
     NARROWEST,
     closest_approach,
@@ -22,9 +23,8 @@ from jointplay.solver.kernels.loop.peaks import look_at_extremes
 from jointplay.solver.kernels.loop.roughness import is_due, may_set_records
 from jointplay.solver.kernels.loop.runs import NO_PAIR
 from jointplay.solver.kernels.loop.step import Step, channels_within
-from jointplay.solver.kernels.loop.tops import open_windows
+from jointplay.solver.kernels.loop.tops import open_brackets
 from jointplay.solver.kernels.loop.turns_before_onset import turns_before_onset
-from jointplay.solver.kernels.loop.windows import CLOSER
 from jointplay.solver.kernels.record.rows import NO_ROW
 
 EXACT = 0.0
@@ -122,9 +122,9 @@ def place_evenly(low: float, high: float, s: Step) -> None:
 def look_at_instants(r: int, waiting: int, low: float, high: float, s: Step) -> int:
     """Let extremes of a channel between eight even instants count, if they are sharp.
 
-    How many windows wait to be looked at more closely, of all channels.
+    Returns how many brackets wait to be looked at more closely, of all channels.
     """
     for i in range(INSTANTS):
         s.table[CLOSER + i] = s.spare[s.at.channel + r, i]
     spacing = (high - low) / (INSTANTS - 1)
-    return open_windows(r, 1, low, spacing, INSTANTS, EXACT, waiting, s)
+    return open_brackets(r, 1, low, spacing, INSTANTS, EXACT, waiting, s)

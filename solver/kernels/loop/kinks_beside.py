@@ -9,12 +9,12 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS
+from jointplay.solver.kernels.loop.brackets import CLOSER
 from jointplay.solver.kernels.loop.cuts_at_bends import has_bend
 from jointplay.solver.kernels.loop.extreme import PLACES
 from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, SHARP
 from jointplay.solver.kernels.loop.step import Step, channels_around
-from jointplay.solver.kernels.loop.tops import open_windows
-from jointplay.solver.kernels.loop.windows import CLOSER
+from jointplay.solver.kernels.loop.tops import open_brackets
 
 FARTHEST = 0.25
 """Share of a step from its end beyond which quarters of the step tell of a kink."""
@@ -73,8 +73,8 @@ def any_in_reach(rows: np.ndarray, before: float, behind: float, s: Step) -> boo
 def look_at_kinks_beside(rows: np.ndarray, waiting: int, s: Step) -> int:
     """Let extremes of rows at kinks next to the start of this step count, if they are sharp.
 
-    How many windows wait to be looked at more closely, of all channels. To be called while `spare`
-    has the channels at quarters of both steps.
+    Returns how many brackets wait to be looked at more closely, of all channels. To be called while
+    `spare` has the channels at quarters of both steps.
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
     before, behind = nearest_kink(0, s), nearest_kink(1, s)
@@ -94,5 +94,5 @@ def look_at_kinks_beside(rows: np.ndarray, waiting: int, s: Step) -> int:
             junction = work[at.previous + r, lane] - work[at.change + r, lane]
             s.table[CLOSER + (1 - step) * HALF] = junction
             start, spacing = (1 - step) * (1.0 - 0.5 * HALF * beside), 0.5 * beside
-            waiting = open_windows(r, step, start, spacing, PLACES, FORETOLD, waiting, s)
+            waiting = open_brackets(r, step, start, spacing, PLACES, FORETOLD, waiting, s)
     return waiting

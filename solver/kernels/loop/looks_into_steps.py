@@ -7,14 +7,14 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.brackets import CLOSER
 from jointplay.solver.kernels.loop.inner_peaks import EXACT, WIDTHS, place_evenly
 from jointplay.solver.kernels.loop.passages import NARROWEST, closest_approach, passes
 from jointplay.solver.kernels.loop.peaks import look_where_foretold
 from jointplay.solver.kernels.loop.polynomial_extreme import has_corner
 from jointplay.solver.kernels.loop.seeking_in_turn import seek_in_turn
 from jointplay.solver.kernels.loop.step import Step, channels_within
-from jointplay.solver.kernels.loop.tops import open_windows
-from jointplay.solver.kernels.loop.windows import CLOSER
+from jointplay.solver.kernels.loop.tops import open_brackets
 
 
 @inner_kernel()
@@ -24,7 +24,7 @@ def look_at_suspects(chosen: np.ndarray, low: float, high: float, s: Step) -> No
     for r in chosen:
         for i in range(INSTANTS):  # a slice would take 2 s to compile, for what it raises
             s.table[CLOSER + i] = s.spare[s.at.channel + r, i]
-        waiting = open_windows(r, 1, low, spacing, INSTANTS, EXACT, waiting, s)
+        waiting = open_brackets(r, 1, low, spacing, INSTANTS, EXACT, waiting, s)
     if look_where_foretold(waiting, s) > 0:
         seek_in_turn(waiting, s)
 

@@ -4,12 +4,8 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extreme import PLACES
-from jointplay.solver.kernels.loop.kinks_beside import look_at_kinks_beside
-from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, MOST_ROUNDS, is_done_by, seek
-from jointplay.solver.kernels.loop.step import Step, channels_around
-from jointplay.solver.kernels.loop.tops import open_windows
-from jointplay.solver.kernels.loop.windows import (
+from jointplay.solver.kernels.loop.brackets import (
+    BRACKETS,
     CLOSER,
     COLUMN,
     FOUND,
@@ -20,8 +16,12 @@ from jointplay.solver.kernels.loop.windows import (
     SPACING,
     START,
     STRIDE,
-    WINDOWS,
 )
+from jointplay.solver.kernels.loop.extreme import PLACES
+from jointplay.solver.kernels.loop.kinks_beside import look_at_kinks_beside
+from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, MOST_ROUNDS, is_done_by, seek
+from jointplay.solver.kernels.loop.step import Step, channels_around
+from jointplay.solver.kernels.loop.tops import open_brackets
 
 ONE_OF_EIGHT = 0x0101010101010101
 BYTES = 8
@@ -33,7 +33,7 @@ def refine_peaks(s: Step, marked: np.ndarray) -> None:
     """Seek the extremes that the scan suspects around the start of this step.
 
     Candidate channels are evaluated at quarters of the step before and of this one. `marked` :
-    `work`, seen as bytes of the scan. `table` : see `solver.kernels.loop.windows`.
+    `work`, seen as bytes of the scan. `table` : see `solver.kernels.loop.brackets`.
     """
     for i in range(INSTANTS):
         s.spare[s.at.theta, i] = (i % HALF) / HALF
@@ -68,7 +68,7 @@ def find_marked(s: Step, marked: np.ndarray, rows: np.ndarray) -> int:
 def look_at_quarters(r: int, waiting: int, s: Step) -> int:
     """Let extremes of a channel in the step before and in this one count, if they are sharp.
 
-    How many windows wait to be looked at more closely, of all channels.
+    Returns how many brackets wait to be looked at more closely, of all channels.
     """
     lane, at, work = s.lane, s.at, s.work
     end = work[at.previous + r, lane]
@@ -77,13 +77,13 @@ def look_at_quarters(r: int, waiting: int, s: Step) -> int:
         for i in range(HALF):
             s.table[CLOSER + i] = s.spare[at.channel + r, HALF * step + i]
         s.table[CLOSER + HALF] = end if step else junction
-        waiting = open_windows(r, step, 0.0, 1.0 / HALF, PLACES, FORETOLD, waiting, s)
+        waiting = open_brackets(r, step, 0.0, 1.0 / HALF, PLACES, FORETOLD, waiting, s)
     return waiting
 
 
 @inner_kernel(borrows=True)
 def look_at_extremes(waiting: int, s: Step) -> None:
-    """Evaluate the channels of windows where their extremes seem to be, many at once.
+    """Evaluate the channels of brackets where their extremes seem to be, many at once.
 
     Mostly that makes them sharp; the others are sought one after the other.
     """
@@ -93,7 +93,7 @@ def look_at_extremes(waiting: int, s: Step) -> None:
 
 @inner_kernel(borrows=True)
 def look_where_foretold(waiting: int, s: Step) -> int:
-    """Evaluate the channels of windows where their extremes seem to be.
+    """Evaluate the channels of brackets where their extremes seem to be.
 
     Returns how many are not sharp.
     """
@@ -103,7 +103,7 @@ def look_where_foretold(waiting: int, s: Step) -> int:
         early, late = 0, HALF
         behind = done
         while behind < waiting and early < HALF and late < INSTANTS:
-            w = WINDOWS + STRIDE * behind
+            w = BRACKETS + STRIDE * behind
             column = late if table[w + IN_THIS] else early
             early, late = (early, late + 1) if table[w + IN_THIS] else (early + 1, late)
             s.spare[s.at.theta, column] = table[w + START] + table[w + PLACE] * table[w + SPACING]
@@ -111,12 +111,12 @@ def look_where_foretold(waiting: int, s: Step) -> int:
             behind += 1
         channels_around(s)
         for k in range(done, behind):
-            w = WINDOWS + STRIDE * k
+            w = BRACKETS + STRIDE * k
             table[w + FOUND] = s.spare[s.at.channel + int(table[w + ROW]), int(table[w + COLUMN])]
         done = behind
     unsharp = 0
     for k in range(waiting):
-        w = WINDOWS + STRIDE * k
+        w = BRACKETS + STRIDE * k
         table[w + ROUNDS] = 0.0
         if is_done_by(table[w + FOUND], w, s):
             table[w + ROUNDS] = MOST_ROUNDS

@@ -12,7 +12,7 @@ from numba import float64, from_dtype, types
 from numpy.typing import NDArray
 
 from jointplay.records.impact import IMPACT
-from jointplay.solver.kernels.loop.windows import size_of_table
+from jointplay.solver.kernels.loop.brackets import size_of_table
 
 
 class Status(IntEnum):
@@ -134,7 +134,7 @@ class Buffers(NamedTuple):
     steps: NDArray[np.float64]
     """Accepted steps of the lanes that keep them, the first ones, (lanes, capacity, width)."""
     table: NDArray[np.float64]
-    """See `solver.kernels.loop.windows`."""
+    """See `solver.kernels.loop.brackets`."""
 
     @classmethod
     def of(

@@ -1,21 +1,13 @@
-"""Seeks the extreme of one channel in a window of a step, more closely until it is sharp."""
+"""Seeks the extreme of one channel in a bracket of a step, more closely until it is sharp."""
 
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extreme import (
-    LAST,
-    LEFT_OUT,
-    PLACES,
-    extreme,
-    highest,
-    slope_left_out,
-)
-from jointplay.solver.kernels.loop.step import Step, channels_around
-from jointplay.solver.kernels.loop.windows import (
+from jointplay.solver.kernels.loop.brackets import (
     BENT,
     BEST,
+    BRACKETS,
     CLOSER,
     ERROR,
     IN_THIS,
@@ -28,8 +20,16 @@ from jointplay.solver.kernels.loop.windows import (
     STRIDE,
     VALUE,
     VALUES,
-    WINDOWS,
 )
+from jointplay.solver.kernels.loop.extreme import (
+    LAST,
+    LEFT_OUT,
+    PLACES,
+    extreme,
+    highest,
+    slope_left_out,
+)
+from jointplay.solver.kernels.loop.step import Step, channels_around
 
 HALF = INSTANTS // 2
 """Instants in each of the two steps."""
@@ -40,7 +40,7 @@ FORETOLD = 2e-8
 LEAST_OFF = 0.1
 """Share of the bound that a quartic's error is taken to be where it happens to be small."""
 MOST_ROUNDS = 12
-"""Each narrows a window to a third."""
+"""Each narrows a bracket to a third."""
 ENOUGH_AT_END = 3
 """Rounds after which a best value at the end of a step counts as it is."""
 SAME = 1e-9
@@ -49,7 +49,7 @@ SAME = 1e-9
 
 @inner_kernel(borrows=True)
 def is_done(w: int, sharp: float, s: Step) -> bool:
-    """Look where a window's extreme is, and let it count if it is a record and sharp.
+    """Look where a bracket's extreme is, and let it count if it is a record and sharp.
 
     Whether that is all there is to do: otherwise it may be a record, and is not sharp. `sharp` :
     share of the channel's range up to now by which it may be off.
@@ -71,7 +71,7 @@ def is_done(w: int, sharp: float, s: Step) -> bool:
 
 @inner_kernel(forceinline=True, borrows=True)
 def is_done_by(value: float, w: int, s: Step) -> bool:
-    """Let the value at the place of a window's extreme count. Returns whether it is sharp.
+    """Let the value at the place of a bracket's extreme count. Returns whether it is sharp.
 
     What is beyond the value found is the square of the slope there by twice the second derivative.
     """
@@ -86,13 +86,13 @@ def is_done_by(value: float, w: int, s: Step) -> bool:
 
 @inner_kernel()
 def seek(waiting: int, s: Step) -> None:
-    """Narrow all waiting windows about their extremes until these are sharp or no records.
+    """Narrow all waiting brackets about their extremes until these are sharp or no records.
 
-    Many channels have a kink where a law has one: windows of the same places are narrowed at once.
+    Many channels have a kink where a law has one: brackets of the same places are narrowed at once.
     """
     table = s.table
-    behind = WINDOWS + STRIDE * waiting
-    for w in range(WINDOWS, behind, STRIDE):
+    behind = BRACKETS + STRIDE * waiting
+    for w in range(BRACKETS, behind, STRIDE):
         while table[w + ROUNDS] < MOST_ROUNDS:
             rounds, step = table[w + ROUNDS], table[w + IN_THIS]
             start, spacing, parts = closer(w, table)
@@ -111,7 +111,7 @@ def seek(waiting: int, s: Step) -> None:
 
 @inner_kernel()
 def rests_at_end(w: int, table: np.ndarray) -> bool:
-    """Whether a window's best value is still at an end of its step when that was looked at well.
+    """Whether a bracket's best value is still at an end of its step when that was looked at well.
 
     Beside it there may be a jump: no looking closer would tell more.
     """
@@ -129,7 +129,7 @@ def spread(r: int, value: float, s: Step) -> float:
 
 @inner_kernel(borrows=True)
 def count(w: int, place: float, value: float, s: Step) -> None:
-    """Note a value at a place of a window, if it is a record of the window's channel."""
+    """Note a value at a place of a bracket, if it is a record of the bracket's channel."""
     lane, at, work, table = s.lane, s.at, s.work, s.table
     r, sense = int(table[w + ROW]), table[w + SENSE]
     block, times = at.lowest, at.lowest_time
@@ -147,10 +147,10 @@ def count(w: int, place: float, value: float, s: Step) -> None:
 
 @inner_kernel()
 def closer(w: int, table: np.ndarray) -> tuple[float, float, int]:
-    """Return where a closer look at a window begins, the distance of its places, how many parts.
+    """Return where a closer look at a bracket begins, the distance of its places, how many parts.
 
     From the place before the best one to the one behind it, by thirds of the distance now; where
-    the best is at an end of the window, by fifths.
+    the best is at an end of the bracket, by fifths.
     """
     best = int(table[w + BEST])
     left, right = max(best - 1, 0), min(best + 1, LAST)
@@ -171,7 +171,7 @@ def place_closer(start: float, spacing: float, parts: int, first: int, s: Step) 
 
 @inner_kernel()
 def narrow(w: int, start: float, spacing: float, parts: int, s: Step) -> None:
-    """Narrow a window to five places about the best one of a closer look."""
+    """Narrow a bracket to five places about the best one of a closer look."""
     table = s.table
     r, sense = int(table[w + ROW]), table[w + SENSE]
     column = HALF * int(table[w + IN_THIS])

@@ -1,10 +1,19 @@
 """Seeks extremes as `seeking` does, so that a channel's do not depend on which others are sought.
 
-There, windows of a channel may be narrowed in an order that those of other channels give, and a
+There, brackets of a channel may be narrowed in an order that those of other channels give, and a
 record that one of them sets decides how sharp the next has to be.
 """
 
 from jointplay.solver.kernels.jit import inner_kernel
+from jointplay.solver.kernels.loop.brackets import (
+    BEST,
+    BRACKETS,
+    IN_THIS,
+    ROUNDS,
+    ROW,
+    STRIDE,
+    VALUES,
+)
 from jointplay.solver.kernels.loop.seeking import (
     FORETOLD,
     HALF,
@@ -17,29 +26,20 @@ from jointplay.solver.kernels.loop.seeking import (
     rests_at_end,
 )
 from jointplay.solver.kernels.loop.step import Step, channels_around
-from jointplay.solver.kernels.loop.windows import (
-    BEST,
-    IN_THIS,
-    ROUNDS,
-    ROW,
-    STRIDE,
-    VALUES,
-    WINDOWS,
-)
 
 
 @inner_kernel()
 def seek_in_turn(waiting: int, s: Step) -> None:
-    """Narrow all waiting windows about their extremes, those of a channel one after the other.
+    """Narrow all waiting brackets about their extremes, those of a channel one after the other.
 
-    Windows of the same places are narrowed at once, of each channel the first that is not done.
+    Brackets of the same places are narrowed at once, of each channel the first that is not done.
     """
     table = s.table
-    behind = WINDOWS + STRIDE * waiting
-    for w in range(WINDOWS, behind, STRIDE):
+    behind = BRACKETS + STRIDE * waiting
+    for w in range(BRACKETS, behind, STRIDE):
         if table[w + ROUNDS] < MOST_ROUNDS:
             count_best(w, s)
-    for w in range(WINDOWS, behind, STRIDE):
+    for w in range(BRACKETS, behind, STRIDE):
         while table[w + ROUNDS] < MOST_ROUNDS:
             rounds, step = table[w + ROUNDS], table[w + IN_THIS]
             start, spacing, parts = closer(w, table)
@@ -62,6 +62,6 @@ def seek_in_turn(waiting: int, s: Step) -> None:
 
 @inner_kernel()
 def count_best(w: int, s: Step) -> None:
-    """Let the best value of a window count as it is."""
+    """Let the best value of a bracket count as it is."""
     best = s.table[w + BEST]
     count(w, best, s.table[w + VALUES + int(best)], s)

@@ -8,10 +8,10 @@ from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.book import ROUNDING, count_value
+from jointplay.solver.kernels.loop.brackets import CLOSER
 from jointplay.solver.kernels.loop.polynomial_extreme import count_if_polynomial
 from jointplay.solver.kernels.loop.screening import JAGGED, ONE_BY_ONE, screen
 from jointplay.solver.kernels.loop.step import Step
-from jointplay.solver.kernels.loop.windows import CLOSER
 
 SHORT = 2.0**-30
 """Share of a step in which a channel that is more than rounding hardly moves."""

@@ -1,13 +1,11 @@
-"""Windows about the local extremes among evenly spaced values of a channel in a step."""
+"""Brackets about the local extremes among evenly spaced values of a channel in a step."""
 
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extreme import PLACES
-from jointplay.solver.kernels.loop.seeking import is_done
-from jointplay.solver.kernels.loop.step import Step
-from jointplay.solver.kernels.loop.windows import (
+from jointplay.solver.kernels.loop.brackets import (
     BEST,
+    BRACKETS,
     CLOSER,
     IN_THIS,
     ROW,
@@ -16,22 +14,24 @@ from jointplay.solver.kernels.loop.windows import (
     START,
     STRIDE,
     VALUES,
-    WINDOWS,
 )
+from jointplay.solver.kernels.loop.extreme import PLACES
+from jointplay.solver.kernels.loop.seeking import is_done
+from jointplay.solver.kernels.loop.step import Step
 
 CORNER = 0.5
 """Share of a second difference by which a channel may exceed its values between two of them."""
 
 
 @inner_kernel(borrows=True)
-def open_windows(
+def open_brackets(
     r: int, step: int, start: float, spacing: float, count: int, sharp: float, waiting: int, s: Step
 ) -> int:
     """Let local extremes of a channel among `count` values of a step count, if they are sharp.
 
     The values are where the table has those of a closer look; `start` and `spacing` are shares of
-    the step (1: this one, 0: the one before). How many windows wait to be looked at more closely,
-    of all channels.
+    the step (1: this one, 0: the one before). Returns how many brackets wait to be looked at more
+    closely, of all channels.
     """
     table = s.table
     values = table[CLOSER : CLOSER + count]
@@ -47,7 +47,7 @@ def open_windows(
             if not tops(values, best, sense, record):
                 continue
             kept = min(max(best - PLACES // 2, 0), count - PLACES)
-            w = WINDOWS + STRIDE * waiting
+            w = BRACKETS + STRIDE * waiting
             table[w + ROW], table[w + SENSE], table[w + IN_THIS] = r, sense, step
             table[w + START], table[w + SPACING] = start + kept * spacing, spacing
             table[w + BEST] = best - kept

@@ -11,6 +11,7 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.places import LENGTH
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.book import blank_book
+from jointplay.solver.kernels.loop.brackets import size_of_table
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.problem import LaneProblem
@@ -21,7 +22,6 @@ from jointplay.solver.kernels.loop.replay import (
     works_in_steps,
 )
 from jointplay.solver.kernels.loop.seeking import SHARP
-from jointplay.solver.kernels.loop.windows import size_of_table
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
 
