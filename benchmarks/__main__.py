@@ -22,6 +22,7 @@ ALL = (
     "basins",
     "sensitivity",
     "continuation",
+    "branches",
     "joined",
     "bucket",
     "restitution",

@@ -64,11 +64,16 @@ def numbers(stop: float) -> list[float]:
     return [fold, doubling, *first, *pair]
 
 
-def extrapolated(stops: Sequence[float]) -> tuple[Floats, Floats]:
-    """Return the numbers of each stop, (stops, numbers), and those in the limit."""
-    table = np.array([numbers(stop) for stop in stops])
+def to_the_limit(stops: Sequence[float], rows: Sequence[Sequence[float]]) -> tuple[Floats, Floats]:
+    """Return numbers of each stop as (stops, numbers), and those in the limit."""
+    table = np.array(rows)
     short = np.array(stops) ** SHORTER / stops[0] ** SHORTER
     return table, np.linalg.solve(np.vander(short, len(stops), increasing=True), table)[0]
+
+
+def extrapolated(stops: Sequence[float]) -> tuple[Floats, Floats]:
+    """Return the numbers of each stop, (stops, numbers), and those in the limit."""
+    return to_the_limit(stops, [numbers(stop) for stop in stops])
 
 
 def main() -> None:

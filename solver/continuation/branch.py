@@ -107,10 +107,13 @@ def _piece(
 ) -> Piece | NoOrbit:
     """Return the branch up to the orbit a step farther, or to the end of the range."""
     guess = orbit.vector + step * tangent
-    found = curve.orbit(guess, tangent)
-    inside = isinstance(found, Orbit) and reach.inside(found.value)
-    if isinstance(found, Orbit) and not inside:
-        found = _at_end(curve, orbit, found, reach)
+    ahead = float(guess[-1] * curve.scales.extents[-1])
+    inside = reach.inside(ahead)
+    found = (
+        curve.orbit(guess, tangent, orbit.scale) if inside else _at_end(curve, orbit, guess, reach)
+    )
+    if isinstance(found, Orbit) and inside and not reach.inside(found.value):
+        inside, found = False, _at_end(curve, orbit, found.vector, reach)
     if isinstance(found, NoOrbit):
         return found
     behind = found.tangent(tangent)
@@ -122,18 +125,27 @@ def _piece(
         return NoOrbit("the branch turns too sharply", found.residual)
     if curve.scales.product(tangent, found.vector - orbit.vector) <= 0.0:
         return NoOrbit("the branch does not come to the end of the range", found.residual)
-    return Piece(curve, orbit, tangent, found, behind)
+    return Piece(curve, _alike(orbit, found, tangent), tangent, found, behind)
 
 
-def _at_end(curve: Curve, orbit: Orbit, beyond: Orbit, reach: Reach) -> Orbit | NoOrbit:
-    """Return the orbit at the end of the range, between one inside and one beyond."""
-    end = reach.end(beyond.value)
-    share = (end - orbit.value) / (beyond.value - orbit.value)
-    guess = orbit.vector + share * (beyond.vector - orbit.vector)
+def _alike(orbit: Orbit, other: Orbit, along: Floats) -> Orbit:
+    """Return an orbit with the differences of another: tests of both must be of one kind."""
+    if orbit.scale == other.scale:
+        return orbit
+    found = orbit.curve.orbit(orbit.vector, along, other.scale)
+    return found if isinstance(found, Orbit) and found.scale == other.scale else orbit
+
+
+def _at_end(curve: Curve, orbit: Orbit, beyond: Floats, reach: Reach) -> Orbit | NoOrbit:
+    """Return the orbit at the end of the range, between one inside and a vector beyond."""
+    extent = float(curve.scales.extents[-1])
+    end = reach.end(float(beyond[-1]) * extent)
+    share = (end - orbit.value) / (float(beyond[-1]) * extent - orbit.value)
+    guess = orbit.vector + share * (beyond - orbit.vector)
     axis = np.zeros(len(guess))
     axis[-1] = 1.0
-    guess[-1] = end / curve.scales.extents[-1]
-    return curve.orbit(guess, axis)
+    guess[-1] = end / extent
+    return curve.orbit(guess, axis, orbit.scale)
 
 
 def _angle(curve: Curve, one: Floats, other: Floats) -> float:

@@ -8,7 +8,7 @@ from jointplay.solver.scene.references import inner_states
 
 LABELS = {
     "": "an orbit of the branch",
-    "EP": "end of the branch",
+    "EP": "start or end of the branch",
     "MX": "the branch was lost",
     "LP": "fold: a multiplier passes 1 and the branch turns back",
     "BP": "branch point: a multiplier passes 1 and the branch goes on",

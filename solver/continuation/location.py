@@ -60,6 +60,7 @@ class Piece:
             + t * (1.0 - t) ** 2 * self.length * self.first_tangent
             - t * t * (1.0 - t) * straight * self.last_tangent,
             self.first_tangent,
+            self.last.scale,
         )
         if isinstance(found, NoOrbit):
             raise NotLocated(found.reason)

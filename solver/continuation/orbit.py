@@ -147,19 +147,23 @@ class Curve:
         matrix[size] = self.scales.metric * along
         return matrix
 
-    def orbit(self, guess: Floats, along: Floats) -> Orbit | NoOrbit:
-        """Return the orbit in the plane through a guess that is normal to a direction."""
+    def orbit(self, guess: Floats, along: Floats, begin: float = 1.0) -> Orbit | NoOrbit:
+        """Return the orbit in the plane through a guess that is normal to a direction.
+
+        `begin` : scale of the differences that is tried first, such as that of an orbit beside.
+        """
         best: Orbit | NoOrbit | None = None
-        for scale in FINER:
+        for scale in sorted(FINER, key=lambda one: (one > begin, -one)):
             found = self._newton(guess, along, scale)
             if isinstance(found, Orbit):
                 if found.sure:
                     return found
                 if not isinstance(best, Orbit) or found.error < best.error:
                     best = found
-            best = best or found
-            if isinstance(found, NoOrbit) and not found.grazing:
-                return best
+            elif best is None or (isinstance(best, NoOrbit) and found.grazing):
+                best = found
+            if isinstance(found, NoOrbit) and not found.grazing and scale == max(FINER):
+                break
         assert best is not None  # noqa: S101  (there are scales)
         return best
 

@@ -73,24 +73,7 @@ class ContinuationRun:
         LimitExceeded
             The scene's equations are too long to compile.
         """
-        study = self.study
-        kernel = ready_kernel(study.point_scene(0), study.job["formulation"], study.method)
-        scenes = study.scenes
-
-        @lru_cache(maxsize=KEPT_SCENES)
-        def scene_at(value: float) -> Scene:
-            return PointScenes(scenes.base, scenes.leaves, np.array([[value]])).scene(0)
-
-        map_ = SectionMap(
-            kernel,
-            scene_at,
-            study.job["period"],
-            study.tolerance,
-            np.ones(kernel.states + len(kernel.pairs)),
-            study.reach.high - study.reach.low,
-            self._looked,
-            self._recall,
-        )
+        map_ = section_map(self.study, self._looked, self._recall)
         following = greenlet(self._branches)
         worked = time.process_time()
         following.switch(map_)
@@ -145,7 +128,7 @@ class ContinuationRun:
             self._take(point, rows, Row(ways[0][0], 0.0, "EP", note="start of the branch"))
             for row in _both(ways, reach):
                 last = len(rows) + 1 == study.record
-                self._take(point, rows, replace(row, label="EP", note=FULL) if last else row)
+                self._take(point, rows, _last(row) if last else row)
                 if last:
                     break
             doubling = next((row.orbit for row in rows if row.label == "PD"), None)
@@ -199,6 +182,33 @@ class ContinuationRun:
         share = min(rows / self.study.record, 0.99)
         self._reached = max(self._reached, (point + share) / self.study.points)
         return self._reached
+
+
+def section_map(
+    study: ContinuationStudy,
+    looked: Callable[[], None] = lambda: None,
+    recall: Callable[[Callable[[], Answers]], Answers] = lambda compute: compute(),
+) -> SectionMap:
+    """Return the section map of a study, in scales of one; see `SectionMap`.
+
+    LimitExceeded: the scene's equations are too long to compile.
+    """
+    kernel = ready_kernel(study.point_scene(0), study.job["formulation"], study.method)
+    scenes = study.scenes
+
+    @lru_cache(maxsize=KEPT_SCENES)
+    def scene_at(value: float) -> Scene:
+        return PointScenes(scenes.base, scenes.leaves, np.array([[value]])).scene(0)
+
+    ones = np.ones(kernel.states + len(kernel.pairs))
+    width = study.reach.high - study.reach.low
+    period = study.job["period"]
+    return SectionMap(kernel, scene_at, period, study.tolerance, ones, width, looked, recall)
+
+
+def _last(row: Row) -> Row:
+    """Return the last orbit that a branch may have; a special one stays what it is."""
+    return replace(row, label=row.label or "EP", note="; ".join(filter(None, (row.note, FULL))))
 
 
 def _both(ways: list[tuple[Orbit, Floats]], reach: Reach) -> Iterator[Row]:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 
-from jointplay.solver.continuation.location import Found, Piece, change, root
+from jointplay.solver.continuation.location import Found, NotLocated, Piece, change, root
 from jointplay.solver.continuation.multipliers import (
     Complexes,
     doubling,
@@ -18,6 +18,8 @@ from jointplay.solver.continuation.orbit import Orbit
 
 Test = Callable[[Complexes], float]
 
+MOST_GRAZINGS = 8
+"""Impacts that may begin or end between two orbits; where more do, steps are shorter."""
 CHANGES = {"LP": 1, "BP": 1, "PD": 1, "NS": 2, "GR": 0}
 """By how many the unstable multipliers may change."""
 
@@ -76,8 +78,11 @@ def _tested_coarser(test: Test, orbit: Orbit) -> float:
 
 
 def _grazing(piece: Piece) -> Iterator[Special]:
-    at, onsets = 0.0, piece.first.onsets
+    at, onsets, count = 0.0, piece.first.onsets, 0
     while onsets != piece.last.onsets:
+        count += 1
+        if count > MOST_GRAZINGS:
+            raise NotLocated(f"more than {MOST_GRAZINGS} impacts begin or end")
         found = change(piece, _onsets, at)
         at = found.at
         behind = piece.last.onsets if at >= piece.length else piece.orbit(at).onsets

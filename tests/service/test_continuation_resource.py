@@ -102,6 +102,7 @@ def test_a_continuation_is_estimated_before_it_is_queued(client):
         ({"parameter": "slack"}, "/parameter"),
         ({"at": 40.0}, "/at"),
         ({"state": [0.0]}, "/state"),
+        ({"state": [0.0, 0.0, -1.0]}, "/state"),
         ({"period": 0}, "/period"),
         ({"doublings": 7}, "/doublings"),
         ({"formulation": "lagrange"}, "/formulation"),

@@ -30,6 +30,8 @@ _SHORT: Final[dict[str, tuple[Any, str | None, str]]] = {
     "flag": (bool, None, "."),
 }
 """Type, metavar and end of the help of the option that asks for a kind, by its form."""
+_ENDS: Final = {"continuation": "; COUNT is of the orbits that it may have in each direction."}
+"""End of the help of a kind whose option reads the same form another way."""
 _HELP: Final = {
     "settle": (
         "Leave out what comes before: of a simulation's peaks, in seconds; of a study's sections or"
@@ -69,7 +71,7 @@ def _short_option(kind: str) -> Any:
     option = _OPTIONS[kind]
     form, metavar, end = _SHORT[option["form"]]
     names = [f"--{_NAMES[kind]}"] if form is bool else []  # without one, typer adds the contrary
-    text = KINDS[kind]["help"].removesuffix(".").partition("; ")[0] + end
+    text = KINDS[kind]["help"].removesuffix(".").partition("; ")[0] + _ENDS.get(kind, end)
     metavar = metavar or "".join(option["fields"]).upper() or None
     return Annotated[form | None, typer.Option(*names, metavar=metavar, help=text)]
 

@@ -160,6 +160,24 @@ def test_a_branch_that_cannot_be_followed_further_says_where_and_why() -> None:
     assert "because an impact begins or ends here (grazing); try a softer contact" in last["note"]
 
 
+def test_a_special_orbit_that_is_the_last_of_a_branch_stays_one() -> None:
+    study, slices = followed()
+    found = table(list(slices), study)
+    near = int(np.flatnonzero(found["label"] == names.index("PD"))[0]) - 1
+    state = [float(found[f"{kind}.mass.s"][near]) for kind in ("state", "rate")]
+    values = {"from": float(found["value"][near]), "to": 19.0, "count": 300}
+    job = JOB | {"values": values, "state": state, "settle": 0, "largest_step": 0.5}
+    rows: int | None = None
+    for most in (20, rows):
+        study = admitted(job | {"record": most or rows})
+        slices = tuple(computation_of(study, 0).slices())
+        (end,) = [end for one in slices for end in one.ended]
+        special_ones = end.document["special"]  # type: ignore[index]
+        rows = next(one["row"] for one in special_ones if one["label"] == "PD") + 1
+    assert len(table(list(slices), study)["label"]) == rows < 20
+    assert special_ones[-1]["note"] == FULL
+
+
 def test_where_there_is_no_orbit_the_branch_fails_and_says_what_to_try() -> None:
     study = admitted(JOB | {"period": 2, "doublings": 1})
     ends = [end for one in computation_of(study, 0).slices() for end in one.ended]

@@ -159,3 +159,26 @@ def test_where_newtons_method_finds_nothing_a_shorter_step_is_tried_not_finer_di
     (fold,) = [row for row in rows if row.label == "LP"]
     assert fold.orbit.value == pytest.approx(1.0, abs=1e-8)
     assert len(asked) < 2250
+
+
+def test_no_run_is_asked_for_beyond_the_end_of_the_range_but_for_differences() -> None:
+    asked = []
+
+    def counted(state: Floats, a: float) -> list[float]:
+        asked.append(a)
+        return henon(state, a)
+
+    rows = rows_of(counted, [0.3, 0.3], (0.2, 0.3), step=0.5)
+    assert told(rows[-1]) == ("EP", "end of the range")
+    assert max(asked) < 0.3 + 1e-4 * 0.1
+
+
+def test_where_many_impacts_begin_steps_are_shorter() -> None:
+    def impacts(_state: Floats, a: float) -> int:
+        return int(1e4 * a)
+
+    rows = rows_of(pitchfork, [0.0], (0.1, 0.11), impacts=impacts, step=0.5)
+    labels = "".join({"": ".", "GR": "g"}.get(row.label, "e") for row in rows)
+    assert labels.count("g") == 100
+    assert max(map(len, labels.split("."))) <= 8
+    assert labels.endswith("e")
