@@ -20,6 +20,7 @@ ALL = (
     "chart",
     "chart_curves",
     "basins",
+    "verdicts",
     "sensitivity",
     "continuation",
     "branches",

@@ -19,6 +19,7 @@ from jointplay.service.results.stores import ResultsOfThePath, StudyOfThePath
 from jointplay.service.results.streaming import as_json
 from jointplay.service.studies.answers import axes
 from jointplay.service.studies.schemas import Status
+from jointplay.solver.nonlinear.verdict import grounds
 from jointplay.storage.studies.reader import StudyReader
 
 PNG = "image/png"
@@ -99,6 +100,7 @@ def show_point(results: ResultsOfThePath, query: Annotated[CellQuery, Query()]) 
     place = query.row * width + query.column
     point = int(np.flatnonzero(study.layout.order == place)[0])
     failure = study.failures.get(point)
+    numbers = {name: float(values[point]) for name, values in study.indicators.items()}
     found = {}
     for one in grids.quantities(study).values():
         value = float(grids.column(study, one.name)[point])
@@ -107,7 +109,7 @@ def show_point(results: ResultsOfThePath, query: Annotated[CellQuery, Query()]) 
     return as_json(
         schemas.ChartPoint.model_construct(
             status=cast("Status", PointStatus(study.status[point]).name),
-            detail=failure.detail if failure else study.reasons.get(point, ""),
+            detail=failure.detail if failure else grounds(numbers),
             quantities=found,
         )
     )

@@ -20,7 +20,9 @@ def recurrence_period(
     longest : longest period looked for.
 
     A constant section has period 1. A chaotic band narrower than the tolerance has the period of
-    its bands: the tolerance is part of the statement.
+    its bands: the tolerance is part of the statement. There is none while points of a shorter
+    period still come closer to one another: behind a doubling, the halves of a period of two differ
+    ever less, and more slowly than the tolerance tells.
 
     Raises
     ------
@@ -37,8 +39,29 @@ def recurrence_period(
     scaled = points / scale
     for period in range(1, min(longest, len(points) // 2) + 1):
         if largest_extent(scaled, period) <= tolerance:
-            return period
+            return 0 if _still_close_in(scaled, period) else period
     return 0
+
+
+SHRINKS = 0.9
+"""Distance of points of a shorter period at the end of a section, over that at its beginning, below
+which they still come closer; in the mean of a period."""
+
+
+def _still_close_in(points: Floats, period: int) -> bool:
+    """Return whether points that a part of the period lies between still come closer."""
+    parts = [k for k in range(2, period + 1) if period % k == 0 and _is_prime(k)]
+    for shorter in (period // part for part in parts):
+        distances = np.abs(points[shorter:] - points[:-shorter]).max(axis=1)
+        if len(distances) < 2 * period:
+            continue
+        if distances[-period:].mean() < SHRINKS * distances[:period].mean():
+            return True
+    return False
+
+
+def _is_prime(number: int) -> bool:
+    return all(number % k for k in range(2, number))
 
 
 def largest_extent(points: Floats, period: int) -> float:

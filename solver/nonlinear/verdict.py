@@ -1,6 +1,7 @@
 """Periodic, quasi-periodic, chaotic, at rest, or undecided: what the indicators say together."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from jointplay.solver.nonlinear.estimate import Estimate
@@ -42,6 +43,44 @@ class Verdict:
         if self.code == PERIODIC:
             return f"period-{self.period}"
         return next(name for name, code in VERDICTS.items() if code == self.code)
+
+
+RESTING = 1e-5
+"""Speeds and accelerations at rest are below this share of what counts as one in a time unit: far
+less than sections may differ by that recur, for what is left of a transient moves more slowly."""
+RESTS = Verdict(
+    EQUILIBRIUM,
+    0,
+    "nothing moves at the end of the record: all speeds and accelerations are below"
+    f" {RESTING:g} of what counts as one in a time unit",
+)
+
+
+def grounds(found: Mapping[str, float]) -> str:
+    """Return the reason of a verdict from the numbers that are kept of a point; empty: none is.
+
+    Its exponent in far smaller steps is not kept, and errors are those in all: where these numbers
+    alone would not give the verdict, that is said.
+    """
+    if not math.isfinite(found.get("verdict", math.nan)):
+        return ""
+    if found["verdict"] == EQUILIBRIUM:
+        return RESTS.reason
+    period = found.get("period", math.nan)
+    recurrence = int(period) if math.isfinite(period) else None
+    lyapunov, zero_one, rotation = (
+        _kept(found, name) for name in ("lyapunov", "zero_one", "rotation")
+    )
+    verdict = decide(lyapunov, zero_one, recurrence, rotation)
+    if verdict.code == found["verdict"]:
+        return verdict.reason
+    seen = "" if lyapunov is None else f": it is {lyapunov}"
+    return f"by the errors of the record, or the exponent in far smaller steps{seen}"
+
+
+def _kept(found: Mapping[str, float], name: str) -> Estimate | None:
+    value, error = found.get(name, math.nan), found.get(f"{name}_error", math.nan)
+    return Estimate(value, error) if math.isfinite(value) and error >= 0.0 else None
 
 
 def decide(

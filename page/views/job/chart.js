@@ -137,10 +137,10 @@ class Chart {
   async pick(point) {
     const [column, row] = point;
     const found = await get(`${this.job.links.chart}/point`, { column, row }, this.signal);
-    const words = found.status !== "done" ? found.detail || found.status : Object.entries(found.quantities)
+    const words = found.status !== "done" ? found.detail || found.status : [Object.entries(found.quantities)
       .filter(([, { value }]) => value !== null)
       .map(([, { long_name: name, value, unit, label }]) => `${name} ${label ?? withUnit(value, unit, 4)}`)
-      .join(", ");
+      .join(", "), found.detail].filter(Boolean).join("; ");
     offer(this.chosen, this.job, this.values(point), words, "", this.cuts(), this.starts(point));
   }
 }

@@ -9,6 +9,7 @@ from jointplay.records.point import PointEnd
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.nonlinear.lyapunov import undecided
+from jointplay.solver.nonlinear.verdict import RESTS
 from jointplay.solver.runs.study.cycles import cycle_of
 from jointplay.solver.runs.study.finer import go_on_finer, go_on_longer
 from jointplay.solver.runs.study.grounds import limits
@@ -22,7 +23,6 @@ from jointplay.solver.runs.study.indicators import (
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.problem import scales_of
-from jointplay.solver.runs.study.rest import RESTS
 
 
 def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:

@@ -7,22 +7,13 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.nonlinear.verdict import EQUILIBRIUM, Verdict
+from jointplay.solver.nonlinear.verdict import RESTING
 from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.clocks import timed
 from jointplay.solver.scene.document import Scene
 
 RATES = (("vx", 0, 1), ("vy", 0, 1), ("omega", 1, 1), ("ax", 0, 2), ("ay", 0, 2), ("alpha", 1, 2))
 """Channels of a body that vanish at rest: of an angle or not, and how often over time."""
-RESTING = 1e-5
-"""Speeds and accelerations at rest are below this share of what counts as one in a time unit: far
-less than sections may differ by that recur, for what is left of a transient moves more slowly."""
-RESTS = Verdict(
-    EQUILIBRIUM,
-    0,
-    "nothing moves at the end of the record: all speeds and accelerations are below"
-    f" {RESTING:g} of what counts as one in a time unit",
-)
 
 
 def state_at_rest(bundle: Bundle, lane: int, scene: Scene, period: float) -> Iterator[Floats]:

@@ -9,6 +9,7 @@ from PIL import Image
 from jointplay.records.coarse_to_fine import coarse_to_fine, order_of, over_axes
 from jointplay.records.motion import colour_of
 from jointplay.service.charts import schemas
+from jointplay.solver.nonlinear.verdict import grounds
 from tests.service.answers import get
 from tests.worker_by_hand import CHART
 
@@ -67,6 +68,8 @@ def test_a_point_tells_all_that_is_known_of_it(http, chart):
     at = int(np.flatnonzero(ORDER == 2 * WIDTH + 3)[0])
     found = get(http, f"/v1/jobs/{chart}/chart/point", column=3, row=2)
     assert found["quantities"]["steps"]["value"] == 1000 + at
+    kept = {"verdict": at % 4, "lyapunov": 0.1 * at, "lyapunov_error": 0.01}
+    assert found["detail"] == grounds(kept) != ""
     row, column = divmod(int(ORDER[FAILED]), WIDTH)
     failed = get(http, f"/v1/jobs/{chart}/chart/point", column=column, row=row)
     assert (failed["status"], failed["detail"]) == ("failed", "The step fell below 1e-15 s.")

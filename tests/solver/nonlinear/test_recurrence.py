@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from jointplay.solver.nonlinear.recurrence import recurrence_period
+from jointplay.solver.nonlinear.recurrence import largest_extent, recurrence_period
 from tests.solver.nonlinear.textbook import (
     HENON,
     circle,
@@ -115,3 +115,21 @@ def test_it_is_the_smallest_period_wherever_it_lies_and_whatever_the_unit(
     smallest = next(p for p in range(1, len(cycle) + 1) if (exact[p:] == exact[:-p]).all())
     section = unit * (exact + noise + shift)
     assert recurrence_period(section, np.array([unit]), 0.5) == smallest
+
+
+def test_a_period_whose_halves_still_come_closer_is_none() -> None:
+    """Behind a doubling at the multiplier -0.99 the motion is of period one, and shows two."""
+    number = np.arange(60)
+    section = (0.01 * (-0.99) ** number)[:, None]
+    assert largest_extent(section, 2) < 5e-3
+    assert recurrence_period(section, np.ones(1), 5e-3) == 0
+    settled = (0.01 * (-1.0) ** number)[:, None]
+    assert recurrence_period(settled, np.ones(1), 5e-3) == 2
+
+
+def test_a_period_of_four_that_is_one_of_two_is_none() -> None:
+    number = np.arange(80)
+    quarters = np.array([0.0, 1.0, 0.02, 1.02])[number % 4]
+    assert recurrence_period(quarters[:, None], np.ones(1), 1e-2) == 4
+    closer = np.where(number % 4 >= 2, 0.02 * (0.99**number - 1.0), 0.0)
+    assert recurrence_period((quarters + closer)[:, None], np.ones(1), 1.5e-2) == 0

@@ -19,6 +19,7 @@ from jointplay.solver.nonlinear.verdict import (
     VERDICTS,
     Verdict,
     decide,
+    grounds,
 )
 from jointplay.solver.nonlinear.zero_one import zero_one_test
 from tests.solver.nonlinear.exponents import map_exponent, tangent_exponent
@@ -249,3 +250,29 @@ def test_reasons_are_sentences_with_numbers() -> None:
     assert decide(POSITIVE, IRREGULAR, 0).reason == (
         "neighbours part, the exponent is 0.50 ± 0.10, and the 0-1 test agrees, K is 0.990 ± 0.020"
     )
+
+
+@pytest.mark.parametrize(
+    ("lyapunov", "zero_one", "period"),
+    [
+        (Estimate(-0.5, 0.01), None, 3),
+        (Estimate(0.5, 0.01), Estimate(0.99, 0.01), 0),
+        (Estimate(0.0, 0.01), None, 0),
+        (None, None, 1),
+    ],
+)
+def test_grounds_follow_from_the_numbers_that_are_kept(lyapunov, zero_one, period) -> None:
+    verdict = decide(lyapunov, zero_one, period)
+    kept = {"verdict": float(verdict.code), "period": float(period)}
+    for name, one in (("lyapunov", lyapunov), ("zero_one", zero_one)):
+        if one is not None:
+            kept |= {name: one.value, f"{name}_error": one.error}
+    assert grounds(kept) == verdict.reason
+
+
+def test_where_kept_numbers_do_not_give_the_verdict_the_grounds_say_so() -> None:
+    """The exponent in smaller steps, which is not kept, was another."""
+    kept = {"verdict": 0.0, "period": 0.0, "lyapunov": 0.5, "lyapunov_error": 0.01}
+    assert "smaller steps: it is 0.50" in grounds(kept)
+    assert "nothing moves" in grounds({"verdict": 4.0})
+    assert grounds({"verdict": math.nan}) == grounds({}) == ""
