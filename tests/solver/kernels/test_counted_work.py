@@ -70,7 +70,7 @@ CALLS = {
 more of. Functions that are not named are not called, but for those of every attempt."""
 EVERY = {
     "bare": ("attempt", "take"),
-    "extremes": ("attempt", "take", "observe", "remember", "scan"),
+    "extremes": ("attempt", "take", "observe", "foresee_bends", "remember", "scan"),
     "tangents": ("attempt", "take", "tangent_step"),
     "crossings": ("attempt", "take", "observe", "scan"),
 }
