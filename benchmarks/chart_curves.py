@@ -120,8 +120,9 @@ def same_alone(data: Any, side: int) -> bool:
 
     It begins at points of the coarse grid. Cells that its far edges cut are left out.
     """
-    begin, cells, size = side // 3 // 2**DEPTH * 2**DEPTH, 4 * 2**DEPTH, 5 * 2**DEPTH
-    part = data.isel(speed=slice(begin, begin + size), amplitude=slice(begin, begin + size))
+    cells, size = 4 * 2**DEPTH, 5 * 2**DEPTH
+    x, y = (int(share * side) >> DEPTH << DEPTH for share in (0.28, 0.2))  # where it doubles
+    part = data.isel(speed=slice(x, x + size), amplitude=slice(y, y + size))
     job = refined(side)
     for name in ("along", "by"):
         job[name] = {"parameter": job[name]["parameter"]}
