@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.records.attractors import MEAN, SPREAD, attractors_of
+from jointplay.records.attractors import INDEPENDENT, MEAN, SPREAD, attractors_of
 from jointplay.records.motion import FAILED, UNDECIDED
 from jointplay.records.point import PointEnd, PointStatus
 from jointplay.records.study import StudyDataset
@@ -43,7 +43,7 @@ def of_all_starts(study: Study, run: PointRun, end: PointEnd) -> PointEnd:
     kept = {
         name: value
         for name, value in first.statistics.items()
-        if not name.startswith((MEAN, SPREAD))
+        if not name.startswith((MEAN, SPREAD, INDEPENDENT))
     }
     kept["steps"] = sum(one.statistics["steps"] for one in ends)
     kept[COUNT] = float(_different(study, run.point, ends))
@@ -56,7 +56,7 @@ def _different(study: Study, point: int, ends: list[PointEnd]) -> int:
     status = [PointStatus.failed if end.code else PointStatus.done for end in ends]
     found = attractors_of(
         StudyDataset(
-            attributes={"states": attributes_of(scene, period)},
+            attributes={"job": study.job, "states": attributes_of(scene, period)},
             parameters=(),
             values=np.empty((len(ends), 0)),
             status=np.array(status, np.uint8),
