@@ -48,7 +48,8 @@ CASES: dict[str, Case] = {
         {"restitution": 0.5},
         {
             "parameter": "speed",
-            "values": {"from": 45.0, "to": 25.0, "count": 60},
+            "values": {"from": 37.0, "to": 34.0, "count": 60},
+            "largest_step": 0.1,
             "tolerance": 1e-12,
         },
     ),
@@ -57,19 +58,18 @@ CASES: dict[str, Case] = {
         {"restitution": 0.5},
         {
             "parameter": "clearance",
-            "values": {"from": 5e-4, "to": 2e-4, "count": 60},
-            "tolerance": 1e-12,
+            "values": {"from": 5e-4, "to": 4e-4, "count": 30},
         },
     ),
     "press-speed": (
         "seven-bar-press-fitted",
         ROUGH,
-        {"parameter": "speed", "values": {"from": 3.0, "to": 3.01, "count": 25}},
+        {"parameter": "speed", "values": {"from": 3.006, "to": 3.0065, "count": 30}},
     ),
     "press-clearance": (
         "seven-bar-press-fitted",
         ROUGH,
-        {"parameter": "clearance", "values": {"from": 5e-4, "to": 4e-4, "count": 25}},
+        {"parameter": "clearance", "values": {"from": 5e-4, "to": 4.9e-4, "count": 20}},
     ),
 }
 PERIODS = 240

@@ -35,7 +35,7 @@ class Settled:
     extents: Floats
     """(states,) how far each state moved in the last periods."""
     steps: float
-    """A period."""
+    """Accepted steps a period."""
 
 
 def settle(map_: SectionMap, value: float, state: Floats | None, periods: int) -> Settled:

@@ -15,7 +15,7 @@ from jointplay.solver.continuation.section_map import Section
 from jointplay.solver.kinds import admit
 
 SECTION = [0.17009598, 2.9076956e-4, 0.036738736, -74.871574, 0.033164115]
-"""Of slider and rod at 178 rad/s, with their speeds; last the rate of an impact long ago."""
+"""Slider and rod at 178 rad/s, with their speeds; last the rate of an impact long ago."""
 
 
 def studied(**fields: Any) -> ContinuationStudy:
