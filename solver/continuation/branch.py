@@ -8,6 +8,7 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.location import NotLocated, Piece
+from jointplay.solver.continuation.multipliers import largest
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit
 from jointplay.solver.continuation.plan import Reach
 from jointplay.solver.continuation.special import Special, explained, special_orbits
@@ -16,8 +17,9 @@ SMALLEST = 1e-7
 """Step, as a length along the branch, below which the branch is lost."""
 FIRST = 0.1
 """First step, in the largest."""
-TURN, SHARP = 0.1, 0.3
-"""Angle, rad, between tangents up to which steps grow, and above which one is refused."""
+STRAIGHT, SHARP = 0.995, 0.955
+"""Cosine between tangents from which on steps grow, and below which one is refused: some 6 and 17
+degrees."""
 FEW_ROUNDS = 3
 """Rounds of Newton's method up to which steps grow."""
 GROWTH, SHRINK = 1.6, 0.4
@@ -93,8 +95,8 @@ def _step(
                 piece = NoOrbit(sentence, math.nan)
             else:
                 if explained(piece, specials) or step <= FINE * SMALLEST:
-                    turn = _angle(curve, tangent, piece.last_tangent)
-                    grows = turn < TURN and piece.last.rounds <= FEW_ROUNDS
+                    turn = curve.scales.product(tangent, piece.last_tangent)
+                    grows = turn > STRAIGHT and piece.last.rounds <= FEW_ROUNDS
                     return piece, specials, min(step * GROWTH if grows else step, reach.step)
                 piece = NoOrbit("its stability changes in a way that is not known", math.nan)
         if step <= SMALLEST:
@@ -121,7 +123,7 @@ def _piece(
         return NoOrbit("the branch has no direction behind it", found.residual)
     if inside and curve.scales.length(found.vector - guess) > ASTRAY * step:
         return NoOrbit("Newton's method went astray", found.residual)
-    if _angle(curve, tangent, behind) > SHARP and step > FINE * SMALLEST:
+    if curve.scales.product(tangent, behind) < SHARP and step > FINE * SMALLEST:
         return NoOrbit("the branch turns too sharply", found.residual)
     if curve.scales.product(tangent, found.vector - orbit.vector) <= 0.0:
         return NoOrbit("the branch does not come to the end of the range", found.residual)
@@ -148,10 +150,6 @@ def _at_end(curve: Curve, orbit: Orbit, beyond: Floats, reach: Reach) -> Orbit |
     return curve.orbit(guess, axis, orbit.scale)
 
 
-def _angle(curve: Curve, one: Floats, other: Floats) -> float:
-    return math.acos(min(max(curve.scales.product(one, other), -1.0), 1.0))
-
-
 def _closed(piece: Piece, start: Orbit) -> bool:
     """Return whether a piece passes the start of its branch."""
     scales = piece.curve.scales
@@ -163,7 +161,7 @@ def _closed(piece: Piece, start: Orbit) -> bool:
 
 def _lost(orbit: Orbit, why: NoOrbit) -> str:
     """Return where and why a branch was lost, and what may be tried."""
-    shaken = orbit.error > SHAKEN * float(np.abs(orbit.multipliers).max())
+    shaken = orbit.error > SHAKEN * largest(orbit.multipliers)
     if why.grazing or shaken or not orbit.linear.alike:
         cause, remedy = "an impact begins or ends here (grazing)", "a softer contact"
     else:

@@ -1,10 +1,13 @@
 """Multipliers of periodic orbits, and functions of them that vanish where orbits bifurcate."""
 
 import math
+from collections.abc import Iterable
+from itertools import combinations
 
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.linear_algebra.eigenvalues import eigenvalues
 from jointplay.solver.linear_algebra.elimination import solve
 
 Complexes = np.ndarray[tuple[int], np.dtype[np.complex128]]
@@ -15,37 +18,59 @@ def multipliers_of(jacobian: Floats) -> Complexes:
 
     Of a pair of complex ones that with the positive imaginary part comes first.
     """
-    found = np.linalg.eigvals(jacobian).astype(np.complex128)
-    order = sorted(found.tolist(), key=lambda one: (-round(abs(one), 12), -one.imag))
+    order = sorted(eigenvalues(jacobian), key=lambda one: (-round(size(one), 12), -one.imag))
     return np.array(order, np.complex128)
+
+
+def size(multiplier: complex) -> float:
+    """Return the distance of a multiplier from zero."""
+    return math.sqrt(multiplier.real * multiplier.real + multiplier.imag * multiplier.imag)
+
+
+def largest(multipliers: Complexes) -> float:
+    """Return the largest distance of a multiplier from zero."""
+    return max(map(size, multipliers.tolist()))
 
 
 def unstable(multipliers: Complexes) -> int:
     """Return how many multipliers lie outside of the unit circle."""
-    return int(np.count_nonzero(np.abs(multipliers) > 1.0))
+    return sum(size(one) > 1.0 for one in multipliers.tolist())
 
 
 def doubling(multipliers: Complexes) -> float:
     """Return a number that changes its sign where a real multiplier passes -1."""
-    return float(np.prod(multipliers + 1.0).real)
+    return _product((one.real + 1.0, one.imag) for one in multipliers.tolist())
 
 
 def passing_one(multipliers: Complexes) -> float:
     """Return a number that changes its sign where a real multiplier passes 1."""
-    return float(np.prod(multipliers - 1.0).real)
+    return _product((one.real - 1.0, one.imag) for one in multipliers.tolist())
 
 
 def torus(multipliers: Complexes) -> float:
     """Return a number that changes its sign where the product of two multipliers passes 1."""
-    rows, columns = np.triu_indices(len(multipliers), 1)
-    return float(np.prod(multipliers[rows] * multipliers[columns] - 1.0).real)
+    return _product(_less_one(*pair) for pair in combinations(multipliers.tolist(), 2))
+
+
+def _less_one(one: complex, other: complex) -> tuple[float, float]:
+    """Return the product of two less one, real and imaginary."""
+    real = one.real * other.real - one.imag * other.imag
+    return real - 1.0, one.real * other.imag + one.imag * other.real
+
+
+def _product(factors: Iterable[tuple[float, float]]) -> float:
+    """Return the real part of a product; numpy's has other last bits on other processors."""
+    real, imaginary = 1.0, 0.0
+    for x, y in factors:
+        real, imaginary = real * x - imaginary * y, real * y + imaginary * x
+    return real
 
 
 def is_torus(multipliers: Complexes) -> bool:
     """Return whether the pair whose product is nearest to 1 is complex: else they are real."""
-    rows, columns = np.triu_indices(len(multipliers), 1)
-    nearest = int(np.argmin(np.abs(multipliers[rows] * multipliers[columns] - 1.0)))
-    return bool(multipliers[rows[nearest]].imag != 0.0)
+    pairs = combinations(multipliers.tolist(), 2)
+    one, _ = min(pairs, key=lambda pair: size(complex(*_less_one(*pair))))
+    return bool(one.imag != 0.0)
 
 
 def spread(one: Complexes, other: Complexes) -> float:
@@ -53,17 +78,17 @@ def spread(one: Complexes, other: Complexes) -> float:
     left = other.tolist()
     worst = 0.0
     for value in one.tolist():
-        nearest = min(left, key=lambda partner: abs(partner - value))
+        nearest = min(left, key=lambda partner: size(partner - value))
         left.remove(nearest)
-        worst = max(worst, abs(nearest - value))
+        worst = max(worst, size(nearest - value))
     return worst if math.isfinite(worst) else math.inf
 
 
 def direction_of(jacobian: Floats, multiplier: float) -> Floats:
     """Return the direction, of length 1, in which a real multiplier stretches; by iteration."""
-    size = len(jacobian)
-    shifted = jacobian - (multiplier + 1e-7) * np.eye(size)
-    found = np.cos(np.arange(size) + 1.0)
+    count = len(jacobian)
+    shifted = jacobian - (multiplier + 1e-7) * np.eye(count)
+    found: Floats = 1.0 / np.arange(1.5, count + 1.0)
     for _ in range(4):
         found = solve(shifted, found)
         found = found / math.sqrt(float(np.sum(found * found)))

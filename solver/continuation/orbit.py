@@ -12,7 +12,12 @@ import numpy as np
 from numpy.linalg import LinAlgError
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.continuation.multipliers import Complexes, multipliers_of, spread
+from jointplay.solver.continuation.multipliers import (
+    Complexes,
+    largest,
+    multipliers_of,
+    spread,
+)
 from jointplay.solver.continuation.section_map import COARSER, Linear, Section, SectionMap
 from jointplay.solver.linear_algebra.elimination import solve
 
@@ -105,8 +110,8 @@ class Orbit:
     @cached_property
     def sure(self) -> bool:
         """Whether the bar of the multipliers is small, or no matter: all stay inside the circle."""
-        largest = float(np.abs(self.multipliers).max())
-        return self.error <= SHARP * max(1.0, largest) or largest + self.error < 1.0
+        most = largest(self.multipliers)
+        return self.error <= SHARP * max(1.0, most) or most + self.error < 1.0
 
     def tangent(self, along: Floats, linear: Linear | None = None) -> Floats | None:
         """Return the branch's direction, of length 1, on the side of `along`; None: it has none."""

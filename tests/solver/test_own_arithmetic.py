@@ -40,12 +40,6 @@ SHOWN = {
 }
 """Files that call such functions, and what for: none of it is stored as a number."""
 
-OF_PROCESSOR = {
-    "continuation/branch.py": "steps along a branch",
-    "continuation/multipliers.py": "eigenvalues",
-}
-"""Files whose last bits differ between processors until these are our own: see docs/studies.md."""
-
 
 def foreign(tree: ast.AST) -> Iterator[str]:
     """Yield calls whose bits are not our own."""
@@ -67,4 +61,4 @@ def foreign(tree: ast.AST) -> Iterator[str]:
 )
 def test_a_source_computes_with_arithmetic_of_our_own(path: Path) -> None:
     found = sorted(set(foreign(ast.parse(path.read_text()))))
-    assert bool(found) == (str(path.relative_to(SOLVER)) in SHOWN | OF_PROCESSOR), found
+    assert bool(found) == (str(path.relative_to(SOLVER)) in SHOWN), found
