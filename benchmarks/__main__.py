@@ -24,6 +24,7 @@ ALL = (
     "sensitivity",
     "continuation",
     "branches",
+    "known_orbits",
     "joined",
     "bucket",
     "restitution",

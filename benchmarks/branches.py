@@ -64,7 +64,7 @@ CASES: dict[str, Case] = {
     "press-speed": (
         "seven-bar-press-fitted",
         ROUGH,
-        {"parameter": "speed", "values": {"from": 3.006, "to": 3.0065, "count": 30}},
+        {"parameter": "speed", "values": {"from": 3.0, "to": 3.01, "count": 50}},
     ),
     "press-clearance": (
         "seven-bar-press-fitted",
