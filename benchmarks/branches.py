@@ -48,8 +48,7 @@ CASES: dict[str, Case] = {
         {"restitution": 0.5},
         {
             "parameter": "speed",
-            "values": {"from": 37.0, "to": 34.0, "count": 60},
-            "largest_step": 0.1,
+            "values": {"from": 45.0, "to": 33.0, "count": 60},
             "tolerance": 1e-12,
         },
     ),
@@ -64,7 +63,7 @@ CASES: dict[str, Case] = {
     "press-speed": (
         "seven-bar-press-fitted",
         ROUGH,
-        {"parameter": "speed", "values": {"from": 3.0, "to": 3.01, "count": 50}},
+        {"parameter": "speed", "values": {"from": 3.0, "to": 4.0, "count": 30}},
     ),
     "press-clearance": (
         "seven-bar-press-fitted",
