@@ -5,6 +5,14 @@ import numpy as np
 from jointplay.records.arrays import Floats
 
 LONGEST = 32
+TWICE = 4
+"""Longest period that two turns show; longer ones need three: of a chaotic motion that comes close
+to where it was, what follows stays close for a while."""
+
+
+def longest_in(sections: int, longest: int = LONGEST) -> int:
+    """Return the longest period that is looked for among so many sections."""
+    return min(longest, max(min(sections // 2, TWICE), sections // 3))
 
 
 def recurrence_period(
@@ -12,7 +20,8 @@ def recurrence_period(
 ) -> int:
     """Return the smallest p such that every p-th section is the same throughout; 0: there is none.
 
-    section : (n, d) points in time; at least two turns must be on record, so p ≤ n/2.
+    section : (n, d) points in time; at least three turns must be on record, so p ≤ n/3, or two of a
+    period of at most four.
     scale : (d,) what counts as one in each column, positive.
     tolerance : largest extent, in units of `scale`, of the points i, i + p, i + 2p …; well above
         the error of the integration, well below the motion. Points that creep along a curve by less
@@ -37,7 +46,7 @@ def recurrence_period(
     if not np.isfinite(points).all():
         raise ValueError("recurrence needs finite points; leave out sections never reached")
     scaled = points / scale
-    for period in range(1, min(longest, len(points) // 2) + 1):
+    for period in range(1, longest_in(len(points), longest) + 1):
         if largest_extent(scaled, period) <= tolerance:
             return 0 if _still_close_in(scaled, period) else period
     return 0

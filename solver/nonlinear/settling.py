@@ -51,7 +51,7 @@ class Settling:
 
     Settled is what
 
-    - recurs: the last 64 sections have a period of at most 32 within the tolerance, and what is
+    - recurs: the last 64 sections have a period of at most 21 within the tolerance, and what is
       still to come, if they go on closing in as they did, stays within it too (looked for every 16
       sections); or
     - has steady statistics: with the first quarter of all sections left out, the means and standard

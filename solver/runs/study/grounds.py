@@ -6,7 +6,7 @@ An indicator says nothing where it has too few sections, or where its number is 
 import math
 from collections.abc import Iterator, Mapping
 
-from jointplay.solver.nonlinear.recurrence import LONGEST
+from jointplay.solver.nonlinear.recurrence import longest_in
 from jointplay.solver.nonlinear.verdict import UNDECIDED
 from jointplay.solver.nonlinear.zero_one import FEWEST_TELLING
 from jointplay.solver.runs.study.indicators import (
@@ -34,7 +34,7 @@ def limits(scene: Scene, found: Mapping[str, float], sections: int, periods: int
     elif "period" in found:
         scale = "finest clearance" if contact_pairs(scene) else "shortest link"
         yield (
-            f"periods up to {min(LONGEST, sections // 2)} are looked for, and what differs by less"
+            f"periods up to {longest_in(sections)} are looked for, and what differs by less"
             f" than {RECURS:g} of the {scale}, or of its own range, counts as the same"
         )
     if math.isnan(found.get("rotation", 0.0)):

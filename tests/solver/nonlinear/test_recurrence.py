@@ -69,11 +69,15 @@ def test_the_tolerance_is_in_units_of_the_scale() -> None:
     assert recurrence_period(section, np.array([1e-5, 100.0]), 0.1) == 2
 
 
-def test_a_period_must_be_seen_twice() -> None:
-    section = np.arange(6.0).repeat(1)[:, None]
-    twice = np.concatenate([section, section])
-    assert recurrence_period(twice, ONE, 1e-9) == 6
-    assert recurrence_period(twice[:-1], ONE, 1e-9) == 0
+def test_a_period_must_be_seen_three_times_and_a_short_one_twice() -> None:
+    """Chaos that comes close to where it was stays close for a turn, not for two."""
+    section = np.arange(6.0)[:, None]
+    thrice = np.concatenate([section, section, section])
+    assert recurrence_period(thrice, ONE, 1e-9) == 6
+    assert recurrence_period(thrice[:-1], ONE, 1e-9) == 0
+    short = np.concatenate([section[:4], section[:4]])
+    assert recurrence_period(short, ONE, 1e-9) == 4
+    assert recurrence_period(short[:-1], ONE, 1e-9) == 0
     assert recurrence_period(section[:1], ONE, 1e-9) == 0
 
 

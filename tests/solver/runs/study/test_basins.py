@@ -108,7 +108,9 @@ def test_attractors_are_where_the_closed_form_has_them(basins):
 def test_outputs_are_those_that_points_have(basins):
     _, study = basins
     told = KINDS["basins"].outputs(study)
-    assert {*told} == {name for name in basins[0].statistics if name.startswith("cycle_")}
+    assert {*told} == {
+        name for name in basins[0].statistics if name.startswith(("cycle_", "independent_"))
+    }
     assert told["cycle_mean.mass.s"][0] == "m"
     assert told["cycle_spread.mass.s_rate"][0] == "m/s"
 

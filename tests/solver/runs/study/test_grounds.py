@@ -23,7 +23,7 @@ def judged(parameters: dict[str, float], record: int, **more: Any) -> tuple[dict
     ("record", "said"),
     [
         (2, ["three recorded periods", "needs 300", "needs 4 sections, there are 2", "needs 16"]),
-        (20, ["needs 300 sections", "periods up to 10 are looked for", "0.001 of the finest"]),
+        (20, ["needs 300 sections", "periods up to 6 are looked for", "0.001 of the finest"]),
     ],
 )
 def test_an_indicator_of_too_few_sections_says_why_it_says_nothing(
