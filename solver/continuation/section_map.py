@@ -98,11 +98,7 @@ class SectionMap:
     recall: Callable[[Callable[[], Answers]], Answers] = lambda compute: compute()
     """Returns what `compute` does, or did before at the same place of the same continuation."""
     steps: float = math.inf
-<<<<<<< HEAD
     """Accepted steps in a period of the motion that the branch begins with."""
-=======
-    """Steps a period of the motion that the branch begins with."""
->>>>>>> 44b8880f (Cases of the benchmark around their special orbits; docstrings begin with what a thing is)
 
     @property
     def size(self) -> int:
