@@ -13,6 +13,7 @@ import numpy as np
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.attractors import INDEPENDENT, MEAN, SPREAD
 from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.quantities.scalars import direction_angle, sine_cosine
 from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.statistics import Output
@@ -78,9 +79,10 @@ def cycle_of(
         sections = np.full((1, count), math.nan)
     cycle = period or len(sections)
     whole, turning = sections[len(sections) % cycle :, :count], angles[:count]
-    cosine, sine = np.cos(whole).mean(axis=0), np.sin(whole).mean(axis=0)
-    length = np.hypot(cosine, sine)
-    direction = np.where(length < DIRECTED, 0.0, np.arctan2(sine, cosine))
+    sines, cosines = sine_cosine(np.where(turning, whole, 0.0))
+    sine, cosine = sines.mean(axis=0), cosines.mean(axis=0)
+    length = np.sqrt(cosine * cosine + sine * sine)
+    direction = np.where(length < DIRECTED, 0.0, direction_angle(cosine, sine))
     mean = np.where(turning, direction, whole.mean(axis=0))
     chord = np.sqrt(np.maximum(2.0 * (1.0 - length), 0.0))
     spread = np.where(turning, chord, whole.std(axis=0))
@@ -105,9 +107,7 @@ def independent(sections: Floats, angles: Flags) -> float:
     size = len(sections) // BATCHES
     if size < 2:
         return math.nan
-    columns = np.hstack(
-        [sections[:, ~angles], np.cos(sections[:, angles]), np.sin(sections[:, angles])]
-    )
+    columns = np.hstack([sections[:, ~angles], *sine_cosine(sections[:, angles])])
     columns = columns[len(columns) - BATCHES * size :]
     columns = columns - columns.mean(axis=0)
     columns = np.hstack([columns, columns**2 - (columns**2).mean(axis=0)])
