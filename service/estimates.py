@@ -41,6 +41,10 @@ class Estimate(BaseModel):
     exact: bool = Field(
         description="Whether the whole job was computed for it, and not only its beginning."
     )
+    at_most: bool = Field(
+        description="Whether it may cost less: a map that is refined computes only those points"
+        " between which the motion changes."
+    )
     failure: str | None = Field(description="Why the job, or a point of it, will end early.")
     cached: bool = Field(
         description="Whether an identical job is there, so that a submission costs nothing."
@@ -68,4 +72,5 @@ def estimate_job(
     found = checker.check(CheckJob(), body)
     own = replace(found.job, owner=caller.owner)
     cached = found.reuse and catalogue.identical(own) is not None
-    return Estimate(**prober.cost_of(own.spec), cached=cached)
+    refined = bool(own.spec.get("refine"))
+    return Estimate(**prober.cost_of(own.spec), at_most=refined, cached=cached)

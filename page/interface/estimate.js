@@ -50,7 +50,7 @@ function words(found) {
     : "";
   const failing = found.failure ? ` It will end early: ${found.failure}` : "";
   return [
-    "About ", element("strong", {}, span(found.seconds)), ` of one core${points}, `,
+    found.at_most ? "At most " : "About ", element("strong", {}, span(found.seconds)), ` of one core${points}, `,
     element("strong", {}, bytes(found.bytes)), ` of results, ${short(found.steps, 3)} steps.`,
     compiling, failing,
   ];

@@ -99,7 +99,11 @@ class Uses:
             )
         if quota.computed and use.computed >= quota.computed:
             raise QuotaExceeded(
-                f"{owner} has computed {use.computed:.0f} core seconds in the last 24 hours, and"
-                f" may compute {quota.computed:g}; ask again in an hour"
+                f"{owner} has computed {_hours(use.computed)} in the last 24 hours, and may"
+                f" compute {_hours(quota.computed)}; ask again in an hour"
             )
         use.live += more
+
+
+def _hours(seconds: float) -> str:
+    return f"{seconds / 3600.0:.3g} core-hours"

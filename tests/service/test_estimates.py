@@ -79,6 +79,21 @@ def test_an_estimate_of_a_study_is_right_within_a_factor_of_two(http):
     assert not estimate["exact"]
 
 
+def test_an_estimate_of_a_refined_map_is_the_most_that_it_may_cost(http):
+    chart = {
+        "kind": "chart",
+        "scene": {"preset": "impact-oscillator"},
+        "along": {"parameter": "speed", "values": {"from": 10.0, "to": 40.0, "count": 33}},
+        "by": {"parameter": "amplitude", "values": {"from": 1e-3, "to": 2e-2, "count": 33}},
+        "settle": 4,
+        "record": 8,
+        "indicators": ["recurrence"],
+    }
+    whole, refined = estimated(http, chart), estimated(http, chart | {"refine": 3})
+    assert (whole["at_most"], refined["at_most"]) == (False, True)
+    assert refined["points"] == whole["points"] == 33 * 33
+
+
 def test_an_estimate_of_a_short_accuracy_study_is_exact(http):
     study = {"kind": "accuracy-study", "scene": {"preset": "seven-bar-press"}, "duration": 0.003}
     estimate = estimated(http, study)

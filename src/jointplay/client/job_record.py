@@ -17,8 +17,9 @@ class Estimate:
 
     ``seconds`` of one core, beside those that the ``compilation`` of its equations took (0: they
     were compiled), accepted ``steps`` of the solver, ``bytes`` on the disk; ``blocks``
-    can be computed at the same time.  ``exact``: the whole job was computed for it.  ``failure``
-    says why it will end early, ``cached`` that an identical job is there already.
+    can be computed at the same time.  ``exact``: the whole job was computed for it.  ``at_most``: a
+    map that is refined computes few of its points, and costs less.  ``failure`` says why it will
+    end early, ``cached`` that an identical job is there already.
     """
 
     seconds: float
@@ -28,6 +29,7 @@ class Estimate:
     points: int
     blocks: int
     exact: bool
+    at_most: bool
     failure: str | None
     cached: bool
 

@@ -127,7 +127,7 @@ def test_processor_time_counts_for_a_day_however_attempts_end(
     assert catalogue.submit(NEW, quota=day).created
     assert catalogue.claim_block(f"{other}-0", "two", HOUR)
     clock.now += 12.0  # what runs counts as well
-    with pytest.raises(QuotaExceeded, match=r"has computed 102 core seconds .* may compute 100;"):
+    with pytest.raises(QuotaExceeded, match=r"computed 0.0283 core-hours .* 0.0278 core-hours;"):
         catalogue.submit(NEW, quota=day)
     catalogue.finish(f"{other}-0", 1, BlockEnd(BlockState.done))
     clock.now += 24 * HOUR - 300.0  # in the 24th hour, with that of the attempts
