@@ -21,7 +21,7 @@ TIMES = Path(__file__).parents[1] / "build" / "test-times.json"
 LEAST = 2.0
 """Seconds of processor from which on a test is dear."""
 SHARE = 0.25
-"""Share of the dear tests of a file that are run, at least one."""
+"""Share of the dear tests of a folder that are run, at least one."""
 ALWAYS = ("tests/test_readme.py", "tests/command_line/test_demo.py")
 
 
@@ -31,7 +31,8 @@ def draw(times: Mapping[str, Mapping[str, float]], seed: int) -> dict[str, Any]:
     for name, spent in sorted(times.items()):
         file = name.partition("::")[0]
         if spent["processor"] >= LEAST and file not in ALWAYS:
-            dear.setdefault(file, {})[name] = round(spent["processor"], 1)
+            folder = "/".join(file.split("/")[:2])
+            dear.setdefault(folder, {})[name] = round(spent["processor"], 1)
     draws, left_out = random.Random(seed), {}
     for tests in dear.values():
         kept = set(draws.sample(list(tests), max(1, round(SHARE * len(tests)))))

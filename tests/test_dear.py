@@ -7,17 +7,17 @@ import pytest
 
 from tests import dear
 
-TIMES = {f"tests/test_a.py::test[{i}]": {"processor": 3.0 + i} for i in range(8)} | {
-    "tests/test_a.py::test_cheap": {"processor": 0.5},
-    "tests/test_b.py::test_alone": {"processor": 60.0},
+TIMES = {f"tests/a/b/test_{i}.py::test": {"processor": 3.0 + i} for i in range(8)} | {
+    "tests/a/test_a.py::test_cheap": {"processor": 0.5},
+    "tests/b/test_b.py::test_alone": {"processor": 60.0},
     f"{dear.ALWAYS[0]}::test": {"processor": 60.0},
 }
 
 
-def test_a_quarter_of_the_dear_tests_of_a_file_is_run_and_at_least_one() -> None:
+def test_a_quarter_of_the_dear_tests_of_a_folder_is_run_and_at_least_one() -> None:
     left_out = dear.draw(TIMES, 1)["left_out"]
     assert len(left_out) == 6
-    assert all(name.startswith("tests/test_a.py::test[") for name in left_out)
+    assert all(name.startswith("tests/a/b/") for name in left_out)
     assert all(left_out[name] == TIMES[name]["processor"] for name in left_out)
 
 

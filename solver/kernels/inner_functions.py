@@ -1,9 +1,8 @@
-"""Functions that kernels alone call are optimised, and made machine code, in their callers alone.
+"""Functions that kernels alone call are made machine code in their callers alone.
 
-By itself Numba makes code of every function, and optimises each with all that it calls written into
-it: what is called five levels deep is optimised five times. But a function without an entry for
-Python is never called where it stands: those that call it link its text, which is all that is kept
-of it. The functions with an entry become the same code, and compiling takes 0.7 of the time.
+By itself Numba makes code of every function. But one without an entry for Python is never called
+where it stands: those that call it link its text, which is all that is kept of it. The functions
+with an entry become the same code.
 """
 
 # mypy: disable-error-code="no-untyped-call, no-any-return, method-assign"
@@ -25,10 +24,6 @@ class Library(codegen.JITCodeLibrary):
         """Whether kernels alone call it."""
         defined = [one.name for one in self._final_module.functions if not one.is_declaration]
         return not any(name.startswith(ENTRIES) for name in defined)
-
-    def _optimize_final_module(self) -> None:
-        if not self._is_inner:
-            super()._optimize_final_module()
 
     def _finalize_final_module(self) -> None:
         has_code = self._object_caching_enabled and self._compiled_object is not None
