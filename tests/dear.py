@@ -18,7 +18,7 @@ import pytest
 
 TABLE = Path(__file__).with_name("dear.json")
 TIMES = Path(__file__).parents[1] / "build" / "test-times.json"
-LEAST = 2.0
+LEAST = 1.0
 """Seconds of processor from which on a test is dear."""
 SHARE = 0.25
 """Share of the dear tests of a folder that are run, at least one."""
