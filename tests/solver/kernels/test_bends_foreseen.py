@@ -1,4 +1,4 @@
-"""A slip that passes a bend of friction in a step and comes back, or passes two, is told by ends."""
+"""A slip that passes a bend of friction in a step and comes back, or two, is told by its ends."""
 
 import numpy as np
 import pytest
