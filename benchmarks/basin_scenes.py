@@ -51,24 +51,27 @@ def pendulum() -> dict[str, Any]:
     }
 
 
-def cubic_oscillator(damping: float = 0.08, linear: float = 0.0, **forces: Any) -> dict[str, Any]:
-    """Return x'' = -damping x' - linear x - x^3, and further forces on the mass."""
+def sliding(name: str, damping: float, **forces: Any) -> dict[str, Any]:
+    """Return a mass on a slide that is damped, N s/m, and has further forces."""
+    damper = {
+        "type": "spring-damper",
+        "first": "ground.anchor",
+        "second": "mass.centre",
+        "damping": damping,
+    }
     return {
-        "name": "cubic-oscillator",
+        "name": name,
         "ground": GROUND,
         "bodies": MASS,
         "joints": SLIDE,
-        "forces": {
-            "damper": {
-                "type": "spring-damper",
-                "first": "ground.anchor",
-                "second": "mass.centre",
-                "damping": damping,
-            },
-            "spring": along_the_slide([0.0, -linear, 0.0, -1.0]),
-            **forces,
-        },
+        "forces": {"damper": damper, **forces},
     }
+
+
+def cubic_oscillator(damping: float = 0.08, linear: float = 0.0, **forces: Any) -> dict[str, Any]:
+    """Return x'' = -damping x' - linear x - x^3, and further forces on the mass."""
+    spring = along_the_slide([0.0, -linear, 0.0, -1.0])
+    return sliding("cubic-oscillator", damping, spring=spring, **forces)
 
 
 def along_the_slide(coefficients: list[float]) -> dict[str, Any]:
@@ -113,35 +116,22 @@ def belt() -> dict[str, Any]:
     apart = np.concatenate([[STICKS], np.geomspace(0.05, 6.0, 26)])
     friction = 0.5 + 0.5 * np.exp(-apart / 0.5)
     knots = np.concatenate([BELT_SPEED - apart[::-1], BELT_SPEED + apart])
-    return {
-        "name": "belt-oscillator",
-        "period": 2.0 * math.pi,
-        "ground": GROUND,
-        "bodies": MASS,
-        "joints": SLIDE,
-        "forces": {
-            "damper": {
-                "type": "spring-damper",
-                "first": "ground.anchor",
-                "second": "mass.centre",
-                "damping": 0.1,
-            },
-            "spring": {"type": "spring-damper", **ON_THE_MASS, "stiffness": 1.0},
-            "friction": {
-                "type": "force",
-                **ON_THE_MASS,
-                "magnitude": 1.0,
-                "direction": [1.0, 0.0],
-                "over": {"quantity": "x", "rate": True},
-                "course": {
-                    "type": "table",
-                    "knots": knots.tolist(),
-                    "values": [*friction[::-1].tolist(), *(-friction).tolist()],
-                    "outside": "held",
-                },
-            },
+    spring = {"type": "spring-damper", **ON_THE_MASS, "stiffness": 1.0}
+    rubbing = {
+        "type": "force",
+        **ON_THE_MASS,
+        "magnitude": 1.0,
+        "direction": [1.0, 0.0],
+        "over": {"quantity": "x", "rate": True},
+        "course": {
+            "type": "table",
+            "knots": knots.tolist(),
+            "values": [*friction[::-1].tolist(), *(-friction).tolist()],
+            "outside": "held",
         },
     }
+    scene = sliding("belt-oscillator", 0.1, spring=spring, friction=rubbing)
+    return scene | {"period": 2.0 * math.pi}
 
 
 def impact_oscillator() -> dict[str, Any]:

@@ -13,6 +13,7 @@ from jointplay.solver.kinds.attractors import AttractorKind
 from jointplay.solver.kinds.limits import MOST_OF_A_CHART, check_count
 from jointplay.solver.kinds.map import Along
 from jointplay.solver.kinds.motion_map import MotionsJob
+from jointplay.solver.kinds.perturbed import seed_of
 from jointplay.solver.kinds.points import Axis, Points
 from jointplay.solver.kinds.values import axis, count
 from jointplay.solver.quantities.roster import MemberOf
@@ -41,7 +42,7 @@ class BasinStabilityJob(MotionsJob):
     samples: Annotated[int, quantity("1", ge=1, le=10**12, description="starts that are drawn")] = (
         1000
     )
-    seed: Annotated[int, quantity("1", ge=0, le=2**53 - 1, description="seed of what is drawn")] = 0
+    seed: Annotated[int, seed_of("what is drawn")] = 0
     along: Annotated[
         Along | None,
         Field(description="a parameter: the same starts at each of its values; default: none"),

@@ -8,6 +8,7 @@ from jointplay.records.coarse_to_fine import COARSEST
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.map import AlongStart
 from jointplay.solver.kinds.motion_map import MotionMap, MotionMapJob
+from jointplay.solver.kinds.perturbed import Seed, spread_up_to
 from jointplay.solver.kinds.section_study import indicators_of
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
@@ -39,27 +40,8 @@ class ChartJob(MotionMapJob):
             ),
         ),
     ] = 1
-    spread: Annotated[
-        float,
-        quantity(
-            "1",
-            ge=0.0,
-            le=10.0,
-            description=(
-                "standard deviation of the starts' perturbation: positions relative to the finest"
-                " clearance, velocities to that per period/2pi"
-            ),
-        ),
-    ] = 0.5
-    seed: Annotated[
-        int,
-        quantity(
-            "1",
-            ge=0,
-            le=2**53 - 1,
-            description="seed of the perturbations; the same gives the same",
-        ),
-    ] = 0
+    spread: Annotated[float, spread_up_to(10.0)] = 0.5
+    seed: Seed = 0
     refine: Annotated[
         int,
         quantity(

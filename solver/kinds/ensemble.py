@@ -4,6 +4,7 @@ from typing import Annotated, ClassVar, Literal
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.limits import check_count
+from jointplay.solver.kinds.perturbed import Seed, spread_up_to
 from jointplay.solver.kinds.points import Points, one_point
 from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
 from jointplay.solver.quantities.units import quantity
@@ -15,27 +16,8 @@ class EnsembleJob(SectionStudyJob):
 
     kind: Literal["ensemble"]
     members: Annotated[int, quantity("1", ge=1, le=10**12, description="number of starts")]
-    spread: Annotated[
-        float,
-        quantity(
-            "1",
-            ge=0.0,
-            le=1.0,
-            description=(
-                "standard deviation of the start's perturbation: positions relative to the finest"
-                " clearance, velocities to that per period/2pi"
-            ),
-        ),
-    ] = 1e-3
-    seed: Annotated[
-        int,
-        quantity(
-            "1",
-            ge=0,
-            le=2**53 - 1,
-            description="seed of the perturbations; the same gives the same",
-        ),
-    ] = 0
+    spread: Annotated[float, spread_up_to(1.0)] = 1e-3
+    seed: Seed = 0
 
 
 class Ensemble(SectionStudy[EnsembleJob]):

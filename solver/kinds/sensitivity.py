@@ -14,6 +14,7 @@ from jointplay.solver.distributions import DISTRIBUTIONS, Distribution
 from jointplay.solver.kinds.extremes_study import ExtremesStudy, ExtremesStudyJob
 from jointplay.solver.kinds.limits import MOST_POINTS
 from jointplay.solver.kinds.mechanism import declared
+from jointplay.solver.kinds.perturbed import seed_of
 from jointplay.solver.kinds.points import Axis, Points
 from jointplay.solver.quantities.roster import MemberOf, NameIn
 from jointplay.solver.quantities.units import Name, quantity
@@ -53,12 +54,7 @@ class SensitivityJob(ExtremesStudyJob):
         int,
         quantity("1", ge=4, le=10**12, description="rows of the design; saltelli: a power of two"),
     ] = 256
-    seed: Annotated[
-        int,
-        quantity(
-            "1", ge=0, le=2**53 - 1, description="seed of the design; the same gives the same"
-        ),
-    ] = 0
+    seed: Annotated[int, seed_of("the design")] = 0
 
 
 class SensitivityKind(ExtremesStudy[SensitivityJob]):
