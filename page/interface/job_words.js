@@ -19,12 +19,18 @@ export function jobWords(document, declared) {
   const axes = [document, ...Object.values(document)].filter((one) => (one?.parameter ?? one?.start) && one.values);
   const verb = { calibration: "finds", sensitivity: "draws" }[kind];
   const varied = verb ? [`${verb} ${Object.keys(parameters).join(", ")}`] : [
-    document.starts && `draws ${Object.keys(document.starts).join(", ")}`,
+    starts(document.starts),
     ...axes.map((one) => over(one.parameter ?? one.start, one.values)),
     ...Object.entries(grid ?? {}).map(([name, all]) => over(name, all)),
   ];
   return [...varied, duration && withUnit(duration, "s"), parameterWords(document, declared)]
     .filter(Boolean).join(", ");
+}
+
+/** Returns the words of starts that are drawn, or of how many each point has; none of the scene's own. */
+function starts(found) {
+  if (typeof found === "number") return found > 1 && `${found} starts a point`;
+  return found && `draws ${Object.keys(found).join(", ")}`;
 }
 
 /** Returns, for each of some jobs of one preset, the parameters in which they differ. */

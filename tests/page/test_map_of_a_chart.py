@@ -149,3 +149,11 @@ def test_a_chart_is_asked_for_in_the_form(browsing, url):
         page.get_by_role("button", name="Run", exact=True).click()
         page.get_by_text("6 points. Drag to move").wait_for()
         painted(page)
+
+
+@pytest.mark.parametrize(("starts", "words"), [(1, ""), (2, "2 starts a point, ")])
+def test_its_head_says_how_many_starts_a_point_has(browsing, url, starts, words):
+    job = submitted(url, CHART | {"starts": starts})
+    with browsing.page(f"{url}/#/job/{job}") as page:
+        values = page.locator("dt", has_text="Values").locator("+ dd")
+        expect(values).to_have_text(f"{words}speed 10 rad/s … 40 rad/s, amplitude 1 mm … 20 mm")
