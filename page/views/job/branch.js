@@ -1,10 +1,10 @@
 /** Branches of periodic orbits: drawn by the service, with a table of their special orbits. */
 
 import { element, fill } from "../../interface/element.js";
+import { freshFigure } from "../../interface/fresh_figure.js";
 import { withUnit } from "../../interface/numbers.js";
 import { table } from "../../interface/table.js";
 import { whenThere } from "../../interface/when_there.js";
-import { openAddress } from "../../requests/key.js";
 
 export async function show(room, context) {
   await whenThere(room, context, context.job.links.branch, {}, async (answer) => {
@@ -12,16 +12,10 @@ export async function show(room, context) {
     const words = answer.branches.map(({ failure }) => failure?.detail).filter(Boolean);
     if (!found.length && !words.length) words.push("No orbit has been found yet.");
     fill(room, element("section", { class: "panel stacked" },
-      found.length > 0 && await figure(`${context.job.links.figures}/branch.svg`, answer.parameter),
+      found.length > 0 && await freshFigure(
+        `${context.job.links.figures}/branch.svg`, `Branches of periodic orbits over ${answer.parameter}`),
       words.map((sentence) => element("p", {}, sentence)),
       found.length > 0 && specialOrbits(answer, found)));
-  });
-}
-
-async function figure(path, parameter) {
-  return element("img", {
-    class: "figure", alt: `Branches of periodic orbits over ${parameter}`,
-    src: await openAddress(path, true), onload: ({ target }) => URL.revokeObjectURL(target.src),
   });
 }
 

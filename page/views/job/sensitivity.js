@@ -1,11 +1,11 @@
 /** A sensitivity: what an output owes to each parameter, its quantiles, and how probable a limit is. */
 
 import { element, fill } from "../../interface/element.js";
+import { freshFigure } from "../../interface/fresh_figure.js";
 import { short, typed, unitText, withUnit } from "../../interface/numbers.js";
 import { note } from "../../interface/place.js";
 import { table } from "../../interface/table.js";
 import { whenThere } from "../../interface/when_there.js";
-import { openAddress } from "../../requests/key.js";
 import { get } from "../../requests/service.js";
 
 export async function show(room, context) {
@@ -13,7 +13,7 @@ export async function show(room, context) {
   await whenThere(room, context, context.job.links.sensitivity, view.query(), async (answer) => {
     if (!view.element.isConnected) fill(room, view.element);
     if (view.changed) await view.ask();
-    else view.take(answer);
+    else await view.take(answer);
   });
 }
 
@@ -57,17 +57,20 @@ class Sensitivity {
   async ask() {
     const query = this.query();
     note({ output: this.wanted, limit: query.limit ?? null });
-    this.take(await get(this.job.links.sensitivity, query, this.signal));
+    await this.take(await get(this.job.links.sensitivity, query, this.signal));
   }
 
-  take(answer) {
+  async take(answer) {
+    this.latest = answer;
     fill(this.output, answer.outputs.map((name) =>
       element("option", { value: name, selected: name === answer.output }, name)));
     this.unit.textContent = answer.unit === "1" ? "" : unitText(answer.unit);
     fill(this.found, words(answer).map((sentence) => element("p", {}, sentence)),
       measures(answer), quantiles(answer));
-    fill(this.drawn, Object.keys(answer.measures).length > 0
-      && figure(`${this.job.links.figures}/${encodeURIComponent(answer.output)}.svg`, answer.output));
+    const picture = Object.keys(answer.measures).length > 0
+      && await freshFigure(`${this.job.links.figures}/${encodeURIComponent(answer.output)}.svg`,
+        `What ${answer.output} owes to each parameter`);
+    if (answer === this.latest) fill(this.drawn, picture);
   }
 }
 
@@ -100,11 +103,4 @@ function quantiles({ quantiles: found, unit, output }) {
 
 function within({ values, low, high }, i, unit) {
   return `${withUnit(values[i], unit)} (${withUnit(low[i], unit, 3)} … ${withUnit(high[i], unit, 3)})`;
-}
-
-function figure(path, output) {
-  const image = element("img", { class: "figure", alt: `What ${output} owes to each parameter` });
-  image.onload = () => URL.revokeObjectURL(image.src);
-  openAddress(path, true).then((address) => (image.src = address));
-  return image;
 }
