@@ -23,6 +23,7 @@ SLIDE = {
 }
 MASS = {"mass": {"mass": 1.0, "inertia": 1.0, "points": {"centre": [0.0, 0.0]}}}
 ON_THE_MASS = {"first": "ground.O", "second": "mass.centre"}
+THIRD = 2.0 * math.pi / 3.0
 BELT_SPEED, STICKS = 1.5, 1e-3
 """m/s; the belt's friction grows linearly within the latter of the belt's speed."""
 
@@ -132,6 +133,45 @@ def belt() -> dict[str, Any]:
     }
     scene = sliding("belt-oscillator", 0.1, spring=spring, friction=rubbing)
     return scene | {"period": 2.0 * math.pi}
+
+
+def magnets(height: float = 0.2) -> dict[str, Any]:
+    """Return r'' = -0.2 r' - 0.64 r + three magnets' pull, at the corners of a triangle.
+
+    A magnet at the distance s in the plane pulls with s / (s^2 + height^2)^(3/2).
+    """
+    corners = {f"magnet{k}": [math.cos(k * THIRD), math.sin(k * THIRD)] for k in range(3)}
+    apart = np.concatenate([np.linspace(0.0, 0.5, 26), np.geomspace(0.52, 12.0, 38)])
+    pull = apart / (apart**2 + height**2) ** 1.5
+    table = {"type": "table", "between": "smooth", "outside": "held"}
+    table |= {"knots": apart.tolist(), "values": pull.tolist()}
+    magnet = {"type": "tension", "second": "bob.centre", "magnitude": 1.0, "course": table}
+    drag = {"type": "force", "first": "ground.O", "second": "bob.centre", "magnitude": -0.2}
+    drag |= {"course": {"type": "polynomial", "coefficients": [0.0, 1.0]}}
+    spring = {"type": "spring-damper", "first": "ground.O", "second": "bob.centre"}
+    slide = {"type": "prismatic"}
+    return {
+        "name": "magnetic-pendulum",
+        "ground": {"points": {"O": [0.0, 0.0], **corners}},
+        "bodies": {
+            "carriage": {"mass": 1e-9, "inertia": 1.0, "points": {"C": [0.0, 0.0]}},
+            "bob": {"mass": 1.0, "inertia": 1.0, "points": {"centre": [0.0, 0.0]}},
+        },
+        "joints": {
+            "x": slide | {"guide": "ground.O", "slider": "carriage.C", "axis": [1.0, 0.0]},
+            "y": slide | {"guide": "carriage.C", "slider": "bob.centre", "axis": [0.0, 1.0]},
+        },
+        "forces": {
+            "spring": spring | {"stiffness": 0.64},
+            "drag_x": drag | {"direction": [1.0, 0.0], "over": {"quantity": "x", "rate": True}},
+            "drag_y": drag | {"direction": [0.0, 1.0], "over": {"quantity": "y", "rate": True}},
+            **{
+                name: magnet | {"first": f"ground.{name}", "over": {"quantity": "distance"}}
+                for name in corners
+            },
+        },
+        "period": 2.0 * math.pi,
+    }
 
 
 def impact_oscillator() -> dict[str, Any]:

@@ -2,8 +2,9 @@
 
 What is known is published for 1e4 drawn starts, or counted by an independent program on a grid of
 starts, which errs by a few of the points beside the boundary: Runge-Kutta 4 in small steps
-(pendulum 1e6 starts, Duffing 4e4), the belt's friction with its jump (6e4 starts), Newton's law of
-impact with the closed-form flow (1e4 starts). The published share of the belt is 0.312 +- 0.007.
+(pendulum 1e6 starts, Duffing and three magnets 4e4), the belt's friction with its jump (6e4
+starts), Newton's law of impact with the closed-form flow (1e4 starts). The published share of the
+belt is 0.312 +- 0.007.
 """
 
 import argparse
@@ -13,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from benchmarks.basin_scenes import belt, duffing, impact_oscillator, pendulum
+from benchmarks.basin_scenes import belt, duffing, impact_oscillator, magnets, pendulum
 from jointplay.local import run
 from jointplay.records.attractors import Attractor, attractors_of
 
@@ -110,6 +111,14 @@ ANCHORS = (
         {"/start/points/mass.centre/0": (-2.0, 2.0), "/start/velocities/mass/0": (0.0, 2.0)},
         {"section": {"channel": "mass.vx", "value": 0.0}, "settle": 110, "record": 6},
         {"equilibrium": 0.30715, "period-1": 0.69285},
+        1e-3,
+    ),
+    Anchor(
+        "three magnets",
+        magnets(),
+        {f"/start/points/bob.centre/{k}": (-2.0, 2.0) for k in range(2)},
+        {"settle": 22, "record": 4},
+        {"equilibrium a": 0.33338, "equilibrium b": 0.33338, "equilibrium c": 0.33325},
         1e-3,
     ),
     Anchor(

@@ -52,6 +52,10 @@ def elements(scene: Mapping[str, Any], pose: Pose) -> list[Element]:
             c, s = math.cos(angle), math.sin(angle)
             direction = ((c * x - s * y) / size, (s * x + c * y) / size)
         ends = world(scene, pose, first), world(scene, pose, second)
+        if element["type"] == "tension" and (length := math.dist(*ends)) > 0.0:
+            size = -length if element["magnitude"] < 0.0 else length
+            (x, y), (u, v) = ends
+            direction = ((x - u) / size, (y - v) / size)
         found.append(Element(element["type"], *ends, direction))
     return found
 

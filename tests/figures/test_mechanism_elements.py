@@ -34,6 +34,7 @@ SCENE = {
     "forces": {
         "spring": {"type": "spring-damper"} | PAIR,
         "push": {"type": "force", "magnitude": -2.0, "direction": [0.0, 5.0]} | PAIR,
+        "pull": {"type": "tension", "magnitude": 2.0} | PAIR,
         "motor": {"type": "motor"} | PAIR,
     },
 }
@@ -89,9 +90,10 @@ def test_the_outline_of_an_eccentric_cam_is_its_circle(shape: str) -> None:
 
 
 def test_elements_stand_where_their_points_are() -> None:
-    spring, push, motor = elements(SCENE, POSE)
+    spring, push, pull, motor = elements(SCENE, POSE)
     assert (spring.first, spring.second) == ((0.0, 0.2), (0.0, pytest.approx(0.03)))
     assert push.direction == pytest.approx((0.0, -1.0))
+    assert pull.direction == pytest.approx((0.0, 1.0))
     assert (spring.direction, motor.direction) == (None, None)
 
 

@@ -14,6 +14,7 @@ from jointplay.solver.laws.force import ELEMENTS, Ends
 from jointplay.solver.laws.force.force import Force
 from jointplay.solver.laws.force.motor import Motor
 from jointplay.solver.laws.force.spring_damper import SpringDamper
+from jointplay.solver.laws.force.tension import Tension
 from jointplay.solver.laws.force.torque import Torque
 from jointplay.solver.laws.force.torsion_spring import TorsionSpring
 from tests.solver.completed_runs import Run, run
@@ -65,6 +66,17 @@ class TestForce(ElementSpecification):
     )
 
 
+class TestTension(ElementSpecification):
+    model = Tension
+    elements = st.builds(
+        Tension,
+        type=st.just("tension"),
+        first=st.just("ground.O"),
+        second=st.just("mass.eye"),
+        magnitude=st.floats(-1e3, 1e3),
+    )
+
+
 class TestMotor(ElementSpecification):
     model = Motor
     elements = st.builds(
@@ -93,6 +105,26 @@ class TestTorsionSpring(ElementSpecification):
 def test_every_element_in_the_roster_is_specified() -> None:
     specified = {each.model for each in ElementSpecification.__subclasses__()}
     assert set(ELEMENTS.values()) <= specified
+
+
+@given(x=st.floats(0.1, 1.0), y=st.floats(-1.0, 1.0), vx=st.floats(-1.0, 1.0))
+def test_a_tension_that_is_linear_in_the_distance_is_a_spring(
+    x: float, y: float, vx: float
+) -> None:
+    ends = {"first": "ground.O", "second": "mass.eye"}
+    spring = SpringDamper(type="spring-damper", **ends, stiffness=50.0, free_length=0.4)
+    course = {"type": "polynomial", "coefficients": [-0.4, 1.0]}
+    tension = Tension.model_validate(
+        {"type": "tension", **ends, "magnitude": 50.0, "course": course}
+        | {"over": {"quantity": "distance"}}
+    )
+    length = math.hypot(x, y)
+    here = Ends((x, y), (vx, 0.3), (0.0, 0.0), argument=length)
+    one, other = spring.effect(here), tension.effect(here)
+    assert one.force == pytest.approx(other.force, abs=1e-13)  # rounding of 50 N
+    assert one.channels == pytest.approx(other.channels, abs=1e-13)
+    rate = other.channels["rate"]
+    assert other.loss == pytest.approx(50.0 * (length - 0.4) * rate, abs=1e-13)
 
 
 def oscillator(**element: Any) -> dict[str, Any]:

@@ -46,6 +46,9 @@ def laden() -> dict[str, Any]:
         | pair
         | {"direction": [0.0, 1.0], "course": BUMP}
         | {"over": {"quantity": "driver", "driver": "motor", "rate": True}},
+        "magnet": {"type": "tension", "magnitude": 2.0, "course": BUMP}
+        | pair
+        | {"over": {"quantity": "distance"}},
         "coil": {"type": "torsion-spring", "stiffness": 4.0, "damping": 0.3} | pair,
         "drive": {"type": "motor", "stall_torque": 1.0, "no_load_speed": 20.0} | pair,
     }

@@ -1,0 +1,48 @@
+"""A force along the line between two points, constant or varying."""
+
+from typing import Annotated, ClassVar, Literal
+
+from jointplay.solver.laws.force.distance import distance
+from jointplay.solver.laws.force.law import Effect, Ends
+from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.quantities.units import quantity
+
+
+class Tension(Varying):
+    """T = magnitude * course(...), along the line between the points.
+
+    T is the tension (N, positive: it pulls the points together). Over `distance` it is a spring of
+    any characteristic, a magnet, a gas spring; over the rate of the distance a damper of any.
+
+    Assumes a massless element. Fails where the points meet: the force has no direction there, and
+    one that is not zero turns over at once. All its work counts as loss, none as stored.
+
+    Source: the definition of work, dW = -T dL; Goldstein 1980, Classical Mechanics, 1.1.
+    """
+
+    type: Literal["tension"]
+    magnitude: Annotated[float, quantity("N", ge=-1e12, le=1e12)]
+    channels: ClassVar[tuple[tuple[str, str, str], ...]] = (
+        ("force", "N", "tension: positive pulls the points together"),
+        ("length", "m", "distance of the points"),
+        ("rate", "m/s", "rate of the distance"),
+    )
+
+    def effect(self, ends: Ends) -> Effect:
+        """Return the tension along the line; what it puts in is a loss below zero."""
+        length, (ux, uy), rate = distance(ends)
+        tension = self.varied(self.magnitude, ends)
+        return Effect(
+            (-(tension * ux), -(tension * uy)),
+            {"force": tension, "length": length, "rate": rate},
+            loss=tension * rate,
+        )
+
+    def strength(self, length: float) -> float:
+        """Return its magnitude, N."""
+        return abs(self.magnitude)
+
+    @property
+    def needs_direction(self) -> bool:
+        """True: the line between the points is its direction."""
+        return True
