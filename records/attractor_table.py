@@ -7,8 +7,6 @@ import numpy as np
 
 from jointplay.records.arrays import Floats, Integers
 from jointplay.records.attractors import (
-    MEAN,
-    SPREAD,
     Attractors,
     attractors_of,
     colour_of_attractor,
@@ -16,6 +14,7 @@ from jointplay.records.attractors import (
 )
 from jointplay.records.basin_boundary import boundary_dimension
 from jointplay.records.coarse_to_fine import order_of, over_axes
+from jointplay.records.cycles import MEAN, SPREAD
 from jointplay.records.motion import WAITING
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudySource

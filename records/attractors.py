@@ -9,11 +9,12 @@ those of the value before that they are nearest to.
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
-from jointplay.records.arrays import Flags, Floats, Integers
+from jointplay.records.arrays import Floats, Integers
+from jointplay.records.cycles import SAME, Cycles, cycles_of
 from jointplay.records.motion import (
     CHAOTIC,
     EQUILIBRIUM,
@@ -30,15 +31,6 @@ from jointplay.records.motion import (
 from jointplay.records.scattered import Places, told_apart
 from jointplay.records.study import StudySource
 
-MEAN: Final = "cycle_mean."
-SPREAD: Final = "cycle_spread."
-"""Beginnings of names of statistics: of each state, its mean over a cycle and its spread."""
-INDEPENDENT: Final = "independent_sections"
-"""Name of a statistic of motions that do not recur: of so many independent sections means and
-spreads would scatter as they do."""
-SAME: Final = 2e-3
-"""Share of what counts as one in a state, or of the range of all attractors if that is more: closer
-attractors are one. It is twice what sections may differ by that recur."""
 CARRIED: Final = 0.2
 """Share of the range of all attractors: by less does one that recurs move from one value of a
 parameter to the next."""
@@ -89,7 +81,7 @@ def attractors_of(source: StudySource) -> Attractors:
     period = indicators.get("period", np.full(source.points, np.nan))
     verdict = indicators.get("verdict", np.full(source.points, np.nan))
     motion = motions(source.status, verdict, period, source.verdict_names)
-    cycles = _cycles(source)
+    cycles = cycles_of(source.attributes["states"], source.statistics, source.points)
     labels = np.minimum(motion, EQUILIBRIUM).astype(np.uint8)
     names = dict(enumerate(NAMES))
     chains: list[_Chain] = []
@@ -108,47 +100,6 @@ def attractors_of(source: StudySource) -> Attractors:
         letter = f" {_letter(nth)}" if chain.code in several else ""
         names[code] = "others" if index >= MOST else name_of(chain.code) + letter
     return Attractors(labels, tuple(_table(labels, names)))
-
-
-@dataclass(frozen=True)
-class _Cycles:
-    """Where in the states' space points end: means and spreads over a cycle."""
-
-    places: Floats
-    """(points, columns)."""
-    scales: Floats
-    """(columns,) what counts as one."""
-    angles: Flags
-    """(columns,) of which whole turns do not count."""
-    independent: Floats
-    """(points,) independent sections of motions that do not recur."""
-
-    def of(self, points: Any) -> "_Cycles":
-        """Return those of some points."""
-        return _Cycles(self.places[points], self.scales, self.angles, self.independent[points])
-
-    def apart(self, places: Floats, one: Floats) -> Floats:
-        """Return by how much places differ from one, but for whole turns of angles."""
-        found = places - one
-        return np.asarray(found - 2.0 * np.pi * np.round(found / (2.0 * np.pi)) * self.angles)
-
-    def ranges(self) -> Floats:
-        """Return the range of each column, at least its scale, of angles at most half a turn."""
-        found = np.zeros_like(self.scales)
-        if len(self.places):
-            found = np.nanmax(self.places, axis=0) - np.nanmin(self.places, axis=0)
-        found = np.where(self.angles, np.minimum(found, np.pi), found)
-        return np.asarray(np.maximum(self.scales, found), np.float64)
-
-    def scatter(self) -> Floats:
-        """Return (points, columns) standard errors of means and spreads."""
-        spread = self.places[:, self.places.shape[1] // 2 :]
-        errors = spread / np.sqrt(self.independent)[:, None]
-        turning = self.angles[: spread.shape[1]]
-        # the direction of a mean of unit vectors whose length is 1 - spread^2 / 2
-        length = np.where(turning, np.maximum(1.0 - 0.5 * spread**2, 1e-3), 1.0)
-        both = np.concatenate([errors / length, errors], axis=1)
-        return np.asarray(np.maximum(np.nan_to_num(both, nan=np.inf), self.scales * SAME))
 
 
 @dataclass
@@ -171,21 +122,6 @@ class _Chain:
     """At the last value where it was found."""
 
 
-def _cycles(source: StudySource) -> _Cycles:
-    states: Mapping[str, Any] = source.attributes["states"]
-    names = list(states["scales"])
-    scales = np.array([states["scales"][name] for name in names])
-    angles = np.array([name in states["angles"] for name in names])
-    numbers, missing = source.statistics, np.full(source.points, np.nan)
-    columns = [numbers.get(f"{kind}{name}", missing) for kind in (MEAN, SPREAD) for name in names]
-    return _Cycles(
-        np.stack(columns, axis=1),
-        np.tile(scales, 2),
-        np.concatenate([angles, np.zeros_like(angles)]),
-        numbers.get(INDEPENDENT, missing),
-    )
-
-
 def parameter_of(source: StudySource) -> int | None:
     """Return the column of the values over which shares are wanted; None: there is none."""
     job = source.attributes["job"]
@@ -203,7 +139,7 @@ def _by_value(source: StudySource) -> Iterator[Integers]:
     yield from np.split(order, np.flatnonzero(np.diff(values)) + 1)
 
 
-def _groups(motion: Labels, cycles: _Cycles) -> Iterator[_Group]:
+def _groups(motion: Labels, cycles: Cycles) -> Iterator[_Group]:
     """Yield the attractors of points that differ in their starts alone."""
     closed = motion >= EQUILIBRIUM
     widths = np.maximum(cycles.scales, cycles.of(closed).ranges()) * SAME
@@ -222,7 +158,7 @@ def _groups(motion: Labels, cycles: _Cycles) -> Iterator[_Group]:
                 yield _Group(code, points[members], own.places[members[0]])
 
 
-def _carry_on(chains: list[_Chain], found: list[_Group], points: Integers, cycles: _Cycles) -> None:
+def _carry_on(chains: list[_Chain], found: list[_Group], points: Integers, cycles: Cycles) -> None:
     """Add the attractors of a value to the nearest of those before, one to one, or as new ones."""
     ranges = cycles.ranges()
     near = sorted(
@@ -256,13 +192,6 @@ def _table(labels: Labels, names: Mapping[int, str]) -> list[Attractor]:
             error = math.sqrt(share * (1.0 - share) / ended)
             found.append(Attractor(code, names[code], count, share, error, point))
     return found
-
-
-def _near(places: Floats, one: Floats, widths: Floats, angles: Flags) -> Flags:
-    """Return which places are one of them, but for whole turns of angles."""
-    apart = places - one
-    apart -= 2.0 * np.pi * np.round(apart / (2.0 * np.pi)) * angles
-    return np.asarray((np.abs(apart) <= widths).all(axis=1), np.bool_)
 
 
 def _letter(index: int) -> str:

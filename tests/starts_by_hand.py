@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from jointplay.records.attractors import INDEPENDENT, MEAN, SPREAD
 from jointplay.records.channel import Channel
+from jointplay.records.cycles import INDEPENDENT, MEAN, SPREAD
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudyDataset
 

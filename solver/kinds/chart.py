@@ -4,7 +4,6 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from jointplay.records.coarse_to_fine import COARSEST
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.map import AlongStart
 from jointplay.solver.kinds.motion_map import MotionMap, MotionMapJob
@@ -42,19 +41,6 @@ class ChartJob(MotionMapJob):
     ] = 1
     spread: Annotated[float, spread_up_to(10.0)] = 0.5
     seed: Seed = 0
-    refine: Annotated[
-        int,
-        quantity(
-            "1",
-            ge=0,
-            le=COARSEST,
-            description=(
-                "times that a cell may be split: every 2^refine-th point of both axes is computed,"
-                " and what lies between only where corners of a cell differ; other points inherit;"
-                " 0: every point is computed"
-            ),
-        ),
-    ] = 0
 
 
 class Chart(MotionMap[ChartJob]):
@@ -71,8 +57,11 @@ class Chart(MotionMap[ChartJob]):
                 " vary along x, or leave out 'continuation'."
             )
             raise InvalidInput.at("/along/start", sentence)
-        if job.refine:
-            _check_refine(job)
+        if job.refine and job.continuation != "none":
+            sentence = (
+                "Each point starts from its neighbour, so none can be left out; drop 'refine'."
+            )
+            raise InvalidInput.at("/refine", sentence)
         if job.starts > 1:
             _check_starts(job)
         return super().admit(job)
@@ -88,20 +77,6 @@ class Chart(MotionMap[ChartJob]):
     def starts(self, job: ChartJob) -> int:
         """Return from how many starts each point is computed."""
         return job.starts
-
-    def refine(self, job: ChartJob) -> int:
-        """Return how often cells may be split."""
-        return job.refine
-
-
-def _check_refine(job: ChartJob) -> None:
-    """Refuse to refine what has no labels, or where every point needs its neighbour."""
-    if job.continuation != "none":
-        sentence = "Each point starts from its neighbour, so none can be left out; drop 'refine'."
-        raise InvalidInput.at("/refine", sentence)
-    if not job.indicators:
-        sentence = "Cells are split where the motion differs; ask for 'recurrence', or another."
-        raise InvalidInput.at("/indicators", sentence)
 
 
 def _check_starts(job: ChartJob) -> None:

@@ -6,6 +6,7 @@ from typing import Annotated, Any, ClassVar, TypeVar
 
 from pydantic import Field
 
+from jointplay.records.coarse_to_fine import COARSEST
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
@@ -39,6 +40,7 @@ from jointplay.solver.kinds.statistics import (
     statistic_outputs,
 )
 from jointplay.solver.kinds.studies import Kept, PlacedPoints, make_study, place_points
+from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.cycles import outputs_of
 from jointplay.solver.runs.study.plan import Study
@@ -69,6 +71,20 @@ class MotionsJob(SectionsJob):
 
 class MotionMapJob(MotionsJob, MapJob):
     """A map of motions."""
+
+    refine: Annotated[
+        int,
+        quantity(
+            "1",
+            ge=0,
+            le=COARSEST,
+            description=(
+                "times that a cell may be split: every 2^refine-th point of both axes is computed,"
+                " and what lies between only where corners of a cell differ; other points inherit;"
+                " 0: every point is computed"
+            ),
+        ),
+    ] = 0
 
 
 J = TypeVar("J", bound=MotionsJob)
@@ -173,6 +189,17 @@ class MotionMap(Motions[M]):
     def points(self, job: M) -> Points:
         """Return the points of the map."""
         return points_of_map(job, MOST_OF_A_CHART)
+
+    def admit(self, job: M) -> Study:
+        """Check and fill in; see `Kind.admit`."""
+        if job.refine and not job.indicators:
+            sentence = "Cells are split where the motion differs; ask for 'recurrence', or another."
+            raise InvalidInput.at("/indicators", sentence)
+        return super().admit(job)
+
+    def refine(self, job: M) -> int:
+        """Return how often cells may be split."""
+        return job.refine
 
 
 def _check_length(job: MotionsJob) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.records.attractors import INDEPENDENT, MEAN, SPREAD
+from jointplay.records.cycles import INDEPENDENT, MEAN, SPREAD
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities.scalars import direction_angle, sine_cosine
 from jointplay.solver.runs.starts import start_scales

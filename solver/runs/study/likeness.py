@@ -1,13 +1,16 @@
 """Whether the corners of a cell of a map are alike, so that its inside need not be computed."""
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from itertools import combinations
 from math import hypot, isnan
+from typing import Any
 
 import numpy as np
 
 from jointplay.records.arrays import Flags
+from jointplay.records.cycles import SAME, cycles_of
 from jointplay.records.point import PointEnd
+from jointplay.solver.nonlinear.verdict import VERDICTS
 from jointplay.solver.runs.study.plan import Study
 
 APART = 3.0
@@ -15,15 +18,18 @@ APART = 3.0
 
 
 class Likeness:
-    """Compares points of a study: by their label, and exponents of what does not recur.
+    """Compares points of a study: by their label, and beyond that by what tells motions apart.
 
     The label is the verdict, the period, the impacts in it, and how many attractors there are; of a
-    failed point it is the reason. The exponents of periodic motions vary smoothly, with errors far
-    below that: they are no reason to split a cell.
+    failed point it is the reason. What does not recur is apart by its exponent; the exponents of
+    periodic motions vary smoothly, with errors far below that: they are no reason to split a cell.
+    Where the study compares cycles, what recurs is apart by means and spreads of its states.
     """
 
     def __init__(self, study: Study) -> None:
         self._record = study.record
+        self._states = study.attributes().get("states")
+        """What counts as one in each state, if cycles are compared."""
 
     def differ(self, cells: Sequence[Sequence[PointEnd]]) -> Flags:
         """Return (cells,) whether the corners of each differ."""
@@ -32,8 +38,10 @@ class Likeness:
     def _differ(self, corners: Sequence[PointEnd]) -> bool:
         if len({self._label(end) for end in corners}) > 1:
             return True
-        if corners[0].code or _number(corners[0], "period") > 0.0:
+        if corners[0].code:
             return False
+        if _recurs(corners[0]):
+            return self._states is not None and _cycles_apart(self._states, corners)
         return any(_apart(*pair) for pair in combinations(corners, 2))
 
     def _label(self, end: PointEnd) -> Hashable:
@@ -47,6 +55,20 @@ class Likeness:
             if name.endswith(".impacts") and 0.0 < 2.0 * period < self._record
         )
         return end.indicators.get("verdict"), period, strikes, end.statistics.get("attractors")
+
+
+def _recurs(end: PointEnd) -> bool:
+    rests = end.indicators.get("verdict") == VERDICTS["equilibrium"]
+    return rests or _number(end, "period") > 0.0
+
+
+def _cycles_apart(states: Mapping[str, Any], corners: Sequence[PointEnd]) -> bool:
+    """Return whether a cycle differs from the first by more than those of one attractor."""
+    names = corners[0].statistics
+    numbers = {name: np.array([end.statistics[name] for end in corners]) for name in names}
+    cycles = cycles_of(states, numbers, len(corners))
+    apart = np.abs(cycles.apart(cycles.places, cycles.places[0]))
+    return bool((apart > SAME * cycles.scales).any())
 
 
 def _number(end: PointEnd, name: str) -> float:

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.records.attractors import INDEPENDENT, MEAN, SPREAD, attractors_of
+from jointplay.records.attractors import attractors_of
+from jointplay.records.cycles import INDEPENDENT, MEAN, SPREAD
 from jointplay.records.motion import FAILED, UNDECIDED
 from jointplay.records.point import PointEnd, PointStatus
 from jointplay.records.study import StudyDataset

@@ -12,9 +12,9 @@ from jointplay.records.attractors import attractors_of
 from jointplay.records.failure import InvalidInput
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudyDataset
+from jointplay.solver.computations import computation_of
 from jointplay.solver.kinds import KINDS, admit
 from jointplay.solver.nonlinear.verdict import VERDICTS
-from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.scene import presets
 
 IMPACTING = 0.733
@@ -64,7 +64,7 @@ def computed(document):
     study = admit(document)
     ends = {}
     for block in range(len(study.blocks)):
-        for piece in StudyRun(study, block).slices():
+        for piece in computation_of(study, block).slices():
             ends |= {end.point: end for end in piece.ended}
     in_order = [ends[point] for point in range(study.points)]
 
@@ -119,6 +119,15 @@ def test_a_scene_without_joint_coordinates_has_no_basins():
     for changed in ({"formulation": "lagrange"}, {"indicators": ["lyapunov"]}):
         with pytest.raises(InvalidInput, match="Attractors are told apart"):
             admit(job(2, **changed))
+
+
+def test_a_refined_map_computes_where_attractors_meet_and_has_the_same_labels(basins):
+    whole, refined = basins[0], computed(job(16, refine=2))[0]
+    own = refined.statistics["inherited"] == 0.0
+    assert 1 / 16 < own.mean() < 1 / 2
+    for name, values in whole.statistics.items():
+        np.testing.assert_array_equal(refined.statistics[name][own], values[own])
+    np.testing.assert_array_equal(attractors_of(refined).labels, attractors_of(whole).labels)
 
 
 @pytest.mark.long

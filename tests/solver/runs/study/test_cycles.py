@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jointplay.records.attractors import INDEPENDENT
+from jointplay.records.cycles import INDEPENDENT
 from jointplay.solver.runs.study.cycles import cycle_of, independent
 
 ANGLES = np.array([True, False])

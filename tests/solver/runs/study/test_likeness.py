@@ -16,8 +16,9 @@ def end(indicators, code="", **statistics):
     return PointEnd(0, code, "", 1.0, np.empty((0, 4)), statistics, indicators)
 
 
-def differ(one, other, record=10):
-    study = SimpleNamespace(record=record)
+def differ(one, other, record=10, cycles=False):
+    states = {"scales": {"x": 1e-3, "phi": 0.1}, "angles": ["phi"]} if cycles else None
+    study = SimpleNamespace(record=record, attributes=lambda: {"states": states})
     (found,) = Likeness(study).differ([[one, one, other, one]])
     assert Likeness(study).differ([[other, one, one, one]]) == [found]
     return bool(found)
@@ -54,3 +55,21 @@ def test_impacts_count_by_period_whatever_the_ends_of_the_record_cut():
     assert differ(strikes(10.0), strikes(20.0))
     assert not differ(strikes(5.0, 4.0), strikes(6.0, 4.0))  # 2 or 2.4 in four periods
     assert not differ(strikes(2.0, 5.0), strikes(3.0, 5.0))  # nothing to be told by two cycles
+
+
+def test_cycles_are_compared_where_the_study_compares_them():
+    def cycle(x=0.02, phi=0.3, verdict=PERIODIC, spread=0.0):
+        means = {"cycle_mean.x": x, "cycle_mean.phi": phi}
+        return end(verdict, **means, **{"cycle_spread.x": spread, "cycle_spread.phi": 0.0})
+
+    rests = {"verdict": 4.0, "period": float("nan"), "lyapunov": -1.0, "lyapunov_error": 1e-9}
+    for verdict in (PERIODIC, rests):
+        one = cycle(verdict=verdict)
+        assert not differ(one, cycle(0.02 + 1e-6, verdict=verdict), cycles=True)
+        assert differ(one, cycle(0.02 + 3e-6, verdict=verdict), cycles=True)
+        assert differ(one, cycle(spread=3e-6, verdict=verdict), cycles=True)
+        assert differ(one, cycle(phi=0.301, verdict=verdict), cycles=True)
+        assert not differ(one, cycle(phi=0.3 + 2.0 * np.pi, verdict=verdict), cycles=True)
+        assert not differ(one, cycle(0.03, verdict=verdict))
+    assert not differ(cycle(verdict=CHAOTIC), cycle(0.03, verdict=CHAOTIC), cycles=True)
+    assert not differ(end(rests), end(rests | {"lyapunov": -2.0}))
