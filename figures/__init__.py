@@ -40,6 +40,7 @@ from jointplay.figures.kind import (
     select,
 )
 from jointplay.figures.mechanism import MECHANISM, draw_mechanism, render_mechanism
+from jointplay.figures.multipliers import MULTIPLIERS
 from jointplay.figures.options import Options, chosen_options
 from jointplay.figures.orbit import ORBIT
 from jointplay.figures.phase_portrait import PHASE_PORTRAIT
@@ -106,6 +107,7 @@ STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
     for figure in (
         BIFURCATION,
         BRANCH,
+        MULTIPLIERS,
         CHART,
         BASIN_STABILITY,
         EXPONENTS,

@@ -15,7 +15,8 @@ import { post } from "../requests/service.js";
  * @param words what is known of the point
  * @param beside what stands beside the button, in short
  * @param others further jobs that are offered: `{title: document of the scene with these values}`
- * @param starts numbers of the start at the point: `{pointer into the scene: value}`
+ * @param starts numbers of the start at the point: `{pointer into the scene: value}`, or a `state` that the
+ *   simulation begins in, as a list
  */
 export function offer(room, study, values, words, beside, others = {}, starts = {}) {
   const named = (digits) => Object.entries(values).map(([name, [value, unit]]) =>
@@ -45,10 +46,12 @@ export function offer(room, study, values, words, beside, others = {}, starts = 
 async function simulation({ scene: given, tolerance, method, duration }, values, starts) {
   const document = await sceneOf({ scene: given });
   const long = typeof duration === "number" ? duration : await proposedDuration(document);
+  const shared = { kind: "simulate", duration: long, tolerance, method };
+  if (Array.isArray(starts)) return { ...shared, scene: sceneWith(given, values), state: starts };
   const scene = Object.keys(starts).length
     ? await sceneStarting(given, values, starts)
     : sceneWith(given, values);
-  return { kind: "simulate", scene, duration: long, tolerance, method };
+  return { ...shared, scene };
 }
 
 /** Returns a scene of its own with these values of parameters, which starts with these numbers. */

@@ -2,9 +2,8 @@
 
 from jointplay.records.branch import BOUND, LABEL, LENGTH, UNSTABLE, VALUE
 from jointplay.records.channel import Channel
-from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.section_states import latched_at_section, states_at_section
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import inner_states
 
 LABELS = {
     "": "an orbit of the branch",
@@ -32,25 +31,7 @@ OF_ORBITS = (
 
 def columns_of(scene: Scene, parameter: str, unit: str) -> tuple[Channel, ...]:
     """Return the columns: the parameter's value, facts of the orbit, multipliers, the section."""
-    tree = spanning_tree(scene)
-    units = ["rad" if name.endswith(".theta") else "m" for name in tree.coordinates]
-    states = [
-        Channel(f"state.{name}", one, f"coordinate {name} at the section")
-        for name, one in zip(tree.coordinates, units, strict=True)
-    ]
-    states += [
-        Channel(f"rate.{name}", f"{one}/s", f"rate of the coordinate {name} at the section")
-        for name, one in zip(tree.coordinates, units, strict=True)
-    ]
-    states += [
-        Channel(f"state.{pair}.{one.name}", one.unit, one.long_name)
-        for pair, own in inner_states(scene).items()
-        for one in own
-    ]
-    latched = [
-        Channel(f"impact_rate.{pair}", "m/s", f"impact rate of {pair}, in contact at the section")
-        for pair in tree.pairs
-    ]
+    states, latched = states_at_section(scene), latched_at_section(scene)
     multipliers = [
         Channel(f"multiplier_{k}.{part}", "1", f"{part} part of multiplier {k}, the largest first")
         for k in range(1, len(states) + 1)

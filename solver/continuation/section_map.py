@@ -176,7 +176,6 @@ class SectionMap:
         return numbers, failures
 
     def _problem(self, scene: Scene, section: Section) -> LaneProblem:
-        state, rates = np.split(section.state, [self.kernel.states])
-        start = LaneStart(state.copy(), rates > 0.0, rates.copy())
+        start = LaneStart.at_section(section.state, self.kernel.states)
         duration = self.periods * (common_period(scene).seconds or math.nan)
         return LaneProblem(scene, duration, self.tolerance, duration, 0, 0, 0.0, start=start)

@@ -67,7 +67,7 @@ def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int)
         SAMPLES_PER_PERIOD * total + 1,
         0,
         0.0,
-        start=None if state is None else _started(kernel.states, state),
+        start=None if state is None else LaneStart.at_section(state, kernel.states),
         first_sample=SAMPLES_PER_PERIOD * periods,
     )
     bundle = Bundle(kernel, [problem], watch=False)
@@ -84,14 +84,6 @@ def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int)
     failure = failure_of(bundle, 0, map_.tolerance, scene).detail if failed else ""
     numbers = np.concatenate([at["y"], at["impact_rate"] * at["mode"], high - low, [at.steps]])
     return numbers[None], [failure]
-
-
-def _started(states: int, state: Floats) -> LaneStart:
-    """Return the start at a section, of which the impact rates may be left out."""
-    if len(state) == states:
-        return LaneStart(state)
-    rates = state[states:]
-    return LaneStart(state[:states].copy(), rates > 0.0, rates.copy())
 
 
 def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:

@@ -19,6 +19,7 @@ from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import Axis, Points, one_axis
 from jointplay.solver.kinds.section import CrankSection
 from jointplay.solver.kinds.section_checks import check_section
+from jointplay.solver.kinds.start_state import StartState, check_state
 from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study, place_points
 from jointplay.solver.kinds.values import Range
 from jointplay.solver.quantities.units import Name, quantity
@@ -63,17 +64,7 @@ class ContinuationJob(Job):
             "periods", ge=0, le=10**12, description="of motion before an orbit is sought from it"
         ),
     ] = 100
-    state: Annotated[
-        list[Annotated[float, quantity("SI units")]] | None,
-        Field(
-            min_length=1,
-            max_length=4096,
-            description=(
-                "section to begin at, instead of the scene's start: columns 'state.' and 'rate.'"
-                " of a branch and, of pairs in contact, 'impact_rate.', which may be left out"
-            ),
-        ),
-    ] = None
+    state: StartState = None
     largest_step: Annotated[
         float,
         quantity(
@@ -129,7 +120,7 @@ class Continuation(Kind[ContinuationJob]):
         filled = documents.filled(job, checked.document, checked.echo, **found)
         placed = place_points(job, _branches(job))
         study = _study(job, filled, placed, periods(placed.scenes))
-        _check_state(job, study)
+        check_state(job.state, study.point_scene(0), job.formulation)
         longest = job.period * 2**job.doublings
         states = sum(c.name.startswith(("state.", "rate.")) for c in study.observables)
         runs = 2 * job.values.count * MAPS * (2 * states + 3)
@@ -162,23 +153,6 @@ def _check_range(job: ContinuationJob) -> None:
         problems.append(Problem("/formulation", f"{sentence} Choose that."))
     if problems:
         raise InvalidInput(problems)
-
-
-def _check_state(job: ContinuationJob, study: ContinuationStudy) -> None:
-    names = [c.name for c in study.observables]
-    states = [name for name in names if name.startswith(("state.", "rate."))]
-    rates = [name for name in names if name.startswith("impact_rate.")]
-    if job.state is None:
-        return
-    given = len(job.state)
-    if given not in (len(states), len(states) + len(rates)):
-        sentence = (
-            f"A section has {len(states)} numbers, here are {given}: {', '.join(states)}; and"
-            f" {', '.join(rates)} may follow."
-        )
-        raise InvalidInput.at("/state", sentence)
-    if any(one < 0.0 for one in job.state[len(states) :]):
-        raise InvalidInput.at("/state", "An impact rate is positive in contact, and 0 apart.")
 
 
 def _range(job: ContinuationJob) -> Points:

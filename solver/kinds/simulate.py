@@ -1,4 +1,4 @@
-"""The kind ``simulate``: one trajectory from the scene's start."""
+"""The kind ``simulate``: one trajectory, from the scene's start or a state."""
 
 import math
 from typing import Annotated, Any, ClassVar, Literal
@@ -13,6 +13,7 @@ from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.mechanism import check, resolve, written
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.kinds.section import CrankSection
+from jointplay.solver.kinds.start_state import StartState, check_state
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.admission import Admission
@@ -32,7 +33,7 @@ from jointplay.solver.scene.periods import (
 
 
 class SimulateJob(Job):
-    """One trajectory from the scene's start."""
+    """One trajectory, from the scene's start or a state."""
 
     kind: Literal["simulate"]
     duration: Annotated[float, quantity("s", ge=1e-9, le=1e12, description="simulated time")]
@@ -58,6 +59,7 @@ class SimulateJob(Job):
     channels: Annotated[
         ChannelChoice, Field(description="channels to store, names or globs such as 'slider7.*'")
     ] = ["*"]
+    state: StartState = None
     section: Annotated[
         CrankSection, Field(description="crank angle at which Poincare sections are taken")
     ] = CrankSection()
@@ -109,6 +111,9 @@ class Simulate(Kind[SimulateJob]):
         if outside:
             raise InvalidInput(outside)
         moves = assembly.freedom_with_play > 0
+        if job.state is not None and not moves:
+            raise InvalidInput.at("/state", "Drivers alone move this mechanism; leave 'state' out.")
+        check_state(job.state, scene, job.formulation)
         selected = select(channels(scene), list(job.channels), "/channels")
         chosen(job)
         filled = documents.filled(
@@ -156,11 +161,9 @@ def _admission(
 
 
 def _told_apart(filled: dict[str, Any]) -> dict[str, Any]:
-    """Return what tells a job from others: peaks of a whole run are those of jobs without a field.
-
-    They had their digests before there was one.
-    """
-    return {name: value for name, value in filled.items() if name != "settle" or value}
+    """Return what tells a job from others: fields that came later count where they are given."""
+    later = ("settle", "state")
+    return {name: value for name, value in filled.items() if name not in later or value}
 
 
 def sample_count(duration: float, output_step: float) -> int:

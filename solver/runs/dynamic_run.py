@@ -10,8 +10,9 @@ from jointplay.records.checkpoint import decode, encode
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.hand_over import handed_over
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
+from jointplay.solver.mechanics.section_states import states_at_section
 from jointplay.solver.runs import stiff_method
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.budget import SliceBudget
@@ -54,6 +55,7 @@ class DynamicRun:
             admission.samples,
             admission.sections,
             admission.offset,
+            start=_start_of(admission),
             step=job["step"],
         )
         self.seconds = 0.0
@@ -248,3 +250,11 @@ class DynamicRun:
     def _observe(self, kind: int) -> tuple[Floats, Floats]:
         rows = self.bundle.rows(kind, LANE)
         return self.bundle.observe(LANE, rows, self.columns), self.bundle.times(LANE, rows)
+
+
+def _start_of(admission: Admission) -> LaneStart | None:
+    """Return where a run begins instead of at its scene's start."""
+    state = admission.job.get("state")
+    if state is None:
+        return None
+    return LaneStart.at_section(np.array(state), len(states_at_section(admission.scene)))

@@ -8,6 +8,8 @@ from jointplay.records.study import StudyDataset
 
 HEIGHTS = np.array([2.0, 1.0, 0.0, -1.0, -2.0])
 """m; the parameter is their square, less one."""
+REAL = np.array([0.2, 0.5, 1.0, 1.5, 4.0])
+"""Real parts of the first multiplier."""
 NOTE = "the orbits meet"
 
 
@@ -21,6 +23,10 @@ def folded() -> StudyDataset:
         "length": 2.0 - HEIGHTS,
         "unstable": np.array([0.0, 0.0, 0.0, 1.0, 1.0]),
         "state.mass.s": HEIGHTS,
+        "multiplier_1.real": REAL,
+        "multiplier_1.imaginary": np.where(HEIGHTS > 0.0, 0.3, 0.0),
+        "multiplier_2.real": 0.5 * REAL,
+        "multiplier_2.imaginary": np.where(HEIGHTS > 0.0, -0.3, 0.0),
     }
     special = [{"row": 2, "note": NOTE}, {"row": 4, "note": "lost here"}]
     return StudyDataset(

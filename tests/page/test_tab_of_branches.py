@@ -22,8 +22,31 @@ def test_a_branch_is_drawn_beside_a_table_of_its_special_orbits(browsing, url, a
         expect(image).to_have_js_property("complete", True)
         expect(image).not_to_have_js_property("naturalWidth", 0)
         expect(page.get_by_role("link", name="Sections")).to_have_count(0)
+        plane = page.get_by_role("img", name="Multipliers of the orbits")
+        expect(plane).not_to_have_js_property("naturalWidth", 0)
+        page.get_by_role("button", name="LP, branch 0").click()
+        told = page.get_by_role("status").filter(has_text="fold")
+        expect(told).to_contain_text("multipliers 1,")
         page.screenshot(path=artifacts / "branch.png", full_page=True)
         assert barriers(page) == []
+
+
+def test_an_orbit_is_opened_as_the_simulation_that_starts_on_it(browsing, url):
+    job = submitted(url, BRANCH)
+    with browsing.page(f"{url}/#/job/{job}") as page:
+        page.get_by_role("button", name="LP, branch 0").click()
+        page.get_by_role("button", name="Run this simulation").click()
+        page.wait_for_url(lambda address: job not in address)
+        opened = page.url.split("/job/")[1].split("?")[0].split("/")[0]
+    made = httpx.get(f"{url}/v1/jobs/{opened}").json()["job"]
+    (branch,) = httpx.get(f"{url}/v1/jobs/{job}/branch").json()["branches"]
+    (row,) = [one["row"] for one in branch["special"] if one["label"] == "LP"]
+    section = [
+        one for name, one in branch["columns"].items() if name.startswith(("state.", "rate."))
+    ]
+    rate = branch["columns"]["impact_rate.stop"]
+    assert made["state"] == [one["values"][row] for one in (*section, rate)]
+    assert made["scene"]["parameters"]["speed"] == branch["columns"]["value"]["values"][row]
 
 
 def test_the_picture_of_a_branch_grows_with_it(browsing, url):
@@ -31,7 +54,7 @@ def test_the_picture_of_a_branch_grows_with_it(browsing, url):
     long = BRANCH | {"values": values, "largest_step": 1e-4}
     job = httpx.post(f"{url}/v1/jobs", json=long).json()["id"]
     with browsing.page(f"{url}/#/job/{job}") as page:
-        image = page.locator("img.figure")
+        image = page.get_by_role("img", name="Branches of periodic orbits")
         first = image.get_attribute("src")
         assert first
         expect(image).not_to_have_attribute("src", first)

@@ -47,6 +47,14 @@ class LaneStart:
     """Whether loops are closed already: else they are, which moves the start by its rounding."""
 
     @classmethod
+    def at_section(cls, numbers: Floats, states: int) -> LaneStart:
+        """Return the start at a section: so many states, and impact rates that may be left out."""
+        if len(numbers) == states:
+            return cls(numbers)
+        rates = numbers[states:]
+        return cls(numbers[:states].copy(), rates > 0.0, rates.copy())
+
+    @classmethod
     def at_row(cls, row: Floats, columns: DenseRow) -> LaneStart:
         """Return the start at a row of dense state, (width,)."""
         touching = row[columns.mode : columns.impact_rate] > 0.0

@@ -73,12 +73,15 @@ class Companions:
         period = float(bundle.lane(RUN).run["period"])
         instants = Instants.over(problem.duration, period)
         start = bundle.state_of(RUN)
+        if problem.start is None:
+            start = LaneStart(start.state)  # contacts latch their rates at the scene's start
+        start = replace(start, closed=True)  # the trajectory's, to the last bit
         coarse = replace(
             problem,
             output_step=instants.finest,
             samples=instants.last + 1,
             sections=0,
-            start=LaneStart(start.state, closed=True),  # the trajectory's, to the last bit
+            start=start,
         )
         order = bundle.kernel.tableau.order
         for lane, factor in enumerate(LADDER, start=1):
@@ -91,7 +94,8 @@ class Companions:
         scales = start_scales(problem.scene, bundle.kernel.coordinates, period)
         perturbation = Perturbation(problem.tolerance, SEED)
         for member, lane in enumerate(PERTURBED, start=1):
-            beside = LaneStart(perturbed_start(start.state, scales, perturbation, member))
+            state = perturbed_start(start.state, scales, perturbation, member)
+            beside = replace(start, state=state, closed=False)
             step = problem.step and problem.step * SHORTER**member
             bundle.load(lane, replace(coarse, start=beside, step=step), like=RUN)
         bundle.load(TWIN, coarse, like=RUN)
