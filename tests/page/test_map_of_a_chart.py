@@ -131,6 +131,24 @@ def test_a_diagram_cut_from_rows_follows_their_neighbours(browsing, url):
         assert (job["continuation"], job["chains"]) == ("backward", 1)
 
 
+def test_a_branch_begins_at_a_point_whose_motion_is_periodic(browsing, url):
+    few = {"along": {"parameter": "speed", "values": [10.0, 40.0]}}
+    few |= {"by": {"parameter": "amplitude", "values": [1e-3, 2e-3]}, "settle": 80}
+    chart = submitted(url, CHART | few)
+    with browsing.page(f"{url}/#/job/{chart}") as page:
+        painted(page)
+        place = page.get_by_label(MAP).bounding_box()
+        page.mouse.click(place["x"] + 0.7 * place["width"], place["y"] + 0.7 * place["height"])
+        page.get_by_role("button", name="Branch over speed").click()
+        page.get_by_role("heading", name="continuation").wait_for()
+        found = page.url.rpartition("/")[2].partition("?")[0]
+        job = page.request.get(f"{url}/v1/jobs/{found}").json()["job"]
+        assert (job["parameter"], job["period"], job["at"]) == ("speed", 1, 40.0)
+        assert job["values"] == {"from": 10.0, "to": 40.0, "count": 200, "spacing": "linear"}
+        assert job["scene"]["parameters"]["amplitude"] == 1e-3
+        page.request.post(f"{url}/v1/jobs/{found}/cancel")
+
+
 def test_a_chart_is_asked_for_in_the_form(browsing, url):
     with browsing.page(f"{url}/#/new/impact-oscillator?kind=chart") as page:
         page.get_by_label("Along", exact=True).select_option("speed")

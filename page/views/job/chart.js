@@ -18,6 +18,8 @@ export async function show(room, context) {
   });
 }
 
+const ORBITS = 200; // of a branch that a point offers, in each direction
+
 class Chart {
   constructor({ job, query, signal }) {
     Object.assign(this, { job, signal, wanted: query.get("quantity") });
@@ -126,6 +128,19 @@ class Chart {
       })]));
   }
 
+  /** Returns the branches of periodic orbits through a point, over either parameter, as jobs of its values. */
+  branches(period) {
+    const { along, by, scene, settle } = this.job.job;
+    if (along.start || by.start || !(period > 0)) return {};
+    const { x, y } = this.answer;
+    return Object.fromEntries([[along, x], [by, y]].map(([{ parameter }, { values }]) => [`Branch over ${parameter}`,
+      ({ [parameter]: at, ...held }) => ({
+        kind: "continuation", scene: sceneWith(scene, held), parameter, period, at,
+        values: { from: values.at(0), to: values.at(-1), count: ORBITS },
+        ...(typeof settle === "number" ? { settle } : {}),
+      })]));
+  }
+
   /** Returns the numbers of the start at a point, by their pointers into the scene. */
   starts([column, row]) {
     const { along, by } = this.job.job;
@@ -141,6 +156,7 @@ class Chart {
       .filter(([, { value }]) => value !== null)
       .map(([, { long_name: name, value, unit, label }]) => `${name} ${label ?? withUnit(value, unit, 4)}`)
       .join(", "), found.detail].filter(Boolean).join("; ");
-    offer(this.chosen, this.job, this.values(point), words, "", this.cuts(), this.starts(point));
+    const others = { ...this.cuts(), ...this.branches(found.quantities?.period?.value) };
+    offer(this.chosen, this.job, this.values(point), words, "", others, this.starts(point));
   }
 }

@@ -29,7 +29,7 @@ class Likeness:
     def __init__(self, study: Study) -> None:
         self._record = study.record
         self._states = study.attributes().get("states")
-        """What counts as one in each state, if cycles are compared."""
+        """Scales and angles of states, if cycles are compared."""
 
     def differ(self, cells: Sequence[Sequence[PointEnd]]) -> Flags:
         """Return (cells,) whether the corners of each differ."""
