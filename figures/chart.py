@@ -9,13 +9,13 @@ from jointplay.figures import colours, page
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import scale
-from jointplay.records.arrays import Floats
+from jointplay.records.arrays import Flags, Floats
 from jointplay.records.attractors import attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.inherited import inheriting
 from jointplay.records.motion import WAITING, Labels, colour_of, motions, name_of
 from jointplay.records.point import PointStatus
-from jointplay.records.pyramid import averaged, in_majority
+from jointplay.records.pyramid import averaged, filled_in, in_majority
 from jointplay.records.study import StudySource
 
 MOTION, ATTRACTOR = "motion", "attractor"
@@ -63,14 +63,18 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     page.caption(figure, inherited)
     axes.set_facecolor(colours.UNKNOWN)
     edges = _edges(across, stride), _edges(up, stride)
+    known = np.zeros(shape, np.bool_)
+    known[places] = _has_ended(source)
     if name in LABELS:
         table = np.full(shape, WAITING, np.uint8)
         table[places] = shown.labels
-        _draw_labels(axes, edges, in_majority(table, stride), shown.colour_of)
+        filled = in_majority(filled_in(table, known), stride)
+        _draw_labels(axes, edges, filled, shown.colour_of)
     else:
         values = np.full(shape, np.nan)
         values[places] = {**source.statistics, **source.indicators}[name]
-        _draw_values(figure, axes, edges, averaged(values, stride), _described(source, name))
+        filled_values = averaged(filled_in(values, known), stride)
+        _draw_values(figure, axes, edges, filled_values, _described(source, name))
     for axis, parameter in ((axes.xaxis, across), (axes.yaxis, up)):
         parameter.ticks(axis, 5)
     if across.logarithmic:
@@ -89,11 +93,15 @@ def _inherited(source: StudySource) -> str:
     count = inheriting(source)
     if not count:
         return ""
-    ended = np.isin(source.status, (PointStatus.done, PointStatus.failed)).sum()
+    share = count / _has_ended(source).sum()
     return (
-        f"{count / ended:.1%} of the points were not computed: the corners of their cell are alike,"
-        " and they have the results of one of them."
+        f"{share:.1%} of the points were not computed: the corners of their cell are alike, and they"
+        " have the results of one of them."
     )
+
+
+def _has_ended(source: StudySource) -> Flags:
+    return np.isin(source.status, (PointStatus.done, PointStatus.failed))
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,47 @@
+"""The figure of a chart that is still computed: points that wait show the next coarser one."""
+
+import numpy as np
+import pytest
+from drawn import drawn_with
+
+from jointplay.figures import Selection
+from jointplay.records.channel import Channel
+from jointplay.records.point import PointStatus
+from jointplay.records.study import StudyDataset
+
+SIDE = 8
+VERDICTS = ("undecided", "periodic", "quasi-periodic", "chaotic", "equilibrium")
+
+
+def running():
+    """Return a chart of 8 by 8 of which every fourth point is known: two columns move alike."""
+    y, x = (each.ravel() for each in np.indices((SIDE, SIDE)))
+    known = (y % 4 == 0) & (x % 4 == 0)
+    verdict = np.where(x < 4, 1.0, 3.0)
+    return StudyDataset(
+        attributes={
+            "job": {"kind": "chart"},
+            "scene": {"name": "made up", "bodies": {}, "joints": {}},
+        },
+        parameters=(Channel("load", "N", "load"), Channel("speed", "rad/s", "speed")),
+        values=np.stack([y, x], axis=1).astype(float),
+        status=np.where(known, PointStatus.done, PointStatus.waiting).astype(np.uint8),
+        indicators={
+            "verdict": np.where(known, verdict, np.nan),
+            "period": np.where(known, np.where(x < 4, 1.0, 0.0), np.nan),
+            "lyapunov": np.where(known, 1.0 * x, np.nan),
+        },
+        verdicts=np.where(known, verdict, -1).astype(np.int64),
+        verdict_names=VERDICTS,
+        grid=(SIDE, SIDE),
+    )
+
+
+@pytest.mark.parametrize("selection", [None, Selection(channels=("lyapunov",))])
+def test_points_that_wait_show_the_next_coarser_one(selection):
+    mesh = drawn_with(running(), "chart", selection).axes[0].collections[0]
+    table = np.ma.asarray(mesh.get_array()).reshape(SIDE, SIDE)
+    assert not np.ma.getmaskarray(table).any()
+    for column in (slice(0, 4), slice(4, 8)):
+        assert len(np.unique(table[:, column])) == 1
+    assert table[0, 0] != table[0, 7]

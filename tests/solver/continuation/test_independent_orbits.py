@@ -1,0 +1,23 @@
+"""Orbits beside closed forms and simulations that know of no branch."""
+
+import numpy as np
+import pytest
+
+from benchmarks.known_orbits import dry_friction
+from benchmarks.random_orbits import FAMILIES, compared, orbit_of
+
+
+def test_dry_friction_slides_as_den_hartog_found_it() -> None:
+    # four ramps leave about 1e-11 m of 1 m, their widths to the fourth power
+    assert dry_friction() < 1e-9
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_multipliers_are_those_of_simulations_beside_the_orbit(family: str) -> None:
+    random = np.random.default_rng(11)
+    branch = None
+    while branch is None:
+        drawn = FAMILIES[family](random)
+        branch = orbit_of(drawn)
+    apart, allowed = compared(drawn, branch)
+    assert apart <= allowed < 1e-2
