@@ -95,8 +95,8 @@ def _inherited(source: StudySource) -> str:
         return ""
     share = count / _has_ended(source).sum()
     return (
-        f"{share:.1%} of the points were not computed: the corners of their cell are alike, and they"
-        " have the results of one of them."
+        f"{share:.1%} of the points were not computed: the corners of their cell are alike, and"
+        " they have the results of one of them."
     )
 
 
