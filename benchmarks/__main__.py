@@ -23,6 +23,7 @@ ALL = (
     "verdicts",
     "sensitivity",
     "continuation",
+    "special_curves",
     "branches",
     "known_orbits",
     "joined",

@@ -46,10 +46,14 @@ def scene(stop: float) -> dict[str, Any]:
     return found
 
 
+def branch_job(stop: float, **fields: Any) -> dict[str, Any]:
+    """Return the job of a branch over speed."""
+    return {"kind": "continuation", "scene": scene(stop), "parameter": "speed", **fields}
+
+
 def branch(stop: float, **fields: Any) -> Branch:
     """Return a branch over speed; `fields` of the job."""
-    job = {"kind": "continuation", "scene": scene(stop), "parameter": "speed", **fields}
-    return next(branches(run(job, processes=1).study()))
+    return next(branches(run(branch_job(stop, **fields), processes=1).study()))
 
 
 def numbers(stop: float) -> list[float]:

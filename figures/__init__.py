@@ -23,6 +23,7 @@ from jointplay.figures.calibration import CALIBRATION
 from jointplay.figures.certificate import CERTIFICATE
 from jointplay.figures.chart import CHART
 from jointplay.figures.contact_force import CONTACT_FORCE
+from jointplay.figures.curves import CURVES_FIGURE
 from jointplay.figures.energy import ENERGY
 from jointplay.figures.exponents import EXPONENTS
 from jointplay.figures.force_rose import FORCE_ROSE
@@ -107,6 +108,7 @@ STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
     for figure in (
         BIFURCATION,
         BRANCH,
+        CURVES_FIGURE,
         MULTIPLIERS,
         CHART,
         BASIN_STABILITY,

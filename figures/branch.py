@@ -23,7 +23,7 @@ _UNNAMED = "EP"
 def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
     if "labels" not in source.attributes:
         raise NotDrawable("Branches are drawn of a job of kind continuation.")
-    if not source.counts[study_facts.chosen_points(source, selection)].any():
+    if not _found(source, selection):
         raise NotDrawable("No orbit of a branch has been found.")
     names = study_facts.known(selection.channels, source.observables)
     if names:
@@ -31,12 +31,22 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
     return tuple(one.name for one in source.observables if one.name.startswith("state."))[:1]
 
 
-def _draw(source: StudySource, selection: Selection) -> page.Figure:
-    names = _chosen(source, selection)
+def _found(source: StudySource, selection: Selection) -> list[Branch]:
+    """Return the branches that have orbits, without curves over two parameters."""
+    return [one for one in known_branches(source, selection) if not one.of]
+
+
+def known_branches(source: StudySource, selection: Selection) -> list[Branch]:
+    """Return the branches and curves among the chosen points that have orbits."""
     shown = study_facts.chosen_points(source, selection)
     within = range(shown.start, shown.stop)
-    found = [one for one in branches(source) if one.index in within and source.counts[one.index]]
-    (parameter,) = source.parameters
+    return [one for one in branches(source) if one.index in within and source.counts[one.index]]
+
+
+def _draw(source: StudySource, selection: Selection) -> page.Figure:
+    names = _chosen(source, selection)
+    found = _found(source, selection)
+    parameter = source.parameters[0]
     across = scale(parameter.unit, *[one.column(VALUE) for one in found])
     units = by_name(source.observables)
     values = [np.concatenate([one.column(name) for one in found]) for name in names]
@@ -50,7 +60,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
             _curve(axes, branch, x, y)
         for branch in found:
             x, y = branch.column(VALUE) / across.factor, branch.column(name) / unit.factor
-            _name_special(axes, branch, x, y)
+            name_special(axes, branch, x, y)
         axes.set_ylabel(page.in_two_lines(unit.label(name)))
     page.finish_stack(figure, panels, across.label(parameter.name), panels[0])
     return figure
@@ -75,7 +85,7 @@ def _curve(axes: page.Axes, branch: Branch, x: Floats, y: Floats) -> None:
         begin = end
 
 
-def _name_special(axes: page.Axes, branch: Branch, x: Floats, y: Floats) -> None:
+def name_special(axes: page.Axes, branch: Branch, x: Floats, y: Floats) -> None:
     """Mark special orbits, and write their labels where these do not lie on one another."""
     width, height = (np.ptp(limits) for limits in (axes.get_xlim(), axes.get_ylim()))
     written: list[tuple[str, float, float]] = []

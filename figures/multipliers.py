@@ -5,11 +5,12 @@ import re
 
 import numpy as np
 
-from jointplay.figures import colours, page, study_facts
+from jointplay.figures import colours, page
+from jointplay.figures.branch import known_branches
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
-from jointplay.records.branch import VALUE, Branch, branches
+from jointplay.records.branch import VALUE, Branch
 from jointplay.records.channel import by_name
 from jointplay.records.study import StudySource
 
@@ -21,16 +22,11 @@ _ROOM = 0.15
 
 
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
-    points = study_facts.chosen_points(source, selection)
-    found = [
-        one
-        for one in branches(source)
-        if points.start <= one.index < points.stop and source.counts[one.index]
-    ]
+    found = [one for one in known_branches(source, selection) if not one.of]
     if not found:
         raise NotDrawable("No orbit of a branch has been found.")
     places = np.concatenate([_multipliers(one) for one in found])
-    (parameter,) = source.parameters
+    parameter = source.parameters[0]
     values = np.concatenate([one.column(VALUE) for one in found])
     across = scale(parameter.unit, values)
     far = np.abs(places) > _FARTHEST

@@ -14,6 +14,10 @@ from jointplay.records.study import StudySource
 
 VALUE, LABEL, BOUND, LENGTH, UNSTABLE = "value", "label", "bound", "length", "unstable"
 """Columns that every branch has."""
+SECOND, SECOND_BOUND = "second", "second_bound"
+"""Columns where special orbits are followed over a second parameter."""
+CURVES = ("LP", "PD", "GR")
+"""Labels of special orbits that are followed so."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +31,9 @@ class Special:
     value: float
     bound: float
     """Its parameter, and the largest error of that."""
+    second: float | None
+    second_bound: float | None
+    """The same of the second parameter, where one varies."""
     note: str
     """The event there; at the end of a branch its reason, and what may be tried."""
 
@@ -40,6 +47,12 @@ class Branch:
     failure: Failure | None
     columns: Mapping[Channel, Floats]
     special: tuple[Special, ...]
+
+    @property
+    def of(self) -> str:
+        """Label of the special orbits that a curve over two parameters is of; else empty."""
+        first = self.special[0].label if self.special and not self.special[0].row else ""
+        return first if first in CURVES else ""
 
     def column(self, name: str) -> Floats:
         """Return a column by its name."""
@@ -64,18 +77,25 @@ def branches(source: StudySource) -> Iterator[Branch]:
         for row in np.flatnonzero(by_name[LABEL]).tolist():
             label = names[int(by_name[LABEL][row])]
             at, bound = float(by_name[VALUE][row]), float(by_name[BOUND][row])
-            special.append(Special(row, label, at, bound, notes.get(row, labels[label])))
+            second, error = (
+                float(by_name[name][row]) if name in by_name else None
+                for name in (SECOND, SECOND_BOUND)
+            )
+            note = notes.get(row, labels[label])
+            special.append(Special(row, label, at, bound, second, error, note))
         status = PointStatus(int(source.status[index]))
         yield Branch(index, status, source.failures.get(index), columns, tuple(special))
 
 
 def branch_document(source: StudySource, names: Collection[str] | None = None) -> dict[str, Any]:
     """Return the branches of a continuation as JSON has them; `names` of columns, all if None."""
-    (parameter,) = source.parameters
+    parameter, *second = source.parameters
     return {
         "complete": source.complete,
         "parameter": parameter.name,
         "unit": parameter.unit,
+        "second": second[0].name if second else None,
+        "second_unit": second[0].unit if second else None,
         "labels": list(source.attributes["labels"]),
         "branches": [_document(one, names) for one in branches(source)],
     }
@@ -85,6 +105,7 @@ def _document(branch: Branch, names: Collection[str] | None) -> dict[str, Any]:
     failure = branch.failure
     return {
         "index": branch.index,
+        "of": branch.of,
         "status": branch.status.name,
         "failure": failure and {"point": branch.index, **failure._asdict()},
         "columns": {

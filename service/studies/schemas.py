@@ -127,12 +127,15 @@ class SpecialOrbit(BaseModel):
     row: int = Field(description="Index of the orbit in the columns.")
     label: str = Field(
         description="EP end, LP fold, PD period doubling, NS Neimark-Sacker, BP branch point, GR"
-        " grazing: an impact begins or ends, MX the branch was lost."
+        " grazing: an impact begins or ends, MX the branch was lost; on curves of special orbits"
+        " CP cusp, R1 and R2 resonances 1:1 and 1:2, and what happens there besides."
     )
     value: float = in_unit("the parameter's unit")
     bound: float = in_unit(
         "the parameter's unit", "Error of locating it; that of the runs' tolerance comes besides."
     )
+    second: float | None = in_unit("the second parameter's unit", "null: none varies.")
+    second_bound: float | None = in_unit("the second parameter's unit", "Error of that.")
     note: str = Field(description="What happens there; of an end why, and what to try.")
 
 
@@ -140,6 +143,10 @@ class Branch(BaseModel):
     """Periodic orbits along a branch, one each row, in the order of being found."""
 
     index: int
+    of: str = Field(
+        description="Label of the special orbits that a curve over both parameters is of; empty:"
+        " it is a branch."
+    )
     status: Status
     failure: PointFailure | None = Field(description="Why there is no branch; null: there is.")
     columns: dict[str, Series] = Field(
@@ -150,10 +157,15 @@ class Branch(BaseModel):
 
 
 class Branches(Partial):
-    """Branches of a continuation: the first one, then those behind its period doublings."""
+    """Branches of a continuation: the first one, then those behind its period doublings.
+
+    Then curves of special orbits of the first branch over a second parameter.
+    """
 
     parameter: str
     unit: str
+    second: str | None = Field(description="The second parameter; null: none varies.")
+    second_unit: str | None
     labels: list[str] = Field(description="By the numbers in the column label; 0: none.")
     branches: list[Branch]
 

@@ -42,9 +42,14 @@ class Row:
     """Along the branch since its start; negative behind it."""
     label: str = ""
     """One of `columns.LABELS`."""
-    bound: float = 0.0
-    """Largest error of the parameter at a special orbit."""
+    bounds: tuple[float, ...] = ()
+    """Largest errors of the parameters at a special orbit."""
     note: str = ""
+
+    @property
+    def bound(self) -> float:
+        """Largest error of the parameter at a special orbit, or the first one's; 0 elsewhere."""
+        return self.bounds[0] if self.bounds else 0.0
 
 
 def follow(start: Orbit, along: Floats, reach: Reach, sense: float = 1.0) -> Iterator[Row]:
@@ -67,10 +72,10 @@ def follow(start: Orbit, along: Floats, reach: Reach, sense: float = 1.0) -> Ite
         for one in specials:
             found = one.found
             at = sense * (length + found.at)
-            yield Row(found.orbit, at, one.label, found.bound, one.note)
+            yield Row(found.orbit, at, one.label, found.bounds, one.note)
         before, orbit, tangent = orbit, piece.last, piece.last_tangent
         length += curve.scales.length(orbit.vector - before.vector)
-        if not reach.inside(orbit.value):
+        if not reach.inside(orbit.values):
             yield Row(orbit, sense * length, "EP", note="end of the range")
             return
         if count >= ENOUGH and _closed(piece, start):
@@ -108,13 +113,12 @@ def _piece(
     curve: Curve, orbit: Orbit, tangent: Floats, step: float, reach: Reach
 ) -> Piece | NoOrbit:
     """Return the branch up to the orbit a step farther, or to the end of the range."""
-    guess = orbit.vector + step * tangent
-    ahead = float(guess[-1] * curve.scales.extents[-1])
-    inside = reach.inside(ahead)
+    guess = orbit.guess(orbit.vector + step * tangent, tangent)
+    inside = reach.inside(curve.section(guess).values)
     found = (
         curve.orbit(guess, tangent, orbit.scale) if inside else _at_end(curve, orbit, guess, reach)
     )
-    if isinstance(found, Orbit) and inside and not reach.inside(found.value):
+    if isinstance(found, Orbit) and inside and not reach.inside(found.values):
         inside, found = False, _at_end(curve, orbit, found.vector, reach)
     if isinstance(found, NoOrbit):
         return found
@@ -140,14 +144,14 @@ def _alike(orbit: Orbit, other: Orbit, along: Floats) -> Orbit:
 
 def _at_end(curve: Curve, orbit: Orbit, beyond: Floats, reach: Reach) -> Orbit | NoOrbit:
     """Return the orbit at the end of the range, between one inside and a vector beyond."""
-    extent = float(curve.scales.extents[-1])
-    end = reach.end(float(beyond[-1]) * extent)
-    share = (end - orbit.value) / (float(beyond[-1]) * extent - orbit.value)
+    here, there = orbit.values, curve.section(beyond).values
+    shares = [((end - here[k]) / (there[k] - here[k]), k, end) for k, end in reach.left(there)]
+    share, k, end = min(shares)
     guess = orbit.vector + share * (beyond - orbit.vector)
-    axis = np.zeros(len(guess))
-    axis[-1] = 1.0
-    guess[-1] = end / extent
-    return curve.orbit(guess, axis, orbit.scale)
+    axis, place = np.zeros(len(guess)), len(guess) - len(here) + k
+    axis[place] = 1.0
+    guess[place] = end / curve.scales.extents[place]
+    return curve.orbit(orbit.guess(guess, axis), axis, orbit.scale)
 
 
 def _closed(piece: Piece, start: Orbit) -> bool:
@@ -166,4 +170,5 @@ def _lost(orbit: Orbit, why: NoOrbit) -> str:
         cause, remedy = "an impact begins or ends here (grazing)", "a softer contact"
     else:
         cause, remedy = why.reason, "a smaller tolerance or a smaller 'largest_step'"
-    return f"lost at {orbit.value:.9g}, because {cause}; try {remedy}"
+    at = ", ".join(f"{one:.9g}" for one in orbit.values)
+    return f"lost at {at}, because {cause}; try {remedy}"

@@ -21,7 +21,8 @@ def doubled(orbit: Orbit) -> tuple[Orbit, Floats]:
     NoStart
         None was found.
     """
-    curve = Curve(replace(orbit.curve.map, periods=2 * orbit.curve.map.periods), orbit.curve.scales)
+    map_ = orbit.curve.sections
+    curve = Curve(replace(map_, periods=2 * map_.periods), orbit.curve.scales)
     extents = curve.scales.extents
     nearest = min(orbit.multipliers.real.tolist(), key=lambda one: abs(one + 1.0))
     along = direction_of(orbit.linear.jacobian, nearest) / extents[:-1]

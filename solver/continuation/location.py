@@ -23,8 +23,8 @@ class Found:
     at: float
     """Length along the branch since the first orbit."""
     orbit: Orbit
-    bound: float
-    """Largest error of the parameter by locating it; the error of the runs comes besides."""
+    bounds: tuple[float, ...]
+    """Largest errors of the parameters by locating it; the error of the runs comes besides."""
 
 
 class NotLocated(Exception):
@@ -68,8 +68,13 @@ class Piece:
 
     def direction(self, orbit: Orbit, *, coarser: bool = False) -> float:
         """Return the parameter's share of the tangent at an orbit of this piece."""
+        return float(self.directions(orbit, coarser=coarser)[-1])
+
+    def directions(self, orbit: Orbit, *, coarser: bool = False) -> Floats:
+        """Return the shares of all parameters in the tangent at an orbit of this piece."""
         tangent = orbit.tangent(self.first_tangent, orbit.coarser if coarser else None)
-        return math.nan if tangent is None else float(tangent[-1])
+        count = self.curve.parameters
+        return np.full(count, math.nan) if tangent is None else tangent[-count:]
 
 
 def root(piece: Piece, test: Callable[[Orbit], float], coarser: Callable[[Orbit], float]) -> Found:
@@ -106,10 +111,11 @@ def root(piece: Piece, test: Callable[[Orbit], float], coarser: Callable[[Orbit]
             )
         t = min(max(t, least), 1.0 - least)
     away = abs(x2 - x1) + abs(coarser(best) / slope)
-    turn = (piece.direction(piece.last) - piece.direction(piece.first)) / piece.length
-    bound = away * abs(piece.direction(best)) + 0.5 * abs(turn) * away * away + best.residual
-    least = float(np.spacing(abs(best.value)))  # of a fold, which is flat, nothing else is left
-    return Found(x1, best, max(bound * float(piece.curve.scales.extents[-1]), least))
+    turn = (piece.directions(piece.last) - piece.directions(piece.first)) / piece.length
+    bounds = away * np.abs(piece.directions(best)) + 0.5 * np.abs(turn) * away * away
+    bounds = (bounds + best.residual) * piece.curve.scales.extents[-len(bounds) :]
+    rounding = np.spacing(np.abs(best.values))  # of a fold, which is flat, nothing else is left
+    return Found(x1, best, tuple(np.maximum(bounds, rounding).tolist()))
 
 
 def change(piece: Piece, count: Callable[[Orbit], int], begin: float = 0.0) -> Found:
@@ -127,4 +133,5 @@ def change(piece: Piece, count: Callable[[Orbit], int], begin: float = 0.0) -> F
             low, before = middle, orbit
         else:
             high, behind = middle, orbit
-    return Found(high, before, abs(behind.value - before.value))
+    bounds = (abs(b - a) for a, b in zip(before.values, behind.values, strict=True))
+    return Found(high, before, tuple(bounds))

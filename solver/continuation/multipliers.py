@@ -10,6 +10,8 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.linear_algebra.eigenvalues import eigenvalues
 from jointplay.solver.linear_algebra.elimination import solve
 
+CRITICAL = {"LP": 1.0, "PD": -1.0}
+"""Multipliers of special orbits, by their label."""
 Complexes = np.ndarray[tuple[int], np.dtype[np.complex128]]
 
 
@@ -32,9 +34,15 @@ def largest(multipliers: Complexes) -> float:
     return max(map(size, multipliers.tolist()))
 
 
-def unstable(multipliers: Complexes) -> int:
-    """Return how many multipliers lie outside of the unit circle."""
-    return sum(size(one) > 1.0 for one in multipliers.tolist())
+def unstable(multipliers: Complexes, label: str = "") -> int:
+    """Return how many multipliers lie outside of the unit circle.
+
+    `label` : of a special orbit; the multiplier that makes it one is not counted.
+    """
+    left = multipliers.tolist()
+    if label in CRITICAL:
+        left.remove(min(left, key=lambda one: size(one - CRITICAL[label])))
+    return sum(size(one) > 1.0 for one in left)
 
 
 def doubling(multipliers: Complexes) -> float:

@@ -1,7 +1,8 @@
 """Periodic orbits as points of a curve: Newton's method on the section map, and tangents.
 
-An orbit is a vector (size + 1,): the section's state, then the parameter, both scaled. Lengths and
-angles along the branch are those of states and parameter; latched impact rates do not count.
+An orbit is a vector (size + 1,): the section's state, then the parameter, both scaled; of special
+orbits followed over a second parameter, that comes last. Lengths and angles along the branch are
+those of states and parameters; latched impact rates do not count.
 """
 
 import math
@@ -19,8 +20,10 @@ from jointplay.solver.continuation.multipliers import (
     spread,
 )
 from jointplay.solver.continuation.section_map import COARSER, Linear, Section, SectionMap
+from jointplay.solver.continuation.special_map import GRAZING, SpecialMap
 from jointplay.solver.linear_algebra.elimination import solve
 
+AnyMap = SectionMap | SpecialMap
 MOST_ROUNDS = 8
 CLOSE = 10.0
 """Residual at which Newton's method ends, in the tolerance of the runs."""
@@ -29,6 +32,8 @@ CLOSE_ENOUGH = 1e-6
 FARTHEST = 1.0
 """Ranges by which Newton's method may move the parameter: runs farther away may not end."""
 GAIN = 0.5
+ASIDE = 3.0
+"""Distance from grazing at which Newton's method begins, in squares of the step."""
 FINER = (1.0, 0.03, 0.001)
 """Scales of differences that are tried: next to grazing the map bends within a micrometre."""
 SHARP = 1e-3
@@ -88,6 +93,11 @@ class Orbit:
         return self.section.value
 
     @property
+    def values(self) -> tuple[float, ...]:
+        """Values of the parameters that vary."""
+        return self.section.values
+
+    @property
     def onsets(self) -> int:
         """Impacts in a period."""
         return self.linear.passage.onsets
@@ -95,7 +105,7 @@ class Orbit:
     @cached_property
     def multipliers(self) -> Complexes:
         """Multipliers, (size,)."""
-        return multipliers_of(self.linear.jacobian)
+        return multipliers_of(self.linear.monodromy)
 
     @cached_property
     def coarser(self) -> Linear:
@@ -105,7 +115,7 @@ class Orbit:
     @cached_property
     def error(self) -> float:
         """Bar of the multipliers: how far differences at two scales are apart."""
-        return spread(self.multipliers, multipliers_of(self.coarser.jacobian))
+        return spread(self.multipliers, multipliers_of(self.coarser.monodromy))
 
     @cached_property
     def sure(self) -> bool:
@@ -124,22 +134,48 @@ class Orbit:
             return None
         return found / self.curve.scales.length(found)
 
+    def guess(self, ahead: Floats, along: Floats) -> Floats:
+        """Return the orbit that is predicted ahead; of grazing ones on the side without the impact.
+
+        By the square of the step, which is what the prediction may err by.
+        """
+        if self.curve.of != GRAZING:
+            return ahead
+        right, step = np.zeros(len(ahead)), self.curve.scales.length(ahead - self.vector)
+        right[-2] = -1.0
+        aside = solve(self.curve.bordered(self.linear, along), right)
+        return np.asarray(ahead + ASIDE * step * step / self.curve.scales.length(aside) * aside)
+
 
 @dataclass(frozen=True, eq=False)
 class Curve:
     """The curve of fixed points of a section map."""
 
-    map: SectionMap
+    map: AnyMap
     scales: Scales
+
+    @property
+    def sections(self) -> SectionMap:
+        """The map of sections, without a test function."""
+        return self.map.base if isinstance(self.map, SpecialMap) else self.map
+
+    @property
+    def of(self) -> str:
+        """Label of the special orbits that the curve is of; empty: it is of any."""
+        return self.map.label if isinstance(self.map, SpecialMap) else ""
+
+    @property
+    def parameters(self) -> int:
+        """Number of parameters that vary along the curve: the last numbers of its vectors."""
+        return 2 if self.of else 1
 
     def section(self, vector: Floats) -> Section:
         """Return the section of a scaled vector."""
-        *state, value = vector * self.scales.extents
-        return Section(float(value), np.array(state))
+        return self.map.section(vector * self.scales.extents)
 
     def vector(self, section: Section) -> Floats:
         """Return the scaled vector of a section."""
-        return np.append(section.state, section.value) / self.scales.extents
+        return self.map.numbers(section) / self.scales.extents
 
     def bordered(self, linear: Linear, along: Floats) -> Floats:
         """Return (size + 1, size + 1) derivative of the residual; last the condition `along`."""
@@ -147,7 +183,7 @@ class Curve:
         extents = self.scales.extents
         matrix = np.zeros((size + 1, size + 1))
         matrix[:size, :size] = linear.jacobian - np.eye(size)
-        matrix[:size, size] = linear.sensitivity
+        matrix[:size, size:] = linear.sensitivity
         matrix[:size] *= extents / extents[:size, None]
         matrix[size] = self.scales.metric * along
         return matrix
@@ -158,7 +194,8 @@ class Curve:
         `begin` : scale of the differences that is tried first, such as that of an orbit beside.
         """
         best: Orbit | NoOrbit | None = None
-        for scale in sorted(FINER, key=lambda one: (one > begin, -one)):
+        scales = (1.0,) if self.of == GRAZING else FINER
+        for scale in sorted(scales, key=lambda one: (one > begin, -one)):
             found = self._newton(guess, along, scale)
             if isinstance(found, Orbit):
                 if found.sure:
@@ -178,8 +215,7 @@ class Curve:
             linear = self.map.linear(self.section(vector), scale)
             if linear.passage.failure:
                 return NoOrbit(linear.passage.failure, before)
-            states = self.map.kernel.states
-            residual = float(np.abs(linear.residual / self.map.scales)[:states].max())
+            residual = self.map.distance(linear)
             stalled = residual > GAIN * before and rounds > 1
             if residual <= CLOSE * self.map.tolerance or (stalled and residual <= CLOSE_ENOUGH):
                 return Orbit(self, vector, linear, residual, rounds, scale)
@@ -192,9 +228,9 @@ class Curve:
                 vector = vector + solve(self.bordered(linear, along), right)
             except LinAlgError:
                 return NoOrbit("the derivative of the section map is singular", residual)
-            if not abs(vector[-1] - guess[-1]) <= FARTHEST:
+            if not np.abs(vector - guess)[-self.parameters :].max() <= FARTHEST:
                 return NoOrbit("Newton's method went astray", residual)
-            rates = vector[states:-1]
+            rates = vector[self.map.kernel.states : -self.parameters]
             rates[rates < 0.0] = 0.0
         sentence = f"Newton's method ended after {rounds} rounds with the residual {residual:.2g}"
         return NoOrbit(sentence, residual, grazing=not linear.alike)

@@ -1,6 +1,7 @@
 """A continuation as a study: a point is a branch, its sections are the branch's orbits."""
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,29 +27,56 @@ class Reach:
 
     low: float
     high: float
-    """Range of the parameter."""
+    """Range of the parameter over which it is followed."""
     orbits: int
     """Most orbits in one direction, special ones not counted."""
     step: float
     """Largest, as a length along the branch: about a share of the range."""
+    first: tuple[tuple[float, float], ...] = ()
+    """Range of the parameter before it, of special orbits that are followed over a second one."""
 
-    def inside(self, value: float) -> bool:
-        """Return whether a value lies in the range, and not at an end but for rounding."""
-        rounding = 8.0 * math.ulp(max(abs(self.low), abs(self.high)))
-        return self.low + rounding < value < self.high - rounding
+    def inside(self, values: Sequence[float]) -> bool:
+        """Return whether values lie in their ranges, and not at an end but for rounding."""
+        return not any(True for _ in self.left(values))
 
-    def end(self, beyond: float) -> float:
-        """Return the end of the range next to a value that is not inside."""
-        return self.low if beyond < 0.5 * (self.low + self.high) else self.high
+    def left(self, values: Sequence[float]) -> Iterator[tuple[int, float]]:
+        """Yield which values are not inside, and the end of the range next to each."""
+        ranges = (*self.first, (self.low, self.high))
+        for k, (value, (low, high)) in enumerate(zip(values, ranges, strict=True)):
+            rounding = 8.0 * math.ulp(max(abs(low), abs(high)))
+            if not low + rounding < value < high - rounding:
+                yield k, low if value < 0.5 * (low + high) else high
+
+
+@dataclass(frozen=True)
+class Second:
+    """Special orbits of the first branch that are followed over a second parameter."""
+
+    start: float
+    """Value of that parameter on the branches."""
+    reach: Reach
+    labels: tuple[str, ...]
+    """Labels of the orbits that are followed."""
+    curves: int
+    """Most curves: so many points follow those of the branches."""
 
 
 @dataclass(frozen=True, eq=False)
 class ContinuationStudy(Study):
-    """A study whose first point is the branch, and the others those behind its doublings."""
+    """A study of branches, a point each: the first, then those behind its doublings, then curves.
+
+    Curves are of special orbits of the first branch, over a second parameter.
+    """
 
     start: float
     """Value of the parameter at which the first branch begins."""
     reach: Reach
+    second: Second | None
+
+    @property
+    def curves(self) -> int:
+        """Points that are curves of special orbits."""
+        return self.second.curves if self.second else 0
 
     def attributes(self) -> dict[str, Any]:
         """Return the labels of special orbits, as stores keep their positions."""

@@ -14,8 +14,9 @@ from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.solver.continuation.branch import Row, follow
 from jointplay.solver.continuation.doubling import doubled
 from jointplay.solver.continuation.orbit import Orbit
-from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach
+from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach, Second
 from jointplay.solver.continuation.section_map import Answers, Section, SectionMap
+from jointplay.solver.continuation.special_curve import starts_of_curves
 from jointplay.solver.continuation.start import NoStart, first_orbit, scaled, settle
 from jointplay.solver.continuation.table import document_of, row_of
 from jointplay.solver.kernels.kernel_cache import ready_kernel
@@ -26,6 +27,7 @@ from jointplay.solver.version import SOLVER_VERSION
 _KIND = "continuation"
 NO_PEAKS = np.empty((0, 4))
 KEPT_SCENES = 16
+NOTHING = "There is no first branch whose special orbits could be followed."
 FULL = "as many orbits as a branch may have; ask for a larger 'record'"
 
 
@@ -42,6 +44,7 @@ class ContinuationRun:
     ) -> None:
         """Begin the branches, or take up after the last answer that was known."""
         self.study = study
+        self._scene_at = scenes_of(study)
         self.seconds = 0.0
         """Spent computing since this object was made."""
         self.steps = 0.0
@@ -115,7 +118,8 @@ class ContinuationRun:
         """Follow every branch, each from the first period doubling of the one before."""
         study, reach = self.study, self.study.reach
         doubling: Orbit | None = None
-        for point in range(study.points):
+        firsts: list[Row] = []
+        for point in range(study.points - study.curves):
             self._tell(StudySlice(self._fraction(point, 0), (point,), (), ()))
             rows: list[Row] = []
             spent = self._spent
@@ -125,14 +129,39 @@ class ContinuationRun:
                 self._end(point, rows, spent, str(none))
                 doubling = None
                 continue
-            self._take(point, rows, Row(ways[0][0], 0.0, "EP", note="start of the branch"))
-            for row in _both(ways, reach):
-                last = len(rows) + 1 == study.record
-                self._take(point, rows, _last(row) if last else row)
-                if last:
-                    break
+            start = Row(ways[0][0], 0.0, "EP", note="start of the branch")
+            self._follow(point, rows, start, _both(ways, reach))
             doubling = next((row.orbit for row in rows if row.label == "PD"), None)
+            firsts = firsts or rows
             self._end(point, rows, spent)
+        if study.second is not None:
+            self._curves(study.second, firsts)
+
+    def _curves(self, second: Second, branch: list[Row]) -> None:
+        """Follow special orbits of the first branch over the second parameter, each curve once."""
+        curves: list[list[Row]] = []
+        starts = starts_of_curves(branch, second, self._scene_at, curves)
+        for point in range(self.study.points - second.curves, self.study.points):
+            self._tell(StudySlice(self._fraction(point, 0), (point,), (), ()))
+            rows: list[Row] = []
+            spent, failure = self._spent, "" if branch else NOTHING
+            start = next(starts, None)
+            if isinstance(start, NoStart):
+                failure = str(start)
+            elif start is not None:
+                ways = _ways(start.orbit, second.start, second.reach)
+                self._follow(point, rows, start, _both(ways, second.reach))
+            curves.append(rows)
+            self._end(point, rows, spent, failure)
+
+    def _follow(self, point: int, rows: list[Row], start: Row, found: Iterator[Row]) -> None:
+        """Tell of a branch from its start, until it ends or has as many orbits as it may have."""
+        self._take(point, rows, start)
+        for row in found:
+            last = len(rows) + 1 == self.study.record
+            self._take(point, rows, _last(row) if last else row)
+            if last:
+                break
 
     def _first(self, map_: SectionMap) -> list[tuple[Orbit, Floats]]:
         """Return the orbit at which the first branch begins, with the ways from there."""
@@ -142,18 +171,14 @@ class ContinuationRun:
         settled = settle(map_, study.start, given, study.job["settle"])
         curve = scaled(map_, study.start, settled)
         orbit = first_orbit(curve, Section(study.start, settled.state))
-        ways = []
-        for sense, end in ((1.0, reach.high), (-1.0, reach.low)):
-            if sense * (end - study.start) > 0.0:
-                axis = np.zeros(map_.size + 1)
-                axis[-1] = sense
-                ways.append((orbit, axis))
+        ways = _ways(orbit, study.start, reach)
         return ways if study.job["values"]["from"] == reach.low else ways[::-1]
 
     def _take(self, point: int, rows: list[Row], row: Row) -> None:
         """Tell of an orbit that was found."""
-        scene = row.orbit.curve.map.scene_at(row.orbit.value)
-        numbers = row_of(row, scene)
+        second = self.study.second
+        values = row.orbit.values[:1] if second is None else (*row.orbit.values, second.start)[:2]
+        numbers = row_of(row, self._scene_at(*values), values[1:])
         period = float(self.study.period[point])
         elapsed = np.array([(self.study.job["settle"] + len(rows)) * period])
         news = SectionRows(point, len(rows), elapsed, numbers[None])
@@ -165,7 +190,7 @@ class ContinuationRun:
         until = float(self.study.period[point]) * (self.study.job["settle"] + len(rows))
         numbers: dict[str, float] = {"steps": self._spent - spent, "orbits": float(len(rows))}
         for label, name in COUNTED.items():
-            numbers[name] = float(sum(row.label == label for row in rows))
+            numbers[name] = float(sum(row.label == label for row in rows[1:]))
         document = None if failure else document_of(rows)
         end = PointEnd(point, code, failure, until, NO_PEAKS, numbers, {}, document=document)
         self._tell(StudySlice(self._fraction(point + 1, 0), (), (), (end,)))
@@ -184,6 +209,28 @@ class ContinuationRun:
         return self._reached
 
 
+def _ways(orbit: Orbit, value: float, reach: Reach) -> list[tuple[Orbit, Floats]]:
+    """Return an orbit with the ways from there to both ends of a range, or to one."""
+    ways = []
+    for sense, end in ((1.0, reach.high), (-1.0, reach.low)):
+        if sense * (end - value) > 0.0:
+            axis = np.zeros(len(orbit.vector))
+            axis[-1] = sense
+            ways.append((orbit, axis))
+    return ways
+
+
+def scenes_of(study: ContinuationStudy) -> Callable[..., Scene]:
+    """Return what gives the scene of values of what varies."""
+    scenes = study.scenes
+
+    @lru_cache(maxsize=KEPT_SCENES)
+    def scene_at(*values: float) -> Scene:
+        return PointScenes(scenes.base, scenes.leaves, np.array([values])).scene(0)
+
+    return scene_at
+
+
 def section_map(
     study: ContinuationStudy,
     looked: Callable[[], None] = lambda: None,
@@ -194,11 +241,11 @@ def section_map(
     LimitExceeded: the scene's equations are too long to compile.
     """
     kernel = ready_kernel(study.point_scene(0), study.job["formulation"], study.method)
-    scenes = study.scenes
+    second = () if study.second is None else (study.second.start,)
+    scenes = scenes_of(study)
 
-    @lru_cache(maxsize=KEPT_SCENES)
     def scene_at(value: float) -> Scene:
-        return PointScenes(scenes.base, scenes.leaves, np.array([[value]])).scene(0)
+        return scenes(value, *second)
 
     ones = np.ones(kernel.states + len(kernel.pairs))
     width = study.reach.high - study.reach.low

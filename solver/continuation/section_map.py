@@ -6,12 +6,13 @@ by 1e-8. Differences cost as much, pass contact laws that jump, and go over the 
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.closest_approach import Approaches, rows_of
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -31,13 +32,15 @@ DIFFERENCE = 1e-5
 SLOWEST, SPARE = 30.0, 10 * ATTEMPTS
 """Steps of a run at most, in those of the motion that a branch begins with, and besides: a run that
 Newton's method asks for may begin deep in a contact, and then take for ever."""
+TOLD = 3
+"""Numbers of a run beside its end: how near it comes to another impact, onsets, steps."""
 COARSER = 4.0
 """The second scale of differences, in the first."""
 
 
 @dataclass(frozen=True)
 class Section:
-    """A value of the parameter, and the state at a section.
+    """A value of the parameter, one of a second if that varies, too, and the state at a section.
 
     `state` is (states + pairs,): coordinates, speeds and inner states, then the latched impact rate
     of each pair, m/s: 0 where the pair is apart.
@@ -45,10 +48,17 @@ class Section:
 
     value: float
     state: Floats
+    second: tuple[float, ...] = ()
 
-    def moved(self, value: float, state: Floats) -> "Section":
+    @property
+    def values(self) -> tuple[float, ...]:
+        """Values of what varies."""
+        return (self.value, *self.second)
+
+    def moved(self, state: Floats, value: float = 0.0, second: float = 0.0) -> "Section":
         """Return the section farther by a difference of each."""
-        return Section(self.value + value, self.state + state)
+        behind = tuple(one + second for one in self.second)
+        return Section(self.value + value, self.state + state, behind)
 
 
 @dataclass(frozen=True)
@@ -63,6 +73,8 @@ class Passage:
     """Accepted."""
     failure: str
     """Why the run did not come to its end, as a sentence; empty if it did."""
+    nearest: float = math.nan
+    """Distance from another impact, if that is watched; see `Approaches.nearest`."""
 
 
 @dataclass(frozen=True)
@@ -75,9 +87,14 @@ class Linear:
     jacobian: Floats
     """(size, size) of the end by the start; no row for a pair whose contact lasts throughout."""
     sensitivity: Floats
-    """(size,) of the end by the parameter."""
+    """(size, 1) of the end by the parameter; of a second one there is another column."""
     alike: bool
     """Whether the runs beside have as many onsets: else an impact begins or ends here."""
+    monodromy: Floats
+    """(states + pairs, states + pairs) whose eigenvalues are the multipliers: the Jacobian, or the
+    part of it that is of the section."""
+    nearing: Floats
+    """(size + 1,) derivatives of how near the run comes to another impact, if that is watched."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +102,8 @@ class SectionMap:
     """The map of a mechanism one parameter of which varies."""
 
     kernel: Kernel
-    scene_at: Callable[[float], Scene]
+    scene_at: Callable[..., Scene]
+    """By the values of a section."""
     periods: int
     """Periods of the drivers that it lasts."""
     tolerance: float
@@ -97,6 +115,10 @@ class SectionMap:
     """Called after every look at the lanes."""
     recall: Callable[[Callable[[], Answers]], Answers] = lambda compute: compute()
     """Returns what `compute` does, or did before at the same place of the same continuation."""
+    second_width: float = 1.0
+    """Scale of the second parameter."""
+    watches: bool = False
+    """Whether runs tell how near they come to another impact."""
     steps: float = math.inf
     """Accepted steps in a period of the motion that the branch begins with."""
 
@@ -105,38 +127,88 @@ class SectionMap:
         """Numbers of a section."""
         return self.kernel.states + len(self.kernel.pairs)
 
+    @property
+    def widths(self) -> Floats:
+        """Scales of a section's values."""
+        return np.array([self.width, self.second_width])
+
+    def section(self, numbers: Floats) -> Section:
+        """Return the section whose state, and then the parameter, are given."""
+        *state, value = numbers.tolist()
+        return Section(value, np.array(state))
+
+    def numbers(self, section: Section) -> Floats:
+        """Return state and parameter of a section, (size + 1,)."""
+        return np.append(section.state, section.values)
+
+    def distance(self, linear: Linear) -> float:
+        """Return how far a section and its end are apart, in the scales of the states."""
+        return float(np.abs(linear.residual / self.scales)[: self.kernel.states].max())
+
     def linear(self, section: Section, scale: float = 1.0) -> Linear:
         """Return the map at a section and its derivatives; of use only without a failure.
 
         `scale` : of the differences, in the usual ones.
         """
+        (found,) = self.linears([section], scale)
+        return found
+
+    def linears(self, sections: Sequence[Section], scale: float, over: int = 1) -> list[Linear]:
+        """Return what `linear` does of several sections; their lanes fill bundles together.
+
+        `over` : by how many of a section's values to differentiate.
+        """
+        asked = [[one, *self._beside(one, scale, over)] for one in sections]
+        runs = iter(self.passages([one for beside in asked for one in beside]))
+        return [
+            self._differences(beside[0], [next(runs) for _ in beside], scale, over)
+            for beside in asked
+        ]
+
+    def _columns(self, section: Section) -> list[int]:
+        """Return the numbers of a section by which its end can differ."""
         states = self.kernel.states
-        touching = section.state[states:] > 0.0
-        columns = [*range(states), *(states + np.flatnonzero(touching)).tolist()]
-        steps = np.eye(self.size)[columns] * (scale * DIFFERENCE * self.scales[columns])[:, None]
-        beside = [(sign * scale * DIFFERENCE * self.width, np.zeros(self.size)) for sign in (1, -1)]
-        beside += [(0.0, sign * step) for step in steps for sign in (1, -1)]
-        base, *others = self.passages([section, *(section.moved(*one) for one in beside)])
+        return [*range(states), *(states + np.flatnonzero(section.state[states:] > 0.0)).tolist()]
+
+    def _beside(self, section: Section, scale: float, over: int) -> Iterator[Section]:
+        """Yield the sections beside one: both sides of each value, then of each number."""
+        zero = np.zeros(self.size)
+        for values in scale * DIFFERENCE * np.diag(self.widths[:over]):
+            yield from (section.moved(zero, *(sign * values)) for sign in (1.0, -1.0))
+        for column in self._columns(section):
+            step = zero.copy()
+            step[column] = scale * DIFFERENCE * self.scales[column]
+            yield from (section.moved(sign * step) for sign in (1.0, -1.0))
+
+    def _differences(
+        self, section: Section, runs: Sequence[Passage], scale: float, over: int
+    ) -> Linear:
+        """Return the map at a section, of the runs from it and from those beside it."""
+        base, *others = runs
         failed = next((one for one in others if one.failure), None)
         if failed is not None and not base.failure:
             base = replace(base, failure=failed.failure)
-        rates = zip(others[::2], others[1::2], strict=True)
-        (along, *differences) = [(up.end - down.end) / 2.0 for up, down in rates]
-        jacobian = np.zeros((self.size, self.size))
-        for column, step, difference in zip(columns, steps, differences, strict=True):
-            jacobian[:, column] = difference / step[column]
-        residual, sensitivity = base.end - section.state, along / (scale * DIFFERENCE * self.width)
+        ends = [np.append(one.end, one.nearest) for one in others]
+        rates = [(up - down) / 2.0 for up, down in zip(ends[::2], ends[1::2], strict=True)]
+        whole = np.zeros((self.size + 1, self.size + over))
+        columns = [*range(self.size, self.size + over), *self._columns(section)]
+        numbers = np.append(self.scales, self.widths[:over])
+        for column, rate in zip(columns, rates, strict=True):
+            whole[:, column] = rate / (scale * DIFFERENCE * numbers[column])
+        jacobian, sensitivity, nearing = whole[:-1, : self.size], whole[:-1, self.size :], whole[-1]
+        residual, states = base.end - section.state, self.kernel.states
+        touching = section.state[states:] > 0.0
         lasting = states + np.flatnonzero(touching & (residual[states:] == 0.0))
         jacobian[lasting] = 0.0
         sensitivity[lasting] = 0.0
         alike = all(one.onsets == base.onsets for one in others)
-        return Linear(base, residual, jacobian, sensitivity, alike)
+        return Linear(base, residual, jacobian, sensitivity, alike, jacobian, nearing)
 
     def passages(self, sections: Sequence[Section]) -> list[Passage]:
         """Return the runs from sections, eight lanes side by side."""
 
         def compute() -> Answers:
-            numbers, failures = [np.zeros((0, self.size + 2))], list[str]()
+            numbers, failures = [np.zeros((0, self.size + TOLD))], list[str]()
             for first in range(0, len(sections), BUNDLE):
                 part, failed = self._bundle(sections[first : first + BUNDLE])
                 numbers.append(part)
@@ -144,7 +216,7 @@ class SectionMap:
             return np.concatenate(numbers), failures
 
         return [
-            Passage(row[:-2], int(row[-2]), int(row[-1]), failure)
+            Passage(row[:-TOLD], int(row[-2]), int(row[-1]), failure, float(row[-TOLD]))
             for row, failure in zip(*self.recall(compute), strict=True)
         ]
 
@@ -152,16 +224,19 @@ class SectionMap:
         bundle = Bundle(self.kernel, watch=False)
         scenes: list[Scene] = []
         for lane, section in enumerate(sections):
-            values = [one.value for one in sections[:lane]]
-            like = values.index(section.value) if section.value in values else None
-            scenes.append(self.scene_at(section.value) if like is None else scenes[like])
+            values = [one.values for one in sections[:lane]]
+            like = values.index(section.values) if section.values in values else None
+            scenes.append(self.scene_at(*section.values) if like is None else scenes[like])
             bundle.load(lane, self._problem(scenes[lane], section), like)
         attempts, most = 0, SLOWEST * self.steps * self.periods + SPARE
-        while bundle.advance(ATTEMPTS) and attempts < most:
+        approaches = Approaches(bundle, len(sections) if self.watches else 0)
+        running = 1
+        while running and attempts < most:
+            running = bundle.advance(ATTEMPTS)
+            approaches.collect()
             attempts += ATTEMPTS
             self.looked()
-        self.looked()
-        numbers, failures = np.empty((len(sections), self.size + 2)), list[str]()
+        numbers, failures = np.empty((len(sections), self.size + TOLD)), list[str]()
         for lane, scene in enumerate(scenes):
             at = bundle.lane(lane)
             if at.status == Status.RUNNING:
@@ -171,11 +246,17 @@ class SectionMap:
             else:
                 failures.append(failure_of(bundle, lane, self.tolerance, scene).detail)
             numbers[lane, : self.kernel.states] = at["y"]
-            numbers[lane, self.kernel.states : -2] = at["impact_rate"] * at["mode"]
-            numbers[lane, -2:] = at.run["onsets"], at.steps
+            numbers[lane, self.kernel.states : -TOLD] = at["impact_rate"] * at["mode"]
+            interval = at.run["output_step"]
+            near = approaches.nearest(lane, interval) if self.watches else math.nan
+            numbers[lane, -TOLD:] = near, at.run["onsets"], at.steps
         return numbers, failures
 
     def _problem(self, scene: Scene, section: Section) -> LaneProblem:
         start = LaneStart.at_section(section.state, self.kernel.states)
         duration = self.periods * (common_period(scene).seconds or math.nan)
-        return LaneProblem(scene, duration, self.tolerance, duration, 0, 0, 0.0, start=start)
+        rows = rows_of(self.periods) if self.watches else 0
+        step = duration / max(rows, 1)
+        return LaneProblem(
+            scene, duration, self.tolerance, step, rows + (rows > 0), 0, 0.0, start=start
+        )

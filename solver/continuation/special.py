@@ -4,6 +4,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 
+import numpy as np
+
+from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.location import Found, NotLocated, Piece, change, root
 from jointplay.solver.continuation.multipliers import (
     Complexes,
@@ -22,6 +25,10 @@ MOST_GRAZINGS = 8
 """Impacts that may begin or end between two orbits; where more do, steps are shorter."""
 CHANGES = {"LP": 1, "BP": 1, "PD": 1, "NS": 2, "GR": 0}
 """By how many the unstable multipliers may change."""
+RESONANCES = {"LP": "R1", "PD": "R2"}
+"""Where a second multiplier comes to that of a fold, or of a doubling."""
+RESTING = 1e-2
+"""Share of the tangent that both parameters may have left where they turn at once."""
 
 
 @dataclass(frozen=True)
@@ -38,11 +45,17 @@ def special_orbits(piece: Piece) -> list[Special]:
 
     NotLocated: it is there, and could not be located.
     """
-    return sorted(_every(piece), key=lambda one: one.found.at)
+    found = _beside(piece) if piece.curve.of else _every(piece)
+    return sorted(found, key=lambda one: one.found.at)
 
 
 def explained(piece: Piece, specials: list[Special]) -> bool:
-    """Return whether what was found accounts for the change of stability."""
+    """Return whether what was found accounts for the change of stability.
+
+    Special orbits themselves have multipliers on the circle, which come to lie on any side.
+    """
+    if piece.curve.of:
+        return True
     counts = [unstable(orbit.multipliers) for orbit in (piece.first, piece.last)]
     allowed = sum(CHANGES[one.label] for one in specials)
     return abs(counts[1] - counts[0]) <= allowed
@@ -55,18 +68,52 @@ def _every(piece: Piece) -> Iterator[Special]:
         found = root(piece, piece.direction, lambda one: piece.direction(one, coarser=True))
         yield Special("LP", found)
     for label, test in (("BP", passing_one), ("PD", doubling), ("NS", torus)):
-        if (test(first.multipliers) > 0.0) == (test(last.multipliers) > 0.0):
+        if (label == "BP" and turned) or not _changes(piece, test):
             continue
-        if label == "BP" and turned:
-            continue
-        found = root(
-            piece,
-            partial(_tested, test),
-            partial(_tested_coarser, test),
-        )
+        found = _root(piece, test)
         if label != "NS" or is_torus(found.orbit.multipliers):
             yield Special(label, found)
     yield from _grazing(piece)
+
+
+def _beside(piece: Piece) -> Iterator[Special]:
+    """Yield what happens on a curve of special orbits besides: orbits of codimension two.
+
+    Where the curve of folds has a cusp, both parameters turn at once, and come to rest.
+    """
+    of, (first, last) = piece.curve.of, map(piece.directions, (piece.first, piece.last))
+    if of == "LP" and float(np.sum(first * last)) < 0.0:
+        found = root(piece, *_along(piece, last - first))
+        rest = np.abs(piece.directions(found.orbit)).max()
+        if rest < RESTING * np.abs(last - first).max():
+            yield Special("CP", found)
+    others = {"PD": doubling, "LP": passing_one, "NS": torus}
+    for label, test in others.items():
+        if label == of or not _changes(piece, test):
+            continue
+        # at a resonance the two multipliers are one but for rounding, a complex pair perhaps
+        turning = is_torus(piece.first.multipliers) and is_torus(piece.last.multipliers)
+        named = label if label != "NS" or turning else RESONANCES.get(of)
+        if named is not None:
+            yield Special(named, _root(piece, test))
+    if of != "GR":
+        yield from _grazing(piece)
+
+
+def _along(piece: Piece, way: Floats) -> tuple[Callable[[Orbit], float], Callable[[Orbit], float]]:
+    """Return the parameters' share of the tangent along a way, by both differences."""
+    return (
+        lambda orbit: float(np.sum(way * piece.directions(orbit))),
+        lambda orbit: float(np.sum(way * piece.directions(orbit, coarser=True))),
+    )
+
+
+def _changes(piece: Piece, test: Test) -> bool:
+    return (test(piece.first.multipliers) > 0.0) != (test(piece.last.multipliers) > 0.0)
+
+
+def _root(piece: Piece, test: Test) -> Found:
+    return root(piece, partial(_tested, test), partial(_tested_coarser, test))
 
 
 def _tested(test: Test, orbit: Orbit) -> float:
@@ -74,7 +121,7 @@ def _tested(test: Test, orbit: Orbit) -> float:
 
 
 def _tested_coarser(test: Test, orbit: Orbit) -> float:
-    return test(multipliers_of(orbit.coarser.jacobian))
+    return test(multipliers_of(orbit.coarser.monodromy))
 
 
 def _grazing(piece: Piece) -> Iterator[Special]:

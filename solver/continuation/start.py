@@ -134,13 +134,13 @@ def first_orbit(curve: Curve, section: Section) -> Orbit:
 
 def shorter_period(orbit: Orbit) -> int:
     """Return after how many periods an orbit is back already, fewer than its own; 0: it is not."""
-    curve, section = orbit.curve, orbit.section
-    states = curve.map.kernel.states
-    for periods in range(1, curve.map.periods):
-        if curve.map.periods % periods:
+    map_, section = orbit.curve.sections, orbit.section
+    states = map_.kernel.states
+    for periods in range(1, map_.periods):
+        if map_.periods % periods:
             continue
-        (passage,) = replace(curve.map, periods=periods).passages([section])
-        away = np.abs((passage.end - section.state) / curve.map.scales)[:states]
+        (passage,) = replace(map_, periods=periods).passages([section])
+        away = np.abs((passage.end - section.state) / map_.scales)[:states]
         if float(away.max()) < SAME:
             return periods
     return 0

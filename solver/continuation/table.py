@@ -9,27 +9,36 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.branch import Row
 from jointplay.solver.continuation.columns import LABELS
 from jointplay.solver.continuation.multipliers import unstable
+from jointplay.solver.continuation.special_curve import errors
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import common_period
 
 
-def row_of(row: Row, scene: Scene) -> Floats:
-    """Return the numbers of an orbit, in the order of the columns; `scene` is that of its value."""
+def row_of(row: Row, scene: Scene, seconds: Sequence[float] = ()) -> Floats:
+    """Return the numbers of an orbit, in the order of the columns; `scene` is that of its value.
+
+    `seconds` : value of the second parameter, where one varies.
+    """
     orbit = row.orbit
-    states = orbit.curve.map.kernel.states
-    leading = orbit.multipliers[:states]
+    leading = orbit.multipliers[: orbit.curve.map.kernel.states]
+    bounds = np.zeros(2)
+    bounds[: len(row.bounds)] = row.bounds
+    if orbit.curve.of:
+        bounds += errors(orbit)
     duration = orbit.curve.map.periods * (common_period(scene).seconds or math.nan)
     facts = [
         orbit.value,
         row.length,
         float(list(LABELS).index(row.label)),
-        row.bound,
+        bounds[0],
         duration,
         float(orbit.onsets),
-        float(unstable(orbit.multipliers)),
+        float(unstable(orbit.multipliers, orbit.curve.of)),
         orbit.residual,
         orbit.error,
     ]
+    if seconds:
+        facts += [*seconds, bounds[1]]
     parts = np.column_stack([leading.real, leading.imag]).reshape(-1)
     return np.concatenate([facts, parts, orbit.section.state])
 

@@ -7,23 +7,26 @@ import numpy as np
 from pydantic import Field
 
 from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.suggestions import unknown
 from jointplay.solver.continuation.columns import columns_of
-from jointplay.solver.continuation.plan import OUTPUTS, ContinuationStudy, Reach
+from jointplay.solver.continuation.plan import OUTPUTS, ContinuationStudy, Reach, Second
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.job import Job
 from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import check_size
+from jointplay.solver.kinds.mechanism import written
 from jointplay.solver.kinds.methods import check_study
 from jointplay.solver.kinds.periods import Periods, periods
-from jointplay.solver.kinds.points import Axis, Points, one_axis
+from jointplay.solver.kinds.points import Axis, Points, one_axis, product
 from jointplay.solver.kinds.section import CrankSection
 from jointplay.solver.kinds.section_checks import check_section
 from jointplay.solver.kinds.start_state import StartState, check_state
 from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study, place_points
 from jointplay.solver.kinds.values import Range
-from jointplay.solver.quantities.units import Name, quantity
+from jointplay.solver.quantities.units import Name, Strict, quantity
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.scene.parameters import set_parameters
 from jointplay.solver.statistics import Output
 
 USUAL_TOLERANCE = 1e-11
@@ -31,6 +34,31 @@ RECORD = 4
 """Orbits of a branch at most, in those that it may have in each direction."""
 MAPS = 8
 """Section maps that an orbit takes, about: rounds of Newton's method, errors, special orbits."""
+
+
+class AlongSecond(Strict):
+    """A second parameter over which special orbits are followed."""
+
+    parameter: Annotated[Name, Field(description="a declared parameter of the scene")]
+    values: Annotated[
+        Range,
+        Field(
+            description=(
+                "its range, which includes the scene's value, and how many orbits a curve may have"
+                " in each direction: {'from', 'to', 'count'}"
+            )
+        ),
+    ]
+    labels: Annotated[
+        list[Literal["LP", "PD", "GR"]],
+        Field(min_length=1, max_length=3, description="special orbits that are followed"),
+    ] = ["LP", "PD", "GR"]
+    curves: Annotated[
+        int,
+        quantity(
+            "1", ge=1, le=16, description="most curves, in the order of the first branch's orbits"
+        ),
+    ] = 4
 
 
 class ContinuationJob(Job):
@@ -77,7 +105,15 @@ class ContinuationJob(Job):
             "1", ge=0, le=6, description="period doublings behind which branches are followed, too"
         ),
     ] = 0
-
+    second: Annotated[
+        AlongSecond | None,
+        Field(
+            description=(
+                "a second parameter, over which special orbits of the first branch are followed:"
+                " {'parameter', 'values', 'labels', 'curves'}"
+            )
+        ),
+    ] = None
     record: Annotated[
         int | None,
         quantity(
@@ -107,12 +143,9 @@ class Continuation(Kind[ContinuationJob]):
         """Check and fill in; see `Kind.admit`."""
         check_study(job, tangents=False)
         _check_range(job)
-        checked = check_points(job, _range(job))
-        units = periods(checked.scenes)
-        check_section(CrankSection(), checked, units)
-        if checked.structure.any():
-            sentence = "The mechanism's equations change their form within the range; narrow it."
-            raise InvalidInput.at("/values", sentence)
+        checked = _checked(job, one_axis(_first_axis(job)), "/values")
+        if job.second is not None:
+            checked = _checked(job, _both(job, job.second), "/second/values")
         found = {
             "at": job.values.start if job.at is None else job.at,
             "record": job.record or RECORD * job.values.count,
@@ -125,6 +158,9 @@ class Continuation(Kind[ContinuationJob]):
         states = sum(c.name.startswith(("state.", "rate.")) for c in study.observables)
         runs = 2 * job.values.count * MAPS * (2 * states + 3)
         check_size(study, job.settle + runs * longest, "/values/count")
+        if job.second is not None:
+            runs += 2 * job.second.values.count * job.second.curves * MAPS * (10 * states + 5)
+            check_size(study, job.settle + runs * longest, "/second/values/count")
         return study
 
     def plan(self, job: ContinuationJob, filled: dict[str, Any]) -> ContinuationStudy:
@@ -137,14 +173,24 @@ class Continuation(Kind[ContinuationJob]):
         return OUTPUTS
 
 
+def _checked(job: ContinuationJob, points: Points, place: str) -> PlacedPoints:
+    """Return the ends of ranges once there is a section at each, and the equations are the same."""
+    checked = check_points(job, points)
+    check_section(CrankSection(), checked, periods(checked.scenes))
+    if checked.structure.any():
+        sentence = "The mechanism's equations change their form within the range; narrow it."
+        raise InvalidInput.at(place, sentence)
+    return checked
+
+
 def _check_range(job: ContinuationJob) -> None:
     low, high = sorted((job.values.start, job.values.stop))
-    problems = []
-    if low == high:
-        problems.append(Problem("/values/to", "The range is empty; 'to' must differ from 'from'."))
-    if job.values.spacing != "linear":
-        sentence = "A branch chooses its own steps; leave 'spacing' out."
-        problems.append(Problem("/values/spacing", sentence))
+    problems = _problems(job.values, "/values")
+    if job.second is not None:
+        problems += _problems(job.second.values, "/second/values")
+        if job.second.parameter == job.parameter:
+            sentence = f"'{job.parameter}' varies along the branch; choose another parameter."
+            problems.append(Problem("/second/parameter", sentence))
     if job.at is not None and not low <= job.at <= high:
         sentence = f"'at' must lie in the range, {low:g} to {high:g}; it is {job.at:g}."
         problems.append(Problem("/at", sentence))
@@ -155,35 +201,98 @@ def _check_range(job: ContinuationJob) -> None:
         raise InvalidInput(problems)
 
 
-def _range(job: ContinuationJob) -> Points:
-    """Return both ends of the range and the start as points, to be checked."""
+def _problems(values: Range, place: str) -> list[Problem]:
+    problems = []
+    if values.start == values.stop:
+        problems.append(Problem(f"{place}/to", "The range is empty; 'to' must differ from 'from'."))
+    if values.spacing != "linear":
+        sentence = "A branch chooses its own steps; leave 'spacing' out."
+        problems.append(Problem(f"{place}/spacing", sentence))
+    return problems
+
+
+def _first_axis(job: ContinuationJob) -> Axis:
+    """Return both ends of the range and the start."""
     at = job.values.start if job.at is None else job.at
-    places = ("/values/from", "/values/to", "/values/from" if job.at is None else "/at")
-    values = np.array([job.values.start, job.values.stop, at])
-    return one_axis(Axis(job.parameter, "/parameter", values, places.__getitem__))
+    return _axis(job.parameter, job.values, at, "", "/values/from" if job.at is None else "/at")
+
+
+def _both(job: ContinuationJob, second: AlongSecond) -> Points:
+    """Return the corners of both ranges, and where a branch begins, as points."""
+    place, values = "/second/values", second.values
+    begin = _second_start(job, second)
+    low, high = sorted((values.start, values.stop))
+    if not low <= begin <= high:
+        sentence = f"The range must include {begin:g}, the scene's '{second.parameter}'."
+        raise InvalidInput.at(place, sentence)
+    axis = _axis(second.parameter, values, begin, "/second", place)
+    return product([_first_axis(job), axis], place)
+
+
+def _axis(parameter: str, values: Range, begin: float, part: str, place: str) -> Axis:
+    """Return the ends of a range, and where a branch begins, as an axis."""
+    places = (f"{part}/values/from", f"{part}/values/to", place)
+    ends = np.array([values.start, values.stop, begin])
+    return Axis(parameter, f"{part}/parameter", ends, places.__getitem__)
+
+
+def _second_start(job: ContinuationJob, second: AlongSecond) -> float:
+    """Return the second parameter's value in the scene.
+
+    InvalidInput: the scene does not declare it, or it has no number.
+    """
+    document, scene, given = written(job)
+    if second.parameter not in scene.parameters:
+        sentence = unknown("parameter", second.parameter, scene.parameters)
+        raise InvalidInput.at("/second/parameter", sentence)
+    value = set_parameters(document, scene, given, (job.parameter,))[1][second.parameter]
+    if not isinstance(value, float):
+        sentence = f"'{second.parameter}' has no number in the scene; give it one there."
+        raise InvalidInput.at("/second/parameter", sentence)
+    return value
 
 
 def _branches(job: ContinuationJob) -> Points:
-    """Return a point for each branch, at the value where the first one begins."""
+    """Return a point for each branch and curve, where the first one begins."""
     at = job.values.start if job.at is None else job.at
-    values = np.full(job.doublings + 1, at)
-    return one_axis(Axis(job.parameter, "/parameter", values, lambda _point: "/at"))
+    count = job.doublings + 1 + (job.second.curves if job.second else 0)
+    axes = [Axis(job.parameter, "/parameter", np.array([at]), lambda _index: "/at")]
+    if job.second is not None:
+        values = np.array([_second_start(job, job.second)])
+        place = "/second/parameter"
+        axes.append(Axis(job.second.parameter, place, values, lambda _index: "/second/values"))
+    return Points(tuple(axes), np.zeros((count, len(axes)), np.int64), lambda _point: "/at")
 
 
 def _study(
     job: ContinuationJob, filled: dict[str, Any], placed: PlacedPoints, units: Periods
 ) -> ContinuationStudy:
     count = placed.points.count
-    unit = placed.declared.parameters[job.parameter].unit
-    columns = columns_of(placed.scenes.scene(0), job.parameter, unit)
+    parameters = placed.points.parameters
+    units_of = [placed.declared.parameters[name].unit for name in parameters]
+    columns = columns_of(placed.scenes.scene(0), parameters, units_of)
     kept = Kept(observables=columns, record=filled["record"])
     settle = job.settle * units.seconds
     spans = Spans(units.seconds, settle, settle + job.period * units.seconds)
     study = make_study(filled, placed, spans, kept)
-    low, high = sorted((job.values.start, job.values.stop))
     own = {"blocks": ((0, count),)}
     return ContinuationStudy(
         **(vars(study) | own),
         start=filled["at"],
-        reach=Reach(low, high, job.values.count, job.largest_step),
+        reach=_reach(job, job.values),
+        second=None if job.second is None else _second(job, job.second, placed),
     )
+
+
+def _reach(
+    job: ContinuationJob, values: Range, first: tuple[tuple[float, float], ...] = ()
+) -> Reach:
+    low, high = sorted((values.start, values.stop))
+    return Reach(low, high, values.count, job.largest_step, first)
+
+
+def _second(job: ContinuationJob, second: AlongSecond, placed: PlacedPoints) -> Second:
+    low, high = sorted((job.values.start, job.values.stop))
+    begin = float(placed.points.values()[0, 1])
+    reach = _reach(job, second.values, ((low, high),))
+    return Second(begin, reach, tuple(second.labels), second.curves)

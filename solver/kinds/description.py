@@ -97,7 +97,7 @@ def _field(schema: dict[str, Any]) -> dict[str, Any]:
             form.get("type", ""), "other"
         )
         kind = {"string": "names", "number": "numbers"}.get(items.get("type", ""), kind)
-        kind = "axis" if _is(form, "Along") else kind
+        kind = "axis" if _is(form, "Along") or _is(form, "AlongSecond") else kind
         values = [one.get("oneOf", [{}])[0] for one in form.get("patternProperties", {}).values()]
         kind = "grid" if any(_is(one, "Range") for one in values) else kind
         kind = "distributions" if any(_is(one, "Uniform") for one in values) else kind

@@ -1,5 +1,7 @@
 """A fold as a continuation has it: stable above, unstable below, found from its upper end."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from jointplay.records.channel import Channel
@@ -11,6 +13,36 @@ HEIGHTS = np.array([2.0, 1.0, 0.0, -1.0, -2.0])
 REAL = np.array([0.2, 0.5, 1.0, 1.5, 4.0])
 """Real parts of the first multiplier."""
 NOTE = "the orbits meet"
+
+
+def over_two_parameters() -> StudyDataset:
+    """Return the branch of `folded`, and the curve of its fold with a cusp in the middle."""
+    found, heights = folded(), HEIGHTS
+    columns = {
+        "value": heights**3,
+        "label": np.array([3.0, 0.0, 4.0, 0.0, 1.0]),
+        "bound": np.zeros(5),
+        "length": np.array([0.0, 1.0, 2.0, -1.0, -2.0]),
+        "unstable": np.zeros(5),
+        "state.mass.s": heights,
+    }
+    values = {
+        name: np.array([rows[0], columns.get(name, rows[0])])
+        for name, rows in found.section_values.items()
+    }
+    values["second"] = np.array([np.full(5, 4.0), heights**2])
+    values["second_bound"] = np.zeros((2, 5))
+    more = tuple(Channel(name, "m", name) for name in ("second", "second_bound"))
+    return replace(
+        found,
+        attributes=found.attributes | {"labels": found.attributes["labels"] | {"CP": "cusp"}},
+        parameters=(*found.parameters, Channel("width", "m", "width")),
+        values=np.zeros((2, 2)),
+        status=np.array([PointStatus.done] * 2, np.uint8),
+        observables=(*found.observables, *more),
+        times=np.array([np.arange(5.0)] * 2),
+        section_values=values,
+    )
 
 
 def folded() -> StudyDataset:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from branches import HEIGHTS, NOTE, folded
+from branches import HEIGHTS, NOTE, folded, over_two_parameters
 from drawn import drawn_with
 
 from jointplay import figures
@@ -48,3 +48,27 @@ def test_a_branch_without_orbits_leaves_no_line_and_alone_is_not_drawn():
     assert all(len(line.get_xdata()) for line in axes.lines)
     with pytest.raises(NotDrawable, match="No orbit"):
         figures.draw(folded(), "branch", Selection(start=1, stop=2))
+
+
+def test_curves_are_drawn_over_both_parameters_in_their_order_with_their_cusps():
+    (axes,) = drawn_with(over_two_parameters(), "curves", None).axes
+    order = [4, 3, 0, 1, 2]
+    line = axes.lines[0]
+    assert line.get_label() == "LP fold"
+    assert line.get_xdata() == pytest.approx(HEIGHTS[order] ** 3)
+    assert line.get_ydata() == pytest.approx(HEIGHTS[order] ** 2)
+    assert [one.get_text() for one in axes.texts] == ["CP"]
+    assert axes.get_ylabel() == "width [m]"
+    assert [one.of for one in branches(over_two_parameters())] == ["", "LP"]
+
+
+def test_the_figure_of_branches_leaves_curves_out_and_without_curves_there_is_no_figure():
+    (axes,) = drawn_with(over_two_parameters(), "branch", None).axes
+    alone = drawn_with(folded(), "branch", None).axes[0]
+    assert len(axes.lines) == len(alone.lines)
+    with pytest.raises(NotDrawable, match="No orbit"):
+        figures.draw(over_two_parameters(), "branch", Selection(start=1, stop=2))
+    with pytest.raises(NotDrawable, match="with 'second'"):
+        figures.draw(folded(), "curves")
+    with pytest.raises(NotDrawable, match="No curve"):
+        figures.draw(over_two_parameters(), "curves", Selection(start=0, stop=1))

@@ -5,6 +5,7 @@ import httpx
 from tests.page.browsing import barriers, expect
 from tests.page.conftest import submitted
 
+SECOND = {"parameter": "amplitude", "values": {"from": 4e-3, "to": 6e-3, "count": 4}}
 BRANCH = {
     "kind": "continuation",
     "scene": {"preset": "impact-oscillator"},
@@ -47,6 +48,21 @@ def test_an_orbit_is_opened_as_the_simulation_that_starts_on_it(browsing, url):
     rate = branch["columns"]["impact_rate.stop"]
     assert made["state"] == [one["values"][row] for one in (*section, rate)]
     assert made["scene"]["parameters"]["speed"] == branch["columns"]["value"]["values"][row]
+
+
+def test_curves_of_special_orbits_are_drawn_and_their_table_has_both_parameters(
+    browsing, url, artifacts
+):
+    job = submitted(url, BRANCH | {"second": SECOND | {"curves": 1}})
+    with browsing.page(f"{url}/#/job/{job}") as page:
+        curve = page.locator("tbody tr").filter(has_text="LP, curve 1")
+        expect(curve).to_contain_text("start of the curve")
+        expect(page.get_by_role("columnheader", name="amplitude")).to_have_count(1)
+        image = page.get_by_role("img", name="Special orbits over speed and amplitude")
+        expect(image).to_have_js_property("complete", True)
+        expect(image).not_to_have_js_property("naturalWidth", 0)
+        page.screenshot(path=artifacts / "curves.png", full_page=True)
+        assert barriers(page) == []
 
 
 def test_the_picture_of_a_branch_grows_with_it(browsing, url):

@@ -9,12 +9,15 @@ from jointplay.local import run
 from jointplay.service.studies.schemas import Branches
 from tests.service.answers import get
 
+WIDE = {"from": 4e-3, "to": 8e-3, "count": 4}
+SECOND = {"parameter": "amplitude", "values": WIDE, "labels": ["GR"], "curves": 1}
 JOB = jobs.continuation(
     "impact-oscillator",
     "speed",
     {"from": 30.0, "to": 24.0, "count": 80},
     settle=20,
     doublings=1,
+    second=SECOND,
     stop_stiffness=1e8,
 )
 
@@ -41,13 +44,21 @@ def test_the_branch_is_what_a_local_run_finds(finished, http, tmp_path):
     answer = http.get(f"/v1/jobs/{finished.id}/branch")
     document = Branches.model_validate_json(answer.content, strict=True)
     assert document.model_dump(mode="json") == answer.json()
-    first, second = document.branches
+    first, second, curve = document.branches
     assert [one.label for one in first.special][:1] == ["EP"]
     assert first.columns["value"].unit == "rad/s"
-    lengths = {len(one.values) for one in first.columns.values()}
-    assert lengths == {int(finished.points["orbits"][0])}
+    for branch in (first, curve):
+        lengths = {len(one.values) for one in branch.columns.values()}
+        assert lengths == {int(finished.points["orbits"][branch.index])}
     assert second.status == "failed"
     assert "no period doubling" in second.failure.detail
+    assert (first.of, curve.of, document.second, document.second_unit) == (
+        *("", "GR"),
+        *("amplitude", "m"),
+    )
+    (graze,) = [one for one in first.special if one.label == "GR"]
+    assert curve.special[0].value == pytest.approx(graze.value, abs=1e-5)
+    assert curve.special[0].second == pytest.approx(5e-3, rel=1e-9)
 
 
 def test_columns_are_chosen_and_wrong_ones_are_refused(finished, http):
@@ -62,15 +73,17 @@ def test_columns_are_chosen_and_wrong_ones_are_refused(finished, http):
 
 def test_its_orbits_are_a_table_with_units_and_in_zarr(finished, tmp_path):
     table = finished.poincare
-    (branch, _) = finished.branch["branches"]
-    assert table["value"].tolist() == branch["columns"]["value"]["values"]
+    (branch, _, curve) = finished.branch["branches"]
+    for name in ("value", "second"):
+        both = [one["columns"][name]["values"] for one in (branch, curve)]
+        assert table[name].tolist() == [*both[0], *both[1]]
     file = finished.export(tmp_path / "branch.csv", "poincare")
     assert "value [rad/s]" in file.read_text()
     with finished.open("sections") as store:
         values = store["value"]
         assert values.attrs["units"] == "rad/s"
         rows = np.isfinite(values.values[0])
-        assert values.values[0][rows].tolist() == table["value"].tolist()
+        assert values.values[0][rows].tolist() == branch["columns"]["value"]["values"]
 
 
 def test_every_link_leads_somewhere_and_its_figure_is_drawn(finished, http):
@@ -79,13 +92,13 @@ def test_every_link_leads_somewhere_and_its_figure_is_drawn(finished, http):
     for name, link in links.items():
         answer = http.post(link) if name == "cancel" else http.get(link)
         assert answer.is_success, (name, answer.text)
-    assert "branch" in finished.figures
+    assert {"branch", "curves"} <= set(finished.figures)
     for name in finished.figures:
         assert finished.figure(name).content.startswith(b"\x89PNG"), name
 
 
 def test_a_continuation_is_estimated_before_it_is_queued(client):
-    estimate = client.estimate(JOB | {"doublings": 0})
+    estimate = client.estimate(JOB | {"doublings": 0, "second": None})
     assert (estimate.points, estimate.blocks, estimate.failure) == (1, 1, None)
     assert estimate.steps > 1000
 
@@ -100,6 +113,15 @@ def test_a_continuation_is_estimated_before_it_is_queued(client):
         ({"values": {"from": 30.0, "to": 2000.0, "count": 3}}, "/values/to"),
         ({"values": {"from": 30.0, "to": 0.0, "count": 3}}, "/values/to"),
         ({"parameter": "slack"}, "/parameter"),
+        ({"second": SECOND | {"parameter": "slack"}}, "/second/parameter"),
+        ({"second": SECOND | {"parameter": "speed"}}, "/second/parameter"),
+        ({"second": SECOND | {"labels": ["BP"]}}, "/second/labels/0"),
+        ({"second": SECOND | {"curves": 0}}, "/second/curves"),
+        ({"second": SECOND | {"values": WIDE | {"from": 6e-3}}}, "/second/values"),
+        ({"second": SECOND | {"values": WIDE | {"from": 8e-3}}}, "/second/values/to"),
+        ({"second": SECOND | {"values": WIDE | {"from": -1.0}}}, "/second/values/from"),
+        ({"second": SECOND | {"values": WIDE | {"spacing": "log"}}}, "/second/values/spacing"),
+        ({"second": SECOND | {"values": WIDE | {"count": 10**7}}}, "/second/values/count"),
         ({"at": 40.0}, "/at"),
         ({"state": [0.0]}, "/state"),
         ({"state": [0.0, 0.0, -1.0]}, "/state"),

@@ -19,6 +19,8 @@ export async function show(room, context) {
     const drawn = (name, alt) => freshFigure(`${context.job.links.figures}/${name}.svg`, alt);
     fill(room, element("section", { class: "panel stacked" },
       found.length > 0 && await drawn("branch", `Branches of periodic orbits over ${answer.parameter}`),
+      found.some(({ of }) => of)
+        && await drawn("curves", `Special orbits over ${answer.parameter} and ${answer.second}`),
       words.map((sentence) => element("p", {}, sentence)),
       found.length > 0 && specialOrbits(answer, found, (branch, orbit) =>
         tell(chosen, context.job, answer, branch, orbit)),
@@ -27,24 +29,28 @@ export async function show(room, context) {
   });
 }
 
-function specialOrbits({ parameter, unit }, branches, pick) {
+function specialOrbits({ parameter, unit, second, second_unit }, branches, pick) {
+  const shown = (value, error, its) => [withUnit(value, its, 10), error ? withUnit(error, its, 2) : ""];
   const rows = branches.flatMap((branch) => branch.special.map((orbit) => [
     element("button", { type: "button", class: "quiet", onclick: () => pick(branch, orbit) },
-      `${orbit.label}, branch ${branch.index}`),
-    withUnit(orbit.value, unit, 10), orbit.bound ? withUnit(orbit.bound, unit, 2) : "", orbit.note,
+      `${orbit.label}, ${branch.of ? "curve" : "branch"} ${branch.index}`),
+    ...shown(orbit.value, orbit.bound, unit),
+    ...(second ? shown(orbit.second, orbit.second_bound, second_unit) : []), orbit.note,
   ]));
-  return table("Special orbits", ["Orbit", parameter, "±", "there"], rows, "small");
+  const names = second ? [parameter, "±", second, "±"] : [parameter, "±"];
+  return table("Special orbits", ["Orbit", ...names, "there"], rows, "small");
 }
 
 /** Tells of an orbit, and offers the simulation that starts on it: its section is the state at time 0. */
-function tell(room, job, { parameter, unit }, { columns }, { row, note }) {
+function tell(room, job, { parameter, unit, second, second_unit }, { columns }, { row, note }) {
   const at = (name) => columns[name].values[row];
   const multipliers = Object.keys(columns).filter((name) => MULTIPLIER.test(name)).map((name) =>
     complex(at(name), at(name.replace("real", "imaginary"))));
   const words = `${note}; ${at("unstable") ? `${at("unstable")} unstable` : "stable"}, ${at("impacts")} impacts a period, `
     + `multipliers ${multipliers.join(", ")}`;
   const state = Object.keys(columns).filter((name) => SECTION.test(name)).map(at);
-  offer(room, job, { [parameter]: [at("value"), unit] }, words, "", {}, state);
+  const others = second ? { [second]: [at("second"), second_unit] } : {};
+  offer(room, job, { [parameter]: [at("value"), unit], ...others }, words, "", {}, state);
 }
 
 function complex(real, imaginary) {

@@ -111,7 +111,8 @@ class ReadableJob(TabledJob):
     def branch(self) -> dict[str, Any]:
         """Branches of a continuation as they are now: ``columns`` and ``special`` orbits of each.
 
-        `poincare` has the columns as a table.
+        Where a second parameter varies, curves of special orbits follow, ``of`` a label. `poincare`
+        has the columns as a table.
         """
         return self.results.branch()
 

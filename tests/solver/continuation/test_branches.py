@@ -122,8 +122,22 @@ def test_beside_the_fold_there_is_an_orbit_on_one_side_alone() -> None:
         assert orbit["impacts"][0] == impacts
 
 
-def test_a_branch_that_is_cut_and_continued_has_the_same_bits() -> None:
-    job = JOB | {"values": {"from": 25.0, "to": 24.3, "count": 30}, "settle": 10}
+OVER_AMPLITUDE = {
+    "values": {"from": 19.4, "to": 19.0, "count": 30},
+    "largest_step": 0.2,
+    "second": {
+        "parameter": "amplitude",
+        "values": {"from": 4e-3, "to": 6e-3, "count": 3},
+        "curves": 2,
+    },
+}
+
+
+@pytest.mark.parametrize(
+    "fields", [{"values": {"from": 25.0, "to": 24.3, "count": 30}}, OVER_AMPLITUDE]
+)
+def test_a_branch_that_is_cut_and_continued_has_the_same_bits(fields: dict[str, Any]) -> None:
+    job = JOB | {"settle": 10} | fields
     study = admitted(job)
     whole = list(computation_of(study, 0).slices())
     news = [one for one in whole if one.rows or one.started or one.ended]
@@ -176,6 +190,34 @@ def test_a_special_orbit_that_is_the_last_of_a_branch_stays_one() -> None:
         rows = next(one["row"] for one in special_ones if one["label"] == "PD") + 1
     assert len(table(list(slices), study)["label"]) == rows < 20
     assert special_ones[-1]["note"] == FULL
+
+
+def test_curves_follow_branches_and_those_for_which_there_is_no_special_orbit_are_empty() -> None:
+    study = admitted(JOB | {"settle": 10} | OVER_AMPLITUDE)
+    slices = list(computation_of(study, 0).slices())
+    ends = [end for one in slices for end in one.ended]
+    assert [end.code for end in ends] == ["", "", ""]
+    assert (ends[0].statistics["doublings"], ends[1].statistics["doublings"]) == (1.0, 0.0)
+    (at,) = [one for one in ends[0].document["special"] if one["label"] == "PD"]  # type: ignore[index]
+    found = table(slices, study, 1)
+    assert len(found["value"]) == ends[1].statistics["orbits"] == 7.0
+    # bounds tell the size of noise in multipliers by one other scale of differences, thus roughly
+    assert found["value"][0] == pytest.approx(
+        at["value"], abs=3 * (at["bound"] + found["bound"][0])
+    )
+    assert at["bound"] + found["bound"][0] < 1e-5
+    assert (np.diff(found["second"][1:4]) > 0.0).all()
+    assert (found["length"][4:] < 0.0).all()
+    assert ends[2].statistics["orbits"] == 0.0
+    branch = table(slices, study)
+    assert set(branch["second"].tolist()) == {5e-3}
+
+
+def test_without_a_first_branch_there_are_no_curves() -> None:
+    study = admitted(JOB | {"period": 2} | OVER_AMPLITUDE)
+    ends = [end for one in computation_of(study, 0).slices() for end in one.ended]
+    assert [end.code for end in ends] == ["no-orbit"] * 3
+    assert "There is no first branch" in ends[1].detail
 
 
 def test_where_there_is_no_orbit_the_branch_fails_and_says_what_to_try() -> None:

@@ -1,0 +1,61 @@
+"""Curves of special orbits over two parameters: folds, doublings, grazing, a line a label."""
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from jointplay.figures import colours, page
+from jointplay.figures.branch import known_branches, name_special
+from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
+from jointplay.figures.quantity import scale
+from jointplay.records.branch import CURVES, LENGTH, SECOND, VALUE, Branch
+from jointplay.records.study import StudySource
+
+_HEIGHT = 65.0  # mm
+_LOOKS: Final = dict(zip(CURVES, colours.COMPARED, strict=False))
+_NAMES: Final = {"LP": "LP fold", "PD": "PD period doubling", "GR": "GR grazing"}
+
+
+def _curves(source: StudySource, selection: Selection) -> list[Branch]:
+    if "labels" not in source.attributes or len(source.parameters) < 2:
+        raise NotDrawable("Curves are drawn of a job of kind continuation with 'second'.")
+    found = [one for one in known_branches(source, selection) if one.of]
+    if not found:
+        raise NotDrawable("No curve of special orbits has been found.")
+    return found
+
+
+def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    _curves(source, selection)
+    return ()
+
+
+def _draw(source: StudySource, selection: Selection) -> page.Figure:
+    curves = _curves(source, selection)
+    across, up = (
+        scale(one.unit, *[curve.column(name) for curve in curves])
+        for one, name in zip(source.parameters, (VALUE, SECOND), strict=True)
+    )
+    figure, (axes,) = page.stack([_HEIGHT], 1)
+    for curve in curves:
+        order = np.argsort(curve.column(LENGTH), kind="stable")
+        x, y = curve.column(VALUE) / across.factor, curve.column(SECOND) / up.factor
+        colour, dashes, _ = _LOOKS[curve.of]
+        (line,) = axes.plot(x[order], y[order], dashes, color=colour, linewidth=0.9)
+        line.set_label(_NAMES[curve.of])
+    for curve in curves:
+        x, y = curve.column(VALUE) / across.factor, curve.column(SECOND) / up.factor
+        name_special(axes, replace(curve, special=curve.special[1:]), x, y)
+    axes.set_ylabel(up.label(source.parameters[1].name))
+    page.finish_stack(figure, [axes], across.label(source.parameters[0].name), axes)
+    return figure
+
+
+CURVES_FIGURE = StudyFigure(
+    name="curves",
+    title="Folds, period doublings and grazing over two parameters",
+    uses=("start", "stop"),
+    channels=_chosen,
+    draw=_draw,
+)
