@@ -6,9 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.continuation import scene
 from benchmarks.rigid_stop import grazing
 from benchmarks.special_curves import apart, curve
-from jointplay.records.branch import SECOND, SECOND_BOUND, VALUE, Branch
+from jointplay.local import run
+from jointplay.records.branch import SECOND, SECOND_BOUND, VALUE, Branch, branches
 
 NEAR: dict[str, dict[str, Any]] = {
     "PD": {"values": {"from": 20.0, "to": 18.8, "count": 30}},
@@ -67,3 +69,25 @@ def test_a_curve_has_the_special_orbit_of_its_branch_at_the_value_of_the_scene()
     critical = np.array([branch.column(f"multiplier_{k}.real") for k in (1, 2)])
     assert np.abs(critical + 1.0).min(axis=0).max() < 1e-4  # as their errors are
     assert not branch.column("unstable").any()  # the critical multiplier is not counted
+
+
+def of_two_periods(amplitude: float, **fields: Any) -> list[Branch]:
+    written = scene(1e8)
+    written["parameters"]["amplitude"]["default"] = amplitude
+    values = {"from": 18.0, "to": 20.5, "count": 30}
+    job = {"kind": "continuation", "scene": written, "parameter": "speed", "values": values}
+    return list(branches(run(job | {"period": 2, "settle": 200} | fields, processes=1).study()))
+
+
+def test_grazing_of_an_orbit_that_has_another_impact_is_where_its_branch_gains_the_second() -> None:
+    values = {"from": 4.9e-3, "to": 5.1e-3, "count": 3}
+    second = {"parameter": "amplitude", "values": values, "labels": ["GR"], "curves": 1}
+    first, found = of_two_periods(5e-3, second=second)
+    last = found.special[1]
+    (other,) = of_two_periods(last.second or 0.0)
+    for at, branch in ((found.special[0], first), (last, other)):
+        (graze,) = [one for one in branch.special if one.label == "GR"]
+        assert graze.note == "an impact begins: 1 before, 2 behind"
+        assert abs(at.value - graze.value) < 1.05 * at.bound + graze.bound
+        assert at.bound < 1e-5
+    assert (found.column("impacts") == 1.0).all()
