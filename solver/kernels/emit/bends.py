@@ -19,6 +19,11 @@ RATES = 0.02
 """Part of the way at the rates of both ends by which slip may go further, too."""
 HALF = 0.5
 """Between two counts."""
+NEAR = 0.25
+"""The most that slip goes beyond its ends, in changes over the step at the rates of both: a cubic
+4/27, slip (1 + BEYOND) times as far, and RATES."""
+ROUNDING = 1e-9
+"""Share of slips by which all that may differ."""
 
 
 def allocate(layout: Layout, pairs: int) -> None:
@@ -34,6 +39,17 @@ def source(layout: Layout, pairs: int) -> str:
     recorder = Recorder()
     passes = [_passes(recorder.variable, j) for j in range(pairs)]
     return lane_function("foresee_bends", [("may_pass_bend", reduce(maximum, passes))], layout)
+
+
+def comes_near(v: Callable[[str], Expression], j: int) -> Expression:
+    """Return a number that is positive where pair j may pass, and wherever else a bend is near."""
+    before, now = v(f"slip_start{j}"), v(f"slip{j}")
+    rates = v("tried") * (abs(v(f"slip_rate_start{j}")) + abs(v(f"slip_rate{j}")))
+    middle = 0.5 * abs(before + now)  # the same either way
+    distances = (abs(middle - v(f"bend{k}")) for k in range(BENDS * j, BENDS * (j + 1)))
+    reach = 0.5 * abs(now - before) + NEAR * rates + ROUNDING * (abs(before) + abs(now))
+    found: Expression = select_positive(v(f"mode{j}"), reach - reduce(minimum, distances), 0.0)
+    return found
 
 
 def _passes(v: Callable[[str], Expression], j: int) -> Expression:

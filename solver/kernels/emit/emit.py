@@ -105,6 +105,15 @@ class Tape:
         """Note the lanes in which an expression is positive, in the row's byte of a block."""
         self.lines.append(f"mark {self.layout[name]} {self._evaluate(expression)}")
 
+    def store_and_go_on_where(self, expression: Expression, outputs: Outputs) -> None:
+        """Store in rows; have what follows done only if an expression is positive in any lane.
+
+        The expression is of what the rows hold before.
+        """
+        found = self._evaluate(expression)
+        self.store_rows(outputs)
+        self.lines.append(f"where {found}")
+
     def store_rows(self, outputs: Outputs) -> None:
         """Evaluate outputs, then store them in the row of blocks, given by their first slots."""
         values = [self._evaluate(expression) for _, expression in outputs]

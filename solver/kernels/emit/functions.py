@@ -18,7 +18,7 @@ WORK = float64[:, ::1]
 
 OVER_LANES = types.FunctionType(void(WORK))
 JUDGING = types.FunctionType(float64(WORK))
-"""Attempts a step; the largest flag of a lane."""
+"""Attempts a step, or looks at all lanes; the largest of their numbers."""
 MARKING = types.FunctionType(int64(WORK))
 """Looks at all channels; bit k is set for lane k where one may have passed an extreme."""
 WITHIN_STEP = types.FunctionType(void(WORK, WORK, int64))
@@ -32,6 +32,7 @@ SIGNATURES: Mapping[str, types.FunctionType] = {
     "weigh": OVER_LANES,
     "observe": OVER_LANES,
     "observe_rest": OVER_LANES,
+    "foresee_looks": JUDGING,
     "foresee_bends": OVER_LANES,
     "scan": MARKING,
     "scan_some": MARKING,

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from functools import reduce
 from itertools import count
+from operator import add
 
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit import closing, enclosure, scanning
@@ -82,18 +83,18 @@ class JudgedStep:
         due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
         pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
         swinging, swing = self._swinging()
-        flag = REJECTED * (1.0 - good) + due + pace + swinging
+        attention = REJECTED * (1.0 - good) + due + pace
         away = self._away()
         flags = [
             contact_flags(v, j, away, shape, held, shortened=bool(self.tableau.error))
             for j, (shape, held) in enumerate(self._enclosures())
         ]
-        for kind in zip(*flags, strict=True):
-            flag = flag + reduce(maximum, kind)
-        flag = select_positive(v("active"), flag, number(0.0))
+        kinds = [reduce(maximum, kind) for kind in zip(*flags, strict=True)]
+        attention = select_positive(v("active"), reduce(add, kinds[:-1], attention), number(0.0))
+        inside = select_positive(v("active"), reduce(add, kinds[-1:], swinging), number(0.0))
         outputs = [
             ("accept", good * v("active")),
-            ("flag", flag),
+            ("flag", attention + inside),
             ("next_step", next_step),
             ("swing", swing),
             *resumed,
@@ -102,7 +103,7 @@ class JudgedStep:
         ]
         tape = Tape(self.layout)
         tape.store(outputs)
-        tape.give(flag)
+        tape.give(attention)
         return tape.function("judge")
 
     def _at_knots(

@@ -22,8 +22,10 @@ NOTICED = 0.01
 
 REJECTED, DUE, ONSET, RELEASE, PACE, PASSING, SWINGING = 1, 2, 4, 8, 16, 32, 64
 """Bit mask of what a lane's attempt asks the loop to look after; lanes hold it as a float."""
+ATTENTION = REJECTED | DUE | ONSET | RELEASE | PACE
+"""Flags that have a lane looked after by itself."""
 INSIDE = PASSING | SWINGING
-"""Flags of steps that may have extremes inside which their ends do not tell."""
+"""Flags of steps that may have extremes inside which their ends do not tell; the largest."""
 
 
 def growth(order: float, good: Expression, magnitude: Expression, memory: Expression) -> Expression:

@@ -10,7 +10,14 @@ from numpy.typing import NDArray
 from jointplay.solver.integrators import Method
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.cache import load
-from jointplay.solver.kernels.emit import bends, implicit, inside, scanning, stepping
+from jointplay.solver.kernels.emit import (
+    bends,
+    closer_looks,
+    implicit,
+    inside,
+    scanning,
+    stepping,
+)
 from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function, module_source
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.places import DenseRow, StepRow, places_of
@@ -122,6 +129,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
             steps.source(energies, fixed),
             scanning.source(layout, rows.scanned),
             bends.source(layout, pairs),
+            closer_looks.source(layout, pairs, always=tableau.watched_closely or inner > 0),
             inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
         ]
     )

@@ -64,6 +64,19 @@ class Lanes:
         )
         self._begin(f"end{number}")
 
+    @contextmanager
+    def where(self, x: str) -> Iterator[None]:
+        """Have what is written inside done if a number is positive in any lane."""
+        self._names += 1
+        then, behind = f"then{self._names}", f"behind{self._names}"
+        bits = self.new(f"bitcast <{self.count} x i1> {self.positive(x)} to i{self.count}")
+        found = self.new(f"icmp ne i{self.count} {bits}, 0")
+        self.lines.append(f"br i1 {found}, label %{then}, label %{behind}")
+        self._begin(then)
+        yield
+        self.lines.append(f"br label %{behind}")
+        self._begin(behind)
+
     def _begin(self, block: str) -> None:
         self.lines.append(f"{block}:")
         self._block = block

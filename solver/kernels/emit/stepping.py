@@ -29,10 +29,11 @@ ENDS = ("gap", "gap_rate", "slip", "slip_rate")
 
 def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) -> None:
     """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
-    layout.add("time", "step", "tried", "arrival", "stage_time", "theta", "lengthening", "reach")
+    layout.add("time", "step", "tried", "arrival", "stage_time", "theta")
+    layout.add("lengthening", "reach", "nearness")
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
     layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
-    layout.add("look_at", "look_beyond", "swing", "seeks_extremes")
+    layout.add("look_at", "look_beyond", "swing", "seeks_extremes", "rough_until")
     layout.add_block("y", states)
     for s in range(1, stages + 1):  # equal pieces, which the slopes are written into
         layout.add_block(f"k{s}_", states)
@@ -153,7 +154,7 @@ class StepRecorder(JudgedStep):
         return f"kledger{s}_{i}"
 
     def _attempt(self) -> str:
-        """Attempt a step. Returns the largest flag of a lane."""
+        """Attempt a step. Returns the largest flag that has a lane looked after by itself."""
         calls = self._calls()
         if self.equations.corrections:  # where the step ends, before its slopes are evaluated
             calls.insert(-1, "project")

@@ -18,6 +18,7 @@ something is positive::
 
     v0 = load 12+           slot 12 + row
     mark 14 v3              byte `row` of slot 14 and those behind it: bit k is set where lane k is
+    where v3                what follows is done if it is positive in any lane; else no bit is set
 
 A step is a tape that calls others of its module, and has equations solved::
 
@@ -107,8 +108,13 @@ class _Tape:
 
     def run(self, tape: str) -> None:
         """Write the code of a tape's lines."""
-        for line in tape.strip().splitlines():
+        lines = tape.strip().splitlines()
+        for i, line in enumerate(lines):
             words = line.split()
+            if words[0] == "where":
+                with self.lanes.where(self._value(words[1])):
+                    self.run("\n".join(lines[i + 1 :]))
+                return
             if words[1] == "=":
                 self.values[words[0]] = self._made(*words[2:])
             else:

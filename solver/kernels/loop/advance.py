@@ -82,7 +82,7 @@ def advance(
         if crossing:
             crossed, filled = cross_lanes(group, rows)
             quiet, full = quiet and not crossed, full or filled
-        if watch:
+        if watch and (not quiet or call.foresee_looks(work) > 0.0):
             call.foresee_bends(work)
             look_closer_at_lanes(group)
         if watch or crossing:  # a scan also keeps the values from which channels go on

@@ -165,7 +165,8 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     for name in ("time", "stage_time", "before_time"):
         lane[name] = since
     lane["pace_at"] = PACE_STEPS
-    lane["look_at"] = lane["look_beyond"] = lane["swing"] = 0.0
+    for name in ("look_at", "look_beyond", "swing", "rough_until"):
+        lane[name] = 0.0
     lane["smallest_step"] = period
     for k, clock in enumerate(clocks(scene).values()):
         travel = clock.rate * period / (clock.turn or 1.0)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from jointplay.solver.kernels.emit.judging import ATTENTION
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.loop.accepted_steps import write_step
@@ -49,7 +50,7 @@ def attend_lanes(group: Group, rows: np.ndarray) -> bool:
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
         flag = int(s.work[s.at.flag, lane])
-        wanted = flag != 0 or s.run.landing != NO_PAIR
+        wanted = flag & ATTENTION != 0 or s.run.landing != NO_PAIR
         if wanted and s.work[s.at.active, lane] > 0.0:
             full |= attend(flag, s, rows)
     return full
@@ -106,7 +107,7 @@ def settle_lanes(group: Group, buffers: Buffers) -> bool:
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
         flag = int(s.work[s.at.flag, lane])
-        wanted = flag != 0 or s.run.landing != NO_PAIR or has_all_events(s.run)
+        wanted = flag & ATTENTION != 0 or s.run.landing != NO_PAIR or has_all_events(s.run)
         if wanted and s.work[s.at.accept, lane] > 0.0:
             full |= settle(flag, s, buffers)
     return full

@@ -9,14 +9,13 @@ is, and all that follow a rough one.
 
 import numpy as np
 
+from jointplay.solver.kernels.emit.closer_looks import EVERY
 from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.seeking import HALF
 from jointplay.solver.kernels.loop.step import Step
 
-EVERY = 256
-"""Steps from one look inside to the next, and those that are looked at after a rough one."""
 ROUGH = 0.003
 """Share of a channel's range by which it leaves its values at the ends of a rough step."""
 SEEN = 1e-6
@@ -33,7 +32,7 @@ ROUNDING = 1e-13
 def is_due(s: Step) -> bool:
     """Whether a step is to be looked at inside, rough or not."""
     steps = int(s.work[s.at.steps, s.lane])
-    return bool(steps < s.run.rough_until or steps % EVERY == EVERY - 1)
+    return bool(steps < s.work[s.at.rough_until, s.lane] or steps % EVERY == EVERY - 1)
 
 
 @inner_kernel()
@@ -74,7 +73,7 @@ def may_set_records(s: Step) -> bool:
     if rough:
         s.run.rough += 1
     if rough and near and not int(work[at.flag, lane]) & SWINGING:
-        s.run.rough_until = steps + EVERY
+        work[at.rough_until, lane] = steps + EVERY
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
     work[at.look_beyond, lane] = work[at.swing, lane] * max(GROWTH, SEEN / (most + 1e-300))
     return near

@@ -69,8 +69,6 @@ class Run:
     """Onsets slower than the floor of their impact rate."""
     rough: int
     """Steps that were found to be rough inside; see `solver.kernels.loop.roughness`."""
-    rough_until: int
-    """Number of the step up to which each is looked at inside for that reason."""
     landing: int
     """Joint on whose onset the step is to end; `NO_PAIR`: none."""
     landings: int

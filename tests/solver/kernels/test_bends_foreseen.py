@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.emit.bends import BEYOND, RATES
+from jointplay.solver.kernels.emit.closer_looks import EVERY
+from jointplay.solver.kernels.emit.judging import ATTENTION, PASSING, SWINGING
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.target import own_target
@@ -78,3 +80,52 @@ def test_what_is_apart_passes_none(kernel: Kernel) -> None:
         work[layout["mode0"]] = mode
         kernel.module.foresee_bends(work)
         assert ((work[layout["may_pass_bend"]] > 0.0) == (mode > 0.0)).all()
+
+
+def test_looks_are_foreseen_wherever_bends_are(kernel: Kernel) -> None:
+    """One lane at a time: the others are apart, so that what is told is told of it."""
+    random, lanes = np.random.default_rng(2), own_target().lanes
+    work, layout = np.zeros((kernel.layout.size, lanes)), kernel.layout
+    work[layout.block("bend")] = BENDS[:, None]
+    work[layout["tried"]] = 1.0
+    passing = quiet = 0
+    for draw in range(2000):
+        work[layout["mode0"]] = np.arange(lanes) == draw % lanes
+        far = 10.0 ** random.uniform(-3.0, 0.0)
+        work[layout["slip_start0"]] = random.uniform(-0.7, 0.7, lanes)
+        work[layout["slip0"]] = work[layout["slip_start0"]] + random.normal(0.0, far, lanes)
+        for name in ("slip_rate_start0", "slip_rate0"):
+            work[layout[name]] = random.normal(0.0, 2.0 * far, lanes)
+        foreseen = kernel.module.foresee_looks(work) > 0.0
+        kernel.module.foresee_bends(work)
+        bends = bool((work[layout["may_pass_bend"]] > 0.0).any())
+        assert foreseen or not bends
+        passing, quiet = passing + bends, quiet + (not foreseen)
+    assert passing > 200
+    assert quiet > 400  # it is worth asking
+
+
+@pytest.mark.parametrize(
+    ("slot", "steps", "value", "foreseen"),
+    [
+        ("flag", 100.0, float(ATTENTION), False),
+        ("flag", 100.0, float(PASSING), True),
+        ("flag", 100.0, float(SWINGING), True),
+        ("rough_until", 100.0, 100.0, False),
+        ("rough_until", 100.0, 101.0, True),
+        ("steps", 0.0, EVERY - 2.0, False),
+        ("steps", 0.0, EVERY - 1.0, True),
+        ("steps", 0.0, 7.0 * EVERY - 1.0, True),
+        ("steps", 0.0, 7.0 * EVERY, False),
+    ],
+)
+def test_looks_are_foreseen_where_steps_say_so(
+    kernel: Kernel, slot: str, steps: float, value: float, *, foreseen: bool
+) -> None:
+    lanes = own_target().lanes
+    for lane in range(lanes):
+        work, layout = np.zeros((kernel.layout.size, lanes)), kernel.layout
+        work[layout.block("bend")] = np.inf
+        work[layout["mode0"]], work[layout["steps"]] = 1.0, steps
+        work[layout[slot], lane] = value
+        assert (kernel.module.foresee_looks(work) > 0.0) == foreseen

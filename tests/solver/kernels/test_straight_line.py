@@ -118,6 +118,9 @@ def test_rows_mark_the_lanes_that_are_positive(numbers: list[float]) -> None:
     assert np.array_equal(work[16:21], 2.0 * work[8:13])
 
 
+SOME_ROWS = compiled(
+    "v0 = load 8+\nmark 1 0.0\nv1 = sub v0 0.5\nwhere v1\nmark 1 v0\nstore 16+ v0", "rows", 5
+)
 ROWS = compiled("v0 = load 8+\nv1 = mul 2.0 v0\nmark 1 v0\nstore 16+ v1", "rows", 5)
 
 
@@ -140,3 +143,16 @@ def test_a_tape_for_one_row_moves_its_slots() -> None:
     expected = work[2] + work[7]
     moved(work, 3)
     assert work[11].tolist() == expected.tolist()
+
+
+@given(numbers=st.lists(st.floats(-1.0, 1.0), min_size=5 * LANES, max_size=5 * LANES))
+def test_what_follows_is_done_in_rows_where_a_lane_says_so(numbers: list[float]) -> None:
+    work = np.zeros((SLOTS, LANES))
+    work[8:13] = np.array(numbers).reshape(5, LANES)
+    found = SOME_ROWS(work)
+    for row in range(5):
+        wanted = (work[8 + row] > 0.5).any()
+        marked = sum(1 << k for k in range(LANES) if work[8 + row, k] > 0.0) if wanted else 0
+        assert work[1].view(np.uint8)[row] == marked
+        assert np.array_equal(work[16 + row], work[8 + row] if wanted else np.zeros(LANES))
+    assert found == np.bitwise_or.reduce(work[1].view(np.uint8)[:5])
