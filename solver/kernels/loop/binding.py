@@ -165,7 +165,7 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     for name in ("time", "stage_time", "before_time"):
         lane[name] = since
     lane["pace_at"] = PACE_STEPS
-    for name in ("look_at", "look_beyond", "swing", "rough_until"):
+    for name in ("look_at", "look_beyond", "swing", "rough_until", "widest"):
         lane[name] = 0.0
     lane["smallest_step"] = period
     for k, clock in enumerate(clocks(scene).values()):

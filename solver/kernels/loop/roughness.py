@@ -12,18 +12,16 @@ import numpy as np
 from jointplay.solver.kernels.emit.closer_looks import EVERY
 from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.seeking import HALF
 from jointplay.solver.kernels.loop.step import Step
+from jointplay.solver.kernels.loop.swinging import (
+    GROWTH,
+    NEARBY,
+    SEEN,
+    UNEVEN,
+    WIDELY,
+    weigh_swings,
+)
 
-ROUGH = 0.003
-"""Share of a channel's range by which it leaves its values at the ends of a rough step."""
-SEEN = 1e-6
-"""The same, from which on a swing is worth a search."""
-REACH = 4.0
-"""Times that a swing may be larger between the instants, or in the next steps."""
-GROWTH = 30.0
-"""Times by which swings grow until steps are looked at again."""
 ROUNDING = 1e-13
 """Share of the largest range of all channels that a range of nothing but rounding is below."""
 
@@ -44,49 +42,23 @@ def may_set_records(s: Step) -> bool:
     as a swing goes, or when one swings more.
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
-    widest, rough, near, most, pause = 0.0, False, False, 0.0, EVERY - 1.0
-    for r in range(at.contact_row):  # behind are records of single contacts
-        widest = max(widest, work[at.highest + r, lane] - work[at.lowest + r, lane])
-    for r in range(at.contact_row):
-        lowest, highest = work[at.lowest + r, lane], work[at.highest + r, lane]
-        spread = highest - lowest
-        if spread <= ROUNDING * widest:
-            continue
-        first, last = spare[at.channel + r, 0], spare[at.channel + r, INSTANTS - 1]
-        low, high = min(first, last), max(first, last)
-        least, most_here = low, high
-        for i in range(1, INSTANTS - 1):
-            least = min(least, spare[at.channel + r, i])
-            most_here = max(most_here, spare[at.channel + r, i])
-        above, below = most_here - high, low - least
-        swing = max(above, below)
-        rough |= swing > ROUGH * spread
-        near |= above > SEEN * spread and high + REACH * above > highest
-        near |= below > SEEN * spread and low - REACH * below < lowest
-        most = max(most, swing / spread)
-        if swing > SEEN * spread:
-            middle = spare[at.channel + r, HALF - 1] + spare[at.channel + r, HALF]
-            bend = 4.0 * (first + last - middle)
-            rest = min(highest - high, low - lowest)
-            pause = min(pause, steps_until(rest, last - first, bend, REACH * swing))
+    answer, pause, most, least = 0, 0.0, 0.0, ROUNDING * work[at.widest, lane]
+    records = (at.highest, at.lowest, at.contact_row)  # behind are those of single contacts
+    for _ in range(2):
+        answer, pause, most, widest, narrowest = weigh_swings(
+            spare, at.channel, work, records, lane, least, EVERY - 1.0
+        )
+        work[at.widest, lane] = widest
+        if least <= ROUNDING * widest < narrowest:
+            break  # else the widest has become wider since the last look
+        least = ROUNDING * widest
     steps = int(work[at.steps, lane])
+    near, rough = answer & NEARBY != 0, answer & UNEVEN != 0
     if rough:
         s.run.rough += 1
     if rough and near and not int(work[at.flag, lane]) & SWINGING:
         work[at.rough_until, lane] = steps + EVERY
+    growth = GROWTH if answer & WIDELY else max(GROWTH, SEEN / (most + 1e-300))
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
-    work[at.look_beyond, lane] = work[at.swing, lane] * max(GROWTH, SEEN / (most + 1e-300))
+    work[at.look_beyond, lane] = work[at.swing, lane] * growth
     return near
-
-
-@inner_kernel()
-def steps_until(rest: float, change: float, bend: float, swing: float) -> float:
-    """Return in how many steps a swing may come to a record that now is farther by `rest`.
-
-    Ends of steps must come as close to it, and turn: while they change by more than that from one
-    step to the next, the next one is beyond all that is in this. They are taken to change and bend
-    twice as much as in this step.
-    """
-    speed, bend = abs(change), abs(bend) + 1e-300
-    close = max(rest - swing, 0.0)
-    return 0.5 * max(close / (speed + np.sqrt(bend * close) + 1e-300), (speed - swing) / bend)

@@ -1,14 +1,10 @@
-"""Eight channels at eight instants each: which of them may be beyond a record in between.
-
-A channel at a time this took longer than computing the channels did.
-"""
+"""Eight channels at eight instants each: which of them may be beyond a record in between."""
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
 
 from collections.abc import Callable
 from typing import Any, cast
 
-from llvmlite import ir
 from numba import int64
 from numba.extending import intrinsic
 
@@ -21,6 +17,7 @@ from jointplay.solver.kernels.loop.book import (
     RANGE,
     ROUNDING,
 )
+from jointplay.solver.kernels.loop.eights import WORD, Eights
 from jointplay.solver.kernels.loop.seeking import SHARP
 from jointplay.solver.kernels.loop.tops import CORNER
 
@@ -30,10 +27,6 @@ ONE_BY_ONE = 8
 """Bits of an answer for the channels, whose values are to be counted one by one."""
 JAGGED = 16
 """Bits of an answer for the channels which turn at every instant, if that is no rounding."""
-
-NUMBER, WORD, PLACE = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
-EIGHT = ir.VectorType(NUMBER, INSTANTS)
-ALIGNED = 8
 
 
 def _screen(
@@ -67,7 +60,7 @@ def _screen(
             for k in (0, 2)
         ]
         width = builder.extract_value(arrays[1].shape, 1)
-        vectors = _Vectors(builder, arrays[0].data, arrays[1].data, width, arguments[3])
+        vectors = _Book(builder, arrays[0].data, arrays[1].data, width, arguments[3])
         return _answer(vectors, arguments[1], *arguments[4:])
 
     return int64(values, row, book, first, begin, end, sharp), generate
@@ -78,10 +71,10 @@ screen = cast(Callable[..., int], intrinsic(_screen))
 
 def _answer(at, row, begin, end, sharp):
     """Generate the code of `screen`."""
-    b, v = at.builder, at.channels(row)
+    b, v = at.builder, at.of(row)
     last = INSTANTS - 1
-    low, high = at.load(LOWEST), at.load(HIGHEST)
-    low_time, high_time = at.load(LOWEST_TIME), at.load(HIGHEST_TIME)
+    low, high = at.line(LOWEST), at.line(HIGHEST)
+    low_time, high_time = at.line(LOWEST_TIME), at.line(HIGHEST_TIME)
     for value, time in ((v[0], at.same(begin)), (v[last], at.same(end))):
         below, above = at.less(value, low), at.less(high, value)
         low, low_time = b.select(below, value, low), b.select(below, time, low_time)
@@ -92,7 +85,7 @@ def _answer(at, row, begin, end, sharp):
         (LOWEST_TIME, low_time),
         (HIGHEST_TIME, high_time),
     ):
-        at.store(line, found)
+        at.write(line, found)
     least, most, bend = v[1], v[1], None
     for i in range(1, last):
         least, most = at.smaller(least, v[i]), at.larger(most, v[i])
@@ -102,8 +95,8 @@ def _answer(at, row, begin, end, sharp):
         at.larger(most, at.larger(v[0], v[last])), at.smaller(least, at.smaller(v[0], v[last]))
     )
     own = b.fmul(at.number(ULPS), at.larger(at.size(v[0]), at.size(v[last])))
-    moves = at.less(at.larger(at.load(ROUNDING), own), far)
-    spread = at.load(RANGE)
+    moves = at.less(at.larger(at.line(ROUNDING), own), far)
+    spread = at.line(RANGE)
     beyond = b.fsub(b.fmul(at.number(CORNER), bend), b.fmul(at.same(sharp), spread))
     inside = b.or_(at.less(high, b.fadd(most, beyond)), at.less(b.fsub(least, beyond), low))
     wide = at.larger(spread, b.fsub(high, low))
@@ -146,84 +139,22 @@ def _hides_beside_ends(at, v, low, high, sharp):
     return found
 
 
-class _Vectors:
-    """Eight numbers at a time: of arrays, and arithmetic."""
+class _Book(Eights):
+    """Channels, and their lines in a book."""
 
     def __init__(self, builder, values, book, width, first) -> None:
-        self.builder, self._values, self._book = builder, values, book
-        self._width, self._first = width, first
+        super().__init__(builder)
+        self._values, self._book, self._width, self._first = values, book, width, first
 
-    def channels(self, row):
+    def of(self, row):
         """Return eight channels at each of eight instants."""
-        vectors = [self._at(self._values, self.builder.add(row, WORD(k))) for k in range(INSTANTS)]
-        return _transposed(self.builder, [self._load(one) for one in vectors])
+        return self.channels(self._values, row)
 
-    def load(self, line):
-        return self._load(self._place(line))
+    def line(self, line):
+        return self.load(self._book, self._place(line))
 
-    def store(self, line, vector) -> None:
-        self.builder.store(vector, self._place(line), align=ALIGNED)
-
-    def same(self, number):
-        """Return a number eight times."""
-        undefined = ir.Constant(EIGHT, ir.Undefined)
-        alone = self.builder.insert_element(undefined, number, PLACE(0))
-        return self.builder.shuffle_vector(alone, undefined, _order([0] * INSTANTS))
-
-    def number(self, value):
-        return ir.Constant(EIGHT, [value] * INSTANTS)
-
-    def less(self, x, y):
-        """Return where x < y; nowhere where one is no number."""
-        return self.builder.fcmp_ordered("<", x, y)
-
-    def smaller(self, x, y):
-        return self.builder.select(self.less(x, y), x, y)
-
-    def larger(self, x, y):
-        return self.builder.select(self.less(y, x), x, y)
-
-    def size(self, x):
-        """Return x without its sign."""
-        words = ir.VectorType(WORD, INSTANTS)
-        kept = self.builder.and_(
-            self.builder.bitcast(x, words), ir.Constant(words, [2**63 - 1] * INSTANTS)
-        )
-        return self.builder.bitcast(kept, EIGHT)
-
-    def bits(self, marks):
-        """Return bit k where mark k is set."""
-        return self.builder.zext(self.builder.bitcast(marks, ir.IntType(INSTANTS)), WORD)
-
-    def _load(self, place):
-        return self.builder.load(place, align=ALIGNED)
-
-    def _at(self, array, row):
-        offset = self.builder.mul(row, WORD(INSTANTS))
-        return self._pointer(array, offset)
+    def write(self, line, vector) -> None:
+        self.store(self._book, self._place(line), vector)
 
     def _place(self, line):
-        offset = self.builder.add(self.builder.mul(self._width, WORD(line)), self._first)
-        return self._pointer(self._book, offset)
-
-    def _pointer(self, array, offset):
-        return self.builder.bitcast(self.builder.gep(array, [offset]), EIGHT.as_pointer())
-
-
-def _transposed(builder, rows):
-    """Return the columns of eight rows: pairs are exchanged across 1, 2 and 4 of them."""
-    for half in (1, 2, 4):
-        upper = [k for k in range(INSTANTS) if not k & half]
-        lower = [INSTANTS + k - half if k & half else k for k in range(INSTANTS)]
-        right = [INSTANTS + k if k & half else k + half for k in range(INSTANTS)]
-        found = list(rows)
-        for k in upper:
-            pair = rows[k], rows[k + half]
-            found[k] = builder.shuffle_vector(*pair, _order(lower))
-            found[k + half] = builder.shuffle_vector(*pair, _order(right))
-        rows = found
-    return rows
-
-
-def _order(places: list[int]) -> Any:
-    return ir.Constant(ir.VectorType(PLACE, len(places)), places)
+        return self.builder.add(self.builder.mul(self._width, WORD(line)), self._first)

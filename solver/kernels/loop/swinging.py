@@ -1,0 +1,211 @@
+"""Channels of a step at eight instants: by how much they leave their ends' values, eight at once.
+
+A channel at a time, this took longer than all else that extremes take in a step that swings.
+"""
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
+
+from collections.abc import Callable
+from typing import Any, cast
+
+from numba import float64, int64, types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.eights import WORD, Eights
+from jointplay.solver.kernels.loop.seeking import HALF
+
+ROUGH = 0.003
+"""Share of a channel's range by which it leaves its values at the ends of a rough step."""
+SEEN = 1e-6
+"""The same, from which on a swing is worth a search."""
+REACH = 4.0
+"""Times that a swing may be larger between the instants, or in the next steps."""
+GROWTH = 30.0
+"""Times by which swings grow until steps are looked at again."""
+MUCH = 2.0 * SEEN / GROWTH
+"""Share of its range by which a channel swings so much that `GROWTH` is all."""
+BARELY = 1.0 + 1e-9
+"""A factor that is more than all rounding here."""
+TINY = 1e-300
+NEARBY, UNEVEN, WIDELY = (0xFF << shift for shift in (0, 8, 16))
+"""Bits of an answer for a channel of each eight: has a record in reach; is rough; swings much."""
+FOUND = types.Tuple((int64, *[float64] * 4))
+
+
+def _weigh(
+    _typing: Any,
+    values: Any,
+    channel: Any,
+    work: Any,
+    records: Any,
+    lane: Any,
+    least: Any,
+    pause: Any,
+) -> Any:
+    """Return what the channels of a step come to.
+
+    Parameters
+    ----------
+    values : (slots, INSTANTS)
+        At even instants, from the slot `channel` on.
+    work : (slots, lanes)
+        Has the lane's records.
+    records
+        Slots of the first highest and lowest value, number of channels.
+    least
+        Range of channels that are left out.
+    pause
+        Steps.
+
+    Returns
+    -------
+    Bits of `NEARBY`, `UNEVEN`, `WIDELY`. In how many steps a swing may come to a record, if less
+    than the pause. The largest share of its range by which a channel swings, where that is not
+    much. The largest range, and the smallest of those that are not left out.
+    """
+
+    def generate(context, builder, signature, arguments):
+        spare, lanes = (
+            context.make_array(signature.args[k])(context, builder, value=arguments[k])
+            for k in (0, 2)
+        )
+        at = _Channels(builder, spare.data, lanes, arguments[4])
+        slots = cgutils.unpack_tuple(builder, arguments[3], 3)
+        found = _Found(at, arguments[6])
+        groups = builder.udiv(builder.add(slots[2], WORD(INSTANTS - 1)), WORD(INSTANTS))
+        with cgutils.for_range(builder, groups) as loop:
+            first = builder.mul(loop.index, WORD(INSTANTS))
+            v = at.channels(at.spare, builder.add(arguments[1], first))
+            highest, lowest = (at.of_lane(builder.add(slot, first)) for slot in slots[:2])
+            kept = at.first(builder.sub(slots[2], first))
+            _add(found, at, v, highest, lowest, kept, arguments[5])
+        return context.make_tuple(builder, FOUND, found.numbers())
+
+    return FOUND(values, channel, work, records, lane, least, pause), generate
+
+
+weigh_swings = cast(Callable[..., tuple[int, float, float, float, float]], intrinsic(_weigh))
+
+
+def _add(found, at, v, highest, lowest, kept, least):
+    """Let eight channels count."""
+    b, last = at.builder, INSTANTS - 1
+    spread = b.fsub(highest, lowest)
+    found.widest.let(at.larger, b.select(kept, spread, at.number(0.0)))
+    kept = b.and_(kept, b.not_(b.fcmp_ordered("<=", spread, at.same(least))))
+    found.narrowest.let(at.smaller, b.select(kept, spread, at.number(float("inf"))))
+    low, high = at.smaller(v[0], v[last]), at.larger(v[0], v[last])
+    bottom, top = low, high
+    for i in range(1, last):
+        bottom, top = at.smaller(bottom, v[i]), at.larger(top, v[i])
+    above, below = b.fsub(top, high), b.fsub(low, bottom)
+    swing, seen = at.larger(above, below), at.times(SEEN, spread)
+    upwards = b.and_(at.less(seen, above), at.less(highest, b.fadd(high, at.times(REACH, above))))
+    downwards = b.and_(at.less(seen, below), at.less(b.fsub(low, at.times(REACH, below)), lowest))
+    found.mark(NEARBY, b.and_(kept, b.or_(upwards, downwards)))
+    found.mark(UNEVEN, b.and_(kept, at.less(at.times(ROUGH, spread), swing)))
+    found.mark(WIDELY, b.and_(kept, at.less(at.times(MUCH, spread), swing)))
+    with b.if_then(b.icmp_unsigned("<", b.load(found.answer), WORD(WIDELY & -WIDELY))):
+        found.largest.let(at.larger, b.select(kept, b.fdiv(swing, spread), at.number(0.0)))
+    middle = b.fadd(v[HALF - 1], v[HALF])
+    bend = at.times(4.0, b.fsub(b.fadd(v[0], v[last]), middle))
+    approach = _Approach(
+        at,
+        at.size(b.fsub(v[last], v[0])),
+        b.fadd(at.size(bend), at.number(TINY)),
+        at.smaller(b.fsub(highest, high), b.fsub(low, lowest)),
+        at.times(REACH, swing),
+    )
+    sooner = b.and_(b.and_(kept, at.less(seen, swing)), approach.may_end(b.load(found.pause)))
+    with b.if_then(b.icmp_unsigned("!=", at.bits(sooner), WORD(0))):
+        steps = at.least(b.select(sooner, approach.steps(), at.number(float("inf"))))
+        before = b.load(found.pause)
+        b.store(b.select(b.fcmp_ordered("<", steps, before), steps, before), found.pause)
+
+
+class _Approach:
+    """In how many steps a swing may come to a record that now is farther by the `rest`.
+
+    Ends of steps must come as close to it, and turn: while they change by more than that from one
+    step to the next, the next one is beyond all that is in this. They are taken to change and bend
+    twice as much as in this step.
+    """
+
+    def __init__(self, at, speed, bend, rest, swing) -> None:
+        """`speed`, `bend` : sizes of a change and a second difference from step to step."""
+        self._at, self._speed, self._bend = at, speed, bend
+        self._close = at.larger(at.builder.fsub(rest, swing), at.number(0.0))
+        self._beyond = at.builder.fsub(speed, swing)
+
+    def steps(self):
+        """Return that."""
+        at, b = self._at, self._at.builder
+        root = at.root(b.fmul(self._bend, self._close))
+        way = b.fadd(b.fadd(self._speed, root), at.number(TINY))
+        later = at.larger(b.fdiv(self._close, way), b.fdiv(self._beyond, self._bend))
+        return at.times(0.5, later)
+
+    def may_end(self, pause):
+        """Return where it may be fewer than a pause, without divisions and roots."""
+        at, b = self._at, self._at.builder
+        twice = at.times(2.0 * BARELY, at.same(pause))
+        bends = b.fmul(twice, self._bend)
+        left = b.fsub(self._close, b.fmul(twice, self._speed))
+        far = at.less(b.fmul(b.fmul(twice, bends), self._close), b.fmul(left, left))
+        late = b.and_(at.less(at.number(0.0), left), far)
+        return b.not_(b.or_(late, at.less(bends, self._beyond)))
+
+
+class _Found:
+    """Numbers that channels have come to so far."""
+
+    def __init__(self, at, pause) -> None:
+        self._at, b = at, at.builder
+        self.answer = cgutils.alloca_once_value(b, WORD(0))
+        self.pause = cgutils.alloca_once_value(b, pause)
+        self.largest, self.widest = _Vector(at, 0.0), _Vector(at, 0.0)
+        self.narrowest = _Vector(at, float("inf"))
+
+    def mark(self, bits, marks) -> None:
+        """Set one of the bits for each mark."""
+        b = self._at.builder
+        shift = WORD((bits & -bits).bit_length() - 1)
+        found = b.or_(b.load(self.answer), b.shl(self._at.bits(marks), shift))
+        b.store(found, self.answer)
+
+    def numbers(self):
+        """Return all."""
+        b, at = self._at.builder, self._at
+        largest, widest = (at.largest(one.now()) for one in (self.largest, self.widest))
+        narrowest = at.least(self.narrowest.now())
+        return [b.load(self.answer), b.load(self.pause), largest, widest, narrowest]
+
+
+class _Vector:
+    """Eight numbers that change."""
+
+    def __init__(self, at, value) -> None:
+        self._builder = at.builder
+        self._place = cgutils.alloca_once_value(at.builder, at.number(value))
+
+    def now(self):
+        return self._builder.load(self._place)
+
+    def let(self, combine, others) -> None:
+        self._builder.store(combine(self.now(), others), self._place)
+
+
+class _Channels(Eights):
+    """Channels of a step, and records of its lane."""
+
+    def __init__(self, builder, spare, lanes, lane) -> None:
+        super().__init__(builder)
+        self.spare, self._data, self._lane = spare, lanes.data, lane
+        self._lanes = builder.extract_value(lanes.shape, 1)
+
+    def of_lane(self, slot):
+        """Return the lane's numbers in eight slots."""
+        first = self.builder.add(self.builder.mul(slot, self._lanes), self._lane)
+        return self.column(self._data, first, self._lanes)
