@@ -114,12 +114,20 @@ class Orbit:
 
     @cached_property
     def error(self) -> float:
-        """Bar of the multipliers: how far differences at two scales are apart."""
+        """How far the multipliers by differences at two scales are apart."""
         return spread(self.multipliers, multipliers_of(self.coarser.monodromy))
+
+    @property
+    def bar(self) -> float:
+        """Bar of the multipliers.
+
+        The finer differences may err on the side of the coarser ones, by more than they are apart.
+        """
+        return 2.0 * self.error
 
     @cached_property
     def sure(self) -> bool:
-        """Whether the bar of the multipliers is small, or no matter: all stay inside the circle."""
+        """Whether the multipliers are known well, or no matter: all stay inside the circle."""
         most = largest(self.multipliers)
         return self.error <= SHARP * max(1.0, most) or most + self.error < 1.0
 

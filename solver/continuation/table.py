@@ -35,7 +35,7 @@ def row_of(row: Row, scene: Scene, seconds: Sequence[float] = ()) -> Floats:
         float(orbit.onsets),
         float(unstable(orbit.multipliers, orbit.curve.of)),
         orbit.residual,
-        orbit.error,
+        orbit.bar,
     ]
     if seconds:
         facts += [*seconds, bounds[1]]
