@@ -30,7 +30,11 @@ OF_ORBITS = (
     ("impacts", "1", "impacts in a period"),
     (UNSTABLE, "1", "multipliers outside of the unit circle; 0: the orbit is stable"),
     ("residual", "1", "distance of section and return, in the scales of the states"),
-    ("multiplier_error", "1", "error of the multipliers: twice what differences at two scales part"),
+    (
+        "multiplier_error",
+        "1",
+        "error of the multipliers: twice what differences at two scales part",
+    ),
 )
 
 
