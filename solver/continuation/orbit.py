@@ -114,7 +114,7 @@ class Orbit:
 
     @cached_property
     def error(self) -> float:
-        """How far the multipliers by differences at two scales are apart."""
+        """Distance of the multipliers by differences at two scales."""
         return spread(self.multipliers, multipliers_of(self.coarser.monodromy))
 
     @property
