@@ -20,7 +20,7 @@ TABLE = Path(__file__).with_name("dear.json")
 TIMES = Path(__file__).parents[1] / "build" / "test-times.json"
 LEAST = 1.0
 """Seconds of processor from which on a test is dear."""
-SHARE = 0.25
+SHARE = 0.15
 """Share of the dear tests of a folder that are run, at least one."""
 ALWAYS = ("tests/test_readme.py", "tests/command_line/test_demo.py")
 
