@@ -3,7 +3,8 @@
 The product's multipliers come from central differences of runs beside one another in one bundle.
 Here each run is a simulation of its own, by another method, a tenth of the tolerance, at other
 distances from the orbit: its section after a period is read from the results. Multipliers agree if
-they differ by less than both errors, that of these differences being how far the distances part.
+they differ by less than both errors, that of these differences being twice how far those of other
+distances are from the nearest, whose noise is largest.
 Orbits in contact at the section are left out: the impact rate there is not read.
 """
 
@@ -152,7 +153,7 @@ def compared(drawn: dict[str, Any], branch: Branch) -> tuple[float, float]:
         np.linalg.eigvals(by_simulations(drawn, columns, share)) for share in DISTANCES
     )
     part = max(_apart(one, fine) for one in coarse)
-    return _apart(own, fine), part + float(columns["multiplier_error"][0])
+    return _apart(own, fine), 2.0 * part + float(columns["multiplier_error"][0])
 
 
 def _matched(places: Floats, like: Floats) -> Floats:
