@@ -26,6 +26,7 @@ ALL = (
     "special_curves",
     "branches",
     "known_orbits",
+    "random_orbits",
     "joined",
     "bucket",
     "restitution",

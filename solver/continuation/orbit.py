@@ -39,7 +39,8 @@ FINER = (1.0, 0.03, 0.001)
 SHARP = 1e-3
 """Error of the multipliers, in the largest, above which a finer scale may be tried."""
 BAR = 3.0
-"""Bar of the multipliers, in how far differences at two scales are apart."""
+"""Bar of the multipliers, in how far differences at two scales are apart: once that is too little
+for 2 of 200 random orbits, by a factor of 1.4 at most (`benchmarks random_orbits`)."""
 
 
 @dataclass(frozen=True)
@@ -123,8 +124,7 @@ class Orbit:
     def bar(self) -> float:
         """Bar of the multipliers.
 
-        The finer differences may err on the side of the coarser ones, by more than they are apart:
-        of 200 random orbits by 2.4 times that (`benchmarks.random_orbits`).
+        The finer differences may err on the side of the coarser ones, by more than they are apart.
         """
         return BAR * self.error
 

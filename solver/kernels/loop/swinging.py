@@ -12,6 +12,7 @@ from numba import float64, int64, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
+from jointplay.solver.kernels.emit.scanning import BARELY
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.eights import WORD, Eights
 from jointplay.solver.kernels.loop.seeking import HALF
@@ -26,8 +27,6 @@ GROWTH = 30.0
 """Times by which swings grow until steps are looked at again."""
 MUCH = 2.0 * SEEN / GROWTH
 """Share of its range by which a channel swings so much that `GROWTH` is all."""
-BARELY = 1.0 + 1e-9
-"""A factor that is more than all rounding here."""
 TINY = 1e-300
 NEARBY, UNEVEN, WIDELY = (0xFF << shift for shift in (0, 8, 16))
 """Bits of an answer for a channel of each eight: has a record in reach; is rough; swings much."""

@@ -9,6 +9,14 @@ COINCIDENT = 1e-300
 """Added to the square of the distance (m^2), so that points in one place divide by no zero."""
 
 
+CHANNELS = (
+    ("force", "N", "tension: positive pulls the points together"),
+    ("length", "m", "distance of the points"),
+    ("rate", "m/s", "rate of the distance"),
+)
+"""Name, unit and meaning of the channels of elements that act along the line between points."""
+
+
 class Distance(NamedTuple):
     """Distance of the second of two points from the first."""
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from jointplay.solver.laws.force.distance import distance
+from jointplay.solver.laws.force.distance import CHANNELS, distance
 from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
 from jointplay.solver.quantities.units import Rule, quantity
 
@@ -30,11 +30,7 @@ class SpringDamper(ForceElement):
             lambda _element: "Without stiffness and damping there is no force; give one of them.",
         ),
     )
-    channels: ClassVar[tuple[tuple[str, str, str], ...]] = (
-        ("force", "N", "tension: positive pulls the points together"),
-        ("length", "m", "distance of the points"),
-        ("rate", "m/s", "rate of the distance"),
-    )
+    channels: ClassVar[tuple[tuple[str, str, str], ...]] = CHANNELS
 
     def effect(self, ends: Ends) -> Effect:
         """Return tension along the line, stored energy k (L - L_0)² / 2 and loss c (dL/dt)²."""

@@ -2,7 +2,7 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from jointplay.solver.laws.force.distance import distance
+from jointplay.solver.laws.force.distance import CHANNELS, distance
 from jointplay.solver.laws.force.law import Effect, Ends
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.quantities.units import quantity
@@ -22,11 +22,7 @@ class Tension(Varying):
 
     type: Literal["tension"]
     magnitude: Annotated[float, quantity("N", ge=-1e12, le=1e12)]
-    channels: ClassVar[tuple[tuple[str, str, str], ...]] = (
-        ("force", "N", "tension: positive pulls the points together"),
-        ("length", "m", "distance of the points"),
-        ("rate", "m/s", "rate of the distance"),
-    )
+    channels: ClassVar[tuple[tuple[str, str, str], ...]] = CHANNELS
 
     def effect(self, ends: Ends) -> Effect:
         """Return the tension along the line; what it puts in is a loss below zero."""

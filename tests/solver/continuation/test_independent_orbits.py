@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from benchmarks.known_orbits import dry_friction
+from benchmarks.known_orbits import dry_friction, with_dry_friction
 from benchmarks.random_orbits import FAMILIES, compared, orbit_of
 
 
@@ -21,3 +21,13 @@ def test_multipliers_are_those_of_simulations_beside_the_orbit(family: str) -> N
         branch = orbit_of(drawn)
     apart, allowed = compared(drawn, branch)
     assert apart <= allowed < 1e-2
+
+
+def test_bars_hold_where_differences_err_by_more_than_they_part() -> None:
+    scene = with_dry_friction(1.1214999325809307, 0.0013524658404446511)
+    scene["forces"]["rubbing"]["magnitude"] = 0.19360304122886432
+    drawn = {"scene": scene, "parameter": "drive"}
+    branch = orbit_of(drawn)
+    assert branch is not None
+    apart, allowed = compared(drawn, branch)
+    assert 1e-8 < apart <= allowed < 1e-6

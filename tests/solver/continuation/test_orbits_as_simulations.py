@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kinds import admit
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.layout import BUNDLE
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
+from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.runs.certificate.companions import Companions
 from tests.solver.completed_runs import run
 from tests.solver.continuation.oscillator import document
 from tests.solver.continuation.test_branches import SOFT, followed, names, table
@@ -86,3 +91,19 @@ def test_drivers_alone_leave_no_state_to_give() -> None:
             }
             | {"duration": 0.1, "state": [0.0]}
         )
+
+
+def test_companions_begin_in_the_contact_that_the_run_begins_in() -> None:
+    """Other impact rates would be other motions, which no distance between companions tells."""
+    scene, latched = document(SOFT), 0.12
+    admission = admit(
+        {"kind": "simulate", "scene": scene, "duration": 0.01, "state": [6e-4, 0.08, latched]}
+    )
+    assert isinstance(admission, Admission)
+    kernel = ready_kernel(admission.scene, "reduced", admission.method)
+    start = LaneStart.at_section(np.array(admission.job["state"]), kernel.states)
+    problem = LaneProblem(admission.scene, 0.01, 1e-8, 0.01, 2, 0, 0.0, start=start)
+    bundle = Bundle(kernel, [problem])
+    Companions.beside(bundle, problem)
+    for lane in map(bundle.lane, range(BUNDLE)):
+        assert (lane["mode"][0], lane["impact_rate"][0]) == (1.0, latched)

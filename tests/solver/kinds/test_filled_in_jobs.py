@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from jointplay.solver.kinds import admit
+from jointplay.solver.kinds import admit, documents
 from jointplay.solver.scene import presets
 from tests.presets_given import given
 
@@ -36,6 +36,16 @@ def test_the_digest_ignores_the_label_and_spelled_out_defaults_but_nothing_else(
     assert admit({**JOB, "tolerance": 1e-7}).digest != first.digest
     changed = {**JOB, "scene": {"preset": "seven-bar-press", "parameters": {"friction": 0.02}}}
     assert admit(changed).digest != first.digest
+
+
+def test_a_field_that_is_newer_than_jobs_changes_no_digest_where_it_is_not_given() -> None:
+    job = {"kind": "simulate", "scene": {"preset": "impact-oscillator"}, "duration": 0.1}
+    found = admit(job)
+    later = ("settle", "state")
+    assert found.digest == documents.digest(
+        {name: value for name, value in found.job.items() if name not in later}
+    )
+    assert admit(job | {"state": [0.0, 0.1]}).digest != found.digest
 
 
 def test_a_parameter_overrides_and_follows_as_declared() -> None:

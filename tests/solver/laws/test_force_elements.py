@@ -299,6 +299,14 @@ def test_an_element_that_cannot_act_is_refused_at_its_field(
     assert words in problem.detail
 
 
+def test_a_tension_has_no_direction_where_its_points_meet() -> None:
+    scene = oscillator()
+    ends = {"first": "ground.guide", "second": "mass.eye"}
+    scene["forces"] = {"magnet": {"type": "tension", "magnitude": 1.0} | ends}
+    with pytest.raises(InvalidInput, match="start in one place"):
+        admit({"kind": "simulate", "scene": scene, "duration": 1.0})
+
+
 def test_points_that_meet_at_the_start_need_no_direction_without_a_free_length() -> None:
     scene = oscillator(first="ground.guide", free_length=0.0)
     np.testing.assert_allclose(run(scene, 1.0)["mass.x"], 0.0, atol=1e-12)
