@@ -54,7 +54,10 @@ class Case:
         jobs = (self.job(i, periods) for i in range(0, len(self.parameters), every))
         duration = periods * self.period
         scenes = (admit(job).scene for job in jobs)
-        return [LaneProblem(s, duration, self.tolerance, duration, 0, 0, 0.0) for s in scenes]
+        less = {"ledger": False} if "ledger" in LaneProblem.__dataclass_fields__ else {}
+        return [
+            LaneProblem(s, duration, self.tolerance, duration, 0, 0, 0.0, **less) for s in scenes
+        ]
 
     def kernel(self) -> Kernel:
         """Return the compiled kernel of all runs."""

@@ -105,6 +105,10 @@ class Tape:
         """Note the lanes in which an expression is positive, in the row's byte of a block."""
         self.lines.append(f"mark {self.layout[name]} {self._evaluate(expression)}")
 
+    def go_on_where(self, expression: Expression) -> None:
+        """Have what follows done only if an expression is positive in any lane."""
+        self.lines.append(f"where {self._evaluate(expression)}")
+
     def store_and_go_on_where(self, expression: Expression, outputs: Outputs) -> None:
         """Store in rows; have what follows done only if an expression is positive in any lane.
 

@@ -82,7 +82,6 @@ class JudgedStep:
         good, next_step, resumed = self._at_knots(good, next_step)
         due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
         pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
-        swinging, swing = self._swinging()
         attention = REJECTED * (1.0 - good) + due + pace
         away = self._away()
         flags = [
@@ -91,20 +90,28 @@ class JudgedStep:
         ]
         kinds = [reduce(maximum, kind) for kind in zip(*flags, strict=True)]
         attention = select_positive(v("active"), reduce(add, kinds[:-1], attention), number(0.0))
-        inside = select_positive(v("active"), reduce(add, kinds[-1:], swinging), number(0.0))
+        inside = select_positive(v("active"), reduce(add, kinds[-1:], v("swinging")), number(0.0))
         outputs = [
             ("accept", good * v("active")),
             ("flag", attention + inside),
             ("next_step", next_step),
-            ("swing", swing),
             *resumed,
             ("new_memory", magnitude),
-            *scanning.reach(v("tried"), v(before("tried"))),
         ]
         tape = Tape(self.layout)
         tape.store(outputs)
         tape.give(attention)
         return tape.function("judge")
+
+    def _look_inside(self) -> str:
+        """Return the source of look_inside(W): what the search for extremes asks of a step."""
+        v = self.variable
+        flag, swing = self._swinging()
+        tape = Tape(self.layout)
+        tape.go_on_where(v("seeks_extremes"))
+        reach = scanning.reach(v("tried"), v(before("tried")))
+        tape.store([("swinging", flag), ("swing", swing), *reach])
+        return tape.function("look_inside")
 
     def _at_knots(
         self, good: Expression, next_step: Expression

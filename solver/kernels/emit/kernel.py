@@ -18,12 +18,20 @@ from jointplay.solver.kernels.emit import (
     scanning,
     stepping,
 )
-from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function, module_source
+from jointplay.solver.kernels.emit.emit import (
+    FixedNodes,
+    Outputs,
+    Tape,
+    lane_function,
+    module_source,
+)
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.places import DenseRow, StepRow, places_of
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import (
+    KEEPS_LEDGER,
     Equations,
+    ledger_slopes,
     needed_again,
     record,
     right_hand_side,
@@ -122,7 +130,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     source = module_source(
         [
             _slope_function(equations, layout, fixed),
-            lane_function("right_hand_side", evaluated, layout, fixed),
+            _right_hand_side(equations, evaluated, layout, fixed),
             lane_function("observe", scanned, layout, fixed, known),
             lane_function("observe_rest", rest, layout, fixed, known),
             lane_function("weigh", energies, layout, fixed, known),
@@ -168,7 +176,19 @@ def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> 
     """
     held = equations.recorder.held.values()
     tape = Tape(layout, fixed, {node: f"inverse_rate{j}" for j, node in enumerate(held)})
-    kept = {"slope": "k1_", "ledger": "kledger1_"}
-    named = [(name.rstrip("0123456789"), name, value) for name, value in slopes(equations)]
-    tape.store_rows([(name.replace(block, kept[block]), value) for block, name, value in named])
+    tape.store_rows([(name.replace("slope", "k1_"), rate) for name, rate in slopes(equations)])
+    tape.go_on_where(equations.recorder.variable(KEEPS_LEDGER))
+    rates = ledger_slopes(equations)
+    tape.store_rows([(name.replace("ledger", "kledger1_"), rate) for name, rate in rates])
     return tape.function("slopes", "row")
+
+
+def _right_hand_side(
+    equations: Equations, outputs: Outputs, layout: Layout, fixed: FixedNodes
+) -> str:
+    """Return the source of right_hand_side(W); the ledger's rates only where they are wanted."""
+    tape = Tape(layout, fixed)
+    tape.store(outputs)
+    tape.go_on_where(equations.recorder.variable(KEEPS_LEDGER))
+    tape.store(ledger_slopes(equations))
+    return tape.function("right_hand_side")

@@ -18,7 +18,7 @@ from jointplay.solver.kernels.emit.emit import (
 )
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import MOTION, Equations
+from jointplay.solver.kernels.record.equations import KEEPS_LEDGER, MOTION, Equations
 from jointplay.solver.kernels.record.reachable import reachable
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
@@ -33,7 +33,9 @@ def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) 
     layout.add("lengthening", "reach", "nearness")
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
     layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
-    layout.add("look_at", "look_beyond", "swing", "seeks_extremes", "rough_until", "widest")
+    layout.add(
+        "widest", "look_at", "look_beyond", "swing", "swinging", "seeks_extremes", "rough_until"
+    )
     layout.add_block("y", states)
     for s in range(1, stages + 1):  # equal pieces, which the slopes are written into
         layout.add_block(f"k{s}_", states)
@@ -41,7 +43,7 @@ def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) 
     layout.add_block("slope", states)
     layout.add_block("ledger", ledger)
     layout.add_block("total", ledger)
-    layout.add("gross", "potential", "stored", "potential_start", "stored_start")
+    layout.add(KEEPS_LEDGER, "gross", "potential", "stored", "potential_start", "stored_start")
     layout.add_block("stage", states)
     layout.add_block("weight", states)
     for name in ENDS:
@@ -85,7 +87,7 @@ class StepRecorder(JudgedStep):
         `energies` : what gravity and contacts store, at the stage.
         """
         parts = [*self._steps(), *self.knots.source(fixed)]
-        parts += [self._judge(), self._attempt(), self._remember()]
+        parts += [self._look_inside(), self._judge(), self._attempt(), self._remember()]
         if self.equations.corrections:
             parts.insert(0, closing.source(self.equations, self.layout, fixed))
         return "\n\n".join([*parts, self._take(energies, fixed)])
@@ -158,15 +160,11 @@ class StepRecorder(JudgedStep):
         calls = self._calls()
         if self.equations.corrections:  # where the step ends, before its slopes are evaluated
             calls.insert(-1, "project")
-        calls = [*self.knots.calls_before, *calls, *self.knots.calls_after]
+        calls = [*self.knots.calls_before, *calls, *self.knots.calls_after, "look_inside"]
         return statements("attempt", [f"call {each}" for each in calls] + ["return call judge"])
 
     def _take(self, energies: Outputs, fixed: FixedNodes) -> str:
-        """Take the step in the lanes that accept it.
-
-        The gross work grows by the magnitudes of what a step's works come to: of each driver, of
-        gravity, of what contacts store and lose, of friction.
-        """
+        """Take the step in the lanes that accept it."""
         v = self.variable
         running = v("active")
         smallest = minimum(v("tried"), v("smallest_step"))
@@ -180,6 +178,29 @@ class StepRecorder(JudgedStep):
         for i in range(self.coordinates, 2 * self.coordinates):
             fastest = maximum(fastest, abs(v(f"stage{i}")) * v(f"weight{i}"))
         outputs.append(("fastest", minimum(fastest, v("full"))))
+        for j in range(self.pairs):
+            outputs += [(f"{name}_start{j}", v(f"{name}{j}")) for name in ENDS]
+        outputs += [(start, v(end)) for start, end in self.knots.ends()]
+        paths = range(len(MOTION) * self.pairs)
+        outputs += [(f"eccentricity_start{i}", v(f"eccentricity{i}")) for i in paths]
+        for i in range(self.states):
+            outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
+        outputs = self._where_accepted(outputs)
+        tape = Tape(self.layout, fixed, self.known)
+        tape.store([*outputs, ("step", v("next_step"))])
+        tape.go_on_where(v(KEEPS_LEDGER))
+        tape.carry(energies)
+        tape.store(self._where_accepted(self._added_to_ledger()))
+        return tape.function("take")
+
+    def _added_to_ledger(self) -> list[tuple[str, Expression]]:
+        """Return the ledger's terms after the step.
+
+        The gross work grows by the magnitudes of what a step's works come to: of each driver, of
+        gravity, of what contacts store and lose, of friction.
+        """
+        v = self.variable
+        outputs = []
         gross = v("gross")
         for energy in ("potential", "stored"):
             gross = gross + abs(v(energy) - v(f"{energy}_start"))
@@ -192,20 +213,8 @@ class StepRecorder(JudgedStep):
             outputs.append((f"total{i}", v(f"total{i}") + added))
             if i < self.ledger - self.pairs:
                 gross = gross + abs(added)
-        outputs.insert(0, ("gross", gross))
-        for j in range(self.pairs):
-            outputs += [(f"{name}_start{j}", v(f"{name}{j}")) for name in ENDS]
-        outputs += [(start, v(end)) for start, end in self.knots.ends()]
-        paths = range(len(MOTION) * self.pairs)
-        outputs += [(f"eccentricity_start{i}", v(f"eccentricity{i}")) for i in paths]
-        for i in range(self.states):
-            outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
         outputs += [(f"kledger1_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
-        outputs = self._where_accepted(outputs)
-        tape = Tape(self.layout, fixed, self.known)
-        tape.carry(energies)
-        tape.store([*outputs, ("step", v("next_step"))])
-        return tape.function("take")
+        return [("gross", gross), *outputs]
 
     def _remember(self) -> str:
         """Keep the dense output of this step, before the next one begins."""

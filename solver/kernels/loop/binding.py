@@ -18,6 +18,7 @@ from jointplay.solver.kernels.loop.periods import PACE_STEPS, set_clock, set_clo
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, SectionKind
 from jointplay.solver.kernels.loop.start import mechanism_size, start_state
+from jointplay.solver.kernels.record.equations import KEEPS_LEDGER
 from jointplay.solver.mechanics.assembly import assemble, shortest_link, start_of
 from jointplay.solver.mechanics.impact_floors import impact_floor
 from jointplay.solver.quantities.scalars import greatest, least, minimum, sqrt
@@ -165,6 +166,7 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     for name in ("time", "stage_time", "before_time"):
         lane[name] = since
     lane["pace_at"] = PACE_STEPS
+    lane[KEEPS_LEDGER] = float(problem.ledger)
     for name in ("look_at", "look_beyond", "swing", "rough_until", "widest"):
         lane[name] = 0.0
     lane["smallest_step"] = period

@@ -81,3 +81,5 @@ class LaneProblem:
     """Step of a method with a fixed one, s."""
     first_sample: int = 0
     """Index of the first sample; sample i lies at i * output_step, the last one at the end."""
+    ledger: bool = True
+    """Whether works and impulses are added up, a tenth of a step's work; else they stay 0."""

@@ -22,6 +22,8 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import SteadyDriver
 from jointplay.solver.scene.references import inner_states
 
+KEEPS_LEDGER = "keeps_ledger"
+"""Slot that is positive in lanes whose works and impulses are wanted."""
 MOTION = ("x", "y", "rate_x", "rate_y", "acceleration_x", "acceleration_y")
 """Eccentricity of a journal (m), its rate (m/s) and acceleration (m/s^2), in the world's axes."""
 
@@ -219,13 +221,16 @@ def slopes(equations: Equations) -> list[tuple[str, Expression]]:
 
     The slopes of the coordinates are the stage's speeds and need not be written.
     """
-    outputs = [(f"slope{i}", rate) for i, rate in equations.slopes]
-    outputs += [(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)]
-    return outputs
+    return [(f"slope{i}", rate) for i, rate in equations.slopes]
+
+
+def ledger_slopes(equations: Equations) -> list[tuple[str, Expression]]:
+    """Return the rates of the ledger's terms, which the lanes of `KEEPS_LEDGER` need."""
+    return [(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)]
 
 
 def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
-    """Return what is needed where a step ends: slopes, the ledger's, gaps, slips, journals."""
+    """Return what is needed where a step ends: slopes, gaps, slips, journals."""
     count = len(equations.coordinates)
     speeds = [equations.recorder.variable(f"stage{count + i}") for i in range(count)]
     outputs = [(f"slope{i}", speed) for i, speed in enumerate(speeds)] + slopes(equations)

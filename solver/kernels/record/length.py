@@ -1,7 +1,7 @@
 """Length of equations in recorded statements, known before they are compiled."""
 
 from jointplay.records.failure import LimitExceeded
-from jointplay.solver.kernels.record.equations import needed_again, record, slopes
+from jointplay.solver.kernels.record.equations import ledger_slopes, needed_again, record, slopes
 from jointplay.solver.kernels.record.reachable import reachable
 from jointplay.solver.kernels.record.recorder import MOST_STATEMENTS, Recorder, too_many
 from jointplay.solver.mechanics.tree import Tree
@@ -44,7 +44,7 @@ def _counted(scene: Scene, tree: Tree, formulation: str) -> int:
     found = frozenset(needed_again(equations)) if tree.closing else frozenset()
     total = len(reachable(equations.corrections))
     for expressions, known in (
-        ([e for _, e in slopes(equations)], frozenset()),
+        ([e for _, e in (*slopes(equations), *ledger_slopes(equations))], frozenset()),
         (equations.channels.values(), found),
     ):
         count = len(reachable(expressions, known))

@@ -65,6 +65,7 @@ def problem_of(
             0.0,
             start=start,
             first_sample=first_sample,
+            ledger=not study.brief,
         )
     event = _event(study, kernel, point)
     waits = study.job["settle"] == "auto"
@@ -89,6 +90,7 @@ def problem_of(
         event,
         start,
         first_sample=first_sample,
+        ledger=not study.brief,
     )
 
 
