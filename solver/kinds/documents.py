@@ -17,6 +17,9 @@ from jointplay.solver.scene import presets
 from jointplay.solver.scene.parameters import undeclared
 from jointplay.solver.scene.sentences import schema_problems
 
+LATER = {"energies": True}
+"""Defaults of fields that jobs had not from the start: digests are without them."""
+
 
 def kind_of(document: object, kinds: Mapping[str, Kind[Any]]) -> Kind[Any]:
     """Return the kind that a document names; InvalidInput where it names none."""
@@ -74,7 +77,11 @@ def filled(
 
 def digest(document: Mapping[str, Any]) -> str:
     """Return the SHA-256 of a filled-in job without its label, and of the preset it names."""
-    spec = {key: value for key, value in document.items() if key != "label"}
+    spec = {
+        key: value
+        for key, value in document.items()
+        if key != "label" and not (key in LATER and value == LATER[key])
+    }
     if "preset" in document["scene"]:
         spec["preset"] = presets.digest(document["scene"]["preset"])
     canonical = json.dumps(spec, sort_keys=True, separators=(",", ":"), allow_nan=False)

@@ -10,7 +10,7 @@ from pydantic import Field
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
-from jointplay.solver.kinds.job import ChannelChoice, Job
+from jointplay.solver.kinds.job import ChannelChoice, Energies, Job
 from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import check_size
 from jointplay.solver.kinds.methods import check_study
@@ -66,6 +66,7 @@ class ExtremesStudyJob(Job):
     ] = None
     statistics: StatisticChoice = []
     samples_per_period: SamplesPerPeriod = 256
+    energies: Energies = True
 
     @property
     def named_channels(self) -> list[str]:

@@ -26,6 +26,15 @@ ChannelPattern = Annotated[str, Field(min_length=1, max_length=80)]
 ChannelChoice = Annotated[
     list[ChannelPattern], Field(min_length=1, max_length=4096, description="names or globs")
 ]
+Energies = Annotated[
+    bool,
+    Field(
+        description=(
+            "whether each point has its works and what its energy ledger lacks; they take a tenth"
+            " of its time"
+        )
+    ),
+]
 
 
 class PresetScene(Strict):

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
-from jointplay.solver.kinds.job import ChannelChoice, Job
+from jointplay.solver.kinds.job import ChannelChoice, Energies, Job
 from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import EVENT_PATIENCE, LONGEST_SETTLING, check_size
 from jointplay.solver.kinds.methods import check_study
@@ -104,6 +104,7 @@ class SectionStudyJob(SectionsJob):
             )
         ),
     ] = None
+    energies: Energies = True
 
     @property
     def named_channels(self) -> list[str]:

@@ -91,6 +91,11 @@ class Study:
         return tuple(self.job.get("statistics", ()))
 
     @property
+    def keeps_ledger(self) -> bool:
+        """Whether points have their works, and what the energy ledger lacks."""
+        return not self.brief and bool(self.job.get("energies", True))
+
+    @property
     def carries_exponents(self) -> bool:
         """Whether tangent vectors are carried with the points."""
         return "lyapunov" in self.indicators

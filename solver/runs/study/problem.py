@@ -65,7 +65,7 @@ def problem_of(
             0.0,
             start=start,
             first_sample=first_sample,
-            ledger=not study.brief,
+            ledger=study.keeps_ledger,
         )
     event = _event(study, kernel, point)
     waits = study.job["settle"] == "auto"
@@ -90,7 +90,7 @@ def problem_of(
         event,
         start,
         first_sample=first_sample,
-        ledger=not study.brief,
+        ledger=study.keeps_ledger,
     )
 
 

@@ -22,6 +22,7 @@ from jointplay.solver.runs.study.point_run import (
 from jointplay.solver.runs.study.rest import state_at_rest
 
 BRIEF = ("steps", "onsets")
+WORKS = ("driver_work", "contact_loss", "friction_loss", "gross_work")
 OF_SETTLING = ("settled_periods", "settling")
 """Statistics that a brief study keeps, the latter where settling is waited for."""
 
@@ -102,8 +103,9 @@ class Recording:
         found: dict[str, Any] = statistics_of(self._bundle, lane)
         energy = found.pop("energy")
         found["smallest_step"] = found["smallest_step"] or float("nan")
-        chosen = ("driver_work", "contact_loss", "friction_loss", "gross_work", "residual")
-        found |= {f"energy_{name}" if name == "residual" else name: energy[name] for name in chosen}
+        if self._study.keeps_ledger:
+            found |= {name: energy[name] for name in WORKS}
+            found["energy_residual"] = energy["residual"]
         found |= {
             "settled_periods": max(run.settled, 0) if self._study.record else float("nan"),
             "settling": run.settling.result.code if run.settling and run.settling.result else 0,
