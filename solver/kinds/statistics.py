@@ -11,7 +11,7 @@ from jointplay.solver.quantities.roster import NameIn
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.pairs import pairs_of
-from jointplay.solver.statistics import OF_CONTACTS, STATISTICS, Output, outputs_of
+from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS, STATISTICS, Output, outputs_of
 
 StatisticName = Annotated[str, NameIn(STATISTICS)]
 StatisticChoice = Annotated[
@@ -76,7 +76,10 @@ def check_statistics(names: Sequence[str], pairs: Collection[str], channels: int
 
 
 def check_samples(study: Study, per_period: int) -> None:
-    """Refuse less than two samples of a point (InvalidInput), and too many (LimitExceeded)."""
+    """Refuse less than two samples of a point (InvalidInput), and too many (LimitExceeded).
+
+    Statistics of contacts alone take none.
+    """
     left = study.duration - study.settle
     samples = left / study.period * per_period
     place = "/samples_per_period"
@@ -89,7 +92,7 @@ def check_samples(study: Study, per_period: int) -> None:
         )
         raise InvalidInput.at(place, sentence)
     total = float(samples.sum())
-    if total > MOST_SAMPLES_OF_STATISTICS:
+    if total > MOST_SAMPLES_OF_STATISTICS and not OF_CHANNELS.keys().isdisjoint(study.statistics):
         sentence = (
             f"{per_period} samples a period are {total:.3g} samples of all points; the"
             f" limit is {MOST_SAMPLES_OF_STATISTICS:g}. Ask for fewer, or for fewer periods."

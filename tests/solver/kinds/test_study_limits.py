@@ -6,6 +6,7 @@ import pytest
 
 from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kinds import admit
+from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.statistics import STATISTICS
 from tests.solver.runs.study.jobs_of_studies import (
     ACCURACY_STUDY,
@@ -81,3 +82,8 @@ def test_a_study_over_a_limit_is_refused_with_the_estimate(case: str) -> None:
         admit({**job, **changes})
     found = {problem.pointer: problem.detail for problem in refused.value.problems}
     assert words in found[pointer], found
+
+
+def test_statistics_of_contacts_take_no_samples() -> None:
+    many = {"periods": 9e5, "samples_per_period": 4096}
+    assert isinstance(admit({**SWEEP, "statistics": ["impacts"], **many}), Study)
