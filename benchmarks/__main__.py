@@ -26,6 +26,7 @@ ALL = (
     "special_curves",
     "branches",
     "known_orbits",
+    "limit_cycles",
     "random_orbits",
     "joined",
     "bucket",

@@ -14,10 +14,12 @@ import numpy as np
 from jointplay.local import run
 from jointplay.records.arrays import Floats
 from jointplay.records.branch import Branch, branches
+from jointplay.solver.continuation.passage import Section
 from jointplay.solver.continuation.plan import ContinuationStudy
 from jointplay.solver.continuation.run import section_map
-from jointplay.solver.continuation.section_map import Section, SectionMap
-from jointplay.solver.continuation.start import Settled, scaled
+from jointplay.solver.continuation.section_map import SectionMap
+from jointplay.solver.continuation.settled import Settled
+from jointplay.solver.continuation.start import scaled
 from jointplay.solver.kinds import admit
 
 Case = tuple[str, dict[str, float], dict[str, Any]]

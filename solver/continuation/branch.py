@@ -29,6 +29,10 @@ ASTRAY = 0.5
 """Share of the step by which the corrector may move the predicted orbit."""
 SHAKEN = 0.01
 """Error of the multipliers, in the largest, that tells of grazing: there the map has a corner."""
+VAGUE = 0.1
+"""The same beyond which an orbit without contacts is refused."""
+LONG = 5.0
+"""Period, in that at the start, beyond which a branch may end at a position of rest."""
 ENOUGH = 8
 """Orbits after which a branch may have closed."""
 
@@ -92,6 +96,8 @@ def _step(
     """Return the next piece, what lies in it, and the step to try behind it."""
     while True:
         piece = _piece(curve, orbit, tangent, step, reach)
+        if isinstance(piece, Piece) and _vague(piece.last):
+            piece = NoOrbit("its multipliers are lost in the error of the runs", math.nan)
         if isinstance(piece, Piece):
             try:
                 specials = special_orbits(piece)
@@ -134,6 +140,12 @@ def _piece(
     return Piece(curve, _alike(orbit, found, tangent), tangent, found, behind)
 
 
+def _vague(orbit: Orbit) -> bool:
+    """Return whether an orbit without contacts tells nothing of its stability."""
+    touches = orbit.curve.sections.kernel.pairs
+    return not touches and orbit.error > VAGUE * max(1.0, largest(orbit.multipliers))
+
+
 def _alike(orbit: Orbit, other: Orbit, along: Floats) -> Orbit:
     """Return an orbit with the differences of another: tests of both must be of one kind."""
     if orbit.scale == other.scale:
@@ -166,9 +178,18 @@ def _closed(piece: Piece, start: Orbit) -> bool:
 def _lost(orbit: Orbit, why: NoOrbit) -> str:
     """Return where and why a branch was lost, and what may be tried."""
     shaken = orbit.error > SHAKEN * largest(orbit.multipliers)
-    if why.grazing or shaken or not orbit.linear.alike:
+    touching = why.grazing or shaken or not orbit.linear.alike
+    if orbit.curve.sections.kernel.pairs and touching:
         cause, remedy = "an impact begins or ends here (grazing)", "a softer contact"
     else:
         cause, remedy = why.reason, "a smaller tolerance or a smaller 'largest_step'"
     at = ", ".join(f"{one:.9g}" for one in orbit.values)
-    return f"lost at {at}, because {cause}; try {remedy}"
+    return f"lost at {at}, because {cause}{_long(orbit)}; try {remedy}"
+
+
+def _long(orbit: Orbit) -> str:
+    """Return a clause about an orbit that comes back late, as next to a position of rest."""
+    map_, duration = orbit.curve.sections, orbit.linear.passage.duration
+    if map_.crossing is None or duration < LONG * map_.periods * map_.crossing.interval:
+        return ""
+    return f", where its period grows as next to a position of rest: {duration:.3g} s"

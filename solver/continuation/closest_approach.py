@@ -50,12 +50,12 @@ class Approaches:
                 for one in self._bundle.impacts(lane)
             ]
 
-    def nearest(self, lane: int, interval: float) -> float:
+    def nearest(self, lane: int, interval: float, end: float) -> float:
         """Return the largest penetration of a pair apart, in how far that pair moves; NaN: none.
 
-        `interval` : of rows, s.
+        `interval` : of rows, s. `end` : of the run, s; rows behind it do not count.
         """
-        depths = np.concatenate(self._depths[lane])
+        depths = np.concatenate(self._depths[lane])[: round(end / interval) + 1]
         found = math.nan
         for pair, depth in enumerate(depths.T):
             apart = depth < 0.0

@@ -39,16 +39,17 @@ OF_ORBITS = (
 
 
 def columns_of(
-    scene: Scene, parameters: Sequence[str], units_of: Sequence[str]
+    scene: Scene, parameters: Sequence[str], units_of: Sequence[str], *, driven: bool
 ) -> tuple[Channel, ...]:
     """Return the columns: the parameter's value, facts of the orbit, multipliers, the section.
 
+    There is a multiplier for each state; of a mechanism that nothing drives one less.
     Of a second parameter there are two more: its value, and how far that is known.
     """
     states, latched = states_at_section(scene), latched_at_section(scene)
     multipliers = [
         Channel(f"multiplier_{k}.{part}", "1", f"{part} part of multiplier {k}, the largest first")
-        for k in range(1, len(states) + 1)
+        for k in range(1, len(states) + driven)
         for part in ("real", "imaginary")
     ]
     first = Channel(VALUE, units_of[0], parameters[0])

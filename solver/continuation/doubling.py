@@ -7,7 +7,8 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.multipliers import direction_of
 from jointplay.solver.continuation.orbit import Curve, Orbit
-from jointplay.solver.continuation.start import NoStart, shorter_period
+from jointplay.solver.continuation.settled import NoStart
+from jointplay.solver.continuation.start import shorter_period
 
 DISTANCES = (1e-2, 4e-3, 1.6e-3, 6.4e-4, 2.56e-4, 1.024e-4)
 """Distances from the doubling, along the branch, at which an orbit is sought."""

@@ -19,7 +19,8 @@ from jointplay.solver.continuation.multipliers import (
     multipliers_of,
     spread,
 )
-from jointplay.solver.continuation.section_map import COARSER, Linear, Section, SectionMap
+from jointplay.solver.continuation.passage import Linear, Section
+from jointplay.solver.continuation.section_map import COARSER, SectionMap
 from jointplay.solver.continuation.special_map import GRAZING, SpecialMap
 from jointplay.solver.linear_algebra.elimination import solve
 

@@ -12,14 +12,18 @@ from jointplay.records.arrays import Floats
 from jointplay.records.checkpoint import decode, encode
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.solver.continuation.branch import Row, follow
+from jointplay.solver.continuation.crossing import Crossing
 from jointplay.solver.continuation.doubling import doubled
 from jointplay.solver.continuation.orbit import Orbit
+from jointplay.solver.continuation.passage import Section
 from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach, Second
-from jointplay.solver.continuation.section_map import Answers, Section, SectionMap
+from jointplay.solver.continuation.section_map import Answers, SectionMap
+from jointplay.solver.continuation.settled import NoStart, settle
 from jointplay.solver.continuation.special_curve import starts_of_curves
-from jointplay.solver.continuation.start import NoStart, first_orbit, scaled, settle
+from jointplay.solver.continuation.start import first_orbit, scaled
 from jointplay.solver.continuation.table import document_of, row_of
 from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.runs.study.crossing import crossing_event
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.version import SOLVER_VERSION
@@ -178,7 +182,7 @@ class ContinuationRun:
         """Tell of an orbit that was found."""
         second = self.study.second
         values = row.orbit.values[:1] if second is None else (*row.orbit.values, second.start)[:2]
-        numbers = row_of(row, self._scene_at(*values), values[1:])
+        numbers = row_of(row, values[1:])
         period = float(self.study.period[point])
         elapsed = np.array([(self.study.job["settle"] + len(rows)) * period])
         news = SectionRows(point, len(rows), elapsed, numbers[None])
@@ -249,8 +253,19 @@ def section_map(
 
     ones = np.ones(kernel.states + len(kernel.pairs))
     width = study.reach.high - study.reach.low
-    period = study.job["period"]
-    return SectionMap(kernel, scene_at, period, study.tolerance, ones, width, looked, recall)
+    section = study.job["section"]
+    return SectionMap(
+        kernel,
+        scene_at,
+        study.job["period"],
+        study.tolerance,
+        ones,
+        width,
+        looked,
+        recall,
+        crossing=section and Crossing(crossing_event(kernel, section), float(study.period[0])),
+        angles=tuple(k for k, one in enumerate(kernel.coordinates) if one.endswith(".theta")),
+    )
 
 
 def _last(row: Row) -> Row:

@@ -1,4 +1,6 @@
-"""The map from one section of a driven mechanism to that some periods later, and its derivatives.
+"""The map from one section of a mechanism to that some periods later, and its derivatives.
+
+Of a mechanism that nothing drives periods are those from one crossing to the next.
 
 Derivatives are central differences of lanes side by side. Tangents follow the steps of the motion
 with a method of order three: through a hard impact they err by 3e-4 at tolerance 1e-11, differences
@@ -13,6 +15,8 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.closest_approach import Approaches, rows_of
+from jointplay.solver.continuation.crossing import PATIENCE, Crossing, Crossings
+from jointplay.solver.continuation.passage import Linear, Passage, Section
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -32,69 +36,11 @@ DIFFERENCE = 1e-5
 SLOWEST, SPARE = 30.0, 10 * ATTEMPTS
 """Steps of a run at most, in those of the motion that a branch begins with, and besides: a run that
 Newton's method asks for may begin deep in a contact, and then take for ever."""
-TOLD = 3
-"""Numbers of a run beside its end: how near it comes to another impact, onsets, steps."""
+TOLD = 4
+"""Numbers of a run beside its end: how near it comes to another impact, s, onsets, steps."""
+TURN = 2.0 * math.pi
 COARSER = 4.0
 """The second scale of differences, in the first."""
-
-
-@dataclass(frozen=True)
-class Section:
-    """A value of the parameter, one of a second if that varies, too, and the state at a section.
-
-    `state` is (states + pairs,): coordinates, speeds and inner states, then the latched impact rate
-    of each pair, m/s: 0 where the pair is apart.
-    """
-
-    value: float
-    state: Floats
-    second: tuple[float, ...] = ()
-
-    @property
-    def values(self) -> tuple[float, ...]:
-        """Values of what varies."""
-        return (self.value, *self.second)
-
-    def moved(self, state: Floats, value: float = 0.0, second: float = 0.0) -> "Section":
-        """Return the section farther by a difference of each."""
-        behind = tuple(one + second for one in self.second)
-        return Section(self.value + value, self.state + state, behind)
-
-
-@dataclass(frozen=True)
-class Passage:
-    """A run from a section to the one some periods later."""
-
-    end: Floats
-    """State there, as that of a `Section`."""
-    onsets: int
-    """Beginnings of contact."""
-    steps: int
-    """Accepted."""
-    failure: str
-    """Why the run did not come to its end, as a sentence; empty if it did."""
-    nearest: float = math.nan
-    """Distance from another impact, if that is watched; see `Approaches.nearest`."""
-
-
-@dataclass(frozen=True)
-class Linear:
-    """The map at a section, and its derivatives."""
-
-    passage: Passage
-    residual: Floats
-    """(size,) the end less the start; 0 for a pair whose contact lasts throughout."""
-    jacobian: Floats
-    """(size, size) of the end by the start; no row for a pair whose contact lasts throughout."""
-    sensitivity: Floats
-    """(size, 1) of the end by the parameter; of a second one there is another column."""
-    alike: bool
-    """Whether the runs beside have as many onsets: else an impact begins or ends here."""
-    monodromy: Floats
-    """(states + pairs, states + pairs) whose eigenvalues are the multipliers: the Jacobian, or the
-    part of it that is of the section."""
-    nearing: Floats
-    """(size + 1,) derivatives of how near the run comes to another impact, if that is watched."""
 
 
 @dataclass(frozen=True)
@@ -105,7 +51,7 @@ class SectionMap:
     scene_at: Callable[..., Scene]
     """By the values of a section."""
     periods: int
-    """Periods of the drivers that it lasts."""
+    """Periods of the drivers that it lasts, or crossings to the last one."""
     tolerance: float
     scales: Floats
     """(size,) of the states and impact rates."""
@@ -121,6 +67,10 @@ class SectionMap:
     """Whether runs tell how near they come to another impact."""
     steps: float = math.inf
     """Accepted steps in a period of the motion that the branch begins with."""
+    crossing: Crossing | None = None
+    """Makes sections; none: they are at crank angle 0."""
+    angles: tuple[int, ...] = ()
+    """States that are back after a whole turn."""
 
     @property
     def size(self) -> int:
@@ -140,6 +90,24 @@ class SectionMap:
     def numbers(self, section: Section) -> Floats:
         """Return state and parameter of a section, (size + 1,)."""
         return np.append(section.state, section.values)
+
+    def interval(self, scene: Scene) -> float:
+        """Return the time of one period, s."""
+        if self.crossing is not None:
+            return self.crossing.interval
+        return common_period(scene).seconds or math.nan
+
+    def away(self, passage: Passage, section: Section) -> Floats:
+        """Return (size,) how far the end of a run is from its start, without whole turns."""
+        found, angles = passage.end - section.state, list(self.angles)
+        found[angles] -= TURN * np.round(found[angles] / TURN)
+        return found
+
+    def numbers_at(self, row: Floats) -> Floats:
+        """Return (size,) the state of a section at a dense row, (width,)."""
+        at = self.kernel.row
+        latched = row[at.impact_rate : at.width] * row[at.mode : at.impact_rate]
+        return np.concatenate([at.states(row), latched])
 
     def distance(self, linear: Linear) -> float:
         """Return how far a section and its end are apart, in the scales of the states."""
@@ -196,7 +164,7 @@ class SectionMap:
         for column, rate in zip(columns, rates, strict=True):
             whole[:, column] = rate / (scale * DIFFERENCE * numbers[column])
         jacobian, sensitivity, nearing = whole[:-1, : self.size], whole[:-1, self.size :], whole[-1]
-        residual, states = base.end - section.state, self.kernel.states
+        residual, states = self.away(base, section), self.kernel.states
         touching = section.state[states:] > 0.0
         lasting = states + np.flatnonzero(touching & (residual[states:] == 0.0))
         jacobian[lasting] = 0.0
@@ -216,7 +184,7 @@ class SectionMap:
             return np.concatenate(numbers), failures
 
         return [
-            Passage(row[:-TOLD], int(row[-2]), int(row[-1]), failure, float(row[-TOLD]))
+            Passage(row[:-TOLD], int(row[-2]), int(row[-1]), failure, *row[-TOLD:-2].tolist())
             for row, failure in zip(*self.recall(compute), strict=True)
         ]
 
@@ -230,33 +198,60 @@ class SectionMap:
             bundle.load(lane, self._problem(scenes[lane], section), like)
         attempts, most = 0, SLOWEST * self.steps * self.periods + SPARE
         approaches = Approaches(bundle, len(sections) if self.watches else 0)
+        crossings = Crossings(bundle, len(sections) if self.crossing else 0)
         running = 1
         while running and attempts < most:
             running = bundle.advance(ATTEMPTS)
             approaches.collect()
+            crossings.collect()
             attempts += ATTEMPTS
             self.looked()
         numbers, failures = np.empty((len(sections), self.size + TOLD)), list[str]()
         for lane, scene in enumerate(scenes):
             at = bundle.lane(lane)
+            rows = crossings.rows[lane] if self.crossing else [at.row()[0]] * self.periods
             if at.status == Status.RUNNING:
                 failures.append(f"a run beside it takes more than {most:.2g} steps")
-            elif at.status == Status.DONE:
-                failures.append("")
-            else:
+            elif at.status != Status.DONE:
                 failures.append(failure_of(bundle, lane, self.tolerance, scene).detail)
-            numbers[lane, : self.kernel.states] = at["y"]
-            numbers[lane, self.kernel.states : -TOLD] = at["impact_rate"] * at["mode"]
-            interval = at.run["output_step"]
-            near = approaches.nearest(lane, interval) if self.watches else math.nan
-            numbers[lane, -TOLD:] = near, at.run["onsets"], at.steps
+            elif len(rows) < self.periods:
+                often = f"{len(rows)} of {self.periods} times in {at.run['duration']:.3g} s"
+                failures.append(f"a run beside it comes back to the section {often}")
+            else:
+                failures.append("")
+            end = rows[-1] if rows else at.row()[0]
+            numbers[lane] = self._told(bundle, lane, end, approaches)
         return numbers, failures
+
+    def _told(self, bundle: Bundle, lane: int, end: Floats, approaches: Approaches) -> Floats:
+        """Return (size + TOLD,) what is known of a run that ends at a dense row."""
+        at, row = bundle.lane(lane), self.kernel.row
+        duration = float(bundle.times(lane, end))
+        near = math.nan
+        if self.watches:
+            near = approaches.nearest(lane, float(at.run["output_step"]), duration)
+        # a step with the last crossing in it may end where a contact begins
+        begun = np.count_nonzero(at["mode"] > end[row.mode : row.impact_rate])
+        onsets = int(at.run["onsets"]) - begun
+        return np.append(self.numbers_at(end), [near, duration, onsets, at.steps])
 
     def _problem(self, scene: Scene, section: Section) -> LaneProblem:
         start = LaneStart.at_section(section.state, self.kernel.states)
-        duration = self.periods * (common_period(scene).seconds or math.nan)
+        duration = self.periods * self.interval(scene)
         rows = rows_of(self.periods) if self.watches else 0
         step = duration / max(rows, 1)
+        if self.crossing is None:
+            return LaneProblem(
+                scene, duration, self.tolerance, step, rows + (rows > 0), 0, 0.0, start=start
+            )
         return LaneProblem(
-            scene, duration, self.tolerance, step, rows + (rows > 0), 0, 0.0, start=start
+            scene,
+            PATIENCE * duration,
+            self.tolerance,
+            step,
+            PATIENCE * rows + (rows > 0),
+            self.periods,
+            0.0,
+            event=self.crossing.behind(),
+            start=start,
         )

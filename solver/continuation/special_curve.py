@@ -10,8 +10,8 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.branch import Row
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Scales
 from jointplay.solver.continuation.plan import Second
+from jointplay.solver.continuation.settled import NoStart
 from jointplay.solver.continuation.special_map import GRAZING, MARGIN, ROUNDING, SpecialMap
-from jointplay.solver.continuation.start import NoStart
 from jointplay.solver.linear_algebra.orthogonal import Decomposition
 from jointplay.solver.scene.document import Scene
 

@@ -27,7 +27,8 @@ from jointplay.solver.continuation.multipliers import (
     multipliers_of,
     passing_one,
 )
-from jointplay.solver.continuation.section_map import Linear, Section, SectionMap
+from jointplay.solver.continuation.passage import Linear, Section
+from jointplay.solver.continuation.section_map import SectionMap
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.linear_algebra.orthogonal import Decomposition
 

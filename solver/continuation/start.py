@@ -1,89 +1,19 @@
-"""Starts of branches: a section that the motion has come to, and the orbit next to it."""
+"""Starts of branches: the orbit next to a section that the motion has come to."""
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Scales
-from jointplay.solver.continuation.section_map import ATTEMPTS, Answers, Section, SectionMap
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
-from jointplay.solver.kernels.loop.runs import SAMPLES, Status
-from jointplay.solver.runs.lane_results import failure_of
+from jointplay.solver.continuation.passage import Passage, Section
+from jointplay.solver.continuation.section_map import SectionMap
+from jointplay.solver.continuation.settled import NoStart, Settled
 from jointplay.solver.runs.starts import start_scales
-from jointplay.solver.scene.periods import common_period
 
-SAMPLES_PER_PERIOD = 64
 LEAST_EXTENT = 1e-3
 """Least extent of a state that hardly moves, in what counts as one in it."""
 SAME = 1e-6
 """Distance, in the scales of the states, within which an orbit has come back."""
-
-
-class NoStart(Exception):
-    """There is no orbit to start from; the sentence says what was tried."""
-
-
-@dataclass(frozen=True)
-class Settled:
-    """A motion after some periods."""
-
-    state: Floats
-    """(states + pairs,) at the section there; see `Section`."""
-    extents: Floats
-    """(states,) how far each state moved in the last periods."""
-    steps: float
-    """Accepted steps a period."""
-
-
-def settle(map_: SectionMap, value: float, state: Floats | None, periods: int) -> Settled:
-    """Return where a motion is after some periods, from the scene's start or a given state.
-
-    The last periods, as many as the map's, are looked at.
-
-    Raises
-    ------
-    NoStart
-        The motion could not be followed that far.
-    """
-    (numbers,), (failure,) = map_.recall(lambda: _settled(map_, value, state, periods))
-    if failure:
-        raise NoStart(failure)
-    total = periods + map_.periods
-    return Settled(numbers[: map_.size], numbers[map_.size : -1], float(numbers[-1]) / total)
-
-
-def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int) -> Answers:
-    scene, kernel = map_.scene_at(value), map_.kernel
-    total = periods + map_.periods
-    period = common_period(scene).seconds or math.nan
-    problem = LaneProblem(
-        scene,
-        total * period,
-        map_.tolerance,
-        period / SAMPLES_PER_PERIOD,
-        SAMPLES_PER_PERIOD * total + 1,
-        0,
-        0.0,
-        start=None if state is None else LaneStart.at_section(state, kernel.states),
-        first_sample=SAMPLES_PER_PERIOD * periods,
-    )
-    bundle = Bundle(kernel, [problem], watch=False)
-    low, high = np.full(kernel.states, math.inf), np.full(kernel.states, -math.inf)
-    running = 1
-    while running:
-        running = bundle.advance(ATTEMPTS)
-        states = kernel.row.states(bundle.rows(SAMPLES, 0))
-        low = np.minimum(low, states.min(axis=0, initial=math.inf))
-        high = np.maximum(high, states.max(axis=0, initial=-math.inf))
-        map_.looked()
-    at = bundle.lane(0)
-    failed = at.status != Status.DONE
-    failure = failure_of(bundle, 0, map_.tolerance, scene).detail if failed else ""
-    numbers = np.concatenate([at["y"], at["impact_rate"] * at["mode"], high - low, [at.steps]])
-    return numbers[None], [failure]
 
 
 def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
@@ -93,8 +23,9 @@ def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
     lengths along the branch are in extents, so that a state that moves far does not rule them.
     """
     scene, kernel = map_.scene_at(value), map_.kernel
-    period = common_period(scene).seconds or math.nan
-    one = start_scales(scene, kernel.coordinates, period)
+    if map_.crossing is not None:
+        map_ = replace(map_, crossing=replace(map_.crossing, interval=settled.interval))
+    one = start_scales(scene, kernel.coordinates, map_.interval(scene))
     pairs = len(kernel.pairs)
     extents = np.maximum(settled.extents, LEAST_EXTENT * one)
     count = len(kernel.coordinates)
@@ -129,18 +60,36 @@ def first_orbit(curve: Curve, section: Section) -> Orbit:
             f"The orbit that was found repeats after {shorter} of the {curve.map.periods} periods;"
             f" ask for 'period' {shorter}."
         )
+    if _winds_up(found):
+        raise NoStart(
+            "The motion goes round, and is another one a turn later: something in the mechanism"
+            " winds up. Try a 'state' next to an orbit that comes back."
+        )
     return found
 
 
 def shorter_period(orbit: Orbit) -> int:
     """Return after how many periods an orbit is back already, fewer than its own; 0: it is not."""
     map_, section = orbit.curve.sections, orbit.section
-    states = map_.kernel.states
     for periods in range(1, map_.periods):
         if map_.periods % periods:
             continue
         (passage,) = replace(map_, periods=periods).passages([section])
-        away = np.abs((passage.end - section.state) / map_.scales)[:states]
-        if float(away.max()) < SAME:
+        if _apart(map_, passage, section) < SAME:
             return periods
     return 0
+
+
+def _winds_up(orbit: Orbit) -> bool:
+    """Return whether an orbit that goes round is none from where it has come to."""
+    map_, section, passage = orbit.curve.sections, orbit.section, orbit.linear.passage
+    if (passage.end - section.state == map_.away(passage, section)).all():
+        return False
+    behind = replace(section, state=passage.end)
+    (again,) = map_.passages([behind])
+    return not (again.failure == "" and _apart(map_, again, behind) < SAME)
+
+
+def _apart(map_: SectionMap, passage: Passage, section: Section) -> float:
+    """Return how far a run ends from its start, in the scales of the states."""
+    return float(np.abs(map_.away(passage, section) / map_.scales)[: map_.kernel.states].max())

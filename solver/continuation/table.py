@@ -1,6 +1,5 @@
 """Rows of the table of a branch, one for each orbit."""
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -10,28 +9,27 @@ from jointplay.solver.continuation.branch import Row
 from jointplay.solver.continuation.columns import LABELS
 from jointplay.solver.continuation.multipliers import unstable
 from jointplay.solver.continuation.special_curve import errors
-from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import common_period
 
 
-def row_of(row: Row, scene: Scene, seconds: Sequence[float] = ()) -> Floats:
-    """Return the numbers of an orbit, in the order of the columns; `scene` is that of its value.
+def row_of(row: Row, seconds: Sequence[float] = ()) -> Floats:
+    """Return the numbers of an orbit, in the order of the columns.
 
     `seconds` : value of the second parameter, where one varies.
     """
     orbit = row.orbit
-    leading = orbit.multipliers[: orbit.curve.map.kernel.states]
+    map_ = orbit.curve.sections
+    along = int(map_.crossing is not None)  # the motion itself, whose multiplier is 0
+    leading = orbit.multipliers[: map_.kernel.states - along]
     bounds = np.zeros(2)
     bounds[: len(row.bounds)] = row.bounds
     if orbit.curve.of:
         bounds += errors(orbit)
-    duration = orbit.curve.map.periods * (common_period(scene).seconds or math.nan)
     facts = [
         orbit.value,
         row.length,
         float(list(LABELS).index(row.label)),
         bounds[0],
-        duration,
+        orbit.linear.passage.duration,
         float(orbit.onsets),
         float(unstable(orbit.multipliers, orbit.curve.of)),
         orbit.residual,

@@ -1,135 +1,35 @@
 """The kind ``continuation``: periodic orbits followed over a parameter, stable or not."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
-from pydantic import Field
 
-from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.failure import InvalidInput
 from jointplay.records.suggestions import unknown
 from jointplay.solver.continuation.columns import columns_of
 from jointplay.solver.continuation.plan import OUTPUTS, ContinuationStudy, Reach, Second
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
-from jointplay.solver.kinds.job import Job
+from jointplay.solver.kinds.continuation_checks import check_ranges, check_sections
+from jointplay.solver.kinds.continuation_job import AlongSecond, ContinuationJob
 from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import check_size
 from jointplay.solver.kinds.mechanism import written
 from jointplay.solver.kinds.methods import check_study
 from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import Axis, Points, one_axis, product
-from jointplay.solver.kinds.section import CrankSection
-from jointplay.solver.kinds.section_checks import check_section
-from jointplay.solver.kinds.start_state import StartState, check_state
+from jointplay.solver.kinds.start_state import check_state
 from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study, place_points
 from jointplay.solver.kinds.values import Range
-from jointplay.solver.quantities.units import Name, Strict, quantity
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.parameters import set_parameters
 from jointplay.solver.statistics import Output
 
-USUAL_TOLERANCE = 1e-11
 RECORD = 4
 """Orbits of a branch at most, in those that it may have in each direction."""
 MAPS = 8
 """Section maps that an orbit takes, about: rounds of Newton's method, errors, special orbits."""
-
-
-class AlongSecond(Strict):
-    """A second parameter over which special orbits are followed."""
-
-    parameter: Annotated[Name, Field(description="a declared parameter of the scene")]
-    values: Annotated[
-        Range,
-        Field(
-            description=(
-                "its range, which includes the scene's value, and how many orbits a curve may have"
-                " in each direction: {'from', 'to', 'count'}"
-            )
-        ),
-    ]
-    labels: Annotated[
-        list[Literal["LP", "PD", "GR"]],
-        Field(min_length=1, max_length=3, description="special orbits that are followed"),
-    ] = ["LP", "PD", "GR"]
-    curves: Annotated[
-        int,
-        quantity(
-            "1", ge=1, le=16, description="most curves, in the order of the first branch's orbits"
-        ),
-    ] = 4
-
-
-class ContinuationJob(Job):
-    """A branch of periodic orbits, stable or not, with its bifurcations."""
-
-    kind: Literal["continuation"]
-    parameter: Annotated[Name, Field(description="a declared parameter of the scene")]
-    values: Annotated[
-        Range,
-        Field(
-            description=(
-                "its range, and how many orbits a branch may have in each direction: {'from', 'to',"
-                " 'count'}"
-            )
-        ),
-    ]
-    at: Annotated[
-        float | None,
-        quantity(
-            "the parameter's unit",
-            description="value at which the branch begins; default: the first of the range",
-        ),
-    ] = None
-    period: Annotated[
-        int,
-        quantity("periods", ge=1, le=64, description="of the drivers, after which orbits are back"),
-    ] = 1
-    settle: Annotated[
-        int,
-        quantity(
-            "periods", ge=0, le=10**12, description="of motion before an orbit is sought from it"
-        ),
-    ] = 100
-    state: StartState = None
-    largest_step: Annotated[
-        float,
-        quantity(
-            "1", ge=1e-4, le=0.5, description="largest step along a branch, a share of the range"
-        ),
-    ] = 0.03
-    doublings: Annotated[
-        int,
-        quantity(
-            "1", ge=0, le=6, description="period doublings behind which branches are followed, too"
-        ),
-    ] = 0
-    second: Annotated[
-        AlongSecond | None,
-        Field(
-            description=(
-                "a second parameter, over which special orbits of the first branch are followed:"
-                " {'parameter', 'values', 'labels', 'curves'}"
-            )
-        ),
-    ] = None
-    record: Annotated[
-        int | None,
-        quantity(
-            "1",
-            ge=2,
-            le=10**12,
-            description=(
-                "orbits of a branch at most, special ones counted; default: four times the count"
-            ),
-        ),
-    ] = None
-
-    @property
-    def usual_tolerance(self) -> float:
-        """Tolerance where none is given: derivatives are differences of runs."""
-        return USUAL_TOLERANCE
 
 
 class Continuation(Kind[ContinuationJob]):
@@ -142,7 +42,7 @@ class Continuation(Kind[ContinuationJob]):
     def admit(self, job: ContinuationJob) -> ContinuationStudy:
         """Check and fill in; see `Kind.admit`."""
         check_study(job, tangents=False)
-        _check_range(job)
+        check_ranges(job)
         checked = _checked(job, one_axis(_first_axis(job)), "/values")
         if job.second is not None:
             checked = _checked(job, _both(job, job.second), "/second/values")
@@ -176,39 +76,11 @@ class Continuation(Kind[ContinuationJob]):
 def _checked(job: ContinuationJob, points: Points, place: str) -> PlacedPoints:
     """Return the ends of ranges once there is a section at each, and the equations are the same."""
     checked = check_points(job, points)
-    check_section(CrankSection(), checked, periods(checked.scenes))
+    check_sections(job, checked, periods(checked.scenes))
     if checked.structure.any():
         sentence = "The mechanism's equations change their form within the range; narrow it."
         raise InvalidInput.at(place, sentence)
     return checked
-
-
-def _check_range(job: ContinuationJob) -> None:
-    low, high = sorted((job.values.start, job.values.stop))
-    problems = _problems(job.values, "/values")
-    if job.second is not None:
-        problems += _problems(job.second.values, "/second/values")
-        if job.second.parameter == job.parameter:
-            sentence = f"'{job.parameter}' varies along the branch; choose another parameter."
-            problems.append(Problem("/second/parameter", sentence))
-    if job.at is not None and not low <= job.at <= high:
-        sentence = f"'at' must lie in the range, {low:g} to {high:g}; it is {job.at:g}."
-        problems.append(Problem("/at", sentence))
-    if job.formulation != "reduced":
-        sentence = "Sections are joint coordinates, which only the formulation 'reduced' has."
-        problems.append(Problem("/formulation", f"{sentence} Choose that."))
-    if problems:
-        raise InvalidInput(problems)
-
-
-def _problems(values: Range, place: str) -> list[Problem]:
-    problems = []
-    if values.start == values.stop:
-        problems.append(Problem(f"{place}/to", "The range is empty; 'to' must differ from 'from'."))
-    if values.spacing != "linear":
-        sentence = "A branch chooses its own steps; leave 'spacing' out."
-        problems.append(Problem(f"{place}/spacing", sentence))
-    return problems
 
 
 def _first_axis(job: ContinuationJob) -> Axis:
@@ -270,7 +142,7 @@ def _study(
     count = placed.points.count
     parameters = placed.points.parameters
     units_of = [placed.declared.parameters[name].unit for name in parameters]
-    columns = columns_of(placed.scenes.scene(0), parameters, units_of)
+    columns = columns_of(placed.scenes.scene(0), parameters, units_of, driven=job.section is None)
     kept = Kept(observables=columns, record=filled["record"])
     settle = job.settle * units.seconds
     spans = Spans(units.seconds, settle, settle + job.period * units.seconds)

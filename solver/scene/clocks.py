@@ -38,6 +38,24 @@ def timed(scene: Scene) -> dict[str, Varying]:
     }
 
 
+def moved_in_time(scene: Scene) -> str:
+    """Return the name of a driver, or of a force, that moves a scene as a function of time.
+
+    Empty: there is none; the scene is autonomous.
+    """
+    for name, driver in scene.drivers.items():
+        if isinstance(driver, MovingDriver):
+            moves = driver.motion.period > 0.0
+        else:
+            moves = driver.clock_rate != 0.0
+        if moves:
+            return name
+    for name, element in timed(scene).items():
+        if element.course is not None and element.course.period > 0.0:
+            return name
+    return ""
+
+
 def clocks(scene: Scene) -> dict[str, Clock]:
     """Return the clocks by name of driver, then by name of what varies with time."""
     found = {}

@@ -126,6 +126,8 @@ def test_a_continuation_is_estimated_before_it_is_queued(client):
         ({"state": [0.0]}, "/state"),
         ({"state": [0.0, 0.0, -1.0]}, "/state"),
         ({"period": 0}, "/period"),
+        ({"section": {"channel": "mass.x", "value": 0.0}}, "/section"),
+        ({"section": {"crank_angle": 1.0}}, "/section/channel"),
         ({"doublings": 7}, "/doublings"),
         ({"formulation": "lagrange"}, "/formulation"),
         ({"method": "rk4", "step": 1e-3}, "/method"),
@@ -137,8 +139,17 @@ def test_what_cannot_be_followed_is_refused_at_its_field(client, change, place):
     assert place in [problem.place for problem in refusal.value.fields]
 
 
-def test_a_mechanism_without_a_period_is_refused(client):
+@pytest.mark.parametrize(
+    ("section", "place", "sentence"),
+    [
+        (None, "/section", "Give a 'section' where a channel crosses a value"),
+        ({"channel": "rod.tehta", "value": 0.0}, "/section/channel", "There is no channel"),
+    ],
+)
+def test_a_mechanism_that_nothing_drives_needs_a_section(client, section, place, sentence):
     job = jobs.continuation("pendulum", "mass", {"from": 0.5, "to": 1.0, "count": 3})
     with pytest.raises(Refused) as refusal:
-        client.submit(job)
-    assert "period" in str(refusal.value)
+        client.submit(job | {"section": section})
+    (problem,) = refusal.value.fields
+    assert problem.place == place
+    assert sentence in problem.detail

@@ -1,6 +1,5 @@
 """The problem that a lane gets of a point: all of it, or the time until the point settles."""
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,6 +13,7 @@ from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes, make_ready
 from jointplay.solver.kernels.loop.runs import SectionKind
 from jointplay.solver.runs.starts import perturbed_start, start_scales
+from jointplay.solver.runs.study.crossing import crossing_event
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun, begin_tallies, stretch_of
 from jointplay.solver.scene.document import Scene
@@ -123,16 +123,7 @@ def _event(study: Study, kernel: Kernel, point: int) -> Event | None:
     if "onset" in section:
         pair = kernel.pairs.index(section["onset"])
         return Event(SectionKind.ONSET, pair, not_before=not_before)
-    if "channel" not in section:
-        return None
-    name, value = section["channel"], float(section["value"])
-    sense = 1.0 if section["direction"] == "up" else -1.0
-    if name in kernel.rows.multiples:
-        name, factor, offset = kernel.rows.multiples[name]
-        value, sense = (value - offset) / factor, sense if factor > 0.0 else -sense
-    row = kernel.rows.index(name)
-    turn = 2.0 * math.pi if name.endswith(".theta") else 0.0
-    return Event(SectionKind.CROSSING, row, value, sense, turn, not_before)
+    return crossing_event(kernel, section, not_before) if "channel" in section else None
 
 
 def perturbed(study: Study, kernel: Kernel, point: int, member: int) -> Floats:

@@ -11,8 +11,9 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.branch import Row, follow
 from jointplay.solver.continuation.orbit import Curve, Scales
+from jointplay.solver.continuation.passage import Passage, Section
 from jointplay.solver.continuation.plan import Reach
-from jointplay.solver.continuation.section_map import Passage, Section, SectionMap
+from jointplay.solver.continuation.section_map import SectionMap
 from jointplay.solver.continuation.special_curve import special_curve
 from jointplay.solver.continuation.start import first_orbit
 

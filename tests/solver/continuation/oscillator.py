@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 
 from jointplay.solver.continuation.orbit import Curve
-from jointplay.solver.continuation.section_map import Section, SectionMap
-from jointplay.solver.continuation.start import scaled, settle
+from jointplay.solver.continuation.passage import Section
+from jointplay.solver.continuation.section_map import SectionMap
+from jointplay.solver.continuation.settled import settle
+from jointplay.solver.continuation.start import scaled
 from jointplay.solver.integrators import method_for
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kinds import admit

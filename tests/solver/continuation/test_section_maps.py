@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from jointplay.solver.continuation.orbit import Orbit
-from jointplay.solver.continuation.section_map import Section
-from jointplay.solver.continuation.start import NoStart, first_orbit
+from jointplay.solver.continuation.passage import Section
+from jointplay.solver.continuation.settled import NoStart
+from jointplay.solver.continuation.start import first_orbit
 from tests.solver.continuation.oscillator import DAMPING, curve, free_multipliers
 
 

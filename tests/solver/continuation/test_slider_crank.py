@@ -9,9 +9,9 @@ import pytest
 from jointplay.records.arrays import Floats
 from jointplay.solver.computations import computation_of
 from jointplay.solver.continuation.columns import LABELS
+from jointplay.solver.continuation.passage import Section
 from jointplay.solver.continuation.plan import ContinuationStudy
 from jointplay.solver.continuation.run import section_map
-from jointplay.solver.continuation.section_map import Section
 from jointplay.solver.kinds import admit
 
 SECTION = [0.17009598, 2.9076956e-4, 0.036738736, -74.871574, 0.033164115]
