@@ -27,6 +27,7 @@ ALL = (
     "branches",
     "known_orbits",
     "limit_cycles",
+    "pitchfork",
     "random_orbits",
     "joined",
     "bucket",

@@ -159,7 +159,7 @@ class Branch(BaseModel):
 class Branches(Partial):
     """Branches of a continuation: the first one, then those behind its period doublings.
 
-    Then curves of special orbits of the first branch over a second parameter.
+    Then those through its branch points, then curves of its special orbits over a second parameter.
     """
 
     parameter: str

@@ -37,6 +37,10 @@ ENOUGH = 8
 """Orbits after which a branch may have closed."""
 
 
+Way = tuple[Orbit, Floats]
+"""An orbit, and the direction in which a branch goes on from there, as a scaled vector."""
+
+
 @dataclass(frozen=True)
 class Row:
     """An orbit of a branch, as it is told."""
@@ -56,17 +60,19 @@ class Row:
         return self.bounds[0] if self.bounds else 0.0
 
 
-def follow(start: Orbit, along: Floats, reach: Reach, sense: float = 1.0) -> Iterator[Row]:
+def follow(
+    start: Orbit, along: Floats, reach: Reach, sense: float = 1.0, begin: float = 0.0
+) -> Iterator[Row]:
     """Yield the orbits of a branch behind the start, in one direction, until it ends.
 
     `along` : that direction, roughly, as a scaled vector. `sense` : 1 or -1, of the lengths that
-    are told. The last row says why the branch ends.
+    are told. `begin` : length at the start. The last row says why the branch ends.
     """
     curve, tangent = start.curve, start.tangent(along)
     if tangent is None:
-        yield Row(start, 0.0, "MX", note="the branch has no direction here")
+        yield Row(start, sense * begin, "MX", note="the branch has no direction here")
         return
-    orbit, length, step = start, 0.0, FIRST * reach.step
+    orbit, length, step = start, begin, FIRST * reach.step
     for count in range(1, reach.orbits + 1):
         stepped = _step(curve, orbit, tangent, step, reach)
         if isinstance(stepped, NoOrbit):

@@ -1,10 +1,11 @@
 """From a period doubling to the branch of twice the period."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.branch import Row, Way
 from jointplay.solver.continuation.multipliers import direction_of
 from jointplay.solver.continuation.orbit import Curve, Orbit
 from jointplay.solver.continuation.settled import NoStart
@@ -14,14 +15,23 @@ DISTANCES = (1e-2, 4e-3, 1.6e-3, 6.4e-4, 2.56e-4, 1.024e-4)
 """Distances from the doubling, along the branch, at which an orbit is sought."""
 
 
-def doubled(orbit: Orbit) -> tuple[Orbit, Floats]:
-    """Return an orbit of twice the period next to a period doubling, and the way on from there.
+def behind_doubling(branch: Sequence[Row]) -> Way:
+    """Return where the branch behind the first period doubling of another one begins.
 
     Raises
     ------
     NoStart
-        None was found.
+        There is no doubling, or no orbit was found.
     """
+    row = next((row for row in branch if row.label == "PD"), None)
+    if row is None:
+        sentence = "The branch before has no period doubling in the range"
+        raise NoStart(f"{sentence}; try a wider one, or fewer 'doublings'.")
+    return _doubled(row.orbit)
+
+
+def _doubled(orbit: Orbit) -> Way:
+    """Return an orbit of twice the period next to a period doubling, and the way on from there."""
     map_ = orbit.curve.sections
     curve = Curve(replace(map_, periods=2 * map_.periods), orbit.curve.scales)
     extents = curve.scales.extents

@@ -63,14 +63,17 @@ class Second:
 
 @dataclass(frozen=True, eq=False)
 class ContinuationStudy(Study):
-    """A study of branches, a point each: the first, then those behind its doublings, then curves.
+    """A study of branches, a point each, then of curves.
 
-    Curves are of special orbits of the first branch, over a second parameter.
+    The first branch, those behind its doublings, and others through its branch points. Curves are
+    of special orbits of the first branch, over a second parameter.
     """
 
     start: float
     """Value of the parameter at which the first branch begins."""
     reach: Reach
+    doublings: int
+    """Points that are branches behind a doubling of the point before."""
     second: Second | None
 
     @property

@@ -8,12 +8,11 @@ from functools import lru_cache
 import numpy as np
 from greenlet import getcurrent, greenlet
 
-from jointplay.records.arrays import Floats
 from jointplay.records.checkpoint import decode, encode
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
-from jointplay.solver.continuation.branch import Row, follow
+from jointplay.solver.continuation.branch import Row, Way, follow
 from jointplay.solver.continuation.crossing import Crossing
-from jointplay.solver.continuation.doubling import doubled
+from jointplay.solver.continuation.doubling import behind_doubling
 from jointplay.solver.continuation.orbit import Orbit
 from jointplay.solver.continuation.passage import Section
 from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach, Second
@@ -21,6 +20,7 @@ from jointplay.solver.continuation.section_map import Answers, SectionMap
 from jointplay.solver.continuation.settled import NoStart, settle
 from jointplay.solver.continuation.special_curve import starts_of_curves
 from jointplay.solver.continuation.start import first_orbit, scaled
+from jointplay.solver.continuation.switching import beside_branch_point
 from jointplay.solver.continuation.table import document_of, row_of
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.runs.study.crossing import crossing_event
@@ -119,27 +119,31 @@ class ContinuationRun:
         return known
 
     def _branches(self, map_: SectionMap) -> None:
-        """Follow every branch, each from the first period doubling of the one before."""
+        """Follow every branch, then curves of the first one's special orbits."""
         study, reach = self.study, self.study.reach
-        doubling: Orbit | None = None
-        firsts: list[Row] = []
+        branches: list[list[Row]] = []
         for point in range(study.points - study.curves):
             self._tell(StudySlice(self._fraction(point, 0), (point,), (), ()))
             rows: list[Row] = []
-            spent = self._spent
+            spent, failure = self._spent, ""
             try:
-                ways = self._first(map_) if point == 0 else _behind(doubling)
+                start, ways = self._start(map_, branches)
             except NoStart as none:
-                self._end(point, rows, spent, str(none))
-                doubling = None
-                continue
-            start = Row(ways[0][0], 0.0, "EP", note="start of the branch")
-            self._follow(point, rows, start, _both(ways, reach))
-            doubling = next((row.orbit for row in rows if row.label == "PD"), None)
-            firsts = firsts or rows
-            self._end(point, rows, spent)
+                failure = str(none)
+            else:
+                self._follow(point, rows, start, _both(start, ways, reach))
+            branches.append(rows)
+            self._end(point, rows, spent, failure)
         if study.second is not None:
-            self._curves(study.second, firsts)
+            self._curves(study.second, branches[0])
+
+    def _start(self, map_: SectionMap, branches: list[list[Row]]) -> tuple[Row, list[Way]]:
+        """Return the first orbit of the branch behind others, and the ways from there."""
+        point, doublings = len(branches), self.study.doublings
+        if point > doublings:
+            return beside_branch_point(branches[0], point - doublings - 1)
+        ways = [behind_doubling(branches[-1])] if point else self._first(map_)
+        return Row(ways[0][0], 0.0, "EP", note="start of the branch"), ways
 
     def _curves(self, second: Second, branch: list[Row]) -> None:
         """Follow special orbits of the first branch over the second parameter, each curve once."""
@@ -154,7 +158,7 @@ class ContinuationRun:
                 failure = str(start)
             elif start is not None:
                 ways = _ways(start.orbit, second.start, second.reach)
-                self._follow(point, rows, start, _both(ways, second.reach))
+                self._follow(point, rows, start, _both(start, ways, second.reach))
             curves.append(rows)
             self._end(point, rows, spent, failure)
 
@@ -167,7 +171,7 @@ class ContinuationRun:
             if last:
                 break
 
-    def _first(self, map_: SectionMap) -> list[tuple[Orbit, Floats]]:
+    def _first(self, map_: SectionMap) -> list[Way]:
         """Return the orbit at which the first branch begins, with the ways from there."""
         study, reach = self.study, self.study.reach
         state = study.job["state"]
@@ -213,7 +217,7 @@ class ContinuationRun:
         return self._reached
 
 
-def _ways(orbit: Orbit, value: float, reach: Reach) -> list[tuple[Orbit, Floats]]:
+def _ways(orbit: Orbit, value: float, reach: Reach) -> list[Way]:
     """Return an orbit with the ways from there to both ends of a range, or to one."""
     ways = []
     for sense, end in ((1.0, reach.high), (-1.0, reach.low)):
@@ -273,18 +277,8 @@ def _last(row: Row) -> Row:
     return replace(row, label=row.label or "EP", note="; ".join(filter(None, (row.note, FULL))))
 
 
-def _both(ways: list[tuple[Orbit, Floats]], reach: Reach) -> Iterator[Row]:
+def _both(start: Row, ways: list[Way], reach: Reach) -> Iterator[Row]:
     """Yield the orbits of a branch behind its first one, one way after the other."""
     for (orbit, along), sense in zip(ways, (1.0, -1.0), strict=False):
-        yield from follow(orbit, along, reach, sense)
-
-
-def _behind(doubling: Orbit | None) -> list[tuple[Orbit, Floats]]:
-    """Return where the branch behind a period doubling begins, and the way from there.
-
-    NoStart: there is no doubling, or no branch was found.
-    """
-    if doubling is None:
-        sentence = "The branch before has no period doubling in the range"
-        raise NoStart(f"{sentence}; try a wider one, or fewer 'doublings'.")
-    return [doubled(doubling)]
+        begin = orbit.curve.scales.length(orbit.vector - start.orbit.vector)
+        yield from follow(orbit, along, reach, sense, begin)

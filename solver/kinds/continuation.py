@@ -33,7 +33,7 @@ MAPS = 8
 
 
 class Continuation(Kind[ContinuationJob]):
-    """A point for each branch, all in one block: each begins where the one before doubles."""
+    """A point for each branch, all in one block: one begins where another doubles or branches."""
 
     document = ContinuationJob
     results: ClassVar = ("points", "branch", "poincare", "figures", "zarr")
@@ -127,7 +127,7 @@ def _second_start(job: ContinuationJob, second: AlongSecond) -> float:
 def _branches(job: ContinuationJob) -> Points:
     """Return a point for each branch and curve, where the first one begins."""
     at = job.values.start if job.at is None else job.at
-    count = job.doublings + 1 + (job.second.curves if job.second else 0)
+    count = 1 + job.doublings + job.branch_points + (job.second.curves if job.second else 0)
     axes = [Axis(job.parameter, "/parameter", np.array([at]), lambda _index: "/at")]
     if job.second is not None:
         values = np.array([_second_start(job, job.second)])
@@ -152,6 +152,7 @@ def _study(
         **(vars(study) | own),
         start=filled["at"],
         reach=_reach(job, job.values),
+        doublings=job.doublings,
         second=None if job.second is None else _second(job, job.second, placed),
     )
 

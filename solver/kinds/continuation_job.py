@@ -96,6 +96,15 @@ class ContinuationJob(Job):
             "1", ge=0, le=6, description="period doublings behind which branches are followed, too"
         ),
     ] = 0
+    branch_points: Annotated[
+        int,
+        quantity(
+            "1",
+            ge=0,
+            le=6,
+            description="branch points of the first branch whose other branches are followed, too",
+        ),
+    ] = 0
     second: Annotated[
         AlongSecond | None,
         Field(
