@@ -1,9 +1,12 @@
 """Branches of periodic orbits over a parameter: stable full, unstable dashed, with their labels."""
 
+from typing import Any
+
 import numpy as np
 
 from jointplay.figures import colours, page, study_facts
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
+from jointplay.figures.over_chart import OverChart, halo
 from jointplay.figures.quantity import alike, scale
 from jointplay.records.arrays import Floats
 from jointplay.records.branch import LENGTH, UNSTABLE, VALUE, Branch, branches
@@ -46,6 +49,8 @@ def known_branches(source: StudySource, selection: Selection) -> list[Branch]:
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
     names = _chosen(source, selection)
     found = _found(source, selection)
+    if selection.over is not None:
+        return _draw_over(OverChart(source, selection.over), found)
     parameter = source.parameters[0]
     across = scale(parameter.unit, *[one.column(VALUE) for one in found])
     units = by_name(source.observables)
@@ -66,8 +71,21 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     return figure
 
 
-def _curve(axes: page.Axes, branch: Branch, x: Floats, y: Floats) -> None:
+def _draw_over(chart: OverChart, found: list[Branch]) -> page.Figure:
+    """Draw branches over the map of a chart, where parts of a branch may lie on one another."""
+    figure, axes = chart.panel(2)
+    for branch in found:
+        look: page.Look = {"color": colours.GEOMETRY, "path_effects": halo()}
+        _curve(axes, branch, *chart.places(branch), **look)
+    for branch in found:
+        name_special(axes, chart.inside(branch), *chart.places(branch))
+    chart.explain(figure, axes)
+    return figure
+
+
+def _curve(axes: page.Axes, branch: Branch, x: Floats, y: Floats, **look: Any) -> None:
     """Draw the orbits of a branch in their order along it."""
+    style: page.Look = {"color": colours.COMPUTED, "linewidth": 0.9} | look
     order = np.argsort(branch.column(LENGTH), kind="stable")
     x, y, stable = x[order], y[order], branch.column(UNSTABLE)[order] == 0.0
     ends = [*(np.flatnonzero(np.diff(stable)) + 1).tolist(), len(x)]
@@ -77,10 +95,9 @@ def _curve(axes: page.Axes, branch: Branch, x: Floats, y: Floats) -> None:
         axes.plot(
             x[max(begin - 1, 0) : end],
             y[max(begin - 1, 0) : end],
-            color=colours.COMPUTED,
             linestyle=_FULL if full else _DASHED,
-            linewidth=0.9,
             label="stable" if full else "unstable",
+            **style,
         )
         begin = end
 
@@ -117,7 +134,7 @@ def name_special(axes: page.Axes, branch: Branch, x: Floats, y: Floats) -> None:
 BRANCH = StudyFigure(
     name="branch",
     title="Branches of periodic orbits over the parameter, stable and unstable",
-    uses=("channels", "start", "stop"),
+    uses=("channels", "start", "stop", "over"),
     channels=_chosen,
     draw=_draw,
 )

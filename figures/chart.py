@@ -1,191 +1,32 @@
 """Chart: the kind of motion, the attractor, or a quantity, over two axes."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
-import numpy as np
-
-from jointplay.figures import colours, page
+from jointplay.figures import page
+from jointplay.figures.chart_map import KINDS, ChartMap, offered
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
-from jointplay.figures.parameter_axis import ParameterAxis
-from jointplay.figures.quantity import scale
-from jointplay.records.arrays import Flags, Floats
-from jointplay.records.attractors import attractors_of, colour_of_attractor
-from jointplay.records.channel import Channel
-from jointplay.records.inherited import inheriting
-from jointplay.records.motion import WAITING, Labels, colour_of, motions, name_of
-from jointplay.records.point import PointStatus
-from jointplay.records.pyramid import averaged, filled_in, in_majority
 from jointplay.records.study import StudySource
 
-MOTION, ATTRACTOR = "motion", "attractor"
-LABELS = (MOTION, ATTRACTOR)
-KINDS = ("chart", "basins")
 _HEIGHT = 70.0  # mm
-_MOST_NAMED = 12
-"""Labels in the legend: those of most points."""
-_MOST_CELLS = 1000
-"""Along each axis; more would not be seen."""
-UNITS = {"lyapunov": ("1/s", "largest Lyapunov exponent"), "period": ("1", "period in sections")}
-_SHARE = 2.0
-"""Per cent of the values beyond each end of the colours."""
 
 
 def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
     if source.kind not in KINDS:
         raise NotDrawable(f"A chart is drawn of a job of kind {' or '.join(KINDS)}.")
-    offered = _offered(source)
+    known = offered(source)
     names = at_most(1, selection.channels, "quantities")
-    if unknown := [name for name in names if name not in offered]:
-        sentence = f"There is no quantity {unknown[0]!r}; there are {', '.join(offered)}."
+    if unknown := [name for name in names if name not in known]:
+        sentence = f"There is no quantity {unknown[0]!r}; there are {', '.join(known)}."
         raise NotDrawable(sentence, "channels")
-    return names or (offered[0],)
-
-
-def _offered(source: StudySource) -> list[str]:
-    told = [] if source.verdicts is None else [MOTION]
-    motion = [ATTRACTOR, *told] if told and "states" in source.attributes else told
-    numbers = [name for name in (*source.indicators, *source.statistics) if name != "verdict"]
-    return [*motion, *numbers]
+    return names or (known[0],)
 
 
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
-    (name,) = _chosen(source, selection)
-    up, across = (ParameterAxis(source, column, slice(0, source.points)) for column in (0, 1))
-    places = tuple(np.searchsorted(axis.values, axis.shown) for axis in (up, across))
-    shape = len(up.values), len(across.values)
-    stride = -(-max(shape) // _MOST_CELLS)
-    shown = _labelled(source, name)
-    entries = _legend(shown)
-    inherited = _inherited(source)
-    height = _HEIGHT + page.AXIS_HEIGHT + page.legend_rows(entries) * page.LEGEND_HEIGHT
-    figure, ((axes,),) = page.panels(1, 1, height + page.caption_height(inherited))
-    page.caption(figure, inherited)
-    axes.set_facecolor(colours.UNKNOWN)
-    edges = _edges(across, stride), _edges(up, stride)
-    known = np.zeros(shape, np.bool_)
-    known[places] = _has_ended(source)
-    if name in LABELS:
-        table = np.full(shape, WAITING, np.uint8)
-        table[places] = shown.labels
-        filled = in_majority(filled_in(table, known), stride)
-        _draw_labels(axes, edges, filled, shown.colour_of)
-    else:
-        values = np.full(shape, np.nan)
-        values[places] = {**source.statistics, **source.indicators}[name]
-        filled_values = averaged(filled_in(values, known), stride)
-        _draw_values(figure, axes, edges, filled_values, _described(source, name))
-    for axis, parameter in ((axes.xaxis, across), (axes.yaxis, up)):
-        parameter.ticks(axis, 5)
-    if across.logarithmic:
-        axes.set_xscale("log")
-    if up.logarithmic:
-        axes.set_yscale("log")
-    axes.tick_params(which="both", direction="out", top=False, right=False)
-    axes.set_xlabel(across.label)
-    axes.set_ylabel(up.label)
-    page.legend_of_marks(figure, entries)
+    shown = ChartMap(source, *_chosen(source, selection))
+    height = _HEIGHT + page.AXIS_HEIGHT + page.legend_rows(shown.legend) * page.LEGEND_HEIGHT
+    figure, ((axes,),) = page.panels(1, 1, height + page.caption_height(shown.caption))
+    page.caption(figure, shown.caption)
+    shown.draw(figure, axes)
+    page.legend_of_marks(figure, shown.legend)
     return figure
-
-
-def _inherited(source: StudySource) -> str:
-    """Return how many points of a chart were not computed, as a sentence; empty: all were."""
-    count = inheriting(source)
-    if not count:
-        return ""
-    share = count / _has_ended(source).sum()
-    return (
-        f"{share:.1%} of the points were not computed: the corners of their cell are alike, and"
-        " they have the results of one of them."
-    )
-
-
-def _has_ended(source: StudySource) -> Flags:
-    return np.isin(source.status, (PointStatus.done, PointStatus.failed))
-
-
-@dataclass(frozen=True)
-class _Labelled:
-    """Labels of the points, and their names and colours."""
-
-    labels: Labels
-    name_of: Callable[[int], str] = name_of
-    colour_of: Callable[[int], str] = colour_of
-
-
-def _labelled(source: StudySource, name: str) -> _Labelled:
-    """Return the labels of a quantity; none of one of numbers."""
-    if name == ATTRACTOR:
-        found = attractors_of(source)
-        return _Labelled(found.labels, found.name_of, colour_of_attractor)
-    if name != MOTION:
-        return _Labelled(np.zeros(0, np.uint8))
-    period = source.indicators.get("period", np.full(source.points, np.nan))
-    verdict = source.indicators["verdict"]
-    return _Labelled(motions(source.status, verdict, period, source.verdict_names))
-
-
-def _legend(shown: _Labelled) -> dict[str, tuple[str, str]]:
-    """Return marker and colour of the labels that most points have."""
-    counts = np.bincount(shown.labels, minlength=256)
-    counts[WAITING] = 0
-    often = np.argsort(-counts, kind="stable")[:_MOST_NAMED]
-    codes = [int(code) for code in sorted(often) if counts[code]]
-    return {shown.name_of(code): ("s", shown.colour_of(code)) for code in codes}
-
-
-def _edges(axis: ParameterAxis, stride: int) -> Floats:
-    """Return the edges of cells of several points."""
-    inner = axis.edges[:-1:stride]
-    return np.append(inner, axis.edges[-1])
-
-
-def _draw_labels(
-    axes: page.Axes,
-    edges: tuple[Floats, Floats],
-    table: Labels,
-    colour_of: Callable[[int], str],
-) -> None:
-    from matplotlib.colors import BoundaryNorm, ListedColormap
-
-    codes = np.unique(table)
-    codes = codes[codes != WAITING]
-    if not len(codes):
-        return
-    places = np.ma.masked_array(np.searchsorted(codes, table), mask=table == WAITING)
-    shades = ListedColormap([colour_of(int(code)) for code in codes])
-    norm = BoundaryNorm(np.arange(len(codes) + 1) - 0.5, len(codes))
-    axes.pcolormesh(*edges, places, cmap=shades, norm=norm, rasterized=True)
-
-
-def _draw_values(
-    figure: page.Figure,
-    axes: page.Axes,
-    edges: tuple[Floats, Floats],
-    table: Floats,
-    described: Channel,
-) -> None:
-    shown = scale(described.unit, table[np.isfinite(table)])
-    values = table / shown.factor
-    known = values[np.isfinite(values)]
-    low, high = np.percentile(known, (_SHARE, 100.0 - _SHARE)) if len(known) else (0.0, 1.0)
-    drawn = axes.pcolormesh(
-        *edges,
-        np.ma.masked_invalid(values),
-        cmap=colours.MAP,
-        vmin=low,
-        vmax=high,
-        rasterized=True,
-    )
-    bar = figure.colorbar(drawn, ax=axes, location="top", aspect=25.0, extend="both")
-    bar.ax.set_gid(page.WITHOUT_SCALE)
-    bar.set_label(shown.label(described.long_name))
-
-
-def _described(source: StudySource, name: str) -> Channel:
-    meanings = source.attributes.get("meanings", {})
-    unit, long_name = meanings.get(name) or UNITS.get(name, ("1", name.replace("_", " ")))
-    return Channel(name, unit, long_name)
 
 
 CHART = StudyFigure(

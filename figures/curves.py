@@ -8,6 +8,7 @@ import numpy as np
 from jointplay.figures import colours, page
 from jointplay.figures.branch import known_branches, name_special
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
+from jointplay.figures.over_chart import OverChart, halo
 from jointplay.figures.quantity import scale
 from jointplay.records.branch import CURVES, LENGTH, SECOND, VALUE, Branch
 from jointplay.records.study import StudySource
@@ -33,6 +34,8 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
 
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
     curves = _curves(source, selection)
+    if selection.over is not None:
+        return _draw_over(OverChart(source, selection.over), curves)
     across, up = (
         scale(one.unit, *[curve.column(name) for curve in curves])
         for one, name in zip(source.parameters, (VALUE, SECOND), strict=True)
@@ -52,10 +55,26 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     return figure
 
 
+def _draw_over(chart: OverChart, curves: list[Branch]) -> page.Figure:
+    """Draw curves over the map of a chart, black, so that its colours mean what they do alone."""
+    figure, axes = chart.panel(len({curve.of for curve in curves}))
+    for curve in curves:
+        order = np.argsort(curve.column(LENGTH), kind="stable")
+        x, y = chart.places(curve)
+        look: page.Look = {"color": colours.GEOMETRY, "linewidth": 0.9, "path_effects": halo()}
+        (line,) = axes.plot(x[order], y[order], _LOOKS[curve.of][1], **look)
+        line.set_label(_NAMES[curve.of])
+    for curve in curves:
+        named = chart.inside(replace(curve, special=curve.special[1:]))
+        name_special(axes, named, *chart.places(curve))
+    chart.explain(figure, axes)
+    return figure
+
+
 CURVES_FIGURE = StudyFigure(
     name="curves",
     title="Folds, period doublings and grazing over two parameters",
-    uses=("start", "stop"),
+    uses=("start", "stop", "over"),
     channels=_chosen,
     draw=_draw,
 )

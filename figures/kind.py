@@ -38,7 +38,7 @@ class NotDrawable(FigureError):
     ----------
     cause : str
         What to change: ``name`` of the figure, or of the selection ``channels``, ``joints``,
-        ``start`` or ``stop``.
+        ``start``, ``stop`` or ``over``.
     """
 
     def __init__(self, sentence: str, cause: str = "name") -> None:
@@ -67,12 +67,15 @@ class Selection:
     start, stop
         Window of time [s], both ends included; of a study the first point, and the one before
         which to end.
+    over
+        Results of another study, which lie beneath.
     """
 
     channels: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
     start: float | None = None
     stop: float | None = None
+    over: StudySource | None = None
 
     def given(self) -> list[str]:
         """Name what was chosen."""
@@ -128,6 +131,7 @@ def select(
     joints: Sequence[str] = (),
     start: float | None = None,
     stop: float | None = None,
+    over: StudySource | None = None,
 ) -> Selection:
     """Return what to draw of a run or a study.
 
@@ -137,7 +141,7 @@ def select(
         The results.
     channels
         Names or globs, drawn in this order; all that the figure is about if empty.
-    joints, start, stop
+    joints, start, stop, over
         As in `Selection`.
 
     Raises
@@ -152,4 +156,4 @@ def select(
     offered = (*source.observables, *source.channels) if is_study(source) else source.channels
     known = [channel.name for channel in offered]
     chosen = choose(",".join(channels), known) if channels else ()
-    return Selection(tuple(chosen), tuple(joints), start, stop)
+    return Selection(tuple(chosen), tuple(joints), start, stop, over)

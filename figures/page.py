@@ -217,13 +217,17 @@ def _is_empty(drawn: Any) -> bool:
     return hasattr(drawn, "get_xdata") and not len(drawn.get_xdata())
 
 
-def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> None:
+def legend_of_marks(
+    figure: Figure, entries: Mapping[str, tuple[str, str]], lines: Axes | None = None
+) -> None:
     """Explain marks that are too fine to be recognised in a legend, above the panels.
 
     Parameters
     ----------
     entries
         By label, marker and colour; without any there is no legend.
+    lines
+        Panel whose lines are explained behind them.
     """
     from matplotlib.lines import Line2D
 
@@ -231,6 +235,9 @@ def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> N
         Line2D([], [], linestyle="", marker=marker, color=colour, markersize=3.0, label=label)
         for label, (marker, colour) in entries.items()
     ]
+    if lines is not None:
+        drawn, labels = lines.get_legend_handles_labels()
+        handles += dict(zip(labels, drawn, strict=True)).values()
     if handles:
         look: Look = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2, "handletextpad": 0.1}
         figure.legend(handles=handles, loc="outside upper center", **look)

@@ -26,6 +26,7 @@ class ParameterAxis:
         parameter = source.parameters[column]
         chosen = scale(parameter.unit, values)
         self.label = chosen.label(parameter.name)
+        self.name, self.factor = parameter.name, chosen.factor
         self.shown = values / chosen.factor
         """(points,) values as they are shown."""
         self.status = source.status[points]

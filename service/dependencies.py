@@ -8,7 +8,7 @@ from fastapi import Depends, Path, Request
 from fastapi.exceptions import RequestValidationError
 
 from jointplay.records.job import is_job_id
-from jointplay.service.access import CallerDependency
+from jointplay.service.access import Caller, CallerDependency
 from jointplay.service.checking import Checker
 from jointplay.service.problems import RequestRefused, clipped, kinds
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -55,17 +55,21 @@ def expired(job: Job) -> RequestRefused:
     return RequestRefused(kinds.EXPIRED_JOB, sentence)
 
 
-def _job_of_the_path(
-    catalogue: CatalogueDependency, caller: CallerDependency, job_id: JobId
-) -> Job:
-    """Return the job, or refuse with 404 or 410; the id is matched before it is looked up."""
+def visible_job(catalogue: Catalogue, caller: Caller, job_id: str, parameter: str) -> Job:
+    """Return the job of a parameter, or refuse with 404 or 410; its id is matched first."""
     with suppress(JobNotFound):
         if is_job_id(job_id) and caller.sees((job := catalogue.get(job_id)).owner):
             if not catalogue.expired(job):
                 return job
             raise expired(job)
     sentence = f"There is no job {clipped(job_id)!r}; GET /v1/jobs lists the jobs."
-    raise RequestRefused.of_parameter("job_id", sentence, kinds.UNKNOWN_JOB)
+    raise RequestRefused.of_parameter(parameter, sentence, kinds.UNKNOWN_JOB)
+
+
+def _job_of_the_path(
+    catalogue: CatalogueDependency, caller: CallerDependency, job_id: JobId
+) -> Job:
+    return visible_job(catalogue, caller, job_id, "job_id")
 
 
 JobOfThePath = Annotated[Job, Depends(_job_of_the_path)]

@@ -19,6 +19,12 @@ class FigureSelection(TimeOrPoints):
         description="Clearance joints, separated by commas; default: all.",
     )
 
+    over: str | None = Field(
+        default=None,
+        max_length=200,
+        description="Id of a chart or of basins, over whose map branches and curves are drawn.",
+    )
+
     def options(self) -> Options:
         """Return the options of the page; `NotDrawable` if one cannot be."""
         return Options(**{name: getattr(self, name) for name in OPTIONS})

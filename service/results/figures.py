@@ -14,7 +14,7 @@ from jointplay.service.problems import RequestRefused, clipped, kinds, problems
 from jointplay.service.results.figure_query import FigureQuery, FigureSelection
 from jointplay.service.results.queries import unknown_channels
 from jointplay.service.results.schemas import FigureLink, Figures
-from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
+from jointplay.service.results.stores import ResultsOfAParameter, ResultsOfJob, ResultsOfThePath
 from jointplay.service.windows import WindowProcess
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
@@ -66,6 +66,7 @@ def draw_figure(
     form: Annotated[str, Path(description="File type: png, svg, pdf or eps.")],
     query: Annotated[FigureQuery, Query()],
     windows: Annotated[WindowProcess, of_the_application("windows")],
+    results_of: ResultsOfAParameter,
 ) -> Response:
     """Draw a figure of the job's results, also as it runs."""
     selection = cast("FigureSelection", query)
@@ -75,11 +76,12 @@ def draw_figure(
     store = _reader(results, windows)
     if isinstance(store, ResultReader):
         selection.checked()
+    over = None if selection.over is None else _map(results_of(selection.over, "over"))
     channels, joints = (
         [] if one is None else one.split(",") for one in (selection.channels, selection.joints)
     )
     try:
-        chosen = figures.select(store, channels, joints, selection.start, selection.stop)
+        chosen = figures.select(store, channels, joints, selection.start, selection.stop, over)
         picture = figures.render(store, name, form, chosen, selection.options())
     except figures.UnknownFigure as error:
         raise RequestRefused.of_parameter("name", str(error), kinds.UNKNOWN_FIGURE) from None
@@ -88,6 +90,12 @@ def draw_figure(
     except NoSuchChannel as error:
         raise unknown_channels(error) from None
     return Response(picture, media_type=MEDIA_TYPES[form])
+
+
+def _map(beneath: ResultsOfJob) -> StudyReader:
+    """Return the results that lie beneath a figure."""
+    beneath.insist("chart")
+    return beneath.study()
 
 
 def _reader(results: ResultsOfJob, windows: WindowProcess) -> ResultReader | StudyReader:

@@ -9,7 +9,13 @@ from typing import Annotated, Any, TypeVar
 
 from fastapi import Depends, Request
 
-from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
+from jointplay.service.access import CallerDependency
+from jointplay.service.dependencies import (
+    CatalogueDependency,
+    JobOfThePath,
+    SettingsDependency,
+    visible_job,
+)
 from jointplay.service.memory import let_go_when_unused
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.solver.kinds import KINDS
@@ -191,6 +197,21 @@ async def _results_of_the_path(
     return ResultsOfJob(job, settings, catalogue)
 
 
+def _results_of_a_parameter(
+    catalogue: CatalogueDependency, caller: CallerDependency, settings: SettingsDependency
+) -> Callable[[str, str], ResultsOfJob]:
+    """Return what gives the results of a job by its id, and the name of the parameter with it."""
+
+    def found(job_id: str, parameter: str) -> ResultsOfJob:
+        job = visible_job(catalogue, caller, job_id, parameter)
+        return ResultsOfJob(job, settings, catalogue)
+
+    return found
+
+
+ResultsOfAParameter = Annotated[
+    Callable[[str, str], ResultsOfJob], Depends(_results_of_a_parameter)
+]
 ResultsOfThePath = Annotated[ResultsOfJob, Depends(_results_of_the_path)]
 
 

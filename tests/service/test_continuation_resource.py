@@ -97,6 +97,22 @@ def test_every_link_leads_somewhere_and_its_figure_is_drawn(finished, http):
         assert finished.figure(name).content.startswith(b"\x89PNG"), name
 
 
+def test_curves_lie_over_a_chart_of_the_service(client, worker, finished, http):
+    axes = {"speed": [24.0, 30.0], "amplitude": [4e-3, 8e-3]}
+    along, by = ({"parameter": name, "values": values} for name, values in axes.items())
+    chart = client.submit(jobs.chart("impact-oscillator", along, by, settle=2, record=4))
+    worker.work(chart.id)
+    alone, over = (finished.figure("curves", over=one) for one in (None, chart))
+    assert over.content.startswith(b"\x89PNG")
+    assert over.content != alone.content
+    picture = f"/v1/jobs/{finished.id}/figures/curves.png"
+    unknown = http.get(picture, params={"over": "0" * 32})
+    assert (unknown.status_code, unknown.json()["errors"][0]["parameter"]) == (404, "over")
+    own = http.get(picture, params={"over": finished.id})
+    assert own.status_code == 404
+    assert "has no chart" in own.json()["detail"]
+
+
 def test_a_continuation_is_estimated_before_it_is_queued(client):
     estimate = client.estimate(JOB | {"doublings": 0, "second": None})
     assert (estimate.points, estimate.blocks, estimate.failure) == (1, 1, None)

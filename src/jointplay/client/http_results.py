@@ -130,7 +130,8 @@ class HttpResults:
     def figure(self, name: str, form: Form, shown: Shown, options: "Options") -> bytes:
         """Return a figure, drawn by the service."""
         chosen = {"channels": shown.channels or None, "joints": shown.joints or None}
-        query = _query(**chosen, start=shown.start, stop=shown.stop) | options.given()
+        over = {} if shown.over is None else {"over": shown.over.id}
+        query = _query(**chosen, start=shown.start, stop=shown.stop) | over | options.given()
         path = f"{self._path}/figures/{segment(name)}.{segment(form)}"
         return self._connection.content(path, query)
 

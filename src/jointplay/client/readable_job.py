@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from jointplay.client.errors import FieldProblem, Refused
 from jointplay.client.notebook import Picture
-from jointplay.client.results import Shown
+from jointplay.client.results import Beneath, Shown
 from jointplay.client.tables import TabledJob
 from jointplay.client.window import Window
 from jointplay.records.figure_form import Form
@@ -195,6 +195,7 @@ class ReadableJob(TabledJob):
         joint: Names = (),
         start: float | None = None,
         stop: float | None = None,
+        over: Beneath | None = None,
         form: Form = "png",
         **options: Any,
     ) -> Picture:
@@ -208,6 +209,8 @@ class ReadableJob(TabledJob):
             What to show, one or several; all if not given.
         start, stop
             Window of time, s; of a study the first point, and the one before which to end.
+        over
+            Job of a chart or of basins, over whose map branches and curves are drawn.
         form
             "png", "svg", "pdf" or "eps".
         options
@@ -219,7 +222,7 @@ class ReadableJob(TabledJob):
         from jointplay.figures import chosen_options
 
         page = _drawable(chosen_options, options)
-        shown = Shown(_listed(channel) or (), _listed(joint) or (), start, stop)
+        shown = Shown(_listed(channel) or (), _listed(joint) or (), start, stop, over)
 
         def draw(form: Form) -> bytes:
             return self.results.figure(name, form, shown, page)

@@ -55,6 +55,17 @@ class Store(NamedTuple):
     options: dict[str, Any] | None
 
 
+class Beneath(Protocol):
+    """The job of a study that lies beneath a figure of another."""
+
+    @property
+    def id(self) -> str:
+        """Its id, which a service knows."""
+
+    def study(self) -> StudySource:
+        """Return its points."""
+
+
 class Shown(NamedTuple):
     """Content of a figure or a film; all channels and joints where there are none."""
 
@@ -62,6 +73,7 @@ class Shown(NamedTuple):
     joints: Sequence[str]
     start: Seconds
     stop: Seconds
+    over: Beneath | None = None
 
 
 class Results(Protocol):

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from jointplay.figures import Options
 
 Command = TypeVar("Command", bound=Callable[..., Any])
-_CHOICES = ("channels", "joints", "start", "stop")
+_CHOICES = ("channels", "joints", "start", "stop", "over")
 _METAVARS = {"mm": "MM", "pt": "POINTS", "": "VALUE"}
 
 

@@ -1,5 +1,6 @@
 """``jointplay plot``: figures of a local run or of a service's job."""
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, cast
 
@@ -42,6 +43,12 @@ def plot(
     ] = None,
     start: START = None,
     stop: STOP = None,
+    over: Annotated[
+        str | None,
+        typer.Option(
+            metavar="OUT|ID", help="A chart or basins, over whose map branches and curves lie."
+        ),
+    ] = None,
     folder: Annotated[
         Path, typer.Option("-o", "--output", metavar="FOLDER", help="Where the files go.")
     ] = Path(),
@@ -71,9 +78,10 @@ def plot(
     Examples: `jointplay plot OUT acceleration A.normal_force --format pdf -o figures`,
     `jointplay plot OUT orbit --units um --width 170 --title "Journal centres"`,
     `jointplay plot OUT section --start 42 --stop 43` for one value of a bifurcation diagram,
+    `jointplay plot OUT curves --over CHART` for curves over the map of a chart,
     `jointplay plot OUT animation --start 0.2 --stop 0.21 --rate 0.002` for slow motion
     """
-    chosen = {"channels": channels, "joints": joints, "start": start, "stop": stop}
+    chosen = {"channels": channels, "joints": joints, "start": start, "stop": stop, "over": over}
     given = [name for name, value in chosen.items() if value is not None]
     if given and not names:
         raise Stopped(f"--{given[0]} chooses what a figure shows; name the figure.")
@@ -86,15 +94,19 @@ def plot(
     }
     pace = {name: value for name, value in asked.items() if value is not None}
     shown = {"joint": listed(joints) or (), "start": start, "stop": stop, **page.given()}
-    with job_of(results, url) as job, refused_as_typed():
+    with ExitStack() as stack:
+        job = stack.enter_context(job_of(results, url))
+        beneath = None if over is None else stack.enter_context(job_of(over, url))
+        stack.enter_context(refused_as_typed())
         check_start(job, start)
         if is_film(names, form, pace):
-            if channels is not None:
-                raise Stopped("--channels: a film shows none; leave them out.")
+            for name, it in (("channels", "them"), ("over", "it")):
+                if name in given:
+                    raise Stopped(f"--{name}: a film shows none; leave {it} out.")
             refused: list[str] = []
             written = draw_film(job, folder, form or "gif", **shown, **pace)
         else:
-            shown["channel"] = listed(channels) or ()
+            shown |= {"channel": listed(channels) or (), "over": beneath}
             drawn = draw_all(job, folder, names, cast("Form", form or "png"), **shown)
             written, refused = drawn.written, drawn.refused
     found = {"figures": written} | ({"refused": refused} if refused else {})

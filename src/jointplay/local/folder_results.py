@@ -182,7 +182,9 @@ class FolderResults:
     def figure(self, name: str, form: Form, shown: Shown, options: Options) -> bytes:
         """Draw a figure."""
         with _refusals():
-            chosen = figures.select(self._reader, *shown)
+            over = None if shown.over is None else shown.over.study()
+            part = (shown.channels, shown.joints, shown.start, shown.stop)
+            chosen = figures.select(self._reader, *part, over)
             return figures.render(self._reader, name, form, chosen, options)
 
     def film(
@@ -196,7 +198,8 @@ class FolderResults:
         """Write a film."""
         run = self._run("film")
         with _refusals():
-            figures.film(run, path, figures.select(run, *shown), options, pace, report)
+            part = (shown.channels, shown.joints, shown.start, shown.stop)
+            figures.film(run, path, figures.select(run, *part), options, pace, report)
 
     def _run(self, what: str) -> ResultReader:
         if isinstance(self._reader, ResultReader):
