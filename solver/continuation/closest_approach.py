@@ -50,12 +50,12 @@ class Approaches:
                 for one in self._bundle.impacts(lane)
             ]
 
-    def nearest(self, lane: int, interval: float, end: float) -> float:
+    def nearest(self, lane: int, interval: float) -> float:
         """Return the largest penetration of a pair apart, in how far that pair moves; NaN: none.
 
-        `interval` : of rows, s. `end` : of the run, s; rows behind it do not count.
+        `interval` : of rows, s.
         """
-        depths = np.concatenate(self._depths[lane])[: round(end / interval) + 1]
+        depths = np.concatenate(self._depths[lane])
         found = math.nan
         for pair, depth in enumerate(depths.T):
             apart = depth < 0.0

@@ -47,3 +47,17 @@ class Crossings:
         """Take what the bundle has handed out in its last call."""
         for lane, rows in enumerate(self.rows):
             rows += list(self._bundle.rows(SECTIONS, lane).copy())
+
+    def time(self, lane: int, number: int) -> float:
+        """Return the time of a lane's crossing, s; where it came to none, of its end."""
+        rows = self.rows[lane]
+        at = rows[number - 1] if len(rows) >= number else self._bundle.lane(lane).row()[0]
+        return float(self._bundle.times(lane, at))
+
+    def lack(self, lane: int, wanted: int) -> str:
+        """Return a clause about a lane that did not cross so often; empty: it did."""
+        count = len(self.rows[lane])
+        if count >= wanted:
+            return ""
+        until = self._bundle.runs["duration"][lane]
+        return f"a run beside it is at the section {count} of {wanted} times in {until:.3g} s"

@@ -20,7 +20,7 @@ from jointplay.solver.continuation.passage import Linear, Passage, Section
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
+from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.lane_results import failure_of
 from jointplay.solver.scene.document import Scene
@@ -189,16 +189,43 @@ class SectionMap:
         ]
 
     def _bundle(self, sections: Sequence[Section]) -> Answers:
+        scenes = [self.scene_at(*one.values) for one in sections]
+        durations = [self.periods * self.interval(scene) for scene in scenes]
+        steps, failures = np.zeros(len(sections)), [""] * len(sections)
+        if self.crossing is not None:
+            # inside a step a state is known less well than at its end: runs end there once more
+            event = self.crossing.behind()
+            found = self._run(sections, scenes, [PATIENCE * one for one in durations], event)
+            durations = [found.crossings.time(lane, self.periods) for lane in range(len(scenes))]
+            steps, failures = found.steps, found.failures
+        ended = self._run(sections, scenes, durations)
+        failures = [one or other for one, other in zip(failures, ended.failures, strict=True)]
+        numbers = np.empty((len(sections), self.size + TOLD))
+        for lane, duration in enumerate(durations):
+            at = ended.bundle.lane(lane)
+            interval = float(at.run["output_step"])
+            near = ended.approaches.nearest(lane, interval) if self.watches else math.nan
+            told = near, duration, at.run["onsets"], ended.steps[lane] + steps[lane]
+            numbers[lane] = np.append(self.numbers_at(at.row()[0]), told)
+        return numbers, failures
+
+    def _run(
+        self,
+        sections: Sequence[Section],
+        scenes: Sequence[Scene],
+        durations: Sequence[float],
+        event: Event | None = None,
+    ) -> "_Runs":
+        """Return runs from sections, side by side, over times (s) or to events before that."""
         bundle = Bundle(self.kernel, watch=False)
-        scenes: list[Scene] = []
         for lane, section in enumerate(sections):
             values = [one.values for one in sections[:lane]]
             like = values.index(section.values) if section.values in values else None
-            scenes.append(self.scene_at(*section.values) if like is None else scenes[like])
-            bundle.load(lane, self._problem(scenes[lane], section), like)
+            problem = self._problem(scenes[lane], section, durations[lane], event)
+            bundle.load(lane, problem, like)
         attempts, most = 0, SLOWEST * self.steps * self.periods + SPARE
-        approaches = Approaches(bundle, len(sections) if self.watches else 0)
-        crossings = Crossings(bundle, len(sections) if self.crossing else 0)
+        approaches = Approaches(bundle, len(sections) if self.watches and event is None else 0)
+        crossings = Crossings(bundle, 0 if event is None else len(sections))
         running = 1
         while running and attempts < most:
             running = bundle.advance(ATTEMPTS)
@@ -206,52 +233,45 @@ class SectionMap:
             crossings.collect()
             attempts += ATTEMPTS
             self.looked()
-        numbers, failures = np.empty((len(sections), self.size + TOLD)), list[str]()
+        failures = list[str]()
         for lane, scene in enumerate(scenes):
             at = bundle.lane(lane)
-            rows = crossings.rows[lane] if self.crossing else [at.row()[0]] * self.periods
             if at.status == Status.RUNNING:
                 failures.append(f"a run beside it takes more than {most:.2g} steps")
-            elif at.status != Status.DONE:
-                failures.append(failure_of(bundle, lane, self.tolerance, scene).detail)
-            elif len(rows) < self.periods:
-                often = f"{len(rows)} of {self.periods} times in {at.run['duration']:.3g} s"
-                failures.append(f"a run beside it comes back to the section {often}")
+            elif at.status == Status.DONE:
+                failures.append("" if event is None else crossings.lack(lane, self.periods))
             else:
-                failures.append("")
-            end = rows[-1] if rows else at.row()[0]
-            numbers[lane] = self._told(bundle, lane, end, approaches)
-        return numbers, failures
+                failures.append(failure_of(bundle, lane, self.tolerance, scene).detail)
+        return _Runs(bundle, approaches, crossings, failures)
 
-    def _told(self, bundle: Bundle, lane: int, end: Floats, approaches: Approaches) -> Floats:
-        """Return (size + TOLD,) what is known of a run that ends at a dense row."""
-        at, row = bundle.lane(lane), self.kernel.row
-        duration = float(bundle.times(lane, end))
-        near = math.nan
-        if self.watches:
-            near = approaches.nearest(lane, float(at.run["output_step"]), duration)
-        # a step with the last crossing in it may end where a contact begins
-        begun = np.count_nonzero(at["mode"] > end[row.mode : row.impact_rate])
-        onsets = int(at.run["onsets"]) - begun
-        return np.append(self.numbers_at(end), [near, duration, onsets, at.steps])
-
-    def _problem(self, scene: Scene, section: Section) -> LaneProblem:
+    def _problem(
+        self, scene: Scene, section: Section, duration: float, event: Event | None
+    ) -> LaneProblem:
         start = LaneStart.at_section(section.state, self.kernel.states)
-        duration = self.periods * self.interval(scene)
-        rows = rows_of(self.periods) if self.watches else 0
-        step = duration / max(rows, 1)
-        if self.crossing is None:
-            return LaneProblem(
-                scene, duration, self.tolerance, step, rows + (rows > 0), 0, 0.0, start=start
-            )
+        rows = rows_of(self.periods) if self.watches and event is None else 0
         return LaneProblem(
             scene,
-            PATIENCE * duration,
+            duration,
             self.tolerance,
-            step,
-            PATIENCE * rows + (rows > 0),
-            self.periods,
+            duration / max(rows, 1),
+            rows + (rows > 0),
+            0 if event is None else self.periods,
             0.0,
-            event=self.crossing.behind(),
+            event=event,
             start=start,
         )
+
+
+@dataclass(frozen=True)
+class _Runs:
+    """Runs side by side, as far as they came."""
+
+    bundle: Bundle
+    approaches: Approaches
+    crossings: Crossings
+    failures: list[str]
+
+    @property
+    def steps(self) -> Floats:
+        """Accepted steps of each run."""
+        return np.array([float(self.bundle.lane(k).steps) for k in range(len(self.failures))])

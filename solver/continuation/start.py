@@ -6,7 +6,7 @@ import numpy as np
 
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Scales
 from jointplay.solver.continuation.passage import Passage, Section
-from jointplay.solver.continuation.section_map import SectionMap
+from jointplay.solver.continuation.section_map import TURN, SectionMap
 from jointplay.solver.continuation.settled import NoStart, Settled
 from jointplay.solver.runs.starts import start_scales
 
@@ -14,6 +14,8 @@ LEAST_EXTENT = 1e-3
 """Least extent of a state that hardly moves, in what counts as one in it."""
 SAME = 1e-6
 """Distance, in the scales of the states, within which an orbit has come back."""
+WOUND = 1e-4
+"""The same some turns on: the orbit's angles may have been large before."""
 
 
 def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
@@ -60,12 +62,7 @@ def first_orbit(curve: Curve, section: Section) -> Orbit:
             f"The orbit that was found repeats after {shorter} of the {curve.map.periods} periods;"
             f" ask for 'period' {shorter}."
         )
-    if _winds_up(found):
-        raise NoStart(
-            "The motion goes round, and is another one a turn later: something in the mechanism"
-            " winds up. Try a 'state' next to an orbit that comes back."
-        )
-    return found
+    return _within_a_turn(found)
 
 
 def shorter_period(orbit: Orbit) -> int:
@@ -80,14 +77,25 @@ def shorter_period(orbit: Orbit) -> int:
     return 0
 
 
-def _winds_up(orbit: Orbit) -> bool:
-    """Return whether an orbit that goes round is none from where it has come to."""
-    map_, section, passage = orbit.curve.sections, orbit.section, orbit.linear.passage
-    if (passage.end - section.state == map_.away(passage, section)).all():
-        return False
-    behind = replace(section, state=passage.end)
-    (again,) = map_.passages([behind])
-    return not (again.failure == "" and _apart(map_, again, behind) < SAME)
+def _within_a_turn(orbit: Orbit) -> Orbit:
+    """Return an orbit whose angles that go round begin within half a turn: they round off less.
+
+    NoStart: it is none from there.
+    """
+    curve, map_, section = orbit.curve, orbit.curve.sections, orbit.section
+    passage = orbit.linear.passage
+    ahead = passage.end - section.state - map_.away(passage, section)
+    if not ahead.any():
+        return orbit
+    back = np.where(ahead == 0.0, 0.0, TURN * np.round(section.state / TURN))
+    moved = replace(section, state=section.state - (back if back.any() else ahead))
+    (again,) = map_.passages([moved])
+    if again.failure or _apart(map_, again, moved) > WOUND:
+        raise NoStart(
+            "The motion goes round, and is another one some turns later: something in the mechanism"
+            " winds up. Try a 'state' next to an orbit that comes back."
+        )
+    return first_orbit(curve, moved) if back.any() else orbit
 
 
 def _apart(map_: SectionMap, passage: Passage, section: Section) -> float:

@@ -103,10 +103,11 @@ def test_a_pendulum_that_goes_round_is_damped_as_its_period_says() -> None:
     branch = found(TURNING | {"values": {"from": 0.5, "to": 0.4, "count": 8}})
     period, multiplier = branch.column("duration"), branch.column("multiplier_1.real")
     assert len(period) == 9
-    # differences know the product of all multipliers, exp(-c T), to the noise of runs, 1e-12 / 1e-5
-    assert multiplier == pytest.approx(np.exp(-0.1 * period), abs=2e-6)
+    # the noise of runs, 1e-11, by the step of differences, 1e-5
+    assert multiplier == pytest.approx(np.exp(-0.1 * period), abs=1e-6)
     angle, rate = branch.column("state.rod.theta"), branch.column("rate.rod.theta")
-    assert np.cos(angle) == pytest.approx(np.full(9, math.cos(1.0)), abs=1e-12)
+    # Newton's method ends at ten times the tolerance of runs, 1e-11
+    assert np.cos(angle) == pytest.approx(np.full(9, math.cos(1.0)), abs=1e-10)
     motion = solve_ivp(
         lambda angle, y: [(0.5 - math.sin(angle)) / y[0] - 0.1],
         (angle[0], angle[0] + 2.0 * math.pi),
