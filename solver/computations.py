@@ -18,8 +18,9 @@ from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
 class Computation(Protocol):
     """One block of a study, computed in slices."""
 
-    seconds: float
-    """Spent computing by this process since this object was made, without compiling."""
+    @property
+    def seconds(self) -> float:
+        """Spent computing by this process since this object was made, without compiling."""
 
     @property
     def steps(self) -> float:

@@ -87,6 +87,4 @@ def try_device(
 
 
 def _revolutions(bundle: DeviceBundle) -> float:
-    times = bundle.groups[0].work[bundle.kernel.layout["time"]]
-    runs = bundle.runs
-    return float(((runs["periods"] * runs["period"] + times) / runs["unit"]).sum())
+    return float((bundle.now() / bundle.runs["unit"]).sum())

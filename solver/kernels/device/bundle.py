@@ -230,6 +230,10 @@ class DeviceBundle(Bundle):
         self._fetch(self._stale)
         return super().state(name)
 
+    def release(self) -> None:
+        """Give the device's memory back: there are no lanes any more."""
+        self._lanes.release()
+
     def restore(self, saved: Mapping[str, NDArray[Any]], name: str) -> None:
         """Continue from `state`, bit for bit."""
         super().restore(saved, name)

@@ -281,6 +281,12 @@ class Bundle:
         """Return the simulated times of a lane's dense rows, s."""
         return self.kernel.row.times(rows, float(self.runs["period"][i]))
 
+    def now(self) -> Floats:
+        """Return the simulated times that lanes have reached, (lanes,), s."""
+        slot = self.kernel.layout["time"]
+        local = np.concatenate([group.work[slot] for group in self.groups])
+        return np.asarray(self.runs["periods"] * self.runs["period"] + local)
+
     def state_of(self, i: int) -> LaneStart:
         """Return where a lane is, for another problem to start from."""
         lane = self.lane(i)
@@ -310,6 +316,9 @@ class Bundle:
         work = np.concatenate([group.work for group in self.groups], axis=1)
         saved = {"work": work, "runs": self.runs, "first_energy": self.first_energy}
         return {f"{name}/{part}": array for part, array in saved.items()}
+
+    def release(self) -> None:
+        """Give back what lanes have elsewhere; here they have nothing but memory."""
 
     def restore(self, saved: Mapping[str, NDArray[Any]], name: str) -> None:
         """Continue from `state`, bit for bit."""

@@ -1,20 +1,23 @@
 """The lanes that compute points of one structure, side by side: seed, settle, record, judge."""
 
-from collections.abc import Callable, Iterator
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping
 from itertools import islice
 
 import numpy as np
 
-from jointplay.records.point import PointEnd, SectionRows
+from jointplay.records.arrays import Flags
+from jointplay.records.point import PointEnd
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes
 from jointplay.solver.kernels.loop.runs import Status
-from jointplay.solver.runs.study.finer import COST, periods_of
+from jointplay.solver.runs.study.gathered import Gathered
 from jointplay.solver.runs.study.held_starts import end_of_start
 from jointplay.solver.runs.study.judge import judged, looks_again, looks_longer
+from jointplay.solver.runs.study.part_computed import part_computed
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_extremes import lanes_that_keep_steps
 from jointplay.solver.runs.study.point_run import PointRun
@@ -26,13 +29,16 @@ from jointplay.solver.runs.study.several_starts import from_next_start, of_all_s
 AT_ONCE = 64
 """Points that are made ready together."""
 
+FREE = -1
+"""Block of a lane that computes no point."""
+HANDED = ("growths", "kept")
+"""Fields of a run that say what a lane has handed out, beside rows and contacts."""
+
 Make = Callable[..., Bundle]
-Collected = tuple[list[SectionRows], list[PointEnd], list[PointRun]]
-"""Sections, points that ended, and those that may follow them."""
 
 
 class LaneGroup:
-    """A kernel's lanes, each with the point that it computes, or free."""
+    """A kernel's lanes, each with the point that it computes, of one of several blocks, or free."""
 
     def __init__(self, study: Study, structure: int, make: Make = Bundle) -> None:
         """Compile or load the kernel of a structure, and its tangents where they are wanted.
@@ -49,63 +55,65 @@ class LaneGroup:
         self.bundle = make(kernel, watch=watch, tangents=tangents, keep_steps=keep_steps)
         self.recording = Recording(study, self.bundle)
         self.lanes: list[PointRun | None] = [None] * len(self.bundle.runs)
+        self._blocks = np.full(len(self.lanes), FREE)
+        """(lanes,) block that the point of each is of."""
         self._ready: dict[int, tuple[ReadyLanes, int]] = {}
-        self._refused: list[PointEnd] = []
-        """Points that cannot start as they say."""
+        self._gathered: defaultdict[int, Gathered] = defaultdict(Gathered)
+        """By block, since it was last collected."""
+
+    @property
+    def free(self) -> int:
+        """Number of lanes that compute no point."""
+        return int(np.count_nonzero(self._blocks == FREE))
 
     @property
     def busy(self) -> bool:
         """Whether a lane computes a point."""
-        return any(run is not None for run in self.lanes)
+        return self.free < len(self.lanes)
 
-    @property
-    def steps(self) -> float:
-        """Accepted steps of the points under way."""
-        busy = (self.bundle.lane(i) for i, run in enumerate(self.lanes) if run is not None)
-        return float(sum(lane.steps for lane in busy))
+    def computes(self, block: int) -> bool:
+        """Return whether a lane computes a point of a block."""
+        return bool((self._blocks == block).any())
 
-    def under_way(self) -> float:
-        """Return how many points the parts of those under way amount to."""
-        return sum(
-            (len(run.tried) + self._computed(lane, run)) / self.study.starts
-            for lane, run in enumerate(self.lanes)
-            if run is not None
-        )
+    def runs_of(self, block: int) -> dict[int, PointRun]:
+        """Return the points of a block that are under way, by their lanes."""
+        lanes = np.flatnonzero(self._blocks == block).tolist()
+        return {lane: run for lane in lanes if (run := self.lanes[lane]) is not None}
 
-    def _computed(self, lane: int, run: PointRun) -> float:
-        """Return how much of a point is computed, 0..1, counted in steps of its record."""
-        study, at = self.study, self.bundle.lane(lane)
-        whole, stretch = float(study.duration[run.point]), 0.0
-        if study.carries_exponents:
-            stretch = COST * periods_of(study.record) * float(study.period[run.point])
-        if run.ended is None:
-            return min(at.time, whole) / (whole + stretch)
-        return max(1.0 - COST * (float(at.run["duration"]) - at.time) / (whole + stretch), 0.0)
+    def steps(self, block: int) -> float:
+        """Return the accepted steps of a block's points under way."""
+        return float(sum(self.bundle.lane(lane).steps for lane in self.runs_of(block)))
 
-    def fill(self, waiting: list[PointRun]) -> tuple[int, ...]:
-        """Give free lanes waiting points of this structure. Returns those points."""
-        started = []
-        for lane, computed in enumerate(self.lanes):
-            if computed is not None:
-                continue
-            run = self._next(waiting)
+    def under_way(self, block: int) -> float:
+        """Return how many points the parts of a block's under way amount to."""
+        runs = self.runs_of(block)
+        now, until = self.bundle.now(), self.bundle.runs["duration"]
+        return part_computed(self.study, [*runs.values()], now[[*runs]], until[[*runs]])
+
+    def fill(self, waiting: list[PointRun], block: int = 0) -> tuple[int, ...]:
+        """Give free lanes waiting points of a block, of this structure. Returns those points."""
+        started: list[int] = []
+        for lane in np.flatnonzero(self._blocks == FREE).tolist() if waiting else ():
+            run = self._next(waiting, block)
             if run is None:
                 break
             self._load(lane, run, waiting)
             waiting.remove(run)
-            self.lanes[lane] = run
+            self.lanes[lane], self._blocks[lane] = run, block
             started.append(run.point)
         return tuple(started)
 
-    def _next(self, waiting: list[PointRun]) -> PointRun | None:
+    def _next(self, waiting: list[PointRun], block: int) -> PointRun | None:
         """Return the first that fits; those before it that cannot start end here."""
-        for run in [one for one in waiting if self.study.structure[one.point] == self.structure]:
+        for run in list(waiting):
+            if self.study.structure[run.point] != self.structure:
+                continue
             end = end_of_start(self.study, run.point) if run.start is None else None
             if end is None:
                 return run
             waiting.remove(run)
             waiting += self._next_of_chain(run, None)
-            self._refused.append(end)
+            self._gathered[block].ended.append(end)
         return None
 
     def _load(self, lane: int, run: PointRun, waiting: list[PointRun]) -> None:
@@ -133,29 +141,42 @@ class LaneGroup:
             self._ready = {one: (lanes, k) for k, one in enumerate(points)}
         self.bundle.load_ready(lane, *self._ready.pop(point))
 
-    def collect(self) -> Collected:
-        """Take the rows of all lanes and free those whose points are over."""
-        sections: list[SectionRows] = []
-        ended, self._refused = self._refused, []
-        following: list[PointRun] = []
-        for lane, run in enumerate(self.lanes):
-            if run is None:
-                continue
-            status = self.bundle.lane(lane).status
-            if run.ended is None:
-                sections += self.recording.take(lane, run)
-            else:
-                run.finer.append(self.bundle.growth(lane))
-            if status == Status.RUNNING or self._goes_on(lane, run, status, following):
-                continue
-            end = judged(self.study, self.bundle.kernel, run)
-            again = from_next_start(self.study, self.bundle.kernel, run, end)
-            if again is None:
-                ended.append(of_all_starts(self.study, run, end))
-            else:
-                following.append(again)
-            self.lanes[lane] = None
-        return sections, ended, following
+    def collect(self) -> Mapping[int, Gathered]:
+        """Take what lanes have handed out, and free those whose points are over.
+
+        Returns what is new, by block.
+        """
+        gathered, self._gathered = self._gathered, defaultdict(Gathered)
+        for lane in np.flatnonzero(self._has_news()).tolist():
+            run = self.lanes[lane]
+            if run is not None:
+                self._take(lane, run, gathered[int(self._blocks[lane])])
+        return gathered
+
+    def _has_news(self) -> Flags:
+        """Return (lanes,) of which there is something to take: few, of the many of a device."""
+        runs = self.bundle.runs
+        handed = [*HANDED, "impacts"] if self.study.statistics else HANDED
+        counts = runs["filled"].sum(axis=1) + sum(runs[name] for name in handed)
+        found: Flags = (runs["status"] != Status.RUNNING) | (counts > 0)
+        return found
+
+    def _take(self, lane: int, run: PointRun, gathered: Gathered) -> None:
+        """Take what a lane has handed out, and free it if its point is over."""
+        status = self.bundle.lane(lane).status
+        if run.ended is None:
+            gathered.rows += self.recording.take(lane, run)
+        else:
+            run.finer.append(self.bundle.growth(lane))
+        if status == Status.RUNNING or self._goes_on(lane, run, status, gathered.following):
+            return
+        end = judged(self.study, self.bundle.kernel, run)
+        again = from_next_start(self.study, self.bundle.kernel, run, end)
+        if again is None:
+            gathered.ended.append(of_all_starts(self.study, run, end))
+        else:
+            gathered.following.append(again)
+        self.lanes[lane], self._blocks[lane] = None, FREE
 
     def _goes_on(self, lane: int, run: PointRun, status: Status, following: list[PointRun]) -> bool:
         """Give a lane that has stopped the next part of its point.

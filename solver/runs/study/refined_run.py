@@ -7,6 +7,7 @@ its cells end: it needs nothing but the study, and has the same bits whenever it
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from jointplay.records.arrays import Integers
 from jointplay.records.checkpoint import decode, encode, packed
 from jointplay.records.coarse_to_fine import coarse_points, order_of
 from jointplay.records.inherited import INHERITED
-from jointplay.records.point import PointEnd, StudySlice
+from jointplay.records.point import PointEnd
 from jointplay.solver.runs.study.cells import Cells, decided
 from jointplay.solver.runs.study.likeness import Likeness
 from jointplay.solver.runs.study.plan import Study
@@ -43,25 +44,11 @@ class RefinedRun(StudyRun):
         if first >= coarse:
             own = self._order[first : first + count]
             self._origins = _origins(own, study.shape, 1 << study.refine)
-            self._point_at = np.empty_like(self._order)
-            self._point_at[self._order] = np.arange(len(self._order))
+            self._point_at = _points_at(study)
         self._likeness = Likeness(study)
         self._cells = self._decided()
         """Decisions so far; they change when all of the missing points are known."""
         super().__init__(study, block, checkpoint)
-
-    def slices(self) -> Iterator[StudySlice]:
-        """Yield what each slice computed, until every point of the block has ended."""
-        while self.ended < self.count:
-            yield from super().slices()
-            if not len(self._origins):
-                return
-            self._cells = self._decided()
-            self.waiting = self._runs(self._cells.missing)
-            if not self.waiting:
-                ends = (*self._untold(), *self._inherited())
-                self.ended += len(ends)
-                yield StudySlice(1.0, (), (), ends)
 
     def checkpoint(self) -> bytes:
         """Return a restart point; valid between slices."""
@@ -87,9 +74,14 @@ class RefinedRun(StudyRun):
         if not len(self._origins):
             return tuple(marked)
         self._known |= {int(self._order[end.point]): end for end in marked}
-        own = tuple(end for end in marked if self._counts(end.point))
+        own = [end for end in marked if self._counts(end.point)]
         self._told |= {int(self._order[end.point]) for end in own}
-        return own
+        if self.over:  # all that was missing is known
+            self._cells = self._decided()
+            self.waiting = self._runs(self._cells.missing)
+            if not self.waiting:
+                own += [*self._untold(), *self._inherited()]
+        return tuple(own)
 
     def _begun(self, started: Sequence[int]) -> tuple[int, ...]:
         every = not len(self._origins)
@@ -126,6 +118,15 @@ class RefinedRun(StudyRun):
             end = self._known[origin]
             statistics = {**end.statistics, INHERITED: 1.0, "steps": 0.0}
             yield replace(end, point=int(self._point_at[place]), statistics=statistics)
+
+
+@lru_cache(1)  # a million points take 8 MB, and a device computes many blocks at once
+def _points_at(study: Study) -> Integers:
+    """Return (points,) the point at each place."""
+    order = order_of(study.job, study.shape)
+    found = np.empty_like(order)
+    found[order] = np.arange(len(order))
+    return found
 
 
 def _origins(places: Integers, shape: tuple[int, ...], side: int) -> Integers:

@@ -28,21 +28,10 @@ PARTS = ("column", "run", "first_energy")
 
 
 def written(
-    ended: int,
-    waiting: Collection[PointRun],
-    group: LaneGroup | None,
-    points: range | None = None,
+    ended: int, waiting: Collection[PointRun], group: LaneGroup | None, block: int
 ) -> bytes:
-    """Return a restart point; valid between slices.
-
-    Parameters
-    ----------
-    ended
-        How many points have.
-    points
-        Those of the block, where lanes compute points of others, too.
-    """
-    under_way = [] if group is None else _under_way(group, points)
+    """Return a restart point of a block, of which so many points have ended."""
+    under_way = [] if group is None else _under_way(group, block)
     resumed = [(run, run.lane) for run in waiting if run.lane is not None]
     states = [*under_way, *resumed]
     begun = [run for run, _ in states]
@@ -62,7 +51,6 @@ def written(
     facts = {
         "ended": ended,
         "waiting": [_facts(run) for run in waiting],
-        "structure": None if group is None else group.structure,
         "lanes": [_facts(run) for run in begun],
     }
     for k, part in enumerate(PARTS):
@@ -70,25 +58,21 @@ def written(
     return encode(_KIND, SOLVER_VERSION, facts, arrays)
 
 
-def _under_way(group: LaneGroup, points: range | None) -> list[tuple[PointRun, LaneState]]:
+def _under_way(group: LaneGroup, block: int) -> list[tuple[PointRun, LaneState]]:
     """Return the runs that lanes compute, with where these have come to."""
-    lanes = {
-        lane: run
-        for lane, run in enumerate(group.lanes)
-        if run is not None and (points is None or run.point in points)
-    }
-    return list(zip(lanes.values(), group.bundle.states_of(list(lanes)), strict=True))
+    runs = group.runs_of(block)
+    return list(zip(runs.values(), group.bundle.states_of(list(runs)), strict=True))
 
 
-def read(checkpoint: bytes) -> tuple[int, list[PointRun], int | None]:
-    """Return how many points have ended, those that wait or go on, and the lanes' structure."""
+def read(checkpoint: bytes) -> tuple[int, list[PointRun]]:
+    """Return how many points have ended, and those that go on or wait."""
     facts, arrays = decode(checkpoint, _KIND, SOLVER_VERSION)
     begun = [_run(found, arrays) for found in facts["lanes"]]
     for run in begun:
         column, record, energy = (arrays[f"{part}-{run.point}"] for part in PARTS)
         run.lane = column, record[()], energy
     waiting = [_run(found, arrays) for found in facts["waiting"]]
-    return facts["ended"], [*begun, *waiting], facts["structure"]
+    return facts["ended"], [*begun, *waiting]
 
 
 def _facts(run: PointRun) -> dict[str, Any]:

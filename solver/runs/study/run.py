@@ -5,19 +5,22 @@ nothing but the length of slices. Points of another structure need another kerne
 the lanes of this one are done.
 """
 
-import time
 from collections.abc import Iterator, Sequence
 
 from jointplay.records.point import PointEnd, StudySlice
-from jointplay.solver.runs.budget import SliceBudget
+from jointplay.solver.runs.study.gathered import Gathered
 from jointplay.solver.runs.study.lane_group import LaneGroup
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
+from jointplay.solver.runs.study.pool import Pool
 from jointplay.solver.runs.study.restart_point import read, written
 
 
 class StudyRun:
-    """One block: `slices` computes it, `checkpoint` between slices restarts it bit for bit."""
+    """One block: `slices` computes it, `checkpoint` between slices restarts it bit for bit.
+
+    Or a `Pool` computes it beside others.
+    """
 
     def __init__(self, study: Study, block: int, checkpoint: bytes | None = None) -> None:
         """Queue the block's chains of points, or take up where the checkpoint was made.
@@ -32,15 +35,14 @@ class StudyRun:
         LimitExceeded
             The scene's equations are too long to compile.
         """
-        self.study = study
+        self.study, self.block = study, block
         first, self.count = study.blocks[block]
         self.waiting: list[PointRun] = []
         """Points that may begin, in the order of their chains."""
         self.group: LaneGroup | None = None
-        """Points that are computed; none before the first slice."""
+        """Lanes that compute its points; none before the first slice."""
         self.ended = 0
-        self.seconds = 0.0
-        """Spent computing by this process since this object was made, without compiling."""
+        self._alone = Pool(study)
         self._ended_steps = 0.0
         self._reached = 0.0
         if checkpoint is not None:
@@ -54,36 +56,36 @@ class StudyRun:
         return [PointRun(self.study.chain_order[chain][0], chain, 0) for chain in chains]
 
     @property
+    def seconds(self) -> float:
+        """Spent computing by `slices` since this object was made, without compiling."""
+        return self._alone.seconds
+
+    @property
     def steps(self) -> float:
         """Accepted steps: of points that ended since this object was made, and under way."""
-        return self._ended_steps + (self.group.steps if self.group else 0.0)
+        return self._ended_steps + (self.group.steps(self.block) if self.group else 0.0)
+
+    @property
+    def over(self) -> bool:
+        """Whether no point waits or is under way."""
+        return not self.waiting and (self.group is None or not self.group.computes(self.block))
 
     def slices(self) -> Iterator[StudySlice]:
         """Yield what each slice computed, until every point of the block has ended."""
-        budget = SliceBudget()
-        while self.waiting or (self.group is not None and self.group.busy):
-            group = self._group()
-            started = group.fill(self.waiting)
-            begun, worked = time.perf_counter(), time.process_time()
-            before = group.bundle.attempts
-            group.bundle.advance(budget.attempts)
-            rows, ended, following = group.collect()
-            self.waiting += following
-            own = self._own(ended)
-            self.ended += len(own)
-            self._ended_steps += sum(end.statistics["steps"] for end in ended)
-            budget.adapt(group.bundle.attempts - before, time.perf_counter() - begun)
-            self.seconds += time.process_time() - worked
-            yield StudySlice(self._fraction(group), self._begun(started), tuple(rows), own)
+        if not self._alone.runs:
+            self._alone.add(self)
+        while not self.over:
+            ((_, piece),) = self._alone.advance()
+            yield piece
 
-    def _group(self) -> LaneGroup:
-        """Return the lanes that go on; those of another structure once all are free."""
-        if self.group is not None and self.group.busy:
-            return self.group
-        structures = self.study.structure[[run.point for run in self.waiting]]
-        if self.group is None or self.group.structure not in structures:
-            self.group = LaneGroup(self.study, int(structures.min()))
-        return self.group
+    def take(self, started: Sequence[int], found: Gathered) -> StudySlice:
+        """Take what lanes have given of its points. Returns what is new of the block."""
+        begun = self._begun(started)
+        self.waiting += found.following
+        own = self._own(found.ended)
+        self.ended += len(own)
+        self._ended_steps += sum(end.statistics["steps"] for end in found.ended)
+        return StudySlice(self._fraction(), begun, tuple(found.rows), own)
 
     def _own(self, ended: Sequence[PointEnd]) -> tuple[PointEnd, ...]:
         """Return the ends that are results of the block."""
@@ -93,17 +95,15 @@ class StudyRun:
         """Return those of points that were started whose results the block has."""
         return tuple(started)
 
-    def _fraction(self, group: LaneGroup) -> float:
+    def _fraction(self) -> float:
         """Return how much of the block is computed, 0..1; it never falls."""
-        found = min((self.ended + group.under_way()) / self.count, 1.0)
-        self._reached = max(self._reached, found)
+        under_way = self.group.under_way(self.block) if self.group else 0.0
+        self._reached = max(self._reached, min((self.ended + under_way) / self.count, 1.0))
         return self._reached
 
     def checkpoint(self) -> bytes:
         """Return a restart point; valid between slices."""
-        return written(self.ended, self.waiting, self.group)
+        return written(self.ended, self.waiting, self.group, self.block)
 
     def _restore(self, checkpoint: bytes) -> None:
-        self.ended, self.waiting, structure = read(checkpoint)
-        if structure is not None:
-            self.group = LaneGroup(self.study, structure)
+        self.ended, self.waiting = read(checkpoint)
