@@ -26,8 +26,9 @@ from jointplay.worker.local.computing import Report
 from jointplay.worker.local.folder import RUNNING
 from jointplay.worker.local.interruption import interruption
 from jointplay.worker.local.keeping import Keeping
-from jointplay.worker.local.study import Try, compute_block, open_store, tries_in
+from jointplay.worker.local.study import compute_block, open_store
 from jointplay.worker.local.tries import next_try
+from jointplay.worker.local.tries_at_blocks import Try, tries_in
 
 RUNS = "runs"
 PAGE = "report.html"

@@ -74,7 +74,7 @@ def run_block(
     create(folder, layout)
     if StudyBlock.done(folder, layout, index):
         return Outcome("succeeded", 0.0, 1.0)
-    begin = _begin(layout, index, folder, attempt, resume_from)
+    begin = begin_block(layout, index, folder, attempt, resume_from)
     return _compute(study, index, *begin, report, longest)
 
 
@@ -134,14 +134,17 @@ def _out_of_time(seconds: float, fraction: float) -> JobError:
     )
 
 
-def _begin(
+def begin_block(
     layout: StudyLayout,
     index: int,
     folder: Path,
     attempt: int,
     resume_from: tuple[str, float] | None,
 ) -> tuple[StudyBlock, bytes | None, float]:
-    """Return the block's store, what continues its computation, and how far that had come."""
+    """Return a block's store, what continues its computation, and how far that had come.
+
+    See `run_block` for `attempt` and `resume_from`.
+    """
     if resume_from is not None:
         name, fraction = resume_from
         try:

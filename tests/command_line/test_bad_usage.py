@@ -20,6 +20,7 @@ from jointplay.storage.catalogue import errors as of_the_catalogue
 
 PRESS = ["run", "seven-bar-press", "-o", "OUT"]
 TIMED = [*PRESS, "--duration", "2"]
+DIAGRAM = ["--bifurcation", "clearance=1e-4:5e-4:9", "--settle", "1", "--record", "1"]
 
 WRONG = {
     "unknown command": (["frobnicate"], "frobnicate"),
@@ -70,6 +71,13 @@ WRONG = {
     "unknown formulation": ([*TIMED, "--formulation", "newton"], "/formulation"),
     "too many samples": ([*TIMED, "--output-step", "1e-9"], "/output_step"),
     "processes of one simulation": ([*TIMED, "--processes", "2"], "--processes"),
+    "no device": ([*PRESS, *DIAGRAM, "--device", "gpu"], "/device: 'gpu' is no device"),
+    "no such device": ([*PRESS, *DIAGRAM, "--device", "cuda:9999"], "cannot be opened"),
+    "a device for one simulation": ([*TIMED, "--device", "cuda:0"], "/kind: A device computes no"),
+    "processes of a device": (
+        [*PRESS, *DIAGRAM, "--device", "cuda:0", "--processes", "2"],
+        "leave it out beside --device",
+    ),
     "no such file": (["run", "missing.json", "-o", "OUT"], "missing.json"),
     "a folder without a job": (["run", ".", "-o", "OUT"], ". is a folder; give a job or a scene"),
     "no address at all": (["ls", "--url", "foo"], "it has no http:// in front"),

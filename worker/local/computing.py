@@ -17,6 +17,7 @@ from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Admission, Study
+    from jointplay.solver.runs.study.lane_group import Make
     from jointplay.worker.execute import Outcome
 
 Report = Callable[[float, str], None]
@@ -26,7 +27,11 @@ _FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 
 def compute(
-    admission: "Admission | Study", folder: Path, processes: int | None, report: Report
+    admission: "Admission | Study",
+    folder: Path,
+    processes: int | None,
+    report: Report,
+    device: "Make | None" = None,
 ) -> "Outcome":
     """Compute a checked job; signals that end a process end it between two slices.
 
@@ -43,6 +48,8 @@ def compute(
         Of a study; by default one for each core.
     report
         Called several times a second with the fraction of the whole, and a few words.
+    device
+        What has lanes of a device for a study; see `worker.local.devices`.
 
     Returns
     -------
@@ -67,7 +74,7 @@ def compute(
         try:
             if isinstance(admission, Study):
                 outcome = compute_study(
-                    admission, running, target, processes, reached.report, asked_to_end
+                    admission, running, target, processes, reached.report, asked_to_end, device
                 )
             else:
                 outcome = _simulation(admission, running, target, reached, asked_to_end)

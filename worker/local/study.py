@@ -6,12 +6,14 @@ from collections.abc import Callable, Mapping
 from concurrent.futures.process import BrokenProcessPool
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, cast
 
 from jointplay.solver.runs.processes import Advance, Call, Interrupted, cores, processes
+from jointplay.worker.local.tries_at_blocks import Try, tries_in
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Study
+    from jointplay.solver.runs.study.lane_group import Make
     from jointplay.storage.places import StoredObject
     from jointplay.storage.studies.layout import StudyLayout
     from jointplay.worker.execute import Outcome, Progress
@@ -29,6 +31,7 @@ def compute_study(
     processes: int | None,
     report: Report,
     asked_to_end: Callable[[], bool],
+    device: "Make | None" = None,
 ) -> "Outcome":
     """Compute a study into a store; what is computed does not depend on the processes.
 
@@ -48,6 +51,8 @@ def compute_study(
         Called several times a second with the fraction of the whole, and a few words.
     asked_to_end
         Asked several times a second.
+    device
+        What has lanes of a device, which then computes all blocks together; see `device_lanes`.
 
     Returns
     -------
@@ -73,11 +78,14 @@ def compute_study(
     open_store(folder, layout)
     tries = tries_in(folder)
     try:
-        ends = (
-            _here(study, folder, tries, tell, asked_to_end)
-            if wanted == 1
-            else _spread(study, folder, tries, wanted, tell, asked_to_end)
-        )
+        if device is not None:
+            from jointplay.worker.local.pooled import compute_pooled
+
+            ends = compute_pooled(study, layout, folder, tries, device, tell, asked_to_end)
+        elif wanted == 1:
+            ends = _here(study, folder, tries, tell, asked_to_end)
+        else:
+            ends = _spread(study, folder, tries, wanted, tell, asked_to_end)
     except BrokenProcessPool:
         return Outcome("failed", 0.0, done, JobError("platform", "process-died", _DIED))
     for outcome in ends:
@@ -100,24 +108,6 @@ def open_store(folder: Path, layout: "StudyLayout") -> None:
     except StoreExists:
         shutil.rmtree(folder)
         create(folder, layout)
-
-
-class Try(NamedTuple):
-    """A try at a block to come: its number, and the restart point that it goes on from."""
-
-    number: int = 1
-    resume_from: str | None = None
-
-
-def tries_in(folder: Path) -> dict[int, Try]:
-    """Return the next try at every block of a store that was begun, by its index."""
-    from jointplay.storage.packed import Running
-    from jointplay.storage.studies.part import attempt_of, newest
-
-    return {
-        index: Try((attempt_of(name) or 0) + 1, name)
-        for index, name in newest(Running(folder).parts()).items()
-    }
 
 
 def _here(

@@ -17,6 +17,7 @@ from jointplay.solver.kernels.device.driver import Code, Device
 from jointplay.solver.kernels.device.kernel_text import ENTRY
 from jointplay.solver.kernels.device.lanes import DeviceLanes, Shape
 from jointplay.solver.kernels.device.one_lane import Sizes
+from jointplay.solver.kernels.device.trimmed import slots_of_energies, without
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.emit.tapes import Source
@@ -55,13 +56,15 @@ class DeviceBundle(Bundle):
         count: int,
         *,
         tangents: Tangents | None = None,
+        energies: bool = True,
         write: Write = code,
         handed: tuple[int, int, int] = (ROWS, IMPACTS, GROWTHS),
     ) -> None:
         """Take room for so many lanes, and have the driver make code of the kernel; seconds.
 
-        `write` : what writes a kernel's code for the driver. `handed` : rows of each kind, contacts
-        and growths of a tangent that a lane hands out in a launch at most.
+        `energies` : whether works and energies are of use; without them steps take three quarters
+        of the time. `write` : what writes a kernel's code for the driver. `handed` : rows of each
+        kind, contacts and growths of a tangent that a lane hands out in a launch at most.
 
         Raises
         ------
@@ -78,7 +81,8 @@ class DeviceBundle(Bundle):
         self.runs = np.zeros(count, DTYPE)
         self.runs["status"], self.runs["landing"] = Status.IDLE, NO_PAIR
         self.first_energy = np.zeros((len(ENERGIES), count))
-        sources, places = kernel.module.tapes.sources, kernel.places
+        unused = () if energies else slots_of_energies(kernel)
+        sources, places = list(without(unused, kernel.module.tapes.sources)), kernel.places
         slots = kernel.layout.size
         if tangents is not None:
             sources = [*sources, *tangents.module.tapes.sources]

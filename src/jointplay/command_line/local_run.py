@@ -12,12 +12,14 @@ from jointplay.records.window_query import WindowQuery
 if TYPE_CHECKING:
     from jointplay.client import Job
     from jointplay.solver.kinds import Admission, Study
+    from jointplay.solver.runs.study.lane_group import Make
 
 
 def compute_and_show(
     admission: "Admission | Study | None",
     output: Path,
     processes: int | None,
+    device: "Make | None" = None,
     *,
     figures: bool,
     as_json: bool,
@@ -31,7 +33,7 @@ def compute_and_show(
 
     if admission is not None:
         with progress(output.name) as report:
-            compute(admission, output, processes, report)
+            compute(admission, output, processes, report, device)
     job = load(output)
     if job.error is not None and job.error.code == NO_ROOM:
         raise Stopped(f"{job.error.detail} {_go_on(output)}", Exit.FAILED)

@@ -30,6 +30,9 @@ def run(
     processes: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Of a study; default one for each core.")
     ] = None,
+    device: Annotated[
+        str, typer.Option(metavar="cpu|cuda:N", help="Of a study: a graphics processor.")
+    ] = "cpu",
     figures: Annotated[
         bool, typer.Option(help="Draw all figures, too, as `jointplay plot OUT` does later.")
     ] = False,
@@ -41,13 +44,16 @@ def run(
     OUT gets job.json (every default filled in: running it repeats the result), results.zarr.zip
     (a Zarr store in one file), outcome.json, peaks.csv, of a study points.csv or accuracy.json.
     Figures are drawn when they are asked for: `jointplay plot OUT`.  Ctrl-C, SIGTERM, SIGHUP and a
-    full disk end the run and keep what was computed; --resume OUT goes on from there.
+    full disk end the run and keep what was computed; --resume OUT goes on from there.  With
+    --device a graphics processor computes the points of a study, to the same bits; `jointplay
+    doctor --device` says whether it serves.
 
     Examples: `jointplay run seven-bar-press --set clearance=5e-4 --duration 2 -o OUT`,
     `jointplay run seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --record 50 -o DIAGRAM`
     """
     from jointplay.local.running import unfinished
     from jointplay.solver.kinds import Study, admit
+    from jointplay.worker.local.devices import PROCESSOR, lanes_of
     from jointplay.worker.local.folder import write_job
 
     if resume is not None:
@@ -58,10 +64,13 @@ def run(
         admission = admit(job_document(source, settings=settings, options=options))
     if processes is not None and admission is not None and not isinstance(admission, Study):
         raise Stopped("--processes is of studies; this is one simulation.")
+    if processes is not None and device != PROCESSOR:
+        raise Stopped("--processes is of the processor; leave it out beside --device.")
+    lanes = None if admission is None else lanes_of(device, admission)
     if resume is None and admission is not None:
         make_folder(output)
         write_job(output, admission.job)  # first of all, whatever happens next
-    compute_and_show(admission, output, processes, figures=figures, as_json=as_json)
+    compute_and_show(admission, output, processes, lanes, figures=figures, as_json=as_json)
 
 
 def _insist_alone(source: object, output: object, settings: object, options: Any) -> None:
@@ -73,7 +82,7 @@ def _insist_alone(source: object, output: object, settings: object, options: Any
     ):
         raise Stopped(
             "--resume OUT goes on with OUT/job.json as it is; beside it there can only be"
-            " --processes, --figures and --json."
+            " --processes, --device, --figures and --json."
         )
 
 

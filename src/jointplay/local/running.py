@@ -3,8 +3,8 @@
 import atexit
 import shutil
 import tempfile
-from collections.abc import Mapping
-from contextlib import nullcontext
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,9 +14,11 @@ from jointplay.client.job import Job
 from jointplay.local.folder_job import load
 from jointplay.progress import progress as shown
 from jointplay.scene_choice import Scene
+from jointplay.worker.local.devices import lanes_of
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Admission, Study
+    from jointplay.solver.runs.study.lane_group import Make
 
 
 def run(
@@ -24,6 +26,7 @@ def run(
     *,
     output: Path | str | None = None,
     processes: int | None = None,
+    device: str = "cpu",
     progress: bool = False,
     check: bool = True,
     **given: Any,
@@ -39,6 +42,8 @@ def run(
         Folder to make for the results; by default a temporary one that goes with this process.
     processes
         Of a study; by default one for each core.
+    device
+        ``cuda:0``: the first graphics processor computes the points of a study, to the same bits.
     progress
         Show a bar on stderr.
     check
@@ -62,6 +67,8 @@ def run(
         name = next(iter(given))
         raise TypeError(f"the job is given whole; {name!r} goes into its document")
     admission = _admitted(job)
+    with _refusals():
+        lanes = lanes_of(device, admission)
     if output is not None:
         folder = Path(output)
         folder.mkdir(parents=True)
@@ -69,13 +76,15 @@ def run(
         folder = Path(tempfile.mkdtemp(prefix="jointplay-"))
         atexit.register(shutil.rmtree, folder, ignore_errors=True)
     title = folder.name if output is not None else "run"
-    return _computed(admission, folder, processes, title if progress else None, check=check)
+    shown_as = title if progress else None
+    return _computed(admission, folder, processes, lanes, shown_as, check=check)
 
 
 def resume(
     folder: Path | str,
     *,
     processes: int | None = None,
+    device: str = "cpu",
     progress: bool = False,
     check: bool = True,
 ) -> Job:
@@ -88,7 +97,7 @@ def resume(
     ----------
     folder
         That `run` made, or the command ``jointplay run``.
-    processes, progress, check
+    processes, device, progress, check
         As for `run`.
 
     Raises
@@ -102,8 +111,10 @@ def resume(
     """
     admission = unfinished(Path(folder))
     if admission is not None:
+        with _refusals():
+            lanes = lanes_of(device, admission)
         title = Path(folder).name if progress else None
-        return _computed(admission, Path(folder), processes, title, check=check)
+        return _computed(admission, Path(folder), processes, lanes, title, check=check)
     found = load(folder)
     if check:
         found.check()
@@ -141,6 +152,7 @@ def _computed(
     admission: "Admission | Study",
     folder: Path,
     processes: int | None,
+    lanes: "Make | None",
     title: str | None,
     *,
     check: bool,
@@ -149,7 +161,7 @@ def _computed(
     with shown(title) if title else nullcontext(lambda fraction, note: None) as report:
         from jointplay.worker.local.computing import compute
 
-        compute(admission, folder, processes, report)
+        compute(admission, folder, processes, report, lanes)
     found = load(folder)
     if check:
         found.check()
@@ -157,11 +169,19 @@ def _computed(
 
 
 def _admitted(document: Mapping[str, Any]) -> "Admission | Study":
-    from jointplay.records.failure import InvalidInput, LimitExceeded
     from jointplay.solver.kinds import admit
 
-    try:
+    with _refusals():
         return admit(dict(document))
+
+
+@contextmanager
+def _refusals() -> Iterator[None]:
+    """Say as a client does what is wrong with a job."""
+    from jointplay.records.failure import InvalidInput, LimitExceeded
+
+    try:
+        yield
     except InvalidInput as error:
         raise Refused(
             str(error),
