@@ -29,6 +29,7 @@ ALL = (
     "limit_cycles",
     "pitchfork",
     "random_orbits",
+    "device",
     "joined",
     "bucket",
     "restitution",

@@ -40,7 +40,8 @@ MECHANISMS: Mapping[str, Mapping[str, tuple[float, float]]] = {
 }
 
 
-def prepare(name: str, folder: Path, side: int) -> None:
+def prepare(name: str, folder: Path, side: int, *, on_host: bool = False) -> None:
+    """Write starts, what a CPU finds, and code: of a device, or for this processor in its place."""
     ranges = MECHANISMS[name]
     axes = [np.linspace(*ends, side) for ends in ranges.values()]
     points = list(itertools.product(*axes))
@@ -96,8 +97,8 @@ def prepare(name: str, folder: Path, side: int) -> None:
             for which, slots in compared.items()
         },
     )
-    for variant, text in texts(kernel, sizes, work).items():
-        (folder / f"{name}{variant}.ptx").write_text(ptx(text))
+    for variant, text in texts(kernel, sizes, work, on_host).items():
+        (folder / f"{name}{variant}.ptx").write_text(text if on_host else ptx(text))
 
 
 def work_of(bundle: Bundle) -> Any:
@@ -119,7 +120,7 @@ def advanced(bundle: Bundle) -> list[Any]:
     return [np.concatenate(one) for one in handed]
 
 
-def texts(kernel: Kernel, sizes: Sizes, work: Any) -> dict[str, str]:
+def texts(kernel: Kernel, sizes: Sizes, work: Any, on_host: bool) -> dict[str, str]:
     """Return the kernel's text in several variants."""
     sources = kernel.module.tapes.sources
     lean = list(without(slots_of_energies(kernel), sources))
@@ -131,7 +132,7 @@ def texts(kernel: Kernel, sizes: Sizes, work: Any) -> dict[str, str]:
     constant = list(with_constants(shared, lean))
 
     def text(chosen: Sequence[Any]) -> str:
-        return kernel_text(chosen, kernel.places, sizes)
+        return kernel_text(chosen, kernel.places, sizes, on_host=on_host)
 
     called = text(constant).replace(
         'define void @"slopes"(ptr %W, i64 %index) alwaysinline',

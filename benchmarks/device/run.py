@@ -124,12 +124,13 @@ def main(arguments: Sequence[str]) -> None:
         print(f"{name}: {given.points} points; one core of the other machine {cpu:.0f} rev/s")
         for variant in arguments or ("", "_constant"):
             try:
-                measure(given, device, folder / name, variant)
+                measure(given, device, folder / name, variant, LANES)
             except DeviceError as error:
                 print(f"  {error}", flush=True)
 
 
-def measure(given: Given, device: Device, path: Path, variant: str) -> None:
+def measure(given: Given, device: Device, path: Path, variant: str, counts: Sequence[int]) -> None:
+    """Say how many points have the CPU's bits, and how fast so many lanes are."""
     which, registers, block = [*variant.split(":"), "", ""][:3]
     text = path.with_name(f"{path.name}{which}.ptx").read_text()
     if registers:
@@ -146,7 +147,7 @@ def measure(given: Given, device: Device, path: Path, variant: str) -> None:
     if not registers:
         same = equal(given, device, code, LEAN if which else WHOLE)
         print(f"  {same} of {given.points} points have the CPU's bits", flush=True)
-    for count in LANES if variant == "_constant" else LANES[-1:]:
+    for count in counts if variant == "_constant" else counts[-1:]:
         revolutions, attempts, attended, seconds = rate(
             given, device, code, count, int(block or BLOCK)
         )

@@ -34,6 +34,8 @@ class Pool:
         """
         self.seconds = 0.0
         """Processor time spent computing by this process, without compiling."""
+        self.launched = 0.0
+        """Seconds spent in kernels."""
         self.group: LaneGroup | None = None
         """None before the first slice."""
         self.runs: list[StudyRun] = []
@@ -66,9 +68,11 @@ class Pool:
         worked = time.process_time()
         started = [group.fill(run.waiting, run.block) for run in self.runs]
         before = group.bundle.attempts
-        launched = time.perf_counter()
+        begun = time.perf_counter()
         group.bundle.advance(self._budget.attempts)
-        self._budget.adapt(group.bundle.attempts - before, time.perf_counter() - launched)
+        spent = time.perf_counter() - begun
+        self._budget.adapt(group.bundle.attempts - before, spent)
+        self.launched += spent
         gathered = group.collect()
         found = [
             (run, run.take(points, gathered[run.block]))
