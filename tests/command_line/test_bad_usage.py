@@ -74,10 +74,6 @@ WRONG = {
     "no device": ([*PRESS, *DIAGRAM, "--device", "gpu"], "/device: 'gpu' is no device"),
     "no such device": ([*PRESS, *DIAGRAM, "--device", "cuda:9999"], "cannot be opened"),
     "a device for one simulation": ([*TIMED, "--device", "cuda:0"], "/kind: A device computes no"),
-    "processes of a device": (
-        [*PRESS, *DIAGRAM, "--device", "cuda:0", "--processes", "2"],
-        "leave it out beside --device",
-    ),
     "no such file": (["run", "missing.json", "-o", "OUT"], "missing.json"),
     "a folder without a job": (["run", ".", "-o", "OUT"], ". is a folder; give a job or a scene"),
     "no address at all": (["ls", "--url", "foo"], "it has no http:// in front"),

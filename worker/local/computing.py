@@ -17,8 +17,8 @@ from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Admission, Study
-    from jointplay.solver.runs.study.lane_group import Make
     from jointplay.worker.execute import Outcome
+    from jointplay.worker.local.devices import Lanes
 
 Report = Callable[[float, str], None]
 NO_ROOM: Final = "no-room"
@@ -31,7 +31,7 @@ def compute(
     folder: Path,
     processes: int | None,
     report: Report,
-    device: "Make | None" = None,
+    device: "Lanes | None" = None,
 ) -> "Outcome":
     """Compute a checked job; signals that end a process end it between two slices.
 
@@ -45,11 +45,11 @@ def compute(
     folder
         Where job, store and outcome go; it is there, and empty, or has such a rest.
     processes
-        Of a study; by default one for each core.
+        Of a study; by default one for each core, or one beside a device.
     report
         Called several times a second with the fraction of the whole, and a few words.
     device
-        What has lanes of a device for a study; see `worker.local.devices`.
+        What opens a device, which then computes the points of a study.
 
     Returns
     -------

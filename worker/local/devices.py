@@ -1,16 +1,20 @@
 """Devices that local runs may name; nothing of them is loaded for the processor."""
 
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Admission, Study
     from jointplay.solver.runs.study.lane_group import Make
 
+Lanes = Callable[["Study"], "Make"]
+"""From a study to what has its lanes, in the process that asks; see `device_lanes`."""
 PROCESSOR = "cpu"
 
 
-def lanes_of(name: str, job: "Admission | Study") -> "Make | None":
-    """Return what has a job's lanes on the device of a name; None: the processor computes it.
+def lanes_of(name: str, job: "Admission | Study") -> Lanes | None:
+    """Return what opens the device of a name for a job; None: the processor computes it.
 
     Raises
     ------
@@ -20,7 +24,15 @@ def lanes_of(name: str, job: "Admission | Study") -> "Make | None":
     if name == PROCESSOR:
         return None
     from jointplay.solver.kernels.device.named import device_named
-    from jointplay.solver.runs.study.device_lanes import device_lanes, required_study
+    from jointplay.solver.runs.study.device_lanes import required_study
 
-    study = required_study(job)
+    required_study(job)
+    device_named(name)
+    return partial(_opened, name)
+
+
+def _opened(name: str, study: "Study") -> "Make":
+    from jointplay.solver.kernels.device.named import device_named
+    from jointplay.solver.runs.study.device_lanes import device_lanes
+
     return device_lanes(device_named(name), study)

@@ -1,92 +1,109 @@
-"""All blocks of a study on lanes of a device, as many blocks at once as there are lanes for."""
+"""Blocks of a study on lanes of a device, as many at once as there are lanes for."""
 
+import json
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
-from operator import mul
 from pathlib import Path
 
 from jointplay.records.job import JobError
 from jointplay.records.point import StudySlice
 from jointplay.solver.computations import computation_of
 from jointplay.solver.kernels.device.driver import DeviceError
-from jointplay.solver.runs.study.lane_group import Make
+from jointplay.solver.runs.processes import Advance, Call
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.pool import Pool
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.storage.studies.block import StudyBlock
-from jointplay.storage.studies.layout import StudyLayout
 from jointplay.worker.execute import Answer, Outcome, Progress
+from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.local.devices import Lanes
 from jointplay.worker.local.keeping import Keeping
+from jointplay.worker.local.study_of import study_of
 from jointplay.worker.local.tries_at_blocks import Try
 from jointplay.worker.study_block import begin_block
 
 LAUNCH = 0.3
 """Aimed-at seconds of a launch: an end that is asked for waits no longer."""
-Report = Callable[[float, str], None]
 
 
 def compute_pooled(
     study: Study,
-    layout: StudyLayout,
     folder: Path,
     tries: Mapping[int, Try],
-    make: Make,
-    report: Report,
-    asked_to_end: Callable[[], bool],
-) -> list[Outcome]:
-    """Compute all blocks into a store, each from its restart point if there is one.
+    device: Lanes,
+    go_on: Callable[[Progress], bool],
+) -> Outcome:
+    """Compute blocks into a store, each from its restart point if there is one.
 
     Parameters
     ----------
-    study, layout
-        The layout is the study's.
+    study
+        As admitted.
     folder
         Of the store.
     tries
-        Next try at each block that was begun.
-    make
-        What has the lanes; see `LaneGroup`.
-    report, asked_to_end
-        See `compute_study`.
+        Next try at each of the blocks, by its index.
+    device
+        What opens the device.
+    go_on
+        Hears between launches how far the blocks are, and says whether to go on.
 
     Returns
     -------
-    list of Outcome
-        One for each block that succeeded. Or one that failed, because the device did; then, and
-        where an end was asked for, restart points are kept.
+    Outcome
+        "left" where it was not to go on, or "failed" because the device did: restart points are
+        kept.
     """
-    blocks = _Blocks(study, layout, folder, tries)
-
-    def go_on(done: Progress) -> bool:
-        report(done.fraction, f"{done.watermark} of {study.points} points")
-        return not asked_to_end()
-
-    keeping, pool = Keeping(go_on, Answer.leave), Pool(study, make, LAUNCH)
-    waiting = deque(range(len(study.blocks)))
+    blocks, waiting = _Blocks(study, folder, tries), deque(tries)
+    keeping, pool = Keeping(go_on, Answer.leave), Pool(study, device(study), LAUNCH)
     try:
         while waiting or pool.runs:
             while waiting and pool.room > 0:
                 for run in blocks.begin(waiting.popleft()):
                     pool.add(run)
             if keeping(blocks.progress()) is Answer.leave:
-                return []
+                return Outcome("left", 0.0, blocks.progress().fraction)
             if pool.runs:
                 for run, piece in pool.advance():
                     blocks.take(run, piece)
     except DeviceError as error:
-        return [_lost(error, blocks.progress().fraction)]
-    return [Outcome("succeeded", 0.0, 1.0) for _ in study.blocks]
+        return _lost(error, blocks.progress().fraction)
+    return Outcome("succeeded", 0.0, 1.0)
+
+
+def calls_of_parts(
+    study: Study, folder: Path, tries: Mapping[int, Try], count: int, device: Lanes
+) -> list[Call]:
+    """Return a call for each of so many processes: every `count`-th block, by lanes of its own.
+
+    The device has the launches of one after the other; the others prepare and judge points.
+    """
+    job = json.dumps(study.job)
+    parts = [{index: tries[index] for index in [*tries][k::count]} for k in range(count)]
+    sizes = [sum(study.blocks[index][1] for index in part) for part in parts]
+    return [
+        Call(_compute_part, (job, str(folder), part, device), size, size)
+        for part, size in zip(parts, sizes, strict=True)
+    ]
+
+
+def _compute_part(
+    job: str, folder: str, tries: Mapping[int, Try], device: Lanes, advance: Advance
+) -> Outcome:
+    def go_on(done: Progress) -> bool:
+        return advance(done.fraction, done.watermark)
+
+    return compute_pooled(study_of(job), Path(folder), tries, device, go_on)
 
 
 class _Blocks:
     """The stores of blocks, and what computes those that are under way."""
 
-    def __init__(
-        self, study: Study, layout: StudyLayout, folder: Path, tries: Mapping[int, Try]
-    ) -> None:
-        self._study, self._layout, self._folder, self._tries = study, layout, folder, tries
+    def __init__(self, study: Study, folder: Path, tries: Mapping[int, Try]) -> None:
+        self._study, self._folder, self._tries = study, folder, tries
+        self._layout = layout_of_study(study)
         self._under_way: dict[int, tuple[StudyRun, StudyBlock]] = {}
-        self._fractions = [0.0] * len(study.blocks)
+        self._fractions = dict.fromkeys(tries, 0.0)
         self._ended = 0
         """Points of blocks that are done."""
 
@@ -95,7 +112,7 @@ class _Blocks:
         if StudyBlock.done(self._folder, self._layout, index):
             self._end(index)
             return
-        number, name = self._tries.get(index, Try())
+        number, name = self._tries[index]
         restart = None if name is None else (name, 0.0)
         block, carried, _ = begin_block(self._layout, index, self._folder, number, restart)
         run = computation_of(self._study, index, carried)
@@ -123,10 +140,10 @@ class _Blocks:
 
     def progress(self) -> Progress:
         """Return how far all blocks are."""
-        counts = [count for _, count in self._study.blocks]
-        computed = sum(map(mul, self._fractions, counts))
+        counts = {index: self._study.blocks[index][1] for index in self._fractions}
+        computed = sum(counts[index] * fraction for index, fraction in self._fractions.items())
         ended = self._ended + sum(block.watermark for _, block in self._under_way.values())
-        return Progress(0.0, computed / sum(counts), self._keep, lambda: None, ended)
+        return Progress(0.0, computed / sum(counts.values()), self._keep, lambda: None, ended)
 
     def _keep(self) -> tuple[str, int]:
         """Bring restart points of all blocks under way to the disk."""

@@ -2,21 +2,21 @@
 
 import json
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures.process import BrokenProcessPool
-from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from jointplay.solver.runs.processes import Advance, Call, Interrupted, cores, processes
+from jointplay.worker.local.study_of import study_of
 from jointplay.worker.local.tries_at_blocks import Try, tries_in
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Study
-    from jointplay.solver.runs.study.lane_group import Make
     from jointplay.storage.places import StoredObject
     from jointplay.storage.studies.layout import StudyLayout
     from jointplay.worker.execute import Outcome, Progress
+    from jointplay.worker.local.devices import Lanes
 
 Report = Callable[[float, str], None]
 STORE = "study"
@@ -31,7 +31,7 @@ def compute_study(
     processes: int | None,
     report: Report,
     asked_to_end: Callable[[], bool],
-    device: "Make | None" = None,
+    device: "Lanes | None" = None,
 ) -> "Outcome":
     """Compute a study into a store; what is computed does not depend on the processes.
 
@@ -46,13 +46,13 @@ def compute_study(
     target
         Where the sealed store goes.
     processes
-        How many; by default one for each core.
+        How many; by default one for each core, or one beside a device.
     report
         Called several times a second with the fraction of the whole, and a few words.
     asked_to_end
         Asked several times a second.
     device
-        What has lanes of a device, which then computes all blocks together; see `device_lanes`.
+        What opens a device in each process, which then computes many blocks together.
 
     Returns
     -------
@@ -72,26 +72,30 @@ def compute_study(
         done = fraction
         report(fraction, note)
 
-    wanted = min(processes or cores(), len(study.blocks))
+    wanted = min(processes or (cores() if device is None else 1), len(study.blocks))
     report(0.0, "preparing the kernels")
     layout, folder = layout_of_study(study), running / STORE
     open_store(folder, layout)
-    tries = tries_in(folder)
+    begun = tries_in(folder)
+    tries = {index: begun.get(index, Try()) for index in range(len(study.blocks))}
     try:
-        if device is not None:
-            from jointplay.worker.local.pooled import compute_pooled
+        if wanted > 1:
+            calls = _calls(study, folder, tries)
+            if device is not None:
+                from jointplay.worker.local.pooled import calls_of_parts
 
-            ends = compute_pooled(study, layout, folder, tries, device, tell, asked_to_end)
-        elif wanted == 1:
-            ends = _here(study, folder, tries, tell, asked_to_end)
+                calls = calls_of_parts(study, folder, tries, wanted, device)
+            ends = _spread(study, calls, wanted, tell, asked_to_end)
+        elif device is not None:
+            ends = [_on_device(study, folder, tries, device, tell, asked_to_end)]
         else:
-            ends = _spread(study, folder, tries, wanted, tell, asked_to_end)
+            ends = _here(study, folder, tries, tell, asked_to_end)
     except BrokenProcessPool:
         return Outcome("failed", 0.0, done, JobError("platform", "process-died", _DIED))
     for outcome in ends:
         if outcome.state == "failed":
             return Outcome("failed", 0.0, done, outcome.error)
-    if [outcome.state for outcome in ends] != ["succeeded"] * len(study.blocks):
+    if not ends or any(outcome.state != "succeeded" for outcome in ends):
         return Outcome("cancelled", 0.0, done)
     report(1.0, f"{study.points} of {study.points} points")
     seal(folder, layout, target)
@@ -129,26 +133,48 @@ def _here(
             report(fraction, f"{ended} of {study.points} points")
             return not asked_to_end()
 
-        ends.append(compute_block(study, index, folder, tries.get(index, Try()), go_on))
+        ends.append(compute_block(study, index, folder, tries[index], go_on))
         if ends[-1].state != "succeeded":
             break
     return ends
 
 
-def _spread(
+def _on_device(
     study: "Study",
     folder: Path,
     tries: Mapping[int, Try],
+    device: "Lanes",
+    report: Report,
+    asked_to_end: Callable[[], bool],
+) -> "Outcome":
+    """Compute all blocks in this process, by a device."""
+
+    def go_on(done: "Progress") -> bool:
+        report(done.fraction, f"{done.watermark} of {study.points} points")
+        return not asked_to_end()
+
+    from jointplay.worker.local.pooled import compute_pooled
+
+    return compute_pooled(study, folder, tries, device, go_on)
+
+
+def _calls(study: "Study", folder: Path, tries: Mapping[int, Try]) -> list[Call]:
+    """Return calls that compute a block each."""
+    job = json.dumps(study.job)
+    return [
+        Call(_block, (job, str(folder), index, tries[index]), points, points)
+        for index, (_, points) in enumerate(study.blocks)
+    ]
+
+
+def _spread(
+    study: "Study",
+    calls: Sequence[Call],
     count: int,
     report: Report,
     asked_to_end: Callable[[], bool],
 ) -> "list[Outcome]":
-    """Compute the blocks in several processes, each taking the next one when it is free."""
-    job = json.dumps(study.job)
-    calls = [
-        Call(_block, (job, str(folder), index, tries.get(index, Try())), points, points)
-        for index, (_, points) in enumerate(study.blocks)
-    ]
+    """Make the calls in several processes, each taking the next one when it is free."""
 
     def show(fraction: float, points: int, _: str) -> None:
         if fraction > 0.0:
@@ -161,18 +187,10 @@ def _spread(
             return []
 
 
-@lru_cache(maxsize=1)
-def _study(job: str) -> "Study":
-    """Parse an admitted study, once in each process."""
-    from jointplay.solver.kinds import parse
-
-    return cast("Study", parse(json.loads(job)))
-
-
 def _block(job: str, folder: str, index: int, begin: Try, advance: Advance) -> "Outcome":
     """Compute one block in a process of the pool and return how it ended."""
     return compute_block(
-        _study(job),
+        study_of(job),
         index,
         Path(folder),
         begin,

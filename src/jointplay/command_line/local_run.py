@@ -12,14 +12,14 @@ from jointplay.records.window_query import WindowQuery
 if TYPE_CHECKING:
     from jointplay.client import Job
     from jointplay.solver.kinds import Admission, Study
-    from jointplay.solver.runs.study.lane_group import Make
+    from jointplay.worker.local.devices import Lanes
 
 
 def compute_and_show(
     admission: "Admission | Study | None",
     output: Path,
     processes: int | None,
-    device: "Make | None" = None,
+    device: "Lanes | None" = None,
     *,
     figures: bool,
     as_json: bool,

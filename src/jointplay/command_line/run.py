@@ -53,7 +53,7 @@ def run(
     """
     from jointplay.local.running import unfinished
     from jointplay.solver.kinds import Study, admit
-    from jointplay.worker.local.devices import PROCESSOR, lanes_of
+    from jointplay.worker.local.devices import lanes_of
     from jointplay.worker.local.folder import write_job
 
     if resume is not None:
@@ -64,8 +64,6 @@ def run(
         admission = admit(job_document(source, settings=settings, options=options))
     if processes is not None and admission is not None and not isinstance(admission, Study):
         raise Stopped("--processes is of studies; this is one simulation.")
-    if processes is not None and device != PROCESSOR:
-        raise Stopped("--processes is of the processor; leave it out beside --device.")
     lanes = None if admission is None else lanes_of(device, admission)
     if resume is None and admission is not None:
         make_folder(output)

@@ -14,11 +14,10 @@ from jointplay.client.job import Job
 from jointplay.local.folder_job import load
 from jointplay.progress import progress as shown
 from jointplay.scene_choice import Scene
-from jointplay.worker.local.devices import lanes_of
+from jointplay.worker.local.devices import Lanes, lanes_of
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Admission, Study
-    from jointplay.solver.runs.study.lane_group import Make
 
 
 def run(
@@ -41,9 +40,10 @@ def run(
     output
         Folder to make for the results; by default a temporary one that goes with this process.
     processes
-        Of a study; by default one for each core.
+        Of a study; by default one for each core, or one beside a device.
     device
         ``cuda:0``: the first graphics processor computes the points of a study, to the same bits.
+        Several processes have it in turns: the others prepare and judge points.
     progress
         Show a bar on stderr.
     check
@@ -152,7 +152,7 @@ def _computed(
     admission: "Admission | Study",
     folder: Path,
     processes: int | None,
-    lanes: "Make | None",
+    lanes: Lanes | None,
     title: str | None,
     *,
     check: bool,

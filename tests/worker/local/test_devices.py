@@ -42,14 +42,18 @@ REFUSED = {
 }
 
 
-def by_host(study: Study, driver: DriverByHost) -> Make:
+def by_host(driver: DriverByHost, study: Study) -> Make:
     return device_lanes(Device(library=driver), study, partial(kernel_text, on_host=True))
+
+
+def by_a_host_of_its_own(study: Study) -> Make:
+    return by_host(DriverByHost(), study)
 
 
 def computed(job: Any, folder: Path, driver: DriverByHost, report: Any) -> Outcome:
     study = required_study(admit(dict(job)))
     folder.mkdir()
-    return computing.compute(study, folder, None, report, by_host(study, driver))
+    return computing.compute(study, folder, None, report, partial(by_host, driver))
 
 
 def bytes_of(folder: Path) -> bytes:
@@ -78,6 +82,17 @@ def test_a_chart_does_without_energies_to_the_same_bytes(tmp_path: Path) -> None
     outcome = computed(CHART, tmp_path / "THERE", DriverByHost(), lambda *_: None)
     assert outcome.state == "succeeded"
     assert bytes_of(tmp_path / "THERE") == bytes_of(tmp_path / "HERE")
+
+
+@pytest.mark.long
+def test_processes_that_share_a_device_compute_the_same_bytes(whole: Path, tmp_path: Path) -> None:
+    study, told = cast(Study, admit(dict(DIAGRAM))), list[str]()
+    outcome = computing.compute(
+        study, tmp_path, 2, lambda _, note: told.append(note), by_a_host_of_its_own
+    )
+    assert outcome.state == "succeeded"
+    assert told[-1] == "20 of 20 points"
+    assert bytes_of(tmp_path) == bytes_of(whole)
 
 
 @pytest.fixture
@@ -138,8 +153,8 @@ def test_a_device_goes_on_with_what_was_begun_here(whole: Path, tmp_path: Path) 
 
     study = cast(Study, admit(dict(DIAGRAM)))
     assert computing.compute(study, folder, 1, report).state == "cancelled"
-    device = by_host(study, DriverByHost())
-    assert computing.compute(study, folder, None, lambda *_: None, device).state == "succeeded"
+    outcome = computing.compute(study, folder, None, lambda *_: None, by_a_host_of_its_own)
+    assert outcome.state == "succeeded"
     assert bytes_of(folder) == bytes_of(whole)
 
 
