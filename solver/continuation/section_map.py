@@ -259,6 +259,7 @@ class SectionMap:
             0.0,
             event=event,
             start=start,
+            ledger=False,
         )
 
 

@@ -98,6 +98,7 @@ def _problem(map_: SectionMap, scene: Scene, start: LaneStart | None, periods: i
         event=None if crossing is None else crossing.behind(periods * period),
         start=start,
         first_sample=SAMPLES_PER_PERIOD * first,
+        ledger=False,
     )
 
 

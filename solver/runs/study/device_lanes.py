@@ -42,7 +42,7 @@ def _lanes(
     if watch or keep_steps:
         raise ValueError("lanes of a device seek no extremes")
     count = min(BLOCK * device.processors, study.points * study.starts)
-    energies = not study.brief
+    energies = study.keeps_ledger
     return DeviceBundle(device, kernel, count, tangents=tangents, energies=energies, write=write)
 
 
