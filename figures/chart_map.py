@@ -12,14 +12,21 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.records.attractors import attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.inherited import inheriting
-from jointplay.records.motion import WAITING, Labels, colour_of, motions, name_of
+from jointplay.records.motion import (
+    ATTRACTOR,
+    LABELS,
+    MOTION,
+    WAITING,
+    Labels,
+    colour_of,
+    motions,
+    name_of,
+)
 from jointplay.records.point import PointStatus
 from jointplay.records.pyramid import averaged, filled_in, in_majority
 from jointplay.records.study import StudySource
 
 KINDS = ("chart", "basins")
-MOTION, ATTRACTOR = "motion", "attractor"
-LABELS = (MOTION, ATTRACTOR)
 _MOST_NAMED = 12
 """Labels in the legend: those of most points."""
 _MOST_CELLS = 1000

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from jointplay.figures import page
 from jointplay.records.channel_choice import choose
+from jointplay.records.motion import LABELS
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 from jointplay.records.suggestions import did_you_mean
@@ -153,7 +154,13 @@ def select(
     """
     if start is not None and stop is not None and start > stop:
         raise NotDrawable(f"stop ({stop:g}) is before start ({start:g}); swap them.", "stop")
-    offered = (*source.observables, *source.channels) if is_study(source) else source.channels
-    known = [channel.name for channel in offered]
-    chosen = choose(",".join(channels), known) if channels else ()
+    chosen = choose(",".join(channels), _names(source)) if channels else ()
     return Selection(tuple(chosen), tuple(joints), start, stop, over)
+
+
+def _names(source: Source | StudySource) -> list[str]:
+    """Return what a figure may be asked for: of a study what its points have besides, too."""
+    if not is_study(source):
+        return [channel.name for channel in source.channels]
+    names = [channel.name for channel in (*source.observables, *source.channels)]
+    return [*names, *source.indicators, *source.statistics, *LABELS]

@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.records.point import PointStatus
 
+MOTION, ATTRACTOR = "motion", "attractor"
+LABELS = (MOTION, ATTRACTOR)
+"""Quantities of maps that are labels; all others are values."""
 NAMES = ("waiting", "failed", "undecided", "quasi-periodic", "chaotic", "equilibrium")
 """Names of the first codes; those behind them are period-1, period-2 and so on."""
 WAITING, FAILED, UNDECIDED, QUASI_PERIODIC, CHAOTIC, EQUILIBRIUM = range(len(NAMES))

@@ -17,15 +17,20 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.records.attractors import Attractors, attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import over_axes
-from jointplay.records.motion import WAITING, Labels, colour_of, motions, name_of
+from jointplay.records.motion import (
+    ATTRACTOR,
+    MOTION,
+    WAITING,
+    Labels,
+    colour_of,
+    motions,
+    name_of,
+)
 from jointplay.records.point import PointStatus
 from jointplay.service.results.stores import ResultsOfJob
 from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies.reader import StudyReader
 
-MOTION, ATTRACTOR = "motion", "attractor"
-LABELS = (MOTION, ATTRACTOR)
-"""The quantities that are labels; all others are values."""
 _VERDICT = "verdict"
 _EXTREMES = ("minimum", "maximum")
 _MOST_BYTES = 128_000_000

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from drawn import drawn_with
 
-from jointplay.figures import Selection
+from jointplay.figures import Selection, select
 from jointplay.records.channel import Channel
+from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudyDataset
 
@@ -37,7 +38,7 @@ def running():
     )
 
 
-@pytest.mark.parametrize("selection", [None, Selection(channels=("lyapunov",))])
+@pytest.mark.parametrize("selection", [None, select(running(), ["lyapunov"])])
 def test_points_that_wait_show_the_next_coarser_one(selection):
     mesh = drawn_with(running(), "chart", selection).axes[0].collections[0]
     table = np.ma.asarray(mesh.get_array()).reshape(SIDE, SIDE)
@@ -45,3 +46,9 @@ def test_points_that_wait_show_the_next_coarser_one(selection):
     for column in (slice(0, 4), slice(4, 8)):
         assert len(np.unique(table[:, column])) == 1
     assert table[0, 0] != table[0, 7]
+
+
+def test_quantities_are_chosen_by_their_names():
+    assert select(running(), ["motion"]) == Selection(channels=("motion",))
+    with pytest.raises(NoSuchChannel, match="did you mean lyapunov"):
+        select(running(), ["lyapunow"])
