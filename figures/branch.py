@@ -7,6 +7,7 @@ import numpy as np
 from jointplay.figures import colours, page, study_facts
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.over_chart import OverChart, halo
+from jointplay.figures.over_diagram import KIND, OverDiagram
 from jointplay.figures.quantity import alike, scale
 from jointplay.records.arrays import Floats
 from jointplay.records.branch import LENGTH, UNSTABLE, VALUE, Branch, branches
@@ -49,6 +50,8 @@ def known_branches(source: StudySource, selection: Selection) -> list[Branch]:
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
     names = _chosen(source, selection)
     found = _found(source, selection)
+    if selection.over is not None and selection.over.kind == KIND:
+        return _draw_over_diagram(OverDiagram(source, selection.over, selection.channels), found)
     if selection.over is not None:
         return _draw_over(OverChart(source, selection.over), found)
     parameter = source.parameters[0]
@@ -80,6 +83,18 @@ def _draw_over(chart: OverChart, found: list[Branch]) -> page.Figure:
     for branch in found:
         name_special(axes, chart.inside(branch), *chart.places(branch))
     chart.explain(figure, axes)
+    return figure
+
+
+def _draw_over_diagram(diagram: OverDiagram, found: list[Branch]) -> page.Figure:
+    """Draw branches over the sections of a diagram, whose stable orbits lie on these."""
+    figure, panels = diagram.panels(1)
+    for panel, axes in enumerate(panels):
+        for branch in found:
+            _curve(axes, branch, *diagram.places(branch, panel))
+        for branch in found:
+            name_special(axes, branch, *diagram.places(branch, panel))
+    diagram.finish(figure, panels)
     return figure
 
 

@@ -25,7 +25,8 @@ class OverChart:
         NotDrawable: the chart has another axis, or the place along one is not known.
         """
         if over.kind not in KINDS:
-            sentence = f"Orbits are drawn over a job of kind {' or '.join(KINDS)}, not {over.kind}."
+            kinds = f"{', '.join(KINDS)} or, branches, bifurcation"
+            sentence = f"Orbits are drawn over a job of kind {kinds}, not {over.kind}."
             raise NotDrawable(sentence, "over")
         self._map = ChartMap(over, offered(over)[0])
         self._names = [one.name for one in source.parameters]

@@ -17,5 +17,13 @@ def within_a_turn(angles: Floats) -> Floats:
     if not finite.size or np.ptp(finite) <= _TURN:
         return angles
     direction = np.arctan2(np.sin(finite).mean(), np.cos(finite).mean())
-    middle = np.round(direction / (_TURN / 4.0)) * _TURN / 4.0
+    return _about(angles, np.round(direction / (_TURN / 4.0)) * _TURN / 4.0)
+
+
+def beside(angles: Floats, others: Floats) -> Floats:
+    """Return angles [rad] within the turn that has the middle of others, within one, in its own."""
+    return _about(angles, 0.5 * (np.nanmin(others) + np.nanmax(others)))
+
+
+def _about(angles: Floats, middle: float) -> Floats:
     return np.asarray(angles - _TURN * np.round((angles - middle) / _TURN), np.float64)

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import TILE
 from jointplay.records.inherited import inheriting
+from jointplay.records.motion import LABELS
 from jointplay.records.point import PointStatus
 from jointplay.service.charts import colouring, grids, schemas
 from jointplay.service.fields import BINARY
@@ -104,7 +105,7 @@ def show_point(results: ResultsOfThePath, query: Annotated[CellQuery, Query()]) 
     found = {}
     for one in grids.quantities(study).values():
         value = float(grids.column(study, one.name)[point])
-        label = grids.names_of(study, one.name)(int(value)) if one.name in grids.LABELS else None
+        label = grids.names_of(study, one.name)(int(value)) if one.name in LABELS else None
         found[one.name] = schemas.PointQuantity.of(one, value=value, label=label)
     return as_json(
         schemas.ChartPoint.model_construct(
@@ -172,7 +173,7 @@ def show_tile(
     state = query.ended
     if state is None:
         state = int(grids.has_ended(results.study()).sum())
-    labels = quantity in grids.LABELS
+    labels = quantity in LABELS
     finest = grids.GRIDS.of(results, state, _checked(results, state, quantity), 1)
     levels = _levels(finest.shape)
     if z >= levels:
@@ -215,7 +216,7 @@ def _levels(shape: tuple[int, ...]) -> int:
 def _quantity(study: StudyReader, one: Channel) -> schemas.Quantity:
     values = grids.column(study, one.name)
     labels, low, high = None, None, None
-    if one.name in grids.LABELS:
+    if one.name in LABELS:
         name_of, colour_of = grids.names_of(study, one.name), grids.colours_of(one.name)
         labels = [
             schemas.Label.model_construct(

@@ -22,7 +22,7 @@ class FigureSelection(TimeOrPoints):
     over: str | None = Field(
         default=None,
         max_length=200,
-        description="Id of a chart or of basins, over whose map branches and curves are drawn.",
+        description="Id of a chart, basins or, of branches, a diagram, which lies beneath.",
     )
 
     def options(self) -> Options:

@@ -94,7 +94,7 @@ def draw_figure(
 
 def _map(beneath: ResultsOfJob) -> StudyReader:
     """Return the results that lie beneath a figure."""
-    beneath.insist("chart")
+    beneath.insist("bifurcation" if beneath.job.kind == "bifurcation" else "chart")
     return beneath.study()
 
 

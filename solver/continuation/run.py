@@ -71,6 +71,8 @@ class ContinuationRun:
         self._known = iter(list(self._answers))
         self._skipped = self._given
         self._reached = 0.0
+        self._observed = np.zeros(0, np.int64)
+        """Observables, by their indices in the kernel's block of channels."""
 
     def slices(self) -> Iterator[StudySlice]:
         """Yield how far the branches are after each look at the lanes, and orbits when found.
@@ -81,6 +83,8 @@ class ContinuationRun:
             The scene's equations are too long to compile.
         """
         map_ = section_map(self.study, self._looked, self._recall)
+        names = self.study.job["observables"]
+        self._observed = np.array([map_.kernel.rows.index(name) for name in names], np.int64)
         following = greenlet(self._branches)
         worked = time.process_time()
         following.switch(map_)
@@ -186,7 +190,8 @@ class ContinuationRun:
         """Tell of an orbit that was found."""
         second = self.study.second
         values = row.orbit.values[:1] if second is None else (*row.orbit.values, second.start)[:2]
-        numbers = row_of(row, values[1:])
+        channels = row.orbit.curve.sections.observed(row.orbit.section, self._observed)
+        numbers = np.append(row_of(row, values[1:]), channels)
         period = float(self.study.period[point])
         elapsed = np.array([(self.study.job["settle"] + len(rows)) * period])
         news = SectionRows(point, len(rows), elapsed, numbers[None])

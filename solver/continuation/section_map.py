@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from jointplay.records.arrays import Floats
+from jointplay.records.arrays import Floats, Integers
 from jointplay.solver.continuation.closest_approach import Approaches, rows_of
 from jointplay.solver.continuation.crossing import PATIENCE, Crossing, Crossings
 from jointplay.solver.continuation.passage import Linear, Passage, Section
@@ -108,6 +108,12 @@ class SectionMap:
         at = self.kernel.row
         latched = row[at.impact_rate : at.width] * row[at.mode : at.impact_rate]
         return np.concatenate([at.states(row), latched])
+
+    def observed(self, section: Section, rows: Integers) -> Floats:
+        """Return (rows,) channels at a section, by their indices in the kernel's block."""
+        scene, bundle = self.scene_at(*section.values), Bundle(self.kernel, watch=False)
+        bundle.load(0, self._problem(scene, section, self.interval(scene), None))
+        return np.asarray(bundle.observe(0, bundle.lane(0).row(), rows)[0])
 
     def distance(self, linear: Linear) -> float:
         """Return how far a section and its end are apart, in the scales of the states."""

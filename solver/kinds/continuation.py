@@ -17,6 +17,7 @@ from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import check_size
 from jointplay.solver.kinds.mechanism import written
 from jointplay.solver.kinds.methods import check_study
+from jointplay.solver.kinds.observables import chosen, coordinate_channels
 from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import Axis, Points, one_axis, product
 from jointplay.solver.kinds.start_state import check_state
@@ -46,7 +47,10 @@ class Continuation(Kind[ContinuationJob]):
         checked = _checked(job, one_axis(_first_axis(job)), "/values")
         if job.second is not None:
             checked = _checked(job, _both(job, job.second), "/second/values")
+        default = coordinate_channels(checked)
+        observed = chosen(checked, job.observables, default, "/observables")
         found = {
+            "observables": [channel.name for channel in observed],
             "at": job.values.start if job.at is None else job.at,
             "record": job.record or RECORD * job.values.count,
         }
@@ -143,6 +147,7 @@ def _study(
     parameters = placed.points.parameters
     units_of = [placed.declared.parameters[name].unit for name in parameters]
     columns = columns_of(placed.scenes.scene(0), parameters, units_of, driven=job.section is None)
+    columns += placed.channels(filled["observables"])
     kept = Kept(observables=columns, record=filled["record"])
     settle = job.settle * units.seconds
     spans = Spans(units.seconds, settle, settle + job.period * units.seconds)

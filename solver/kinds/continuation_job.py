@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from jointplay.solver.kinds.job import Job
+from jointplay.solver.kinds.job import Job, Observables
 from jointplay.solver.kinds.section import ChannelSection
 from jointplay.solver.kinds.start_state import StartState
 from jointplay.solver.kinds.values import Range
@@ -114,6 +114,7 @@ class ContinuationJob(Job):
             )
         ),
     ] = None
+    observables: Observables = None
     record: Annotated[
         int | None,
         quantity(
@@ -134,4 +135,5 @@ class ContinuationJob(Job):
     @property
     def named_channels(self) -> list[str]:
         """See `MechanismJob.named_channels`."""
-        return [] if self.section is None else [self.section.channel]
+        section = [] if self.section is None else [self.section.channel]
+        return [*section, *(self.observables or [])]

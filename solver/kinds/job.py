@@ -26,6 +26,15 @@ ChannelPattern = Annotated[str, Field(min_length=1, max_length=80)]
 ChannelChoice = Annotated[
     list[ChannelPattern], Field(min_length=1, max_length=4096, description="names or globs")
 ]
+Observables = Annotated[
+    ChannelChoice | None,
+    Field(
+        description=(
+            "channels kept at sections, names or globs; default: the generalised coordinates"
+            " and the eccentricities, with their rates"
+        )
+    ),
+]
 Energies = Annotated[
     bool,
     Field(

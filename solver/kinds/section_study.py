@@ -8,7 +8,7 @@ from pydantic import Field
 
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
-from jointplay.solver.kinds.job import ChannelChoice, Energies, Job
+from jointplay.solver.kinds.job import Energies, Job, Observables
 from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import EVENT_PATIENCE, LONGEST_SETTLING, check_size
 from jointplay.solver.kinds.methods import check_study
@@ -95,15 +95,7 @@ class SectionsJob(Job):
 class SectionStudyJob(SectionsJob):
     """A study whose sections are kept."""
 
-    observables: Annotated[
-        ChannelChoice | None,
-        Field(
-            description=(
-                "channels kept at sections, names or globs; default: the generalised coordinates"
-                " and the eccentricities, with their rates"
-            )
-        ),
-    ] = None
+    observables: Observables = None
     energies: Energies = True
 
     @property

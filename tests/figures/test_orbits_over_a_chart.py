@@ -87,7 +87,12 @@ def test_a_branch_lies_at_the_value_of_the_parameter_that_does_not_vary():
 @pytest.mark.parametrize(
     ("source", "name", "over", "says"),
     [
-        (folded(), "branch", folded(), "over a job of kind chart or basins, not continuation"),
+        (
+            folded(),
+            "branch",
+            folded(),
+            "over a job of kind chart, basins or, branches, bifurcation, not",
+        ),
         (told(folded(), None), "branch", chart(), "axis is width, of which these orbits tell no"),
         (
             told(over_two_parameters(), 1.0),

@@ -46,7 +46,8 @@ def plot(
     over: Annotated[
         str | None,
         typer.Option(
-            metavar="OUT|ID", help="A chart or basins, over whose map branches and curves lie."
+            metavar="OUT|ID",
+            help="A chart, basins or, of branches, a diagram, over which orbits lie.",
         ),
     ] = None,
     folder: Annotated[

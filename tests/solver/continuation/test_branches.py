@@ -68,6 +68,8 @@ def test_a_branch_goes_from_free_motion_through_grazing_and_folds_to_a_doubling(
     study, slices = followed()
     found = table(list(slices), study)
     assert [names[int(k)] for k in found["label"] if k] == ["EP", "GR", "LP", "LP", "PD", "EP"]
+    for channel, state in (("mass.x", "state.mass.s"), ("mass.vx", "rate.mass.s")):
+        assert found[channel].tolist() == pytest.approx(found[state].tolist(), abs=1e-15)
     ((touch, bound),) = special(found, "GR")
     assert bound < 1e-7
     assert touch == pytest.approx(grazing()[1], abs=1e-7)  # in closed form, whatever the stop
