@@ -55,34 +55,42 @@ def memories() -> dict[str, float]:
     return found
 
 
-def main() -> None:
-    """Print it."""
-    side = int(sys.argv[1]) if len(sys.argv) > 1 else SIDE
-    axes = {
+def axes(side: int) -> dict[str, Any]:
+    """Return the axes of a chart of so many points a side."""
+    return {
         name: {"parameter": parameter, "values": {"from": low, "to": high, "count": side}}
         for name, parameter, low, high in (
             ("along", "speed", 10.0, 40.0),
             ("by", "amplitude", 1e-3, 2e-2),
         )
     }
+
+
+def ended(client: httpx.Client, job: str) -> int:
+    """Return how many points of a chart have ended."""
+    chart = client.get(f"/v1/jobs/{job}/chart")
+    return int(chart.json()["ended"]) if chart.status_code == 200 else 0
+
+
+def main() -> None:
+    """Print it."""
+    side = int(sys.argv[1]) if len(sys.argv) > 1 else SIDE
     with (
         tempfile.TemporaryDirectory() as folder,
         running_service(Path(folder) / "data", workers=2) as url,
         httpx.Client(base_url=str(url), timeout=600.0) as client,
     ):
         begun = time.monotonic()
-        answer = client.post("/v1/jobs", json=JOB | axes).raise_for_status()
+        answer = client.post("/v1/jobs", json=JOB | axes(side)).raise_for_status()
         job, queued = answer.json()["id"], time.monotonic() - begun
-        ended, looks = 0, []
+        count, looks = 0, []
         shown = 0.0
         while not shown or time.monotonic() - begun < shown + SECONDS:
             looked = time.monotonic()
-            chart = client.get(f"/v1/jobs/{job}/chart")
-            if chart.status_code == 200:
-                ended = chart.json()["ended"]
-            if ended:
+            count = ended(client, job)
+            if count:
                 client.get(
-                    f"/v1/jobs/{job}/tiles/motion/0/0/0.png", params={"ended": ended}
+                    f"/v1/jobs/{job}/tiles/motion/0/0/0.png", params={"ended": count}
                 ).raise_for_status()
                 shown = shown or time.monotonic() - begun
                 looks.append(time.monotonic() - looked)
@@ -90,7 +98,7 @@ def main() -> None:
         client.post(f"/v1/jobs/{job}/cancel").raise_for_status()
         print(f"{side} x {side} points: accepted after {queued:.1f} s, first picture {shown:.1f} s")
         print(
-            f"{ended} points {SECONDS:g} s later; a look (axes, quantities and a tile)"
+            f"{count} points {SECONDS:g} s later; a look (axes, quantities and a tile)"
             f" {median(looks):.2f} s, at most {max(looks):.2f} s"
         )
         for kind, most in sorted(memories().items()):

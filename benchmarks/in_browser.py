@@ -31,6 +31,21 @@ _PLAY: Final = """async seconds => {
   await new Promise(resolve => setTimeout(resolve, 1000 * seconds));
   return 1000 * (FRAME - before) / (performance.now() - began);
 }""".replace("FRAME", FRAME)
+MAP: Final = "canvas[aria-label$='arrows move, plus and minus scale']"
+_MOVE: Final = """async ([map, seconds]) => {
+  const canvas = document.querySelector(map);
+  const { left, top, width, height } = canvas.getBoundingClientRect();
+  const place = { clientX: left + 0.6 * width, clientY: top + 0.4 * height, bubbles: true };
+  const [before, begun] = [Number(canvas.dataset.frames), performance.now()];
+  for (let i = 0; performance.now() < begun + 1000 * seconds; i++) {
+    const [deltaY, key] = [i % 40 < 20 ? -1 : 1, i % 80 < 40 ? 'ArrowLeft' : 'ArrowRight'];
+    canvas.dispatchEvent(i % 2
+      ? new WheelEvent('wheel', { ...place, deltaY, cancelable: true })
+      : new KeyboardEvent('keydown', { key }));
+    await new Promise(requestAnimationFrame);
+  }
+  return (1000 * (Number(canvas.dataset.frames) - before)) / (performance.now() - begun);
+}"""
 _SCROLL: Final = """async () => {
   const list = document.querySelector('.rows');
   const began = performance.now();
@@ -101,6 +116,14 @@ def panning(page: Page) -> list[float]:
     """Return frames a second of a history that is panned."""
     page.locator(".uplot").first.wait_for()
     return _three_times(lambda: page.evaluate(_PAN, _SECONDS))
+
+
+def mapping(page: Page) -> tuple[float, list[float]]:
+    """Return seconds until a map is painted, and frames a second while it is moved and scaled."""
+    begun = time.monotonic()
+    page.wait_for_function(f"() => document.querySelector(\"{MAP}\")?.dataset.waiting === '0'")
+    painted = time.monotonic() - begun
+    return painted, _three_times(lambda: page.evaluate(_MOVE, [MAP, _SECONDS]))
 
 
 def scrolling(page: Page) -> tuple[float, float]:

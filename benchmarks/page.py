@@ -15,9 +15,10 @@ from pathlib import Path
 from typing import Any
 
 import httpx
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
 
 from benchmarks import in_browser
+from benchmarks.chart_service import BETWEEN, JOB, SIDE, axes, ended
 from jointplay.service.processes import running_service
 from tests.page.browsing import chromium
 
@@ -70,11 +71,24 @@ def measure(browser: Browser, client: httpx.Client) -> None:
     finest = finished(client, many | {"certificate": False})
     page.goto(f"{url}/#/job/{finest}?from=0.9&to=1.1&t=1")
     row(f"frames a second, panning {SAMPLES} samples", words(in_browser.panning(page)))
+    measure_map(page, client)
     batch = client.post("/v1/batches", json={"jobs": [PENDULUM] * JOBS}).raise_for_status()
     client.post(f"{batch.headers['Location']}/cancel").raise_for_status()
     page.goto(f"{url}/#/jobs?scene=pendulum")
     frames, heap = in_browser.scrolling(page)
     row(f"frames a second, scrolling {JOBS} jobs", f"{frames:.0f}, {heap:.0f} MB of heap")
+
+
+def measure_map(page: Page, client: httpx.Client) -> None:
+    """Print how a map of a million points that are still computed is opened and moved."""
+    submitted = client.post("/v1/jobs", json=JOB | axes(SIDE)).raise_for_status().json()["id"]
+    while not ended(client, submitted):
+        time.sleep(BETWEEN)
+    page.goto(f"{client.base_url}#/job/{submitted}")
+    painted, rates = in_browser.mapping(page)
+    row(f"map of {SIDE} x {SIDE} points, painted", f"{painted:.2f} s")
+    row("frames a second, moving and scaling it", words(rates))
+    client.post(f"/v1/jobs/{submitted}/cancel").raise_for_status()
 
 
 def words(rates: list[float]) -> str:
