@@ -105,6 +105,12 @@ class Settings(BaseSettings):
         le=10**9,
         description="Blocks of one owner that are computed at one time; 0: any number.",
     )
+    device: str = Field(
+        "cpu",
+        pattern=r"^(cpu|cuda:\d{1,4})$",
+        description="What workers compute points of studies on: cpu, or cuda:0, the first graphics"
+        " processor.",
+    )
     most_stored: int = Field(
         0, ge=0, le=2**60, description="Bytes of results of one owner; 0: any number."
     )

@@ -25,4 +25,8 @@ def waits_for(fault: Exception) -> str:
         return "waiting for room on the disk"
     if isinstance(fault, Unavailable):
         return "waiting for the catalogue"
+    from jointplay.solver.kernels.device.driver import DeviceError  # of those who have one
+
+    if isinstance(fault, DeviceError):
+        return "waiting for a device"
     return "waiting for the results' place"

@@ -15,9 +15,11 @@ from celery.signals import setup_logging, worker_init, worker_process_init, work
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.installation import OtherFiles, require_own_files
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, app
+from jointplay.worker.local.devices import PROCESSOR, Lanes, opener
 from jointplay.worker.own_solver import own_solver
 from jointplay.worker.presence import own_name
 from jointplay.worker.scratch.computing import (
@@ -28,6 +30,8 @@ from jointplay.worker.wake_up import wake_relay
 
 _log = logging.getLogger(__name__)
 _draining = threading.Event()
+_lost = threading.Event()
+"""Set once this process's device does not go on: from then on the processor computes."""
 _DRAIN_SIGNAL = signal.SIGUSR2
 _LOOK_AGAIN = 0.2  # s
 
@@ -61,9 +65,25 @@ def run_block(block: str) -> None:
     if claim is not None:
         if claim.block.id != block:
             wake_relay(settings.redis_url)  # somebody else may be free for that one
-        compute(catalogue, settings, claim, _draining)
+        if settings.device == PROCESSOR or _lost.is_set():
+            compute(catalogue, settings, claim, _draining)
+        else:
+            _compute_on(opener(settings.device), claim)
         if settings.most_running:
             wake_relay(settings.redis_url)  # its owner may have another block computed
+
+
+def _compute_on(device: Lanes, claim: Claim) -> None:
+    """Compute a block, and others beside it, on this process's device."""
+    from jointplay.solver.kernels.device.driver import DeviceError
+    from jointplay.worker.device_run import compute_on_device
+
+    settings, catalogue = _platform()
+    try:
+        compute_on_device(catalogue, settings, claim, _draining, device)
+    except DeviceError as error:
+        _lost.set()
+        _log.error("from now on the processor computes, for the device does not go on: %s", error)
 
 
 @setup_logging.connect  # type: ignore[untyped-decorator]
@@ -75,26 +95,39 @@ def _set_up_no_other_logs(**_: Any) -> None:
 def _prepare(**_: Any) -> None:
     """Before the fork: wait until an API or a relay has brought the schema up to date.
 
-    Another process looks at the files: what has asked a bucket has threads that no fork takes
-    along, and the children would wait for them for ever.
+    Another process looks at files and device: what has asked a bucket has threads that no fork
+    takes along, for which the children would wait for ever, nor does it take an open device along.
     """
     settings = Settings()
     with closing(Catalogue(settings.catalogue_url)) as catalogue:
         while not _is_migrated(catalogue):
             time.sleep(_LOOK_AGAIN)
-    looking = get_context("fork").Process(target=_look_at_files, args=(settings,))
+    looking = get_context("fork").Process(target=_look, args=(settings,))
     looking.start()
     looking.join()
     if looking.exitcode:
         raise SystemExit(1)
 
 
-def _look_at_files(settings: Settings) -> None:
+def _look(settings: Settings) -> None:
+    if settings.device != PROCESSOR:
+        _look_at_device(settings.device)
     with closing(Catalogue(settings.catalogue_url)) as catalogue:
         try:
             require_own_files(settings, catalogue)
         except (OtherFiles, Unavailable) as error:
             raise SystemExit(f"the worker does not start: {error}") from None
+
+
+def _look_at_device(name: str) -> None:
+    from jointplay.records.failure import InvalidInput
+    from jointplay.solver.kernels.device.named import device_named
+
+    try:
+        device_named(name)
+    except InvalidInput as error:
+        detail = error.problems[0].detail
+        raise SystemExit(f"the worker does not start: JOINTPLAY_DEVICE {detail}") from None
 
 
 def _is_migrated(catalogue: Catalogue) -> bool:

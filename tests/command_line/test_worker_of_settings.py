@@ -34,6 +34,17 @@ def test_a_worker_takes_its_addresses_from_a_file(tmp_path: Path) -> None:
         broker.stop()
 
 
+def test_a_worker_without_its_device_does_not_start(tmp_path: Path) -> None:
+    settings = tmp_path / "settings"
+    settings.write_text(f"JOINTPLAY_DATA={tmp_path}\nJOINTPLAY_REDIS_URL=redis://127.0.0.1:9\n")
+    with closing(Catalogue(Settings(data=tmp_path).catalogue_url)) as books:
+        books.migrate()
+    arguments = [*COMMAND, settings.name, "--device", "cuda:9999"]
+    ended = subprocess.run(arguments, cwd=tmp_path, capture_output=True, text=True)
+    assert ended.returncode == 1
+    assert "JOINTPLAY_DEVICE 'cuda:9999' cannot be opened" in ended.stderr
+
+
 @pytest.mark.parametrize(
     ("line", "arguments", "complaint"),
     [
@@ -41,6 +52,8 @@ def test_a_worker_takes_its_addresses_from_a_file(tmp_path: Path) -> None:
         ("JOINTPLAY_LEESE=30", [], "JOINTPLAY_LEESE: Extra inputs are not permitted"),
         ("JOINTPLAY_LEASE=6", [], "must be at least twice JOINTPLAY_HEARTBEAT"),
         ("JOINTPLAY_REDIS_URL=redis://h", ["--idle", "9"], "are for a worker with --join"),
+        ("", ["--device", "gpu"], "JOINTPLAY_DEVICE: String should match pattern"),
+        ("", ["--device", "cuda:0", "--join", "https://h"], "for a worker without --join"),
     ],
 )
 def test_what_is_missing_or_wrong_is_said_in_a_line(
@@ -51,7 +64,8 @@ def test_what_is_missing_or_wrong_is_said_in_a_line(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setenv("JOINTPLAY_SETTINGS", "")  # is taken away again
+    for name, value in (("SETTINGS", ""), ("DEVICE", "cpu")):  # are taken away again
+        monkeypatch.setenv(f"JOINTPLAY_{name}", value)
     file = tmp_path / "settings"
     file.write_text(f"{line}\n")
     assert run(["worker", "--settings", str(file), *arguments]) == 2

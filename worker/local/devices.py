@@ -28,6 +28,11 @@ def lanes_of(name: str, job: "Admission | Study") -> Lanes | None:
 
     required_study(job)
     device_named(name)
+    return opener(name)
+
+
+def opener(name: str) -> Lanes:
+    """Return what opens the device of a name, such as ``cuda:0``, in the process that asks."""
     return partial(_opened, name)
 
 

@@ -68,6 +68,8 @@ def compute_pooled(
                     blocks.take(run, piece)
     except DeviceError as error:
         return _lost(error, blocks.progress().fraction)
+    finally:
+        pool.release()
     return Outcome("succeeded", 0.0, 1.0)
 
 

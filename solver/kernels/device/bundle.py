@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from jointplay.records.failure import InvalidInput
 from jointplay.records.impact import IMPACT
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.device.compiled import code
-from jointplay.solver.kernels.device.driver import Code, Device
+from jointplay.solver.kernels.device.driver import Code, Device, DeviceError
 from jointplay.solver.kernels.device.kernel_text import ENTRY
 from jointplay.solver.kernels.device.lanes import DeviceLanes, Shape
 from jointplay.solver.kernels.device.one_lane import Sizes
@@ -153,6 +154,11 @@ class DeviceBundle(Bundle):
         super().set_going(i)
         self._touched(i)
 
+    def stop(self, i: int) -> None:
+        """Let a lane run no more: it is free, and what it had come to is lost."""
+        super().stop(i)
+        self._touched(i)
+
     def advance(self, budget: int) -> int:
         """Attempt at most `budget` steps.
 
@@ -236,7 +242,8 @@ class DeviceBundle(Bundle):
 
     def release(self) -> None:
         """Give the device's memory back: there are no lanes any more."""
-        self._lanes.release()
+        with suppress(DeviceError):  # a lost one has given it back
+            self._lanes.release()
 
     def restore(self, saved: Mapping[str, NDArray[Any]], name: str) -> None:
         """Continue from `state`, bit for bit."""

@@ -198,6 +198,11 @@ class Bundle:
             look_ahead(kind, *arguments)
         lane["next_due"] = -math.inf  # the first step is looked at, whatever is due in it
 
+    def stop(self, i: int) -> None:
+        """Let a lane run no more: it is free, and what it had come to is lost."""
+        self.lane(i)["active"] = 0.0
+        self.runs["status"][i] = Status.IDLE
+
     @property
     def attempts(self) -> int:
         """Attempts at a step that were made of each lane that runs, or of all that have run."""

@@ -141,6 +141,13 @@ class LaneGroup:
             self._ready = {one: (lanes, k) for k, one in enumerate(points)}
         self.bundle.load_ready(lane, *self._ready.pop(point))
 
+    def drop(self, block: int) -> None:
+        """Free the lanes that compute points of a block; what they had come to is lost."""
+        for lane in self.runs_of(block):
+            self.bundle.stop(lane)
+            self.lanes[lane], self._blocks[lane] = None, FREE
+        self._gathered.pop(block, None)
+
     def collect(self) -> Mapping[int, Gathered]:
         """Take what lanes have handed out, and free those whose points are over.
 

@@ -54,6 +54,17 @@ class Pool:
         """Compute a block, too, from where it is."""
         self.runs.append(run)
 
+    def release(self) -> None:
+        """Give back what lanes have elsewhere: nothing is computed any more."""
+        if self.group is not None:
+            self.group.bundle.release()
+
+    def drop(self, block: int) -> None:
+        """Compute a block no more, if it is one of the pool's."""
+        self.runs = [run for run in self.runs if run.block != block]
+        if self.group is not None:
+            self.group.drop(block)
+
     def advance(self) -> list[tuple[StudyRun, StudySlice]]:
         """Compute a slice of the blocks that are not over, of which there is one.
 
@@ -89,8 +100,7 @@ class Pool:
             points = [one.point for run in self.runs for one in run.waiting]
             structures = self._study.structure[points]
             if group is None or group.structure not in structures:
-                if group is not None:
-                    group.bundle.release()
+                self.release()
                 group = self.group = LaneGroup(self._study, int(structures.min()), self._make)
         for run in self.runs:
             run.group = group

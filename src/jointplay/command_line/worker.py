@@ -54,6 +54,10 @@ def worker(
     processes: Annotated[
         int, typer.Option(min=1, max=1024, metavar="N", help="Blocks at a time, a core each.")
     ] = 1,
+    device: Annotated[
+        str | None,
+        typer.Option(metavar="cpu|cuda:N", help="For points of studies: JOINTPLAY_DEVICE."),
+    ] = None,
     as_json: AS_JSON = False,
 ) -> None:
     """Compute blocks for a service: one of whose machines this is, or one elsewhere.
@@ -63,7 +67,8 @@ def worker(
     JOINTPLAY_RESULTS_URL and JOINTPLAY_REDIS_URL of the environment, or of a file.
 
     Uses one core for each process. SIGTERM and Ctrl-C give back what is being computed, with a
-    restart point, and end it.
+    restart point, and end it.  With --device a graphics processor computes the points of studies,
+    many blocks at a time.
 
     Example: `jointplay worker --join https://lab.example.org --key-file worker.key --idle 300`
     """
@@ -77,6 +82,10 @@ def worker(
 
     if settings is not None:
         os.environ["JOINTPLAY_SETTINGS"] = str(settings.absolute())
+    if device is not None:
+        if join is not None:
+            raise Stopped("--device is for a worker without --join.")
+        os.environ["JOINTPLAY_DEVICE"] = device
     found = settings_of()
     if join is None:
         if key_file is not None or idle is not None or until is not None:

@@ -1,0 +1,197 @@
+"""Blocks that a worker computes together on a device; this processor does what the driver does."""
+
+import threading
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+import pytest
+from one_block import run
+
+import jointplay
+from jointplay.solver.kernels.device.driver import Device, DeviceError
+from jointplay.solver.kernels.device.kernel_text import kernel_text
+from jointplay.solver.kinds import Admission, Study, admit
+from jointplay.solver.runs.study.device_lanes import device_lanes
+from jointplay.solver.runs.study.lane_group import Make
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
+from jointplay.storage.settings import Settings
+from jointplay.worker import tasks
+from jointplay.worker.device_run import compute_on_device
+from jointplay.worker.local.devices import opener
+from jointplay.worker.local.folder import STORE
+from tests.solver.kernels.device.driver_by_host import DriverByHost
+from tests.stores import files_of
+
+CLEARANCES = [1e-4 + 1e-5 * step for step in range(20)]
+JOB = jointplay.jobs.bifurcation("slider-crank", "clearance", CLEARANCES, settle=3, record=10)
+
+
+def by_host(driver: DriverByHost, study: Study) -> Make:
+    return device_lanes(Device(library=driver), study, partial(kernel_text, on_host=True))
+
+
+class Launches(DriverByHost):
+    """A driver that calls back before each launch."""
+
+    def __init__(self, before: Any = lambda launches: None) -> None:
+        super().__init__()
+        self._before = before
+
+    def cuLaunchKernel(self, *given: Any) -> int:  # noqa: N802
+        self._before(self.launches)
+        return super().cuLaunchKernel(*given)
+
+
+@pytest.fixture
+def study(catalogue: Catalogue) -> str:
+    return submit(catalogue, JOB)
+
+
+def submit(catalogue: Catalogue, job: Mapping[str, Any]) -> str:
+    admitted = admit(dict(job))
+    assert isinstance(admitted, Study)
+    new = NewJob(
+        "bifurcation",
+        admitted.job,
+        admitted.digest,
+        SOLVER_VERSION,
+        blocks=admitted.blocks,
+        seal=True,
+    )
+    return catalogue.submit(new).job.id
+
+
+def compute(
+    catalogue: Catalogue,
+    settings: Settings,
+    study: str,
+    driver: DriverByHost,
+    draining: threading.Event | None = None,
+    block: int = 0,
+) -> None:
+    claim = catalogue.claim_block(f"{study}-{block}", "this process", settings.lease)
+    assert claim is not None
+    event = draining or threading.Event()
+    try:
+        compute_on_device(catalogue, settings, claim, event, partial(by_host, driver))
+    finally:
+        assert not driver.held
+
+
+def finish(catalogue: Catalogue, settings: Settings, study: str) -> dict[str, bytes]:
+    """Compute here what is left; return the files of the results."""
+    for block in catalogue.blocks(study):
+        if block.state is not BlockState.done:
+            run(catalogue, settings, block.id)
+    assert catalogue.get(study).state is JobState.succeeded
+    return files_of(settings.sealed_study(study))
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """The files of the results of one processor."""
+    folder = tmp_path_factory.mktemp("whole") / "OUT"
+    jointplay.run(JOB, output=folder, processes=1)
+    return files_of(folder / STORE)
+
+
+def test_blocks_are_computed_together_beside_those_of_others(
+    catalogue: Catalogue, settings: Settings, study: str, whole: dict[str, bytes]
+) -> None:
+    run(catalogue, settings, f"{study}-1")
+    driver = DriverByHost()
+    compute(catalogue, settings, study, driver)
+    *blocks, seal = catalogue.blocks(study)
+    assert {block.state for block in blocks} == {BlockState.done}
+    assert {block.attempt for block in blocks} == {1}
+    assert catalogue.get(study).progress_fraction == 1.0
+    assert seal.state is BlockState.queued
+    launches = driver.launches
+    compute(catalogue, settings, study, driver, block=seal.index)
+    assert driver.launches == launches
+    assert finish(catalogue, settings, study) == whole
+
+
+def test_a_worker_that_shall_end_gives_all_blocks_back_with_restart_points(
+    catalogue: Catalogue, settings: Settings, study: str, whole: dict[str, bytes]
+) -> None:
+    draining = threading.Event()
+
+    def before(launches: int) -> None:
+        if launches > 4:
+            draining.set()
+
+    compute(catalogue, settings, study, Launches(before), draining)
+    *blocks, _ = catalogue.blocks(study)
+    assert {block.state for block in blocks} == {BlockState.queued}
+    assert {block.losses for block in blocks} == {0}
+    assert sum(block.checkpoint is not None for block in blocks) > 1
+    assert any(0.0 < block.progress_fraction < 1.0 for block in blocks)
+    assert finish(catalogue, settings, study) == whole
+
+
+def test_a_lost_device_loses_nothing_but_time(
+    catalogue: Catalogue, settings: Settings, study: str, whole: dict[str, bytes]
+) -> None:
+    driver = DriverByHost()
+    driver.lost_at = 5
+    with pytest.raises(DeviceError, match="LAUNCH_FAILED"):
+        compute(catalogue, settings, study, driver)
+    *blocks, _ = catalogue.blocks(study)
+    assert {block.state for block in blocks} == {BlockState.queued}
+    assert {block.losses for block in blocks} == {0}
+    assert {one.outcome for one in catalogue.attempts(study)} == {"put-off"}
+    assert catalogue.get(study).activity == "waiting for a device"
+    assert finish(catalogue, settings, study) == whole
+
+
+def test_where_no_device_can_be_opened_the_processor_computes(
+    catalogue: Catalogue, settings: Settings, study: str
+) -> None:
+    claim = catalogue.claim_block(f"{study}-0", "this process", settings.lease)
+    assert claim is not None
+    with pytest.raises(DeviceError, match="cannot be opened"):
+        compute_on_device(catalogue, settings, claim, threading.Event(), opener("cuda:9999"))
+    assert catalogue.blocks(study)[0].state is BlockState.done
+
+
+def test_a_cancelled_study_ends_between_launches(
+    catalogue: Catalogue, settings: Settings, study: str
+) -> None:
+    def before(launches: int) -> None:
+        if launches == 5:
+            catalogue.request_cancel(study)
+
+    compute(catalogue, settings, study, Launches(before))
+    assert catalogue.get(study).state is JobState.cancelled
+    assert catalogue.get(study).progress_fraction < 1.0
+
+
+def test_what_no_device_computes_the_processor_does(
+    catalogue: Catalogue, settings: Settings, admission: Admission
+) -> None:
+    new = NewJob("simulate", admission.job | {"duration": 0.01}, "0" * 64, SOLVER_VERSION)
+    job, driver = catalogue.submit(new).job.id, DriverByHost()
+    compute(catalogue, settings, job, driver)
+    assert catalogue.get(job).state is JobState.succeeded
+    assert driver.launches == 0
+
+
+def test_a_worker_that_lost_its_device_goes_on_with_the_processor(
+    catalogue: Catalogue, settings: Settings, study: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    driver, lost = DriverByHost(), threading.Event()
+    with_device = settings.model_copy(update={"device": "cuda:0"})
+    monkeypatch.setattr(tasks, "_platform", lambda: (with_device, catalogue))
+    monkeypatch.setattr(tasks, "opener", lambda name: partial(by_host, driver))
+    monkeypatch.setattr(tasks, "_lost", lost)
+    driver.lost_at = 5
+    tasks.run_block(f"{study}-0")
+    assert lost.is_set()
+    launches, other = driver.launches, submit(catalogue, JOB | {"record": 1})
+    tasks.run_block(f"{other}-0")
+    assert catalogue.blocks(other)[0].state is BlockState.done
+    assert driver.launches == launches
