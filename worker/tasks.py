@@ -19,7 +19,7 @@ from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.installation import OtherFiles, require_own_files
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, app
-from jointplay.worker.local.devices import PROCESSOR, Lanes, opener
+from jointplay.worker.local.devices import FIRST, PROCESSOR, Lanes, opener
 from jointplay.worker.own_solver import own_solver
 from jointplay.worker.presence import own_name
 from jointplay.worker.scratch.computing import (
@@ -65,12 +65,25 @@ def run_block(block: str) -> None:
     if claim is not None:
         if claim.block.id != block:
             wake_relay(settings.redis_url)  # somebody else may be free for that one
-        if settings.device == PROCESSOR or _lost.is_set():
+        device = PROCESSOR if _lost.is_set() else _device(settings.device)
+        if device == PROCESSOR:
             compute(catalogue, settings, claim, _draining)
         else:
-            _compute_on(opener(settings.device), claim)
+            _compute_on(opener(device), claim)
         if settings.most_running:
             wake_relay(settings.redis_url)  # its owner may have another block computed
+
+
+@lru_cache(maxsize=1)
+def _device(name: str) -> str:
+    """Return the name of this process's device; never looked for before the fork."""
+    if name != FIRST:
+        return name
+    from jointplay.solver.runs.found_device import found_device
+
+    found = found_device() or PROCESSOR
+    _log.info("points of studies are computed by %s", found)
+    return found
 
 
 def _compute_on(device: Lanes, claim: Claim) -> None:
@@ -110,7 +123,7 @@ def _prepare(**_: Any) -> None:
 
 
 def _look(settings: Settings) -> None:
-    if settings.device != PROCESSOR:
+    if settings.device not in (PROCESSOR, FIRST):
         _look_at_device(settings.device)
     with closing(Catalogue(settings.catalogue_url)) as catalogue:
         try:

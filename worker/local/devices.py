@@ -10,7 +10,8 @@ if TYPE_CHECKING:
 
 Lanes = Callable[["Study"], "Make"]
 """From a study to what has its lanes, in the process that asks; see `device_lanes`."""
-PROCESSOR = "cpu"
+PROCESSOR, FIRST = "cpu", "auto"
+"""Names beside those of devices; `FIRST`: the first device that serves, else the processor."""
 
 
 def lanes_of(name: str, job: "Admission | Study") -> Lanes | None:
@@ -19,8 +20,10 @@ def lanes_of(name: str, job: "Admission | Study") -> Lanes | None:
     Raises
     ------
     InvalidInput
-        There is no such device, or it does not compute such a job.
+        There is no device that was named, or it does not compute such a job.
     """
+    if name == FIRST:
+        name = first_device(job)
     if name == PROCESSOR:
         return None
     from jointplay.solver.kernels.device.named import device_named
@@ -29,6 +32,19 @@ def lanes_of(name: str, job: "Admission | Study") -> Lanes | None:
     required_study(job)
     device_named(name)
     return opener(name)
+
+
+def first_device(job: "Admission | Study") -> str:
+    """Return the name of the first device that serves and computes a job; else `PROCESSOR`."""
+    from jointplay.records.failure import InvalidInput
+    from jointplay.solver.runs.found_device import found_device
+    from jointplay.solver.runs.study.device_lanes import required_study
+
+    try:
+        required_study(job)
+    except InvalidInput:
+        return PROCESSOR
+    return found_device() or PROCESSOR
 
 
 def opener(name: str) -> Lanes:

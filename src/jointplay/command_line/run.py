@@ -31,7 +31,7 @@ def run(
         int | None, typer.Option(min=1, max=1024, help="Of a study; default one for each core.")
     ] = None,
     device: Annotated[
-        str, typer.Option(metavar="cpu|cuda:N", help="Of a study: a graphics processor.")
+        str, typer.Option(metavar="cpu|auto|cuda:N", help="Of a study: a graphics processor.")
     ] = "cpu",
     figures: Annotated[
         bool, typer.Option(help="Draw all figures, too, as `jointplay plot OUT` does later.")

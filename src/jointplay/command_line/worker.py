@@ -56,7 +56,7 @@ def worker(
     ] = 1,
     device: Annotated[
         str | None,
-        typer.Option(metavar="cpu|cuda:N", help="For points of studies: JOINTPLAY_DEVICE."),
+        typer.Option(metavar="cpu|auto|cuda:N", help="For points of studies: JOINTPLAY_DEVICE."),
     ] = None,
     as_json: AS_JSON = False,
 ) -> None:

@@ -43,7 +43,8 @@ def run(
         Of a study; by default one for each core, or one beside a device.
     device
         ``cuda:0``: the first graphics processor computes the points of a study, to the same bits.
-        Several processes have it in turns: the others prepare and judge points.
+        Several processes have it in turns: the others prepare and judge points. ``auto``: the first
+        that is made for double precision, if there is one and it computes such a job.
     progress
         Show a bar on stderr.
     check

@@ -171,5 +171,6 @@ def test_what_no_device_computes_is_refused(place: str) -> None:
     assert [problem.pointer for problem in refused.value.problems] == [place]
 
 
-def test_the_processor_is_no_device() -> None:
+def test_the_processor_is_no_device_and_computes_what_none_does() -> None:
     assert lanes_of("cpu", admit(dict(DIAGRAM))) is None
+    assert lanes_of("auto", admit(dict(REFUSED["/channels"]))) is None
