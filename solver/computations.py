@@ -44,7 +44,7 @@ COMPUTATIONS: dict[str, Callable[[Any, int, bytes | None], Computation]] = {
 def computation_of(study: Study, block: int, checkpoint: bytes | None = None) -> Computation:
     """Return the computation of a block, from where a restart point was made if there is one.
 
-    LimitExceeded: the scene's equations are too long to compile.
+    Its slices raise LimitExceeded if the scene's equations are too long to compile.
     """
     run = RefinedRun if study.refine else COMPUTATIONS.get(study.kind, StudyRun)
     return run(study, block, checkpoint)

@@ -72,24 +72,11 @@ def compute_study(
         done = fraction
         report(fraction, note)
 
-    wanted = min(processes or (cores() if device is None else 1), len(study.blocks))
     report(0.0, "preparing the kernels")
     layout, folder = layout_of_study(study), running / STORE
     open_store(folder, layout)
-    begun = tries_in(folder)
-    tries = {index: begun.get(index, Try()) for index in range(len(study.blocks))}
     try:
-        if wanted > 1:
-            calls = _calls(study, folder, tries)
-            if device is not None:
-                from jointplay.worker.local.pooled import calls_of_parts
-
-                calls = calls_of_parts(study, folder, tries, wanted, device)
-            ends = _spread(study, calls, wanted, tell, asked_to_end)
-        elif device is not None:
-            ends = [_on_device(study, folder, tries, device, tell, asked_to_end)]
-        else:
-            ends = _here(study, folder, tries, tell, asked_to_end)
+        ends = _computed(study, folder, processes, device, tell, asked_to_end)
     except BrokenProcessPool:
         return Outcome("failed", 0.0, done, JobError("platform", "process-died", _DIED))
     for outcome in ends:
@@ -100,6 +87,26 @@ def compute_study(
     report(1.0, f"{study.points} of {study.points} points")
     seal(folder, layout, target)
     return Outcome("succeeded", 0.0, 1.0)
+
+
+def _computed(
+    study: "Study",
+    folder: Path,
+    processes: int | None,
+    device: "Lanes | None",
+    report: Report,
+    asked_to_end: Callable[[], bool],
+) -> "list[Outcome]":
+    """Compute all blocks, and return how they ended; none if the end was asked for."""
+    begun = tries_in(folder)
+    tries = {index: begun.get(index, Try()) for index in range(len(study.blocks))}
+    wanted = min(processes or (cores() if device is None else 1), len(study.blocks))
+    if wanted > 1:
+        calls = _calls(study, folder, tries, wanted, device)
+        return _spread(study, calls, wanted, report, asked_to_end)
+    if device is not None:
+        return [_on_device(study, folder, tries, device, report, asked_to_end)]
+    return _here(study, folder, tries, report, asked_to_end)
 
 
 def open_store(folder: Path, layout: "StudyLayout") -> None:
@@ -158,8 +165,14 @@ def _on_device(
     return compute_pooled(study, folder, tries, device, go_on)
 
 
-def _calls(study: "Study", folder: Path, tries: Mapping[int, Try]) -> list[Call]:
-    """Return calls that compute a block each."""
+def _calls(
+    study: "Study", folder: Path, tries: Mapping[int, Try], count: int, device: "Lanes | None"
+) -> list[Call]:
+    """Return calls that compute a block each, or, for a device, a part for each process."""
+    if device is not None:
+        from jointplay.worker.local.pooled import calls_of_parts
+
+        return calls_of_parts(study, folder, tries, count, device)
     job = json.dumps(study.job)
     return [
         Call(_block, (job, str(folder), index, tries[index]), points, points)

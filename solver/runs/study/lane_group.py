@@ -7,7 +7,6 @@ from itertools import islice
 import numpy as np
 
 from jointplay.records.arrays import Flags
-from jointplay.records.point import PointEnd
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -79,10 +78,6 @@ class LaneGroup:
         """Return the points of a block that are under way, by their lanes."""
         lanes = np.flatnonzero(self._blocks == block).tolist()
         return {lane: run for lane in lanes if (run := self.lanes[lane]) is not None}
-
-    def steps(self, block: int) -> float:
-        """Return the accepted steps of a block's points under way."""
-        return float(sum(self.bundle.lane(lane).steps for lane in self.runs_of(block)))
 
     def under_way(self, block: int) -> float:
         """Return how many points the parts of a block's under way amount to."""
@@ -196,15 +191,12 @@ class LaneGroup:
         if status == Status.DONE and goes_on(*at):
             return True
         run.ended = self.recording.end(lane, run, status)
-        following += self._following(lane, run, run.ended)
+        start = None if run.ended.code else self.bundle.state_of(lane)
+        following += self._next_of_chain(run, start)
         return looks_again(*at)
 
-    def _following(self, lane: int, run: PointRun, end: PointEnd) -> Iterator[PointRun]:
-        """Yield the next point of a chain, which starts where this one came to."""
-        yield from self._next_of_chain(run, None if end.code else self.bundle.state_of(lane))
-
     def _next_of_chain(self, run: PointRun, start: LaneStart | None) -> Iterator[PointRun]:
-        """Yield the next point of a chain; without a start it begins as its scene says."""
+        """Yield the next point of a chain, which starts there, or else as its scene says."""
         order, position = self.study.chain_order[run.chain], run.position + 1
         if position < len(order):
             yield PointRun(order[position], run.chain, position, start)

@@ -29,11 +29,6 @@ class StudyRun:
         ----------
         block
             Index into `study.blocks`.
-
-        Raises
-        ------
-        LimitExceeded
-            The scene's equations are too long to compile.
         """
         self.study, self.block = study, block
         first, self.count = study.blocks[block]
@@ -63,7 +58,9 @@ class StudyRun:
     @property
     def steps(self) -> float:
         """Accepted steps: of points that ended since this object was made, and under way."""
-        return self._ended_steps + (self.group.steps(self.block) if self.group else 0.0)
+        group, steps = self.group, self._ended_steps
+        lanes = () if group is None else map(group.bundle.lane, group.runs_of(self.block))
+        return steps + sum(lane.steps for lane in lanes)
 
     @property
     def over(self) -> bool:
@@ -71,7 +68,13 @@ class StudyRun:
         return not self.waiting and (self.group is None or not self.group.computes(self.block))
 
     def slices(self) -> Iterator[StudySlice]:
-        """Yield what each slice computed, until every point of the block has ended."""
+        """Yield what each slice computed, until every point of the block has ended.
+
+        Raises
+        ------
+        LimitExceeded
+            The scene's equations are too long to compile.
+        """
         if not self._alone.runs:
             self._alone.add(self)
         while not self.over:
