@@ -9,7 +9,7 @@ from jointplay.solver.integrators import METHODS
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.device.bundle import DeviceBundle, Write
 from jointplay.solver.kernels.device.compiled import code
-from jointplay.solver.kernels.device.driver import Device
+from jointplay.solver.kernels.device.driver import Device, DeviceError
 from jointplay.solver.kernels.device.lanes import BLOCK
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
@@ -17,6 +17,7 @@ from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.study.lane_group import Make
 from jointplay.solver.runs.study.plan import Study
 
+NO_MEMORY = "CUDA_ERROR_OUT_OF_MEMORY"
 INSTEAD = "Leave 'device' out: the processor computes it."
 
 
@@ -38,12 +39,22 @@ def _lanes(
     tangents: Tangents | None,
     keep_steps: int,
 ) -> DeviceBundle:
-    """Return a block of lanes for each multiprocessor, or as many as the study has points."""
+    """Return a block of lanes for each multiprocessor, or fewer.
+
+    As many as the study has points, or as there is memory for.
+    """
     if watch or keep_steps:
         raise ValueError("lanes of a device seek no extremes")
-    count = min(BLOCK * device.processors, study.points * study.starts)
-    energies = study.keeps_ledger
-    return DeviceBundle(device, kernel, count, tangents=tangents, energies=energies, write=write)
+    count, energies = min(BLOCK * device.processors, study.points), study.keeps_ledger
+    while True:
+        try:
+            return DeviceBundle(
+                device, kernel, count, tangents=tangents, energies=energies, write=write
+            )
+        except DeviceError as error:
+            if NO_MEMORY not in str(error) or count == 1:
+                raise
+            count //= 2
 
 
 def required_study(job: Study | Admission) -> Study:

@@ -14,6 +14,7 @@ from jointplay import jobs
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kernels.device.driver import Device
 from jointplay.solver.kernels.device.kernel_text import kernel_text
+from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.study.device_lanes import device_lanes, required_study
 from jointplay.solver.runs.study.lane_group import Make
@@ -158,8 +159,19 @@ def test_a_device_goes_on_with_what_was_begun_here(whole: Path, tmp_path: Path) 
     assert bytes_of(folder) == bytes_of(whole)
 
 
+def test_a_device_with_little_memory_has_fewer_lanes() -> None:
+    study = required_study(admit(dict(DIAGRAM)))
+    kernel = ready_kernel(study.point_scene(0), study.job["formulation"], study.method)
+    many, little = DriverByHost(), DriverByHost()
+    more = by_host(many, study)(kernel, watch=False, tangents=None, keep_steps=0)
+    little.memory = sum(one.nbytes for one in many.held.values()) - 1
+    fewer = by_host(little, study)(kernel, watch=False, tangents=None, keep_steps=0)
+    assert (more.width, fewer.width) == (len(CLEARANCES), len(CLEARANCES) // 2)
+
+
 def test_a_device_without_memory_is_told(tmp_path: Path) -> None:
-    outcome = computed(DIAGRAM, tmp_path / "OUT", DriverByHost(memory=2**16), lambda *_: None)
+    point = jobs.bifurcation("slider-crank", "clearance", CLEARANCES[:1], settle=3, record=10)
+    outcome = computed(point, tmp_path / "OUT", DriverByHost(memory=2**10), lambda *_: None)
     assert outcome.error is not None
     assert "OUT_OF_MEMORY" in outcome.error.detail
 
