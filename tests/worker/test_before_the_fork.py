@@ -1,4 +1,6 @@
-"""Children of a worker can ask a bucket: the worker itself has not when it forks."""
+"""State of a worker when it forks: it has asked no bucket, else its children could not, and loaded
+nothing of a device where none is named.
+"""
 
 import os
 import subprocess
@@ -11,11 +13,12 @@ from jointplay.storage.places import place_at
 from tests.seaweedfs_server import BUCKET, running_store
 
 STARTING = """
-import os
+import os, sys
 from celery.signals import worker_init
 import jointplay.worker.tasks
 worker_init.send(None)
-print(len(os.listdir("/proc/self/task")))
+devices = [name for name in sys.modules if name.startswith("jointplay.solver.kernels.device")]
+print(len(os.listdir("/proc/self/task")), devices)
 """
 
 
@@ -33,5 +36,5 @@ def test_no_thread_is_left_of_a_look_at_a_bucket(tmp_path: Path) -> None:
         }
         command = [sys.executable, "-P", "-c", STARTING]
         done = subprocess.run(command, env=os.environ | own, capture_output=True, text=True)
-        assert done.stdout.strip() == "1", done.stderr
+        assert done.stdout.strip() == "1 []", done.stderr
         assert place_at(results).read(MARK, 0, 64)  # it was looked at
