@@ -52,6 +52,10 @@ SHORTER = {
     "animation -o figures": "animation --frames-per-second 2 -o figures",
     "--rate 0.001": "--rate 0.001 --frames-per-second 2",
     '"generations": 20': '"generations": 3',
+    "eccentricity/0=0.17:0.2:24 --by /start/joints/stop/rate/0=-0.5:0.5:24": (
+        "eccentricity/0=0.17:0.2:8 --by /start/joints/stop/rate/0=-0.5:0.5:8"
+    ),
+    "--samples 400 --along speed=24:32:17": "--samples 40 --along speed=24:32:3",
 }
 """Pieces of the texts, and how they stand in the tests that are not long."""
 
