@@ -10,20 +10,21 @@ export class Tiles {
    * @param path of the quantity's tiles
    * @param query of all of them
    * @param arrived called when a tile has come
+   * @param before tiles whose pictures are shown until these have come, or null
    */
-  constructor(path, query, signal, arrived) {
-    Object.assign(this, { path, query, signal, arrived, underWay: 0 });
+  constructor(path, query, signal, arrived, before = null) {
+    Object.assign(this, { path, query, signal, arrived, underWay: 0, earlier: before?.known ?? new Map() });
     this.known = new Map(); // pictures by name, the one that was used last at the end; null: on its way
     this.wanted = [];
     this.next = [];
   }
 
-  /** Returns a tile's picture if it is there; else it is asked for. */
+  /** Returns a tile's picture; one that is not there is asked for, and meanwhile is that from before. */
   get(z, x, y) {
     const name = `${z}/${x}/${y}`;
     const picture = this.known.get(name);
     if (picture === undefined) this.wanted.push(name);
-    if (!picture) return null;
+    if (!picture) return this.earlier.get(name) ?? null;
     this.known.delete(name);
     this.known.set(name, picture);
     return picture;

@@ -2,7 +2,9 @@
 
 import json
 import re
+import time
 
+import httpx
 import pytest
 
 from tests.page.browsing import barriers, expect
@@ -175,3 +177,41 @@ def test_its_head_says_how_many_starts_a_point_has(browsing, url, starts, words)
     with browsing.page(f"{url}/#/job/{job}") as page:
         values = page.locator("dt", has_text="Values").locator("+ dd")
         expect(values).to_have_text(f"{words}speed 10 rad/s … 40 rad/s, amplitude 1 mm … 20 mm")
+
+
+GROUND = """() => {
+  const one = document.body.appendChild(document.createElement("i"));
+  one.style.color = "var(--ground)";
+  return [...getComputedStyle(one).color.matchAll(/\\d+/g)].map(Number).join();
+}"""
+BLANK_WHILE_GROWING = """async ([label, ground]) => {
+  const canvas = document.querySelector(`canvas[aria-label="${label}"]`);
+  const colour = () => {
+    const { width, height } = canvas;
+    const { data } = canvas.getContext("2d").getImageData(width / 2, height / 2, 1, 1);
+    return [...data].slice(0, 3).join();
+  };
+  const frame = () => new Promise(requestAnimationFrame);
+  while (colour() === ground || colour() === "0,0,0") await frame();
+  const told = new Set();
+  let blank = 0;
+  while (told.size < 4) {
+    await frame();
+    told.add(document.body.textContent.match(/.{12}points are computed/)?.[0]);
+    if (colour() === ground) blank += 1;
+  }
+  return blank;
+}"""
+
+
+def test_a_map_that_grows_faster_than_its_tiles_come_is_never_blank(browsing, url):
+    along, by = (CHART[name]["values"] | {"count": 600} for name in ("along", "by"))
+    axes = {"along": CHART["along"] | {"values": along}, "by": CHART["by"] | {"values": by}}
+    with httpx.Client(base_url=url, trust_env=False, timeout=120) as client:
+        job = client.post("/v1/jobs", json=CHART | axes | {"settle": 40}).json()["id"]
+        with browsing.page(f"{url}/#/jobs", expected=("willReadFrequently",)) as page:
+            page.route("**/tiles/**", lambda route: (time.sleep(0.2), route.continue_()))
+            page.goto(f"{url}/#/job/{job}")
+            page.get_by_label(MAP).wait_for()
+            assert page.evaluate(BLANK_WHILE_GROWING, [MAP, page.evaluate(GROUND)]) == 0
+        client.post(f"/v1/jobs/{job}/cancel").raise_for_status()

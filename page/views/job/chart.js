@@ -53,7 +53,8 @@ class Chart {
       ? `${short(inherited, 7)} points were not computed: the corners of their cell are alike, and they have the results of one of them.`
       : "";
     if (!grown) return;
-    this.showTiles();
+    this.behind = Boolean(this.tiles?.waiting()); // else a map that grows fast would never be whole
+    if (!this.behind) this.showTiles(this.tiles);
     this.showAttractors();
   }
 
@@ -77,12 +78,20 @@ class Chart {
     fill(this.filters, element("div", { class: "field" }, element("label", { for: made.id }, "Shown"), made));
   }
 
-  showTiles() {
+  /** Asks for the tiles of what there is by now; until they come, those `before` are shown. */
+  showTiles(before = null) {
     const { name, low, high } = this.quantity;
     const query = { ended: this.answer.ended, ...(low === null ? {} : { low, high }) };
     const path = `${this.job.links.self}/tiles/${encodeURIComponent(name)}`;
-    this.tiles = new Tiles(path, query, this.signal, () => this.map.draw());
+    this.tiles = new Tiles(path, query, this.signal, () => this.arrived(), before);
     this.map.show(this.tiles);
+  }
+
+  arrived() {
+    this.map.draw();
+    if (!this.behind || this.tiles.waiting()) return;
+    this.behind = false;
+    this.showTiles(this.tiles);
   }
 
   /** Says what the colours mean. */
