@@ -52,8 +52,10 @@ class Processes:
         self._shared = shared
         self._asked_to_end = asked_to_end
 
-    def make(self, calls: Sequence[Call], report: Report | None = None) -> list[Any]:
-        """Make all calls, the heaviest first, and return their results in the calls' order.
+    def make(
+        self, calls: Sequence[Call], report: Report | None = None, *, in_order: bool = False
+    ) -> list[Any]:
+        """Make all calls, the heaviest first or `in_order`. Returns their results in their order.
 
         Raises
         ------
@@ -68,7 +70,7 @@ class Processes:
         shared.fractions[:] = [0.0] * len(shared.fractions)
         shared.parts[:] = [0] * len(shared.parts)
         shared.leave.value = 0
-        futures = self._submitted(calls)
+        futures = self._submitted(calls, in_order=in_order)
         running, note = set(futures), ""
         try:
             while running:
@@ -99,10 +101,13 @@ class Processes:
             raise Interrupted
         return [future.result() for future in sorted(futures, key=futures.__getitem__)]
 
-    def _submitted(self, calls: Sequence[Call]) -> dict[Future[Any], int]:
+    def _submitted(self, calls: Sequence[Call], *, in_order: bool) -> dict[Future[Any], int]:
         futures: dict[Future[Any], int] = {}
+        turns = list(range(len(calls)))
+        if not in_order:
+            turns.sort(key=lambda index: -calls[index].weight)
         with _bare_start():
-            for index in sorted(range(len(calls)), key=lambda index: -calls[index].weight):
+            for index in turns:
                 call = calls[index]
                 futures[self._pool.submit(make, call.function, call.arguments, index)] = index
             # The pool watches the processes that it knew when it was last roused, and rouses

@@ -195,7 +195,7 @@ def _spread(
 
     with processes(count, len(calls), asked_to_end) as pool:
         try:
-            return pool.make(calls, show)
+            return pool.make(calls, show, in_order=bool(study.refine))  # the coarse grid first
         except Interrupted:
             return []
 

@@ -4,6 +4,7 @@ import os
 import signal
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 Advance = Callable[[float], bool]
 
@@ -11,6 +12,11 @@ Advance = Callable[[float], bool]
 def doubled(number: int, advance: Advance) -> int:
     advance(0.5)
     return 2 * number
+
+
+def noted(path: Path, word: str, _advance: Advance) -> None:
+    with path.open("a") as file:
+        file.write(f"{word} ")
 
 
 def refused(reason: str, advance: Advance) -> None:

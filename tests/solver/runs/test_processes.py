@@ -6,7 +6,7 @@ from concurrent.futures.process import BrokenProcessPool
 import pytest
 
 from jointplay.solver.runs.processes import Call, Interrupted, processes
-from tests.solver.runs.calls import doubled, endless, killed, refused
+from tests.solver.runs.calls import doubled, endless, killed, noted, refused
 
 
 def test_results_come_in_the_order_of_the_calls_and_progress_ends_at_one():
@@ -19,6 +19,15 @@ def test_results_come_in_the_order_of_the_calls_and_progress_ends_at_one():
     fractions = [fraction for fraction, _, _ in reports]
     assert fractions == sorted(fractions)
     assert reports[-1] == (1.0, sum(range(7)), "a call")
+
+
+@pytest.mark.parametrize(("in_order", "written"), [(True, "light heavy "), (False, "heavy light ")])
+def test_calls_are_made_the_heaviest_first_or_in_order(in_order, written, tmp_path):
+    path = tmp_path / "made.txt"
+    calls = [Call(noted, (path, "light"), 1.0), Call(noted, (path, "heavy"), 9.0)]
+    with processes(1, most_calls=2) as pool:
+        pool.make(calls, in_order=in_order)
+    assert path.read_text() == written
 
 
 def test_what_a_call_raises_is_raised_and_the_others_end():
