@@ -213,5 +213,6 @@ def test_a_map_that_grows_faster_than_its_tiles_come_is_never_blank(browsing, ur
             page.route("**/tiles/**", lambda route: (time.sleep(0.2), route.continue_()))
             page.goto(f"{url}/#/job/{job}")
             page.get_by_label(MAP).wait_for()
-            assert page.evaluate(BLANK_WHILE_GROWING, [MAP, page.evaluate(GROUND)]) == 0
+            blank = page.evaluate(BLANK_WHILE_GROWING, [MAP, page.evaluate(GROUND)])
+            assert blank == 0
         client.post(f"/v1/jobs/{job}/cancel").raise_for_status()
