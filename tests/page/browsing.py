@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -83,6 +84,11 @@ class Browsing:
         origin = "/".join(url.split("/")[:3])
         if not asked.startswith((origin, "blob:", "data:")):
             complaints.append(f"{asked} was loaded from elsewhere")
+
+
+def slowly(page: Any, addresses: str) -> None:
+    """Have answers come slowly and one after the other, as over a poor link."""
+    page.route(addresses, lambda route: (time.sleep(0.2), route.continue_()))
 
 
 def barriers(page: Any) -> list[str]:

@@ -3,6 +3,7 @@
 import shutil
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import httpx
@@ -68,6 +69,15 @@ def submitted(url: str, job: dict[str, object]) -> str:
             found = client.get(f"/v1/jobs/{found['id']}", params={"wait": 60}).json()
         assert found["state"] == "succeeded", found
         return str(found["id"])
+
+
+@contextmanager
+def running(url: str, job: dict[str, object]) -> Iterator[str]:
+    """Submit a job, and cancel it afterwards."""
+    with httpx.Client(base_url=url, trust_env=False, timeout=120) as client:
+        made = str(client.post("/v1/jobs", json=job).raise_for_status().json()["id"])
+        yield made
+        client.post(f"/v1/jobs/{made}/cancel").raise_for_status()
 
 
 @pytest.fixture(scope="session")

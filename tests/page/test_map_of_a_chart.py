@@ -2,13 +2,11 @@
 
 import json
 import re
-import time
 
-import httpx
 import pytest
 
-from tests.page.browsing import barriers, expect
-from tests.page.conftest import submitted
+from tests.page.browsing import barriers, expect, slowly
+from tests.page.conftest import running, submitted
 
 CHART = {
     "kind": "chart",
@@ -207,12 +205,12 @@ BLANK_WHILE_GROWING = """async ([label, ground]) => {
 def test_a_map_that_grows_faster_than_its_tiles_come_is_never_blank(browsing, url):
     along, by = (CHART[name]["values"] | {"count": 600} for name in ("along", "by"))
     axes = {"along": CHART["along"] | {"values": along}, "by": CHART["by"] | {"values": by}}
-    with httpx.Client(base_url=url, trust_env=False, timeout=120) as client:
-        job = client.post("/v1/jobs", json=CHART | axes | {"settle": 40}).json()["id"]
-        with browsing.page(f"{url}/#/jobs", expected=("willReadFrequently",)) as page:
-            page.route("**/tiles/**", lambda route: (time.sleep(0.2), route.continue_()))
-            page.goto(f"{url}/#/job/{job}")
-            page.get_by_label(MAP).wait_for()
-            blank = page.evaluate(BLANK_WHILE_GROWING, [MAP, page.evaluate(GROUND)])
-            assert blank == 0
-        client.post(f"/v1/jobs/{job}/cancel").raise_for_status()
+    with (
+        running(url, CHART | axes | {"settle": 40}) as job,
+        browsing.page(f"{url}/#/jobs", expected=("willReadFrequently",)) as page,
+    ):
+        slowly(page, "**/tiles/**")
+        page.goto(f"{url}/#/job/{job}")
+        page.get_by_label(MAP).wait_for()
+        blank = page.evaluate(BLANK_WHILE_GROWING, [MAP, page.evaluate(GROUND)])
+        assert blank == 0
