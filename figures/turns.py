@@ -21,8 +21,12 @@ def within_a_turn(angles: Floats) -> Floats:
 
 
 def beside(angles: Floats, others: Floats) -> Floats:
-    """Return angles [rad] within the turn that has the middle of others, within one, in its own."""
-    return _about(angles, 0.5 * (np.nanmin(others) + np.nanmax(others)))
+    """Return angles [rad] within the turn that has the middle of others, within one, in its own.
+
+    As they are where no other is known.
+    """
+    finite = others[np.isfinite(others)]
+    return _about(angles, 0.5 * (finite.min() + finite.max())) if finite.size else angles
 
 
 def _about(angles: Floats, middle: float) -> Floats:

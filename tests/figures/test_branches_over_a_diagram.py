@@ -61,6 +61,13 @@ def test_angles_of_orbits_are_within_the_turn_of_the_sections():
     assert axes.lines[1].get_ydata() == pytest.approx(HEIGHTS[:3])
 
 
+def test_a_diagram_without_sections_yet_lies_beneath_too():
+    waiting = diagram(unit="rad")
+    waiting.section_values["mass.x"][:] = np.nan
+    axes = drawn_with(seen("rad"), "branch", Selection(over=waiting)).axes[0]
+    assert axes.lines[1].get_ydata() == pytest.approx(HEIGHTS[:3])
+
+
 @pytest.mark.parametrize(
     ("over", "channels", "says", "cause"),
     [

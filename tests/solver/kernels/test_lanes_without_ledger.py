@@ -54,3 +54,16 @@ def test_lanes_with_and_without_stand_side_by_side(bundles):
         pass
     for name in WORKS:
         assert np.array_equal(mixed.lane(0)[name], kept.lane(0)[name])
+
+
+@pytest.mark.parametrize("watch", [False, True])
+def test_steps_are_looked_into_for_extremes_alone(bundles, watch):
+    scene = preset("slider-crank", clearance=1e-4)
+    problem = LaneProblem(scene, 0.002, 1e-6, 1e-3, 0, 0, 0.0, ledger=watch)
+    bundle = Bundle(bundles[0].kernel, [problem], watch=watch)
+    while bundle.advance(10_000):
+        pass
+    lane = bundle.lane(0)
+    assert lane.steps > 10
+    assert lane["lengthening"].any() == watch
+    assert lane["ledger"].any() == watch
