@@ -18,7 +18,7 @@ def device_named(name: str) -> Device:
     """
     named = NAMES.fullmatch(name)
     if named is None:
-        detail = f"{name!r} is no device; it must be 'cpu', or 'cuda:0', 'cuda:1', ... as they are."
+        detail = f"{name!r} is no device; give 'cpu', 'auto', or 'cuda:0', 'cuda:1' and so on."
         raise InvalidInput.at("/device", detail)
     try:
         return Device(int(named[1]))

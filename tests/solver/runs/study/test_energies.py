@@ -4,7 +4,9 @@ from typing import Any
 
 import pytest
 
+from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kinds import admit, documents
+from jointplay.solver.runs.study.problem import problem_of
 from tests.solver.runs.study.jobs_of_studies import study
 from tests.solver.runs.study.test_run import Computed
 
@@ -31,6 +33,15 @@ def test_maps_add_up_none() -> None:
     chart = {"kind": "chart", "scene": CRANK, "along": CLEARANCES, "by": friction}
     assert not study(chart).keeps_ledger
     assert study(BIFURCATION).keeps_ledger
+
+
+@pytest.mark.parametrize("energies", [True, False])
+@pytest.mark.parametrize("job", [SWEEP, BIFURCATION], ids=["sweep", "bifurcation"])
+def test_lanes_add_up_what_the_job_asks_for(job: dict[str, Any], energies: bool) -> None:
+    asked = study(job, energies=energies)
+    scene = asked.point_scene(0)
+    kernel = ready_kernel(scene, asked.job["formulation"], asked.method)
+    assert problem_of(asked, kernel, 0, scene).ledger == energies
 
 
 def test_jobs_of_before_the_field_have_their_digests() -> None:
