@@ -25,7 +25,7 @@ from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kernels.compile_loop import RUNS, compile_part
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.record.equations import record
+from jointplay.solver.kernels.trace.equations import trace
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.presets import document
@@ -62,8 +62,8 @@ def compiled(name: str, count: int, formulation: str, with_tangents: bool) -> di
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     begun = processor()
     try:
-        record(scene, spanning_tree(scene), formulation)
-        recorded = processor() - begun
+        trace(scene, spanning_tree(scene), formulation)
+        traced = processor() - begun
         kernel = ready_kernel(scene, formulation)
         tangents_begun = processor()
         modules = [kernel.module]
@@ -77,8 +77,8 @@ def compiled(name: str, count: int, formulation: str, with_tangents: bool) -> di
         with open(str(module.__file__)) as source:
             lines += sum(1 for _ in source)
     return {
-        "recording": recorded,
-        "kernel": tangents_begun - begun - recorded,
+        "tracing": traced,
+        "kernel": tangents_begun - begun - traced,
         "tangents": ended - tangents_begun,
         "lines": lines,
         "before": before / 1024,
@@ -106,7 +106,7 @@ def main() -> None:
         print(json.dumps(compiled(name, int(count), formulation, arguments.tangents)))
         return
     print(
-        "scene      count  formulation   lines  recording s  kernel s  tangents s  peak MB  cached"
+        "scene      count  formulation   lines    tracing s  kernel s  tangents s  peak MB  cached"
     )
     for name, count, formulation in cases(arguments.most, arguments.only):
         print(f"{name:<10}{count:6d}  {formulation:<11}", end="", flush=True)
@@ -132,7 +132,7 @@ def _in_a_process(name: str, count: int, formulation: str, with_tangents: bool) 
         return f"  {found['refused']}"
     cached = json.loads(again.stdout.splitlines()[-1])["kernel"]
     return (
-        f"{found['lines']:8d}{found['recording']:13.2f}{found['kernel']:10.1f}"
+        f"{found['lines']:8d}{found['tracing']:13.2f}{found['kernel']:10.1f}"
         f"{found['tangents']:12.1f}{found['peak']:9.0f}{cached:10.2f}"
     )
 

@@ -1,4 +1,4 @@
-"""diffrax on eight presses at once: the recorded equations as a JAX function, vmapped.
+"""diffrax on eight presses at once: the traced equations as a JAX function, vmapped.
 
 Optional: `pip install diffrax jax`. A leg ends at an onset or release, which diffrax locates; all
 legs of a lane are one loop, so that the eight lanes are advanced together, on the CPU.
@@ -13,8 +13,8 @@ import numpy as np
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.reachable import reachable
+from jointplay.solver.kernels.trace.tracer import Expression
 
 LONGEST_STEP, FIRST_STEP = 1e-3, 1e-7
 """s, as other peers have."""
@@ -23,7 +23,7 @@ ROOT = 1e-13
 
 
 def operations() -> dict[str, Callable[..., Any]]:
-    """Return what the recorder's operations are in JAX."""
+    """Return what the tracer's operations are in JAX."""
     import jax.numpy as jnp
 
     return {

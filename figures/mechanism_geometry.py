@@ -160,8 +160,8 @@ def _look(joint: Mapping[str, Any], driven: bool) -> str:
 def heading(joint: Mapping[str, Any], pose: Pose) -> float:
     """Return the angle in the world of the axis of a joint that has one [rad]."""
     marks = marks_of(joint)
-    owner, (x, y) = joint[marks["ends"][0]].partition(".")[0], joint[marks["axis"]]
-    return (0.0 if owner == GROUND else pose[owner][2]) + math.atan2(y, x)
+    part, (x, y) = joint[marks["ends"][0]].partition(".")[0], joint[marks["axis"]]
+    return (0.0 if part == GROUND else pose[part][2]) + math.atan2(y, x)
 
 
 def world(scene: Mapping[str, Any], pose: Pose, reference: str) -> Point:

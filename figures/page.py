@@ -187,11 +187,11 @@ def corner_text(axes: Axes, text: str) -> None:
 
 
 def in_two_lines(label: str) -> str:
-    """Break the label of an axis after the owner of a channel, where it is long and in one line."""
+    """Break the label of an axis after the name of a part, where it is long and in one line."""
     if len(label) <= _LONGEST_LABEL or "\n" in label:
         return label
-    owner, dot, quantity = label.partition(".")
-    return f"{owner}\n{quantity}" if dot else label
+    part, dot, quantity = label.partition(".")
+    return f"{part}\n{quantity}" if dot else label
 
 
 def legend_rows(entries: Sequence[Any] | Mapping[str, Any]) -> int:

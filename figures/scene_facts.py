@@ -52,8 +52,8 @@ def chosen_pairs(source: Source, selection: Selection) -> list[str]:
     NotDrawable
         There is none, or one was asked for that has no clearance.
     """
-    owners = (pair.partition(".")[0] for pair in source.joints)
-    check_joints(list(dict.fromkeys([*owners, *source.joints])), selection)
+    parts = (pair.partition(".")[0] for pair in source.joints)
+    check_joints(list(dict.fromkeys([*parts, *source.joints])), selection)
     chosen = selection.joints or source.joints
     return [pair for name in chosen for pair in source.joints if f"{pair}.".startswith(f"{name}.")]
 

@@ -88,9 +88,9 @@ def _scatter(
     axes.margins(_MARGIN)
     for axis, unit, name in ((axes.xaxis, across, pair[0]), (axes.yaxis, up, pair[1])):
         axis.set_label_text(_with_offset(axis, unit.label(_short(name))))
-    owners = {name.rpartition(".")[0] for name in pair}
-    if len(owners) == 1:
-        page.corner_text(axes, owners.pop())
+    parts = {name.rpartition(".")[0] for name in pair}
+    if len(parts) == 1:
+        page.corner_text(axes, parts.pop())
 
 
 def _sections(source: StudySource, name: str, points: slice) -> Floats:

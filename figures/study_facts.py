@@ -47,8 +47,8 @@ def observed_pairs(source: StudySource) -> list[tuple[str, str]]:
     names = by_name(source.observables)
     found = []
     for name in names:
-        owner, _, quantity = name.rpartition(".")
-        rate = f"{owner}.{_RATES.get(quantity)}"
+        part, _, quantity = name.rpartition(".")
+        rate = f"{part}.{_RATES.get(quantity)}"
         if rate in names:
             found.append((name, rate))
     return sorted(found, key=lambda pair: ".eccentricity_" not in pair[0])

@@ -123,8 +123,8 @@ class _Row:
         if name in statistics:
             values = source.statistics[name][points]
             shown = scale(statistics[name].unit, values)
-            owner, _, statistic = name.rpartition(".")
-            return cls({"": values}, shown, f"{owner}\n{shown.label(statistic)}")
+            part, _, statistic = name.rpartition(".")
+            return cls({"": values}, shown, f"{part}\n{shown.label(statistic)}")
         peaks = source.peaks(name)
         extremes = {"largest": peaks.maximum[points], "smallest": peaks.minimum[points]}
         size = max(largest_of(values) for values in extremes.values())

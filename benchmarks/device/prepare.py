@@ -132,7 +132,7 @@ def texts(kernel: Kernel, sizes: Sizes, work: Any, on_host: bool) -> dict[str, s
     constant = list(with_constants(shared, lean))
 
     def text(chosen: Sequence[Any]) -> str:
-        return kernel_text(chosen, kernel.places, sizes, on_host=on_host)
+        return kernel_text(chosen, kernel.slots, sizes, on_host=on_host)
 
     called = text(constant).replace(
         'define void @"slopes"(ptr %W, i64 %index) alwaysinline',

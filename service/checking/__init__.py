@@ -15,7 +15,7 @@ from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlo
 from jointplay.service.idempotency import SentKey
 from jointplay.service.jobs.submission import checked
 from jointplay.service.problems import RequestRefused, unavailable
-from jointplay.solver.kernels.record.length import SURELY_SHORT
+from jointplay.solver.kernels.trace.length import SURELY_SHORT
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import NewJob, SubmissionKey

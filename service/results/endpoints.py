@@ -26,9 +26,15 @@ from jointplay.service.results.queries import (
     check_size,
     chosen_channels,
 )
-from jointplay.service.results.stores import ResultsOfThePath, RunOfThePath
+from jointplay.service.results.stores import ReaderOfThePath, ResultsOfThePath
 from jointplay.service.results.streaming import LEAST, Column, Parts, as_json
-from jointplay.service.results.windows import ExactRunOfThePath, bins, extremes, resolution, series
+from jointplay.service.results.windows import (
+    ExactReaderOfThePath,
+    bins,
+    extremes,
+    resolution,
+    series,
+)
 from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
 
@@ -48,7 +54,7 @@ _IMPACTS: Final = 1024
 )
 def show_history(
     results: ResultsOfThePath,
-    exact: ExactRunOfThePath,
+    exact: ExactReaderOfThePath,
     query: Annotated[HistoryQuery, Query()],
     form: Form,
 ) -> Response:
@@ -60,9 +66,9 @@ def show_history(
     Accept chooses JSON, CSV, NPZ or a MATLAB file.
     """
     file = f"{results.job.id}-history"
-    run = exact.run
+    reader = exact.reader
     start, stop = query.checked()
-    names = chosen_channels(query.channels, run.channels)
+    names = chosen_channels(query.channels, reader.channels)
     note = ""
     if query.step is not None:
         if query.points is not None:
@@ -73,106 +79,106 @@ def show_history(
         if isinstance(found, schemas.Overview):
             return _shown_as(form, file, found)
         note = found
-    first, last = run.between(start, stop)
+    first, last = reader.between(start, stop)
     if query.points is not None and last - first > query.points:
-        overview = _overview(run, names, first, last, query.points, note)
+        overview = _overview(reader, names, first, last, query.points, note)
         return _shown_as(form, file, overview)
     if last > first:
-        begin, end = (run.history([], at, at + 1)[0][0] for at in (first, last - 1))
+        begin, end = (reader.history([], at, at + 1)[0][0] for at in (first, last - 1))
         check_size(last - first, len(names) + 1, "samples", float(end - begin))
     time: Column
     columns: Mapping[str, Column]
     if form == JSON and (last - first) * (len(names) + 1) > LEAST:
-        for _ in run.blocks(names, first, last):  # so that no damage is met on the way
+        for _ in reader.blocks(names, first, last):  # so that no damage is met on the way
             pass
-        time = _read(run, None, first, last)
-        columns = {name: _read(run, name, first, last) for name in names}
+        time = _read(reader, None, first, last)
+        columns = {name: _read(reader, name, first, last) for name in names}
     else:
-        time, columns = run.history(names, first, last)
+        time, columns = reader.history(names, first, last)
     history = schemas.History.model_construct(
-        complete=run.complete,
+        complete=reader.complete,
         time=schemas.Series.of(TIME, values=time),
-        channels=series(run, columns),
+        channels=series(reader, columns),
         note=note,
-        resolution=resolution(of_samples(run.attributes["job"])),
+        resolution=resolution(of_samples(reader.attributes["job"])),
     )
     return _shown_as(form, file, history)
 
 
-def _read(run: ResultReader, name: str | None, first: int, last: int) -> Parts:
+def _read(reader: ResultReader, name: str | None, first: int, last: int) -> Parts:
     """Return the samples of a channel, or the time, to be read while they are sent."""
-    blocks = run.blocks([] if name is None else [name], first, last)
+    blocks = reader.blocks([] if name is None else [name], first, last)
     made = (time if name is None else columns[name] for time, columns in blocks)
     return Parts(made, last - first)
 
 
-def show_sections(job_id: str, run: ResultReader, selection: Selection, form: str) -> Response:
+def show_sections(job_id: str, reader: ResultReader, selection: Selection, form: str) -> Response:
     """Return channels at the Poincare sections of a run, in a window of time."""
-    names = chosen_channels(selection.channels, run.channels)
-    time, _ = run.sections([])
+    names = chosen_channels(selection.channels, reader.channels)
+    time, _ = reader.sections([])
     shown = inside(time, *selection.checked())
     if shown.any():
         check_size(int(shown.sum()), len(names) + 1, "sections", float(np.ptp(time[shown])))
-    _, columns = run.sections(names)
+    _, columns = reader.sections(names)
     sections = schemas.Poincare.model_construct(
-        complete=run.complete,
+        complete=reader.complete,
         time=schemas.Series.of(TIME, values=time[shown]),
-        channels=series(run, {name: column[shown] for name, column in columns.items()}),
-        note=str(run.attributes.get("section_note", "")),
+        channels=series(reader, {name: column[shown] for name, column in columns.items()}),
+        note=str(reader.attributes.get("section_note", "")),
     )
     return _shown_as(form, f"{job_id}-poincare", sections)
 
 
 @router.get("/peaks", response_model=schemas.Peaks)
-def show_peaks(exact: ExactRunOfThePath, window: Annotated[Window, Query()]) -> Response:
+def show_peaks(exact: ExactReaderOfThePath, window: Annotated[Window, Query()]) -> Response:
     """Return each channel's signed minimum and maximum, with their times.
 
     Of a window, and of a running job as far as it is, they are computed from the steps of the run.
     """
-    run, (start, stop) = exact.run, window.checked()
-    described = by_name(run.channels)
-    peaks = run.peaks()
-    if (start, stop) != (None, None) or (not run.sealed and run.samples):
+    reader, (start, stop) = exact.reader, window.checked()
+    described = by_name(reader.channels)
+    peaks = reader.peaks()
+    if (start, stop) != (None, None) or (not reader.sealed and reader.samples):
         peaks = exact.peaks(start, stop)
     found = {
         name: schemas.Peak.model_construct(unit=described[name].unit, **vars(peak))
         for name, peak in peaks.items()
     }
-    return as_json(schemas.Peaks.model_construct(complete=run.complete, peaks=found))
+    return as_json(schemas.Peaks.model_construct(complete=reader.complete, peaks=found))
 
 
 @router.get("/statistics", dependencies=[NO_PARAMETERS])
-def show_statistics(run: RunOfThePath) -> schemas.Statistics:
+def show_statistics(reader: ReaderOfThePath) -> schemas.Statistics:
     """Return the steps that the run took, its energy ledger with the residual, and notes."""
-    summary = run.attributes.get("summary") or {}
-    notes = run.attributes.get("notes", [])
-    return schemas.Statistics(complete=run.complete, notes=notes, **summary)
+    summary = reader.attributes.get("summary") or {}
+    notes = reader.attributes.get("notes", [])
+    return schemas.Statistics(complete=reader.complete, notes=notes, **summary)
 
 
 @router.get("/certificate", response_model=Certificate)
 def show_certificate(
-    results: ResultsOfThePath, run: RunOfThePath, query: Annotated[ChannelsQuery, Query()]
+    results: ResultsOfThePath, reader: ReaderOfThePath, query: Annotated[ChannelsQuery, Query()]
 ) -> Response:
     """Return how far the numbers can be believed: estimated errors, horizon, exponent, spread.
 
     It is made when the run ends; a job with `"certificate": false` has none.
     """
     job = results.job
-    found = run.certificate()
-    if found is None and not run.sealed:
+    found = reader.certificate()
+    if found is None and not reader.sealed:
         raise results.not_ready("its certificate is made when it ends")
     if found is None:
         raise RequestRefused(kinds.NO_RESULTS, f"Job {job.id} was computed without a certificate.")
-    names = chosen_channels(query.channels, run.channels)
+    names = chosen_channels(query.channels, reader.channels)
     instants = len(found.arrays["time"].values)
     check_size(instants, len(names), "instants", float(job.spec["duration"]))
-    return as_json(Certificate.model_validate(certificate_document(run, found, names)))
+    return as_json(Certificate.model_validate(certificate_document(reader, found, names)))
 
 
 @router.get("/impacts", response_model=schemas.Impacts)
-def show_impacts(run: RunOfThePath, window: Annotated[Window, Query()]) -> Response:
+def show_impacts(reader: ReaderOfThePath, window: Annotated[Window, Query()]) -> Response:
     """Return the contacts in the clearance joints whose onset is in a window of time."""
-    rows = run.impacts()
+    rows = reader.impacts()
     rows = rows[inside(rows["onset"], *window.checked())]
     names = rows.dtype.names or ()
     if len(rows):
@@ -181,30 +187,30 @@ def show_impacts(run: RunOfThePath, window: Annotated[Window, Query()]) -> Respo
     def shown(some: NDArray[Any]) -> list[schemas.Impact]:
         found = [dict(zip(names, row, strict=True)) for row in some.tolist()]
         return [
-            schemas.Impact.model_construct(**one | {"joint": run.joints[one["joint"]]})
+            schemas.Impact.model_construct(**one | {"joint": reader.joints[one["joint"]]})
             for one in found
         ]
 
     made = (shown(rows[at : at + _IMPACTS]) for at in range(0, len(rows), _IMPACTS))
     found: Any = Parts(made, rows.size * len(names), rows.nbytes)
-    return as_json(schemas.Impacts.model_construct(complete=run.complete, impacts=found))
+    return as_json(schemas.Impacts.model_construct(complete=reader.complete, impacts=found))
 
 
 def _overview(
-    run: ResultReader, names: list[str], first: int, last: int, points: int, note: str
+    reader: ResultReader, names: list[str], first: int, last: int, points: int, note: str
 ) -> schemas.Overview:
     check_points(points, len(names))
-    time, found = run.extremes(names, first, last, points)
-    pairs = [with_contact_peaks(run, name, time, found[name]) for name in names]
+    time, found = reader.extremes(names, first, last, points)
+    pairs = [with_contact_peaks(reader, name, time, found[name]) for name in names]
     columns = np.stack(pairs, axis=1)
     return schemas.Overview.model_construct(
-        complete=run.complete,
+        complete=reader.complete,
         samples=last - first,
         bins=bins(time),
-        extremes=extremes(run, names, columns),
+        extremes=extremes(reader, names, columns),
         exact=False,
         note=note,
-        resolution=resolution(of_samples(run.attributes["job"])),
+        resolution=resolution(of_samples(reader.attributes["job"])),
     )
 
 

@@ -102,6 +102,6 @@ def _reader(results: ResultsOfJob, windows: WindowProcess) -> ResultReader | Stu
     results.insist("figures")
     if results.is_study:
         return results.study()
-    run = results.run()
-    run.trajectory = windows.of(run)
-    return run
+    reader = results.run()
+    reader.trajectory = windows.of(reader)
+    return reader

@@ -16,7 +16,7 @@ from jointplay.service.results.queries import Selection as SelectionQuery
 from jointplay.service.results.queries import chosen_channels
 from jointplay.service.results.schemas import Described, Partial, Values
 from jointplay.service.results.streaming import as_json
-from jointplay.service.results.windows import ExactRunOfThePath
+from jointplay.service.results.windows import ExactReaderOfThePath
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}", tags=["results"], responses=problems(*kinds.OF_RESULTS)
@@ -44,28 +44,30 @@ class Spectrum(Partial):
 
 
 @router.get("/spectrum", response_model=Spectrum)
-def show_spectrum(exact: ExactRunOfThePath, query: Annotated[SelectionQuery, Query()]) -> Response:
+def show_spectrum(
+    exact: ExactReaderOfThePath, query: Annotated[SelectionQuery, Query()]
+) -> Response:
     """Return the power spectral density of channels in a window; default: the declared outputs.
 
     It is computed of instants 10 us apart or, in windows above 1.3 s, of 131 073 instants, where
     the run keeps its steps; else of its samples.
     """
-    run = exact.run
-    run.trajectory = exact.trajectory
-    names = chosen_channels(query.channels, run.channels) if query.channels else []
+    reader = exact.reader
+    reader.trajectory = exact.trajectory
+    names = chosen_channels(query.channels, reader.channels) if query.channels else []
     selection = Selection(tuple(names), (), *query.checked())
     try:
-        chosen = at_most(MOST_PANELS, declared(run, selection))
-        found = {name: power_density(run, name, selection) for name in chosen}
+        chosen = at_most(MOST_PANELS, declared(reader, selection))
+        found = {name: power_density(reader, name, selection) for name in chosen}
     except NotDrawable as error:
         cause = error.cause if error.cause == "start" else "channels"
         raise RequestRefused.of_parameter(cause, str(error)) from None
-    described = by_name(run.channels)
+    described = by_name(reader.channels)
     shown = {name: _shown(described[name], one) for name, one in found.items()}
     nothing = [f"{name}: {NOTHING}." for name, one in found.items() if not len(one.frequency)]
-    rough = aliased(run, chosen, max(one.step for one in found.values()))
+    rough = aliased(reader, chosen, max(one.step for one in found.values()))
     note = " ".join(filter(None, [rough, *nothing]))
-    return as_json(Spectrum.model_construct(complete=run.complete, spectra=shown, note=note))
+    return as_json(Spectrum.model_construct(complete=reader.complete, spectra=shown, note=note))
 
 
 def _shown(channel: Channel, found: PowerDensity) -> SpectralDensity:

@@ -215,7 +215,7 @@ ResultsOfAParameter = Annotated[
 ResultsOfThePath = Annotated[ResultsOfJob, Depends(_results_of_the_path)]
 
 
-def _run_of_the_path(request: Request, results: ResultsOfThePath) -> ResultReader:
+def _reader_of_the_path(request: Request, results: ResultsOfThePath) -> ResultReader:
     results.insist(request.url.path.rpartition("/")[2])
     return results.run()
 
@@ -225,5 +225,5 @@ def _study_of_the_path(request: Request, results: ResultsOfThePath) -> StudyRead
     return results.study()
 
 
-RunOfThePath = Annotated[ResultReader, Depends(_run_of_the_path)]
+ReaderOfThePath = Annotated[ResultReader, Depends(_reader_of_the_path)]
 StudyOfThePath = Annotated[StudyReader, Depends(_study_of_the_path)]

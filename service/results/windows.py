@@ -15,7 +15,7 @@ from jointplay.service.dependencies import of_the_application
 from jointplay.service.problems import RequestRefused
 from jointplay.service.results import schemas
 from jointplay.service.results.queries import check_points, check_size
-from jointplay.service.results.stores import RunOfThePath
+from jointplay.service.results.stores import ReaderOfThePath
 from jointplay.service.results.streaming import Column
 from jointplay.service.windows import WindowProcess
 from jointplay.storage.results.reader import ResultReader
@@ -23,10 +23,10 @@ from jointplay.worker.windows.trajectory import Trajectory
 
 
 @dataclass(frozen=True)
-class ExactRun:
-    """A run, and its trajectory between samples."""
+class ExactReader:
+    """The reader of a run, and its trajectory between samples."""
 
-    run: ResultReader
+    reader: ResultReader
     trajectory: Trajectory
 
     def values(
@@ -47,9 +47,9 @@ class ExactRun:
             raise RequestRefused.of_parameter("step", found.refused)
         columns = dict(zip(names, found.values.T, strict=True))
         return schemas.History.model_construct(
-            complete=self.run.complete,
+            complete=self.reader.complete,
             time=schemas.Series.of(TIME, values=times),
-            channels=series(self.run, columns),
+            channels=series(self.reader, columns),
             note=found.note,
             resolution=resolution(found.resolution),
         )
@@ -68,10 +68,10 @@ class ExactRun:
         if found.values is None:
             return found.refused
         return schemas.Overview.model_construct(
-            complete=self.run.complete,
-            samples=int(np.subtract(*self.run.between(start, stop)[::-1])),
+            complete=self.reader.complete,
+            samples=int(np.subtract(*self.reader.between(start, stop)[::-1])),
             bins=bins(np.column_stack([edges[:-1], edges[1:]])),
-            extremes=extremes(self.run, names, found.values[:, :, ::2]),
+            extremes=extremes(self.reader, names, found.values[:, :, ::2]),
             exact=True,
             note=found.note,
             resolution=resolution(found.resolution),
@@ -82,11 +82,11 @@ class ExactRun:
 
         Those so far leave out what the job leaves out as settling.
         """
-        names = [channel.name for channel in self.run.channels]
+        names = [channel.name for channel in self.reader.channels]
         first, last = self._window(start, stop)
         so_far = start is None and stop is None
         if so_far:
-            first = float(self.run.attributes["job"].get("settle", 0.0))
+            first = float(self.reader.attributes["job"].get("settle", 0.0))
             if first > last:
                 return {}
         found = self.trajectory.extremes(names, np.array([first, last]))
@@ -114,27 +114,27 @@ def bins(times: Floats) -> schemas.Bins:
     return schemas.Bins.model_construct(unit="s", **spans)
 
 
-def extremes(run: ResultReader, names: list[str], found: Floats) -> dict[str, schemas.Extremes]:
+def extremes(reader: ResultReader, names: list[str], found: Floats) -> dict[str, schemas.Extremes]:
     """Return minima and maxima (k, names, 2) by channel."""
-    described = by_name(run.channels)
+    described = by_name(reader.channels)
     return {
         name: schemas.Extremes.of(described[name], minimum=found[:, c, 0], maximum=found[:, c, 1])
         for c, name in enumerate(names)
     }
 
 
-def series(run: ResultReader, columns: Mapping[str, Column]) -> dict[str, schemas.Series]:
+def series(reader: ResultReader, columns: Mapping[str, Column]) -> dict[str, schemas.Series]:
     """Return columns with their units."""
-    described = by_name(run.channels)
+    described = by_name(reader.channels)
     return {
         name: schemas.Series.of(described[name], values=column) for name, column in columns.items()
     }
 
 
-async def _exact_run(
-    run: RunOfThePath, windows: Annotated[WindowProcess, of_the_application("windows")]
-) -> ExactRun:
-    return ExactRun(run, windows.of(run))
+async def _exact_reader(
+    reader: ReaderOfThePath, windows: Annotated[WindowProcess, of_the_application("windows")]
+) -> ExactReader:
+    return ExactReader(reader, windows.of(reader))
 
 
-ExactRunOfThePath = Annotated[ExactRun, Depends(_exact_run)]
+ExactReaderOfThePath = Annotated[ExactReader, Depends(_exact_reader)]

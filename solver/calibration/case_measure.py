@@ -131,7 +131,7 @@ class CaseMeasure:
                 if at.running:
                     if not costly:
                         continue
-                    stop(Status.STEP_LIMIT, at.index, at.run, at.places[0], at.work)
+                    stop(Status.STEP_LIMIT, at.index, at.run, at.slots[0], at.work)
                 elif at.status == Status.DONE and not costly:
                     if self._goes_on(bundle, lane, run):
                         continue

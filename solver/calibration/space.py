@@ -69,38 +69,38 @@ def space_problems(parameters: Mapping[str, FreeParameter], scene: Scene) -> lis
     """Return what is wrong with the parameters that are to move."""
     problems = []
     for name, free in parameters.items():
-        place = f"/parameters/{name}"
+        pointer = f"/parameters/{name}"
         declared = scene.parameters.get(name)
         if declared is None:
-            problems.append(Problem(place, unknown("parameter", name, scene.parameters)))
+            problems.append(Problem(pointer, unknown("parameter", name, scene.parameters)))
         elif declared.choices is not None:
             sentence = (
                 f"'{name}' is one of {', '.join(declared.choices)}; only a parameter whose values"
                 " are numbers can move. Set it in the scene or in the cases instead."
             )
-            problems.append(Problem(place, sentence))
+            problems.append(Problem(pointer, sentence))
         else:
-            problems += _bounds_problems(place, name, free, declared)
+            problems += _bounds_problems(pointer, name, free, declared)
     return problems
 
 
 def _bounds_problems(
-    place: str, name: str, free: FreeParameter, declared: Parameter
+    pointer: str, name: str, free: FreeParameter, declared: Parameter
 ) -> list[Problem]:
     if not free.minimum < free.maximum:
         sentence = (
             f"The minimum {free.minimum:g} is not below the maximum {free.maximum:g}; a parameter"
             " that shall not move belongs in the scene's parameters."
         )
-        return [Problem(f"{place}/minimum", sentence)]
+        return [Problem(f"{pointer}/minimum", sentence)]
     low = -np.inf if declared.minimum is None else declared.minimum
     high = np.inf if declared.maximum is None else declared.maximum
     problems = [
-        Problem(f"{place}/{end}", f"'{name}' is {value:g} here; it {allowed_range(declared)}.")
+        Problem(f"{pointer}/{end}", f"'{name}' is {value:g} here; it {allowed_range(declared)}.")
         for end, value in (("minimum", free.minimum), ("maximum", free.maximum))
         if not low <= value <= high
     ]
     if free.spacing == "log" and not free.minimum > 0.0:
         sentence = f"Equal ratios do not begin at {free.minimum:g}; with 'log' give one above zero."
-        problems.append(Problem(f"{place}/spacing", sentence))
+        problems.append(Problem(f"{pointer}/spacing", sentence))
     return problems

@@ -63,39 +63,39 @@ def tolerance_of(target: CalibrationTarget) -> float:
     return size * (target.relative_tolerance or DEFAULT_TOLERANCE)
 
 
-def target_problems(target: CalibrationTarget, place: str) -> Iterator[Problem]:
+def target_problems(target: CalibrationTarget, pointer: str) -> Iterator[Problem]:
     """Yield what is wrong with a target, whatever the scene."""
     if (target.value is None) == (target.between is None):
         both = ", not both." if target.between is not None else "."
-        yield Problem(f"{place}/value", f"Give one of 'value' and 'between'{both}")
+        yield Problem(f"{pointer}/value", f"Give one of 'value' and 'between'{both}")
         return
     low, high = _limits(target)
     if not (low <= high and (np.isfinite(low) or np.isfinite(high))):
         sentence = "'between' is [lowest, highest], in that order; one of them may be null."
-        yield Problem(f"{place}/between", sentence)
+        yield Problem(f"{pointer}/between", sentence)
     elif target.relative_tolerance is not None and target.absolute_tolerance is not None:
         sentence = "Give a relative tolerance or an absolute one, not both."
-        yield Problem(f"{place}/absolute_tolerance", sentence)
+        yield Problem(f"{pointer}/absolute_tolerance", sentence)
     elif not tolerance_of(target) > 0.0:
         sentence = "A share of zero is zero; give an 'absolute_tolerance'."
-        yield Problem(f"{place}/absolute_tolerance", sentence)
+        yield Problem(f"{pointer}/absolute_tolerance", sentence)
     if not target.start < target.stop:
         sentence = f"The window ends at {target.stop:g} s, before it begins ({target.start:g} s)."
-        yield Problem(f"{place}/to", sentence)
+        yield Problem(f"{pointer}/to", sentence)
     elif target.sampled is not None:
-        yield from _grid_problems(target, target.sampled, place)
+        yield from _grid_problems(target, target.sampled, pointer)
 
 
-def _grid_problems(target: CalibrationTarget, step: float, place: str) -> Iterator[Problem]:
+def _grid_problems(target: CalibrationTarget, step: float, pointer: str) -> Iterator[Problem]:
     count = len(grid_indices(target.start, target.stop, step))
     if count > MOST_SAMPLES:
         sentence = f"These are {count} instants; read off at most {MOST_SAMPLES}."
-        yield Problem(f"{place}/sampled", sentence)
+        yield Problem(f"{pointer}/sampled", sentence)
     elif count < (2 if target.statistic == "range" else 1):
         sentence = (
             f"The window has {count or 'no'} multiple of {step:g} s in it; give a longer one."
         )
-        yield Problem(f"{place}/sampled", sentence)
+        yield Problem(f"{pointer}/sampled", sentence)
 
 
 def grid_indices(start: float, stop: float, step: float) -> range:

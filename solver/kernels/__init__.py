@@ -1,1 +1,1 @@
-"""Kernels: equations recorded, emitted as compiled code, and the loop that drives them."""
+"""Kernels: equations traced, emitted as compiled code, and the loop that drives them."""

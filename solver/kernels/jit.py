@@ -38,7 +38,7 @@ def inner_kernel(*, forceinline: bool = False, borrows: bool = False) -> Callabl
 
 
 def written_out() -> Callable[[Any], Any]:
-    """Write a function into those that call it: only so may it return a tuple with a record."""
+    """Write a function into those that call it: only so may it return a tuple with a structure."""
     decorator: Callable[[Any], Any] = numba.njit(inline="always", **INNER)
     return decorator
 

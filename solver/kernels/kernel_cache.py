@@ -10,7 +10,7 @@ from jointplay.solver.scene.document import Scene
 
 _kernels: dict[tuple[str, Tree, str, str], Kernel] = {}
 MOST_KEPT = 16
-"""Kernels that a process keeps for the next job: recording the equations takes 20 ms and more."""
+"""Kernels that a process keeps for the next job: tracing the equations takes 20 ms and more."""
 
 
 def ready_kernel(scene: Scene, formulation: str, method: str = AUTO.name) -> Kernel:

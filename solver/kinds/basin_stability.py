@@ -18,10 +18,10 @@ from jointplay.solver.kinds.points import Axis, Points
 from jointplay.solver.kinds.values import axis, count
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.quantities.units import quantity
-from jointplay.solver.scene import start_places
+from jointplay.solver.scene import start_numbers
 
 Drawn = Annotated[Distribution, MemberOf(DISTRIBUTIONS, "distribution", required=True)]
-Pointer = Annotated[str, Field(pattern=start_places.PATTERN, max_length=96)]
+Pointer = Annotated[str, Field(pattern=start_numbers.PATTERN, max_length=96)]
 
 
 class BasinStabilityJob(MotionsJob):
@@ -71,7 +71,7 @@ class BasinStability(AttractorKind[BasinStabilityJob]):
         shares = independent(job.samples, len(job.starts), job.seed)[:, 0]
         axes = [
             Axis(
-                start_places.name_of(start),
+                start_numbers.name_of(start),
                 _place(start),
                 one.quantiles(column),
                 lambda _at, start=start: _place(start),  # type: ignore[misc]

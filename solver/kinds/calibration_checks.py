@@ -24,9 +24,9 @@ def target_and_case_problems(job: CalibrationJob) -> list[Problem]:
     """Return what is wrong with targets and cases, whatever the scene."""
     problems: list[Problem] = []
     for index, case in enumerate(job.cases):
-        place = f"/cases/{index}/targets"
+        pointer = f"/cases/{index}/targets"
         for number, target in enumerate(case.targets):
-            problems += target_problems(target, f"{place}/{number}")
+            problems += target_problems(target, f"{pointer}/{number}")
         steps = [target.sampled for target in case.targets if target.sampled is not None]
         if len(set(steps)) > 1:
             number = next(k for k, t in enumerate(case.targets) if t.sampled == steps[-1])
@@ -34,7 +34,7 @@ def target_and_case_problems(job: CalibrationJob) -> list[Problem]:
                 f"One case is read off one grid: {steps[0]:g} s or {steps[-1]:g} s. Put the other"
                 " targets into a case of their own, with the same parameters."
             )
-            problems.append(Problem(f"{place}/{number}/sampled", sentence))
+            problems.append(Problem(f"{pointer}/{number}/sampled", sentence))
     if not any(target.weight for case in job.cases for target in case.targets):
         sentence = "No target has a weight, so nothing can be fitted; give one of them a weight."
         problems.append(Problem("/cases/0/targets/0/weight", sentence))
@@ -95,8 +95,8 @@ def _scene_of(job: CalibrationJob, index: int) -> dict[str, Any]:
     known = document["parameters"]
     for name, value in case.parameters.items():
         if name not in known:
-            place = f"/cases/{index}/parameters/{name}"
-            raise InvalidInput.at(place, unknown("parameter", name, known))
+            pointer = f"/cases/{index}/parameters/{name}"
+            raise InvalidInput.at(pointer, unknown("parameter", name, known))
         known[name]["default"] = value
     return document
 

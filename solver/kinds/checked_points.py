@@ -27,7 +27,7 @@ from jointplay.solver.runs.study.fields import (
 from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
 from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.parameters import PLACE, set_parameters
+from jointplay.solver.scene.parameters import POINTER, set_parameters
 from jointplay.solver.scene.sizes import ill_sized
 
 
@@ -96,7 +96,7 @@ class _One:
             raise InvalidInput(self.at_values(failed, count))
 
     def at_values(self, failed: Mapping[int, list[Problem]], count: int) -> list[Problem]:
-        """Return the problems of points at their values, one a place, of `count` like them."""
+        """Return the problems of points at their values, one a pointer, of `count` like them."""
         if not self.points.axes:
             return failed[0]
         found: dict[str, Problem] = {}
@@ -104,33 +104,33 @@ class _One:
         for point, problems in failed.items():
             for problem in problems:
                 parent, _, name = problem.pointer.rpartition("/")
-                varies = parent == PLACE and name in self.points.parameters
-                place = self.points.place(point, name if varies else None)
-                if place not in found:
+                varies = parent == POINTER and name in self.points.parameters
+                pointer = self.points.pointer(point, name if varies else None)
+                if pointer not in found:
                     named.add(point)
                     sentence = self.points.name(point, self.declared) + problem.detail
-                    found[place] = Problem(place, sentence)
+                    found[pointer] = Problem(pointer, sentence)
         return with_rest(list(found.values()), count - len(named))
 
 
 def _check_effect(points: Points, scenes: PointScenes, scene: Scene, echo: Echo) -> None:
-    """Refuse a parameter that reaches nothing, because others go to the same places after it."""
+    """Refuse a parameter that reaches nothing, because others go to the same targets after it."""
     reaching = {leaf.column for leaf in scenes.leaves}
     problems = []
     for k, axis in enumerate(points.axes):
         if k in reaching:
             continue
-        places = {target.path for target in scene.parameters[axis.parameter].targets}
+        targets = {target.path for target in scene.parameters[axis.parameter].targets}
         others = [
             f"'{name}'"
             for name, parameter in scene.parameters.items()
             if name != axis.parameter
             and (name in points.parameters or echo.get(name) is not None)
-            and places & {target.path for target in parameter.targets}
+            and targets & {target.path for target in parameter.targets}
         ]
         problems.append(
             Problem(
-                axis.name_place,
+                axis.name_pointer,
                 f"'{axis.parameter}' changes nothing here: {', '.join(others)} override it."
                 " Leave those out, or vary one of them.",
             )
@@ -183,7 +183,7 @@ def _check_mechanism(job: MechanismJob, scene: Scene, *, new: bool) -> None:
 def _check_geometries(points: Points, count: int) -> None:
     if count > MOST_GEOMETRIES:
         raise LimitExceeded.at(
-            points.axes[0].name_place,
+            points.axes[0].name_pointer,
             f"The {points.count} points have {count} geometries, each of which is put"
             f" together when the job is checked; the limit is {MOST_GEOMETRIES}. Ask for"
             " fewer values, or divide them among several jobs.",

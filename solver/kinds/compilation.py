@@ -1,7 +1,7 @@
 """Seconds that compiling the equations of a job takes, before anything is compiled."""
 
 from jointplay.records.failure import LimitExceeded
-from jointplay.solver.kernels.record.length import SURELY_SHORT, statements
+from jointplay.solver.kernels.trace.length import SURELY_SHORT, statements
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.admission import Admission

@@ -77,13 +77,13 @@ class Continuation(Kind[ContinuationJob]):
         return OUTPUTS
 
 
-def _checked(job: ContinuationJob, points: Points, place: str) -> PlacedPoints:
+def _checked(job: ContinuationJob, points: Points, pointer: str) -> PlacedPoints:
     """Return the ends of ranges once there is a section at each, and the equations are the same."""
     checked = check_points(job, points)
     check_sections(job, checked, periods(checked.scenes))
     if checked.structure.any():
         sentence = "The mechanism's equations change their form within the range; narrow it."
-        raise InvalidInput.at(place, sentence)
+        raise InvalidInput.at(pointer, sentence)
     return checked
 
 
@@ -95,21 +95,21 @@ def _first_axis(job: ContinuationJob) -> Axis:
 
 def _both(job: ContinuationJob, second: AlongSecond) -> Points:
     """Return the corners of both ranges, and where a branch begins, as points."""
-    place, values = "/second/values", second.values
+    pointer, values = "/second/values", second.values
     begin = _second_start(job, second)
     low, high = sorted((values.start, values.stop))
     if not low <= begin <= high:
         sentence = f"The range must include {begin:g}, the scene's '{second.parameter}'."
-        raise InvalidInput.at(place, sentence)
-    axis = _axis(second.parameter, values, begin, "/second", place)
-    return product([_first_axis(job), axis], place)
+        raise InvalidInput.at(pointer, sentence)
+    axis = _axis(second.parameter, values, begin, "/second", pointer)
+    return product([_first_axis(job), axis], pointer)
 
 
-def _axis(parameter: str, values: Range, begin: float, part: str, place: str) -> Axis:
+def _axis(parameter: str, values: Range, begin: float, part: str, pointer: str) -> Axis:
     """Return the ends of a range, and where a branch begins, as an axis."""
-    places = (f"{part}/values/from", f"{part}/values/to", place)
+    pointers = (f"{part}/values/from", f"{part}/values/to", pointer)
     ends = np.array([values.start, values.stop, begin])
-    return Axis(parameter, f"{part}/parameter", ends, places.__getitem__)
+    return Axis(parameter, f"{part}/parameter", ends, pointers.__getitem__)
 
 
 def _second_start(job: ContinuationJob, second: AlongSecond) -> float:
@@ -135,8 +135,8 @@ def _branches(job: ContinuationJob) -> Points:
     axes = [Axis(job.parameter, "/parameter", np.array([at]), lambda _index: "/at")]
     if job.second is not None:
         values = np.array([_second_start(job, job.second)])
-        place = "/second/parameter"
-        axes.append(Axis(job.second.parameter, place, values, lambda _index: "/second/values"))
+        pointer = "/second/parameter"
+        axes.append(Axis(job.second.parameter, pointer, values, lambda _index: "/second/values"))
     return Points(tuple(axes), np.zeros((count, len(axes)), np.int64), lambda _point: "/at")
 
 

@@ -35,13 +35,15 @@ def check_ranges(job: ContinuationJob) -> None:
         raise InvalidInput(problems)
 
 
-def _problems(values: Range, place: str) -> list[Problem]:
+def _problems(values: Range, pointer: str) -> list[Problem]:
     problems = []
     if values.start == values.stop:
-        problems.append(Problem(f"{place}/to", "The range is empty; 'to' must differ from 'from'."))
+        problems.append(
+            Problem(f"{pointer}/to", "The range is empty; 'to' must differ from 'from'.")
+        )
     if values.spacing != "linear":
         sentence = "A branch chooses its own steps; leave 'spacing' out."
-        problems.append(Problem(f"{place}/spacing", sentence))
+        problems.append(Problem(f"{pointer}/spacing", sentence))
     return problems
 
 

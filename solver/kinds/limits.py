@@ -57,10 +57,10 @@ def check_count(count: int, pointer: str, most: int = MOST_POINTS) -> None:
         )
 
 
-def check_size(study: Study, run: float, place: str, most: float = MOST_PERIODS) -> None:
+def check_size(study: Study, run: float, pointer: str, most: float = MOST_PERIODS) -> None:
     """Refuse (LimitExceeded) what takes too long or too much space.
 
-    `run` : periods of the longest run of a point; `place` : JSON pointer to where the job says so;
+    `run` : periods of the longest run of a point; `pointer` : where in the job that is said;
     `most` : periods that all points may take together.
     """
     points, problems = study.points, []
@@ -81,7 +81,7 @@ def check_size(study: Study, run: float, place: str, most: float = MOST_PERIODS)
             " Record fewer sections, or fewer observables."
         )
     if problems:
-        raise LimitExceeded(Problem(place, sentence) for sentence in problems)
+        raise LimitExceeded(Problem(pointer, sentence) for sentence in problems)
 
 
 def check_numbers(points: int, each: int, pointer: str) -> None:
@@ -102,15 +102,15 @@ def check_room(admitted: Admission | Study, most: float) -> None:
     if total <= most:
         return
     if isinstance(admitted, Study):
-        place, remedy = "/record" if admitted.record else "", "Record less, or at fewer points."
+        pointer, remedy = "/record" if admitted.record else "", "Record less, or at fewer points."
     elif kept > admitted.stored_bytes:
-        place, remedy = "/steps_limit", "Keep fewer bytes of steps."
+        pointer, remedy = "/steps_limit", "Keep fewer bytes of steps."
     elif admitted.samples >= admitted.sections:
-        place, remedy = "/output_step", "Choose a larger output_step, or fewer channels."
+        pointer, remedy = "/output_step", "Choose a larger output_step, or fewer channels."
     else:
-        place, remedy = "/duration", "Choose a shorter duration, or fewer channels."
+        pointer, remedy = "/duration", "Choose a shorter duration, or fewer channels."
     raise LimitExceeded.at(
-        place,
+        pointer,
         f"The results may have {total / 1e9:.3g} GB before compression; the place where this"
         f" service keeps them takes {most / 1e9:g} GB. {remedy}",
     )

@@ -10,7 +10,7 @@ from jointplay.solver.kinds.limits import MOST_POINTS, check_count
 from jointplay.solver.kinds.points import Axis, Points, plane
 from jointplay.solver.kinds.values import Values, axis, count
 from jointplay.solver.quantities.units import Name, Strict
-from jointplay.solver.scene import start_places
+from jointplay.solver.scene import start_numbers
 from jointplay.solver.scene.unions import form, has, told_by
 
 
@@ -34,7 +34,7 @@ class AlongStart(Strict):
     start: Annotated[
         str,
         Field(
-            pattern=start_places.PATTERN,
+            pattern=start_numbers.PATTERN,
             max_length=96,
             description=(
                 "a JSON pointer into the scene, such as '/start/joints/stop/eccentricity/0',"
@@ -49,7 +49,7 @@ class AlongStart(Strict):
     @property
     def name(self) -> str:
         """Name of what varies."""
-        return start_places.name_of(self.start)
+        return start_numbers.name_of(self.start)
 
 
 def _form_of_axis(value: Any) -> str | None:
@@ -86,7 +86,9 @@ def points_of_map(job: MapJob, most: int = MOST_POINTS) -> Points:
     return plane(_axis(job.by, "/by"), _axis(job.along, "/along"), "/by", document)
 
 
-def _axis(one: Along | AlongStart, place: str) -> Axis:
+def _axis(one: Along | AlongStart, pointer: str) -> Axis:
     start = one.start if isinstance(one, AlongStart) else ""
     field = "start" if start else "parameter"
-    return replace(axis(one.name, one.values, f"{place}/{field}", f"{place}/values"), start=start)
+    return replace(
+        axis(one.name, one.values, f"{pointer}/{field}", f"{pointer}/values"), start=start
+    )

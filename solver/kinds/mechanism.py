@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from jointplay.records.failure import InvalidInput, Problem
-from jointplay.solver.kernels.record.length import check_length
+from jointplay.solver.kernels.trace.length import check_length
 from jointplay.solver.kinds.job import MechanismJob, PresetScene
 from jointplay.solver.kinds.redundant import (
     check_drivers,
@@ -25,7 +25,7 @@ from jointplay.solver.scene.domains import domain_problems
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import part_problems, reference_problems
 from jointplay.solver.scene.sentences import schema_problems
-from jointplay.solver.scene.start_places import with_places
+from jointplay.solver.scene.start_numbers import with_start_numbers
 
 MOST_BODIES = 8
 """Bodies up to which it is sought where a mechanism opens; of more the time would be felt."""
@@ -52,7 +52,7 @@ def written(job: MechanismJob) -> Written:
         document = document | {"recorded": recorded}
         scene = scene.model_copy(update={"recorded": recorded})
     if job.varied_starts:
-        document, scene = with_places(document, scene, job.varied_starts)
+        document, scene = with_start_numbers(document, scene, job.varied_starts)
     return document, scene, given
 
 

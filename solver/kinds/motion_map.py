@@ -148,8 +148,8 @@ class Motions(Kind[J]):
         if job.statistics:
             check_samples(study, job.samples_per_period)
         settle, recording = most_periods(job)
-        place = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
-        check_size(study, self.starts(job) * (settle + recording), place, MOST_PERIODS_OF_A_CHART)
+        pointer = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
+        check_size(study, self.starts(job) * (settle + recording), pointer, MOST_PERIODS_OF_A_CHART)
         return study
 
     def plan(self, job: J, filled: dict[str, Any]) -> Study:

@@ -10,7 +10,7 @@ from jointplay.records.arrays import Floats, Integers
 from jointplay.records.coarse_to_fine import order_of
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
-from jointplay.solver.scene import start_places
+from jointplay.solver.scene import start_numbers
 from jointplay.solver.scene.document import Parameter, Scene
 from jointplay.solver.scene.parameters import allowed_range
 
@@ -20,11 +20,11 @@ class Axis:
     """One parameter, or number of the start, that varies, and its values as they are written."""
 
     parameter: str
-    name_place: str
+    name_pointer: str
     """JSON pointer to where the job names the parameter."""
     values: Floats
     """(written,)"""
-    place: Callable[[int], str]
+    pointer: Callable[[int], str]
     """JSON pointer to a written value by its index."""
     start: str = ""
     """JSON pointer into the scene to a number of the start, if it is one."""
@@ -70,11 +70,11 @@ class Points:
             for k, axis in enumerate(self.axes)
         }
 
-    def place(self, point: int, parameter: str | None = None) -> str:
+    def pointer(self, point: int, parameter: str | None = None) -> str:
         """Return a JSON pointer to a parameter's value at a point, or to the point."""
         for k, axis in enumerate(self.axes):
             if axis.parameter == parameter or len(self.axes) == 1:
-                return axis.place(int(self.written[point, k]))
+                return axis.pointer(int(self.written[point, k]))
         return self.whole(point)
 
     def name(self, point: int, scene: Scene) -> str:
@@ -94,26 +94,26 @@ def one_point(count: int = 1) -> Points:
 def one_axis(axis: Axis) -> Points:
     """Return points along one axis."""
     index = np.arange(len(axis.values), dtype=np.int64)
-    return Points((axis,), index[:, None], axis.place)
+    return Points((axis,), index[:, None], axis.pointer)
 
 
-def product(axes: Sequence[Axis], place: str) -> Points:
+def product(axes: Sequence[Axis], pointer: str) -> Points:
     """Return the Cartesian product of axes, the first varying slowest."""
     index = np.indices([len(axis.values) for axis in axes], dtype=np.int64)
-    return Points(tuple(axes), index.reshape(len(axes), -1).T, lambda _point: place)
+    return Points(tuple(axes), index.reshape(len(axes), -1).T, lambda _point: pointer)
 
 
-def plane(y: Axis, x: Axis, place: str, job: Mapping[str, Any]) -> Points:
+def plane(y: Axis, x: Axis, pointer: str, job: Mapping[str, Any]) -> Points:
     """Return the points of a map over two axes, coarse to fine.
 
     `job` : the map's document; see `order_of`. InvalidInput: both axes are of one parameter.
     """
     if y.parameter == x.parameter:
         sentence = f"Both axes are '{x.parameter}'; let another parameter vary along this one."
-        raise InvalidInput.at(y.name_place, sentence)
+        raise InvalidInput.at(y.name_pointer, sentence)
     shape = len(y.values), len(x.values)
     written = np.stack(np.divmod(order_of(job, shape), shape[1]), axis=1)
-    return Points((y, x), written, lambda _point: place, grid=shape)
+    return Points((y, x), written, lambda _point: pointer, grid=shape)
 
 
 def check_parameters(points: Points, scene: Scene) -> None:
@@ -126,14 +126,14 @@ def check_parameters(points: Points, scene: Scene) -> None:
         parameter = scene.parameters.get(axis.parameter)
         if parameter is None:
             sentence = unknown("parameter", axis.parameter, scene.parameters)
-            sentence = start_places.obstacle(scene, axis.start) if axis.start else sentence
-            problems.append(Problem(axis.name_place, sentence))
+            sentence = start_numbers.obstacle(scene, axis.start) if axis.start else sentence
+            problems.append(Problem(axis.name_pointer, sentence))
         elif parameter.choices is not None:
             sentence = (
                 f"'{axis.parameter}' is one of {', '.join(parameter.choices)}; only a parameter"
                 " whose values are numbers can vary. Set it in the scene instead."
             )
-            problems.append(Problem(axis.name_place, sentence))
+            problems.append(Problem(axis.name_pointer, sentence))
         else:
             problems += _outside(axis, parameter)
     if problems:
@@ -151,16 +151,16 @@ def _outside(axis: Axis, parameter: Parameter) -> list[Problem]:
     bad = np.flatnonzero(~((low <= values) & (values <= high) & np.isfinite(values)))
     first: dict[str, int] = {}
     for index in (bad[0], bad[-1], *bad[1:MOST_NAMED]) if len(bad) else ():
-        first.setdefault(axis.place(int(index)), int(index))
+        first.setdefault(axis.pointer(int(index)), int(index))
     named = sorted(list(first.items())[:MOST_NAMED], key=lambda item: item[1])
     return with_rest(
         [
             Problem(
-                place,
+                pointer,
                 f"Value {index} of '{axis.parameter}' is {values[index]:.12g}{_unit(parameter)};"
                 f" it {allowed_range(parameter)}.",
             )
-            for place, index in named
+            for pointer, index in named
         ],
         len(bad) - len(named),
     )

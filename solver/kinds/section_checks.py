@@ -39,7 +39,7 @@ def _turns(checked: PlacedPoints, units: Periods) -> list[Problem]:
     points = checked.points
     return [
         Problem(
-            points.place(point) if points.axes else "/section",
+            points.pointer(point) if points.axes else "/section",
             checked.beginning(point)
             + note
             + " A section at onsets of contact or at a channel's crossing needs none.",
@@ -83,7 +83,7 @@ def _onset(section: OnsetSection, checked: PlacedPoints) -> list[Problem]:
 
 FARTHEST = 2.0
 """Clearances from the bearing's centre that no journal leaves: it would be as deep in the wall."""
-PLACE = "/section/value"
+POINTER = "/section/value"
 LARGEST_ANGLE = 1e6
 """Angle of a section, rad: turns are told apart to 1e-10 rad there, and not at all far beyond."""
 
@@ -106,16 +106,16 @@ def crossing_problems(
             f" -{LARGEST_ANGLE:g} and {LARGEST_ANGLE:g} rad, such as"
             f" {math.remainder(section.value, 2.0 * math.pi):.6g}."
         )
-        yield Problem(PLACE, sentence)
+        yield Problem(POINTER, sentence)
         return
-    owner, _, quantity = seen.source.rpartition(".")
-    joint = owner.partition(".")[0]
-    if owner in checked.declared.bodies and quantity in {name for name, _, _ in BODY}:
-        yield from _motion(seen, owner, quantity, checked)
+    part, _, quantity = seen.source.rpartition(".")
+    joint = part.partition(".")[0]
+    if part in checked.declared.bodies and quantity in {name for name, _, _ in BODY}:
+        yield from _motion(seen, part, quantity, checked)
     elif joint in checked.declared.joints:
         yield from _play(seen, joint, quantity, checked)
     elif seen.source == "energy.kinetic" and seen.at_source <= 0.0:
-        yield Problem(PLACE, "The kinetic energy is never below zero; give a value above.")
+        yield Problem(POINTER, "The kinetic energy is never below zero; give a value above.")
 
 
 @dataclass(frozen=True)
@@ -155,15 +155,15 @@ def _motion(seen: _Seen, body: str, quantity: str, checked: PlacedPoints) -> Ite
         if reach is None:
             continue
         name = seen.channel.name
-        place, sentence = "/section/channel", ""
+        pointer, sentence = "/section/channel", ""
         if reach.turns:
             continue
         if reach.low == reach.high:
             sentence = f"'{name}' does not change in this mechanism; take another channel."
         elif not reach.low <= _nearest(seen, quantity, reach.low) <= reach.high:
-            place, sentence = PLACE, seen.refused(reach.low, reach.high)
+            pointer, sentence = POINTER, seen.refused(reach.low, reach.high)
         if sentence:
-            yield Problem(place, checked.beginning(point) + sentence)
+            yield Problem(pointer, checked.beginning(point) + sentence)
             return
 
 
@@ -179,7 +179,7 @@ def _play(seen: _Seen, joint: str, quantity: str, checked: PlacedPoints) -> Iter
     """Yield what a joint's clearance rules out, at the first point where it does."""
     value = seen.at_source
     if quantity == "normal_force" and value <= 0.0 and checked.declared.joints[joint].has_play:
-        yield Problem(PLACE, "A normal force is never below zero; give a value above.")
+        yield Problem(POINTER, "A normal force is never below zero; give a value above.")
     if quantity not in ("eccentricity_x", "eccentricity_y", "penetration"):
         return
     slack = checked.declared.joints[joint].slack
@@ -196,7 +196,7 @@ def _play(seen: _Seen, joint: str, quantity: str, checked: PlacedPoints) -> Iter
         sentence = f"With a radial clearance of {clearance[point]:.6g} m " + seen.refused(
             float(low[point]), float(high[point])
         )
-        yield Problem(PLACE, checked.beginning(point) + sentence)
+        yield Problem(POINTER, checked.beginning(point) + sentence)
 
 
 def _sample(checked: PlacedPoints) -> list[int]:

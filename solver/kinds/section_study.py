@@ -140,8 +140,8 @@ class SectionStudy(Kind[J]):
         )
         study = self._study(job, filled, checked, units)
         settle, recording = most_periods(job)
-        place = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
-        check_size(study, settle + recording, place)
+        pointer = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
+        check_size(study, settle + recording, pointer)
         return study
 
     def plan(self, job: J, filled: dict[str, Any]) -> Study:

@@ -91,8 +91,8 @@ class SensitivityKind(ExtremesStudy[SensitivityJob]):
         values = _values(job)
         return Points(
             tuple(
-                Axis(name, place, column, lambda _at, place=place: place)  # type: ignore[misc]
-                for (name, place), column in zip(_places(job), values.T, strict=True)
+                Axis(name, pointer, column, lambda _at, pointer=pointer: pointer)  # type: ignore[misc]
+                for (name, pointer), column in zip(_pointers(job), values.T, strict=True)
             ),
             np.tile(np.arange(len(values), dtype=np.int64)[:, None], (1, len(job.parameters))),
             lambda _point: "/parameters",
@@ -101,7 +101,7 @@ class SensitivityKind(ExtremesStudy[SensitivityJob]):
     def _check_draws(self, job: SensitivityJob, known: dict[str, Parameter]) -> None:
         """Refuse distributions without bounds of which draws lie outside of what is allowed."""
         problems = []
-        for (name, place), column in zip(_places(job), _values(job).T, strict=True):
+        for (name, pointer), column in zip(_pointers(job), _values(job).T, strict=True):
             parameter = known.get(name)
             if parameter is None or parameter.choices is not None:
                 continue
@@ -109,7 +109,7 @@ class SensitivityKind(ExtremesStudy[SensitivityJob]):
             if wrong.any():
                 problems.append(
                     Problem(
-                        place,
+                        pointer,
                         f"{int(wrong.sum())} of {len(column)} values are outside, such as"
                         f" {column[wrong][0]:.6g}: '{name}' {allowed_range(parameter)}. Let it be a"
                         " truncated-normal, or narrower.",
@@ -119,7 +119,7 @@ class SensitivityKind(ExtremesStudy[SensitivityJob]):
             raise InvalidInput(problems)
 
 
-def _places(job: SensitivityJob) -> list[tuple[str, str]]:
+def _pointers(job: SensitivityJob) -> list[tuple[str, str]]:
     return [(name, f"/parameters/{name}") for name in job.parameters]
 
 

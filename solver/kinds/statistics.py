@@ -82,7 +82,7 @@ def check_samples(study: Study, per_period: int) -> None:
     """
     left = study.duration - study.settle
     samples = left / study.period * per_period
-    place = "/samples_per_period"
+    pointer = "/samples_per_period"
     if samples.min() < 2.0:
         point = int(samples.argmin())
         least = 2.0 * study.period[point] / per_period
@@ -90,21 +90,21 @@ def check_samples(study: Study, per_period: int) -> None:
             f"At point {point} only {left[point]:g} s are left after settling,"
             f" less than two samples; statistics need {least:.3g} s, or more samples a period."
         )
-        raise InvalidInput.at(place, sentence)
+        raise InvalidInput.at(pointer, sentence)
     total = float(samples.sum())
     if total > MOST_SAMPLES_OF_STATISTICS and not OF_CHANNELS.keys().isdisjoint(study.statistics):
         sentence = (
             f"{per_period} samples a period are {total:.3g} samples of all points; the"
             f" limit is {MOST_SAMPLES_OF_STATISTICS:g}. Ask for fewer, or for fewer periods."
         )
-        raise LimitExceeded.at(place, sentence)
+        raise LimitExceeded.at(pointer, sentence)
 
 
 def _problems(names: Sequence[str], pairs: Collection[str]) -> Iterator[Problem]:
     for index, name in enumerate(names):
-        place = f"/statistics/{index}"
+        pointer = f"/statistics/{index}"
         if name in names[:index]:
-            yield Problem(place, f"'{name}' is listed twice; list it once.")
+            yield Problem(pointer, f"'{name}' is listed twice; list it once.")
         if name in OF_CONTACTS and not pairs:
             sentence = f"'{name}' is of joints with clearance, and this scene has none."
-            yield Problem(place, sentence)
+            yield Problem(pointer, sentence)

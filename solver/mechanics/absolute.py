@@ -1,7 +1,7 @@
 """Constraint equations in absolute coordinates: the paper's eqs 18-22 for any scene.
 
 Every body has x, y (centre of mass, m) and theta (rad) in the world frame; joints and drivers
-give equations Φ(q, t) = 0. Runs on floats, arrays of instants and recorded expressions.
+give equations Φ(q, t) = 0. Runs on floats, arrays of instants and traced expressions.
 """
 
 from collections.abc import Collection, Mapping

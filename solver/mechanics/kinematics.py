@@ -101,8 +101,8 @@ class Kinematics:
         return bias + arm.turned().scaled(frame.spin_bias)
 
     def _coordinates(self, body: str, point: str) -> Pair:
-        owner = self.numbers.ground if body == WORLD else self.numbers.bodies[body]
-        x, y = owner.points[point]
+        part = self.numbers.ground if body == WORLD else self.numbers.bodies[body]
+        x, y = part.points[point]
         return x, y
 
     def _arm(self, body: str, target: Pair) -> FrameVector:

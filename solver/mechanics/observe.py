@@ -99,10 +99,10 @@ def point_values(numbers: Scene, motion: Motion, point: str) -> tuple[Scalar, ..
 
 
 def _named(
-    owner: str, table: tuple[tuple[str, str, str], ...], values: Sequence[Scalar]
+    part: str, table: tuple[tuple[str, str, str], ...], values: Sequence[Scalar]
 ) -> dict[str, Scalar]:
     return {
-        f"{owner}.{quantity}": value for (quantity, _, _), value in zip(table, values, strict=True)
+        f"{part}.{quantity}": value for (quantity, _, _), value in zip(table, values, strict=True)
     }
 
 

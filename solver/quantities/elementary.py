@@ -2,7 +2,7 @@
 
 C libraries and NumPy choose other polynomials for other processors, and round other last bits.
 These are sums, products and quotients alone, each rounded as it is written: on floats, on arrays
-and, recorded, in kernels, where one call into a library for one lane would cost more than these
+and, traced, in kernels, where one call into a library for one lane would cost more than these
 polynomials do for eight lanes together. (There sums of products are rounded once.)
 
 `coarse_log2` and `coarse_exp2` are exact to five digits, for the control of steps: the next step
@@ -36,7 +36,7 @@ ON_ARRAYS: dict[str, Callable[..., Any]] = {
         np.where(n % 2.0 == 1.0, cosine, sine) * np.where(n % 4.0 >= 2.0, -1.0, 1.0)
     ),
 }
-"""Exact operations, on floats and on arrays; `solver.kernels.record.operations` has it on lanes."""
+"""Exact operations, on floats and on arrays; `solver.kernels.trace.operations` has it on lanes."""
 
 
 def operate(name: str, x: Any, *others: Any) -> Any:
@@ -45,7 +45,7 @@ def operate(name: str, x: Any, *others: Any) -> Any:
         return ON_FLOATS[name](x, *others)
     if isinstance(x, np.ndarray):
         return ON_ARRAYS[name](x, *others)
-    return x.recorder.apply(name, x, *others)
+    return x.tracer.apply(name, x, *others)
 
 
 def _chosen(x: Any, if_positive: Any, otherwise: Any) -> Any:

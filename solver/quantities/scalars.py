@@ -1,7 +1,7 @@
 """The arithmetic that the mechanics are written in.
 
 The same functions run on floats (the readable reference), on NumPy arrays (many instants at once)
-and on recorded expressions (`solver.kernels.record.recorder`), which become kernels.
+and on traced expressions (`solver.kernels.trace.tracer`), which become kernels.
 """
 
 import math
@@ -17,7 +17,7 @@ from jointplay.solver.quantities.elementary import within_reach
 type_of_array = np.ndarray
 
 Scalar = Any
-"""A float, a NumPy array or a recorded expression."""
+"""A float, a NumPy array or a traced expression."""
 
 SLIGHT = 1e-300
 """Added to a length that may be zero, so that it can divide."""
@@ -136,7 +136,7 @@ def clamp_to_unit(x: Scalar) -> Scalar:
 def kinked(value: Scalar, argument: Scalar) -> Scalar:
     """Return `value`, a function of `argument` alone that is linear but for kinks and jumps.
 
-    Recorded expressions note it: a tangent vector that passes a kink within a step takes the mean
+    Traced expressions note it: a tangent vector that passes a kink within a step takes the mean
     slope over the step, for the slope at a few points of the step would miss where the kink is.
     """
     if isinstance(value, float | int | type_of_array):
@@ -154,7 +154,7 @@ def knotted(
 ) -> Scalar:
     """Return `value`, a function of `argument` alone that is smooth between its knots.
 
-    Recorded expressions note it, and steps end at knots. With a `span` the function repeats after
+    Traced expressions note it, and steps end at knots. With a `span` the function repeats after
     it, and so do its knots. `jumps`: the value itself may jump there.
     """
     if isinstance(value, float | int | type_of_array):

@@ -9,7 +9,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.records.failure import SimulationFailed
 from jointplay.records.peak import Peak
-from jointplay.solver.kernels.emit.places import TIME
+from jointplay.solver.kernels.emit.slots import TIME
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.periods import PACE_STEPS, SLOWEST_PACE
 from jointplay.solver.kernels.loop.runs import Status

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.records.peak import Peak
-from jointplay.solver.kernels.emit.places import LENGTH
+from jointplay.solver.kernels.emit.slots import LENGTH
 from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.seeking import SHARP
 from jointplay.solver.runs.admission import Admission

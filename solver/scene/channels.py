@@ -74,9 +74,9 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
     """
     rows: list[Channel] = []
 
-    def add(owner: str, kind: str, table: Table) -> None:
+    def add(part: str, kind: str, table: Table) -> None:
         for quantity, unit, text in table:
-            rows.append(Channel(f"{owner}.{quantity}", unit, f"{text} ({kind} {owner})"))
+            rows.append(Channel(f"{part}.{quantity}", unit, f"{text} ({kind} {part})"))
 
     inner = inner_states(scene)
     for body in scene.bodies:
@@ -116,16 +116,16 @@ def _recorded(scene: Scene) -> list[Channel]:
     taken = {quantity for quantity, _, _ in BODY}
     problems = []
     for index, reference in enumerate(scene.recorded):
-        place = f"/scene/recorded/{index}"
+        pointer = f"/scene/recorded/{index}"
         if reference.split(".")[1] in taken:
             sentence = f"'{reference}' is a channel of the body, too; give the point another name."
-            problems.append(Problem(place, sentence))
+            problems.append(Problem(pointer, sentence))
         elif len(reference) > LONGEST_RECORDED:
             sentence = (
                 f"'{reference}' has {len(reference)} characters, but body and point may have"
                 f" {LONGEST_RECORDED} together; give shorter names."
             )
-            problems.append(Problem(place, sentence))
+            problems.append(Problem(pointer, sentence))
     if problems:
         raise InvalidInput(problems)
     return [

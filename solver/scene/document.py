@@ -68,7 +68,7 @@ class Start(Strict):
 
 
 class Target(Strict):
-    """A place that a parameter goes to: a JSON pointer into this document, and a factor."""
+    """Where a parameter goes to: a JSON pointer into this document, and a factor."""
 
     path: Annotated[str, Field(pattern=r"^(/[A-Za-z0-9_.-]{1,65}){1,8}$")]
     factor: float = 1.0

@@ -15,12 +15,12 @@ def domain_problems(scene: Scene, duration: float) -> Iterator[Problem]:
     """Yield what a run of a duration, s, surely asks of functions that refuse it."""
     for name, driver in scene.drivers.items():
         if isinstance(driver, MovingDriver):
-            place = f"/scene/drivers/{name}/motion/knots"
-            yield from _over(place, driver.motion, (0.0, duration), "time, s,")
+            pointer = f"/scene/drivers/{name}/motion/knots"
+            yield from _over(pointer, driver.motion, (0.0, duration), "time, s,")
     for name, varying in timed(scene).items():
         if varying.course is not None:
-            place = f"/scene/forces/{name}/course/knots"
-            yield from _over(place, varying.course, (0.0, duration), "time, s,")
+            pointer = f"/scene/forces/{name}/course/knots"
+            yield from _over(pointer, varying.course, (0.0, duration), "time, s,")
     for name, element in scene.forces.items():
         over = element.follows()
         if not isinstance(element, Varying) or element.course is None or over is None:
@@ -29,12 +29,12 @@ def domain_problems(scene: Scene, duration: float) -> Iterator[Problem]:
         if isinstance(moving, SteadyDriver) and not over.rate:
             clock = clocks(scene)[over.driver or ""]
             travel = sorted((clock.start, clock.start + clock.rate * duration))
-            place = f"/scene/forces/{name}/course/knots"
-            yield from _over(place, element.course, (travel[0], travel[1]), f"'{over.driver}'")
+            pointer = f"/scene/forces/{name}/course/knots"
+            yield from _over(pointer, element.course, (travel[0], travel[1]), f"'{over.driver}'")
 
 
 def _over(
-    place: str, function: Function, needed: tuple[float, float], what: str
+    pointer: str, function: Function, needed: tuple[float, float], what: str
 ) -> Iterator[Problem]:
     if function.domain is None:
         return
@@ -43,7 +43,7 @@ def _over(
     if first - low > slack or high - last > slack:
         way = f"goes from {low:g} to {high:g}" if low < high else f"begins at {low:g}"
         yield Problem(
-            place,
+            pointer,
             f"It is given from {first:g} to {last:g}, but {what} {way}, and"
             " others are refused. Give more knots, a shorter duration, or another 'outside'.",
         )

@@ -1,4 +1,4 @@
-"""Declared parameters: values from a job go to the places in the document that they name."""
+"""Declared parameters: values from a job go where their pointers lead in the document."""
 
 import copy
 import math
@@ -11,8 +11,8 @@ from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Parameter, Scene
 
-PLACE = "/scene/parameters"
-"""Place where a job gives values, and a scene document declares parameters."""
+POINTER = "/scene/parameters"
+"""Pointer to where a job gives values, and a scene document declares parameters."""
 
 
 def set_parameters(
@@ -41,15 +41,15 @@ def set_parameters(
         complaint = _complaint(name, parameter, value, varies=name in varied)
         if complaint is not None:
             own = name not in values and value is not None  # a default that the scene declares
-            place = f"{PLACE}/{name}/default" if own else f"{PLACE}/{name}"
-            problems.append(Problem(place, complaint))
+            pointer = f"{POINTER}/{name}/default" if own else f"{POINTER}/{name}"
+            problems.append(Problem(pointer, complaint))
             continue
         value = float(value) if isinstance(value, int | float) else value
         echo[name] = value if isinstance(value, float | str) else None
         if value is not None:
             for target in parameter.targets:
-                placed = value * target.factor if isinstance(value, float) else value
-                filled.place(target.path, placed)
+                scaled = value * target.factor if isinstance(value, float) else value
+                filled.put(target.path, scaled)
     if problems:
         raise InvalidInput(problems)
     return filled.document, echo
@@ -58,14 +58,14 @@ def set_parameters(
 def undeclared(declared: Collection[str], names: Iterable[str]) -> list[Problem]:
     """Return a problem for every name that no parameter has."""
     return [
-        Problem(f"{PLACE}/{name}", unknown("parameter", name, declared))
+        Problem(f"{POINTER}/{name}", unknown("parameter", name, declared))
         for name in names
         if name not in declared
     ]
 
 
 def parameter_of(scene: Scene, echo: Mapping[str, float | str | None], path: str) -> str | None:
-    """Return the parameter whose value stands at a place in the document, or None."""
+    """Return the parameter whose value stands at a pointer into the document, or None."""
     found = [
         name
         for name, parameter in scene.parameters.items()
@@ -75,7 +75,7 @@ def parameter_of(scene: Scene, echo: Mapping[str, float | str | None], path: str
 
 
 def targeted_paths(scene: Scene) -> frozenset[str]:
-    """Every place in the document that a declared parameter may change."""
+    """Pointers to all that declared parameters may change in the document."""
     return frozenset(
         target.path for parameter in scene.parameters.values() for target in parameter.targets
     )
@@ -95,10 +95,10 @@ def value_at(node: Any, path: str) -> Any:
     return node
 
 
-def has_place(document: Any, path: str) -> bool:
+def leads_to_value(document: Any, path: str) -> bool:
     """Tell whether a JSON pointer leads to a single value, or to a field beside existing ones.
 
-    What holds other values is no place: two parameters might then be put into each other.
+    What holds other values is not one: two parameters might then be put into each other.
     """
     parents, _, last = path.rpartition("/")
     parent, value = value_at(document, parents), value_at(document, path)
@@ -152,23 +152,23 @@ def allowed_range(parameter: Parameter) -> str:
 
 
 class _Edited:
-    """A document in which values are placed; what leads to them is copied, the rest is shared."""
+    """A document into which values are put; what leads to them is copied, the rest is shared."""
 
     def __init__(self, document: Mapping[str, Any]) -> None:
         self.document = dict(document)
         self._copied: dict[tuple[str, ...], Any] = {(): self.document}
 
-    def place(self, path: str, value: object) -> None:
+    def put(self, path: str, value: object) -> None:
         *parents, last = path.strip("/").split("/")
         node = self._copied_at(tuple(parents))
         node[_key(node, last)] = value
 
-    def _copied_at(self, place: tuple[str, ...]) -> Any:
-        if place not in self._copied:
-            parent = self._copied_at(place[:-1])
-            key = _key(parent, place[-1])
-            self._copied[place] = parent[key] = copy.copy(parent[key])
-        return self._copied[place]
+    def _copied_at(self, keys: tuple[str, ...]) -> Any:
+        if keys not in self._copied:
+            parent = self._copied_at(keys[:-1])
+            key = _key(parent, keys[-1])
+            self._copied[keys] = parent[key] = copy.copy(parent[key])
+        return self._copied[keys]
 
 
 def _key(node: Any, key: str) -> Any:

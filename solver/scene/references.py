@@ -12,7 +12,7 @@ from jointplay.solver.laws.friction.law import InnerState
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.parameters import has_place
+from jointplay.solver.scene.parameters import leads_to_value
 from jointplay.solver.scene.sizes import size_problems
 from jointplay.solver.scene.varying_forces import varying_problems
 
@@ -71,21 +71,21 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
 def _recorded(scene: Scene) -> Iterator[Problem]:
     doubled = Counter(scene.recorded)
     for index, reference in enumerate(scene.recorded):
-        place = f"/recorded/{index}"
-        problems = list(_point(scene, place, reference))
+        pointer = f"/recorded/{index}"
+        problems = list(_point(scene, pointer, reference))
         yield from problems
         if doubled[reference] > 1 and not problems:
-            yield Problem(place, f"'{reference}' is named twice; name it once.")
+            yield Problem(pointer, f"'{reference}' is named twice; name it once.")
 
 
-def _point(scene: Scene, place: str, reference: str) -> Iterator[Problem]:
+def _point(scene: Scene, pointer: str, reference: str) -> Iterator[Problem]:
     """Yield what is wrong with the reference of a body's point."""
     body, point = reference.split(".")
     if body not in scene.bodies:
-        yield Problem(place, unknown("body", body, scene.bodies))
+        yield Problem(pointer, unknown("body", body, scene.bodies))
     elif point not in scene.bodies[body].points:
         points = scene.bodies[body].points
-        yield Problem(place, unknown(f"point of '{body}' named", point, points))
+        yield Problem(pointer, unknown(f"point of '{body}' named", point, points))
 
 
 def _start(scene: Scene) -> Iterator[Problem]:
@@ -118,23 +118,23 @@ def _start(scene: Scene) -> Iterator[Problem]:
         yield from _guided(scene, f"/start/guides/{name}", name, guided)
 
 
-def _guided(scene: Scene, place: str, name: str, start: GuideStart) -> Iterator[Problem]:
+def _guided(scene: Scene, pointer: str, name: str, start: GuideStart) -> Iterator[Problem]:
     """Yield what is wrong with the start of what a joint with play guides."""
     joint = scene.joints.get(name)
     if joint is None:
-        yield Problem(place, unknown("joint", name, scene.joints))
+        yield Problem(pointer, unknown("joint", name, scene.joints))
     elif joint.is_journal:
-        yield Problem(place, f"'{name}' is a journal; say where it starts in 'joints'.")
+        yield Problem(pointer, f"'{name}' is a journal; say where it starts in 'joints'.")
     elif not joint.has_play:
         yield Problem(
-            place,
+            pointer,
             f"Joint '{name}' has no clearance, so its parts have one place; leave it out.",
         )
     elif not joint.holds_angle:
         for field in ("tilt", "tilt_rate"):
             if getattr(start, field):
                 sentence = f"What joint '{name}' guides may turn; leave the {field} out."
-                yield Problem(f"{place}/{field}", sentence)
+                yield Problem(f"{pointer}/{field}", sentence)
 
 
 def _parameters(scene: Scene) -> Iterator[Problem]:
@@ -146,7 +146,7 @@ def _parameters(scene: Scene) -> Iterator[Problem]:
                 f"/parameters/{name}/minimum", f"The minimum {low:g} is above the maximum {high:g}."
             )
         for index, target in enumerate(parameter.targets):
-            if not has_place(document, target.path):
+            if not leads_to_value(document, target.path):
                 yield Problem(
                     f"/parameters/{name}/targets/{index}/path",
                     f"'{target.path}' leads nowhere in this scene; name a single value.",
@@ -183,7 +183,7 @@ def _names(scene: Scene) -> Iterator[Problem]:
 
 
 def _points(
-    scene: Scene, place: str, pair: tuple[tuple[str, str], tuple[str, str]]
+    scene: Scene, pointer: str, pair: tuple[tuple[str, str], tuple[str, str]]
 ) -> Iterator[Problem]:
     """Yield what is wrong with the (field, reference) pairs of two points to be connected."""
     bodies = []
@@ -191,29 +191,31 @@ def _points(
         body, point = reference.split(".")
         bodies.append(body)
         if body != "ground" and body not in scene.bodies:
-            yield Problem(f"{place}/{field}", unknown("body", body, ["ground", *scene.bodies]))
+            yield Problem(f"{pointer}/{field}", unknown("body", body, ["ground", *scene.bodies]))
             continue
         points = scene.ground.points if body == "ground" else scene.bodies[body].points
         if point not in points:
-            yield Problem(f"{place}/{field}", unknown(f"point of '{body}' named", point, points))
+            yield Problem(f"{pointer}/{field}", unknown(f"point of '{body}' named", point, points))
     if bodies[0] == bodies[1]:
-        kind = "a joint joins" if place.startswith("/joints") else "a force acts between"
-        yield Problem(place, f"Both ends are on '{bodies[0]}'; {kind} two bodies.")
+        kind = "a joint joins" if pointer.startswith("/joints") else "a force acts between"
+        yield Problem(pointer, f"Both ends are on '{bodies[0]}'; {kind} two bodies.")
 
 
-def _gear(scene: Scene, place: str, gear: Gear) -> Iterator[Problem]:
+def _gear(scene: Scene, pointer: str, gear: Gear) -> Iterator[Problem]:
     for field, name in (("first", gear.first), ("second", gear.second)):
         joint = scene.joints.get(name)
         if joint is None:
-            yield Problem(f"{place}/{field}", unknown("joint", name, scene.joints))
+            yield Problem(f"{pointer}/{field}", unknown("joint", name, scene.joints))
         elif joint.freedom != "turn":
             yield Problem(
-                f"{place}/{field}",
+                f"{pointer}/{field}",
                 f"The bodies of joint '{name}' do not turn against each other: it is"
                 f" {joint.type}; couple revolute joints.",
             )
     if gear.first == gear.second:
-        yield Problem(f"{place}/second", f"A gear couples two joints, and '{gear.second}' is one.")
+        yield Problem(
+            f"{pointer}/second", f"A gear couples two joints, and '{gear.second}' is one."
+        )
 
 
 def _driver(scene: Scene, name: str, driver: Driver) -> Iterator[Problem]:
@@ -244,16 +246,16 @@ def _driver(scene: Scene, name: str, driver: Driver) -> Iterator[Problem]:
 
 
 def _driven_body(scene: Scene, name: str, body: str) -> Iterator[Problem]:
-    place = f"/drivers/{name}/body"
+    pointer = f"/drivers/{name}/body"
     if body not in scene.bodies:
-        yield Problem(place, unknown("body", body, scene.bodies))
+        yield Problem(pointer, unknown("body", body, scene.bodies))
     for joint_name, joint in scene.joints.items():
         if joint.holds_angle and not joint.has_play and body in joint.bodies:
             yield Problem(
-                place,
+                pointer,
                 f"The angle of '{body}' cannot be driven: joint '{joint_name}' holds it. Drive a"
                 " body whose joints let it turn.",
             )
     others = [d.body for d in scene.drivers.values()]
     if others.count(body) > 1:
-        yield Problem(place, f"Body '{body}' has more than one driver; keep one.")
+        yield Problem(pointer, f"Body '{body}' has more than one driver; keep one.")

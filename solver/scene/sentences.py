@@ -11,11 +11,11 @@ from pydantic_core import ErrorDetails
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import did_you_mean, instead
 from jointplay.solver.quantities.roster import MemberOf
-from jointplay.solver.scene import start_places
+from jointplay.solver.scene import start_numbers
 from jointplay.solver.scene.unions import is_form
 
 TYPES = frozenset({"float", "str", "none"})
-"""Parts of a location that name a branch of a union, not a place in the document."""
+"""Parts of a location that name a branch of a union, not a key of the document."""
 
 MOST_HINTS = 100
 """Unknown fields for which the one that may be meant is looked for; it takes a millisecond each."""
@@ -42,7 +42,7 @@ SENTENCES = {
     "string_pattern_mismatch": (
         "'{field}' must begin with a letter and have at most 32 letters, digits, - or _."
     ),
-    "start place": (
+    "start number": (
         "'{field}' must lead to a number of the start, for example /start/joints/stop/rate/0, or to"
         " the position of a driver: /drivers/motor/position."
     ),
@@ -54,28 +54,28 @@ SENTENCES = {
 def schema_problems(
     error: ValidationError, root: type[BaseModel], document: object
 ) -> list[Problem]:
-    """Return one problem for each wrong place; `root` is the model that a document was held to."""
+    """Return one problem for each wrong field; `root` is the model that a document was held to."""
     found: dict[str, str] = {}
     hints = 0
     for item in error.errors(include_url=False):
         location = [str(part) for part in item["loc"]]
-        place = _place(location)
-        pointer = "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in place)
-        field = next((part for part in reversed(place) if not part.isdigit()), "the document")
+        keys = _keys(location)
+        pointer = "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in keys)
+        field = next((part for part in reversed(keys) if not part.isdigit()), "the document")
         if item["type"] == "extra_forbidden":
             hints += 1
             sentence = f"There is no field '{field}' here."
             if hints <= MOST_HINTS:
-                sentence = _out_of_place(field, place, root, document)
+                sentence = _out_of_form(field, keys, root, document)
         else:
-            sentence = _sentence(item, field, _unit(place, root, document))
+            sentence = _sentence(item, field, _unit(keys, root, document))
         found.setdefault(pointer, sentence)  # the first of a union's complaints says enough
     return [Problem(pointer, sentence) for pointer, sentence in found.items()]
 
 
-def _out_of_place(field: str, place: list[str], root: type[BaseModel], document: object) -> str:
-    """Return what is wrong with a field that the object at a place must not have."""
-    _, models = _reached(place[:-1], root, document)
+def _out_of_form(field: str, keys: list[str], root: type[BaseModel], document: object) -> str:
+    """Return what is wrong with a field that the object there must not have."""
+    _, models = _reached(keys[:-1], root, document)
     known = {name for model in models for name, _ in _fields(model)}
     if field in known:  # of another form of the object
         return f"The field '{field}' does not go with the others here; leave it or them out."
@@ -87,8 +87,8 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
     kind, context = item["type"], item.get("ctx", {})
     if kind not in SENTENCES:
         return f"{item['msg']}."
-    if context.get("pattern") == start_places.PATTERN:
-        kind = "start place"
+    if context.get("pattern") == start_numbers.PATTERN:
+        kind = "start number"
     elif r"\." in context.get("pattern", ""):
         kind = "reference"
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
@@ -105,20 +105,20 @@ def _meant_word(item: ErrorDetails) -> str:
     return f"; {near}" if near else "."
 
 
-def _place(location: list[str]) -> list[str]:
+def _keys(location: list[str]) -> list[str]:
     """Return a location without the branches of unions that it names."""
-    place: list[str] = []
+    keys: list[str] = []
     for index, part in enumerate(location):
         last = index == len(location) - 1
         kind = last and (part in TYPES or part == "[key]") and index > 1
         if not (is_form(part) or kind):
-            place.append(part)
-    return place
+            keys.append(part)
+    return keys
 
 
-def _unit(place: Sequence[str], root: type[BaseModel], document: object) -> str:
-    """Return the unit of the field at a place, with a space before; empty where there is none."""
-    fields, _ = _reached(place, root, document)
+def _unit(keys: Sequence[str], root: type[BaseModel], document: object) -> str:
+    """Return the unit of the field at a keys, with a space before; empty where there is none."""
+    fields, _ = _reached(keys, root, document)
     extras = [extra for f in fields if isinstance(extra := f.json_schema_extra, dict)]
     units = {str(extra.get("unit", "1")) for extra in extras}
     unit = units.pop() if len(units) == 1 else "1"
@@ -126,12 +126,12 @@ def _unit(place: Sequence[str], root: type[BaseModel], document: object) -> str:
 
 
 def _reached(
-    place: Sequence[str], root: type[BaseModel], document: object
+    keys: Sequence[str], root: type[BaseModel], document: object
 ) -> tuple[list[FieldInfo], list[type[BaseModel]]]:
-    """Return the last fields on the way to a place, and the models that a document means there."""
+    """Return the last fields on the way to a keys, and the models that a document means there."""
     models, value, is_key = [root], document, False
     fields: list[FieldInfo] = []
-    for part in place:
+    for part in keys:
         named = [f for model in models for name, f in _fields(model) if name == part]
         value = _inside(value, part)
         if is_key or not named:  # a key of an object, an index

@@ -25,10 +25,10 @@ def _unreachable(scene: Scene) -> Iterator[Problem]:
 def size_problems(scene: Scene) -> Iterator[Problem]:
     """Yield what does not fit; pointers begin at the scene."""
     yield from _unreachable(scene)
-    for place, rules, part in _parts(scene):
+    for pointer, rules, part in _parts(scene):
         for rule in rules:
             if rule.broken(part):
-                yield Problem(f"{place}/{rule.field}", rule.sentence(part))
+                yield Problem(f"{pointer}/{rule.field}", rule.sentence(part))
 
 
 def ill_sized(scene: Scene, columns: Mapping[str, Floats], points: int) -> Flags:
@@ -38,22 +38,22 @@ def ill_sized(scene: Scene, columns: Mapping[str, Floats], points: int) -> Flags
     are the same at every point.
     """
     broken = np.zeros(points, np.bool_)
-    for place, rules, part in _parts(scene):
-        if any(path.startswith(f"{place}/") for path in columns):
-            seen = _seen(part, place, columns)
+    for pointer, rules, part in _parts(scene):
+        if any(path.startswith(f"{pointer}/") for path in columns):
+            seen = _seen(part, pointer, columns)
             for rule in rules:
                 broken |= rule.broken(seen)
     for name, start in scene.start.joints.items():
-        places = f"/start/joints/{name}", f"/joints/{name}"
-        if any(path.startswith((f"{places[0]}/", f"{places[1]}/")) for path in columns):
-            joint = _seen(scene.joints[name], places[1], columns)
+        pointers = f"/start/joints/{name}", f"/joints/{name}"
+        if any(path.startswith((f"{pointers[0]}/", f"{pointers[1]}/")) for path in columns):
+            joint = _seen(scene.joints[name], pointers[1], columns)
             with np.errstate(all="ignore"):  # of numbers that are refused by themselves
-                broken |= joint.cannot_start(_seen(start, places[0], columns))
+                broken |= joint.cannot_start(_seen(start, pointers[0], columns))
     return broken
 
 
 def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
-    """Yield the place, the rules and the part of everything in a scene that has rules."""
+    """Yield the pointer, the rules and the part of everything in a scene that has rules."""
     for name, joint in scene.joints.items():
         yield from _of_joint(f"/joints/{name}", joint)
     for name, driver in scene.drivers.items():
@@ -67,22 +67,22 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
             yield f"/forces/{name}/course", element.course.rules, element.course
 
 
-def _of_joint(place: str, joint: Joint) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
+def _of_joint(pointer: str, joint: Joint) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
     for field, function in joint.functions():
-        yield f"{place}/{field}", function.rules, function
-    yield place, joint.rules, joint
+        yield f"{pointer}/{field}", function.rules, function
+    yield pointer, joint.rules, joint
     if joint.slack is not None:
-        yield f"{place}/clearance", joint.slack.rules, joint.slack
-        yield from _ruled(f"{place}/clearance", joint.slack)
+        yield f"{pointer}/clearance", joint.slack.rules, joint.slack
+        yield from _ruled(f"{pointer}/clearance", joint.slack)
 
 
-def _ruled(place: str, part: BaseModel) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
+def _ruled(pointer: str, part: BaseModel) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
     """Yield the laws in a part, and the laws in those, by their fields."""
     for name in type(part).model_fields:
         law = getattr(part, name)
         if isinstance(law, BaseModel):
-            yield f"{place}/{name}", getattr(law, "rules", ()), law
-            yield from _ruled(f"{place}/{name}", law)
+            yield f"{pointer}/{name}", getattr(law, "rules", ()), law
+            yield from _ruled(f"{pointer}/{name}", law)
 
 
 def _seen(node: Any, path: str, columns: Mapping[str, Floats]) -> Any:

@@ -31,7 +31,7 @@ def told_by(tell: Callable[[Any], str | None], otherwise: str) -> Discriminator:
 
 
 def is_form(part: str) -> bool:
-    """Tell whether a part of an error's location names a form, which is no place in a document."""
+    """Tell whether a part of an error's location names a form, which is no key of a document."""
     return part.startswith(_PREFIX)
 
 

@@ -23,29 +23,29 @@ def varying_problems(scene: Scene) -> Iterator[Problem]:
             yield from _over(scene, f"/forces/{name}", element, over)
 
 
-def _over(scene: Scene, place: str, element: Varying, over: Over) -> Iterator[Problem]:
+def _over(scene: Scene, pointer: str, element: Varying, over: Over) -> Iterator[Problem]:
     for field, given in (("driver", over.driver), ("first", over.first), ("second", over.second)):
         fits = over.quantity == "driver" if field == "driver" else over.quantity in POINTS
         if given is not None and not fits:
             sentence = f"A function of {over.quantity} has no '{field}'; leave it out."
-            yield Problem(f"{place}/over/{field}", sentence)
+            yield Problem(f"{pointer}/over/{field}", sentence)
     if element.only is not None and (over.quantity == "time" or over.rate):
         yield Problem(
-            f"{place}/only",
+            f"{pointer}/only",
             f"What acts while something {element.only[:-3]}s is a function of that: a driver's"
             " position, or how two points lie; say of which in 'over'.",
         )
     if over.quantity == "time" and over.rate:
-        yield Problem(f"{place}/over/rate", "Time has no rate; leave it out.")
+        yield Problem(f"{pointer}/over/rate", "Time has no rate; leave it out.")
     if over.quantity == "driver":
-        yield from _driver(scene, place, element, over)
+        yield from _driver(scene, pointer, element, over)
 
 
-def _driver(scene: Scene, place: str, element: Varying, over: Over) -> Iterator[Problem]:
+def _driver(scene: Scene, pointer: str, element: Varying, over: Over) -> Iterator[Problem]:
     if over.driver is None or over.driver not in scene.drivers:
         sentence = "Name the driver." if over.driver is None else ""
         sentence = sentence or unknown("driver", over.driver or "", scene.drivers)
-        yield Problem(f"{place}/over/driver", sentence)
+        yield Problem(f"{pointer}/over/driver", sentence)
         return
     period = 0.0 if element.course is None else element.course.period
     if over.rate or period == 0.0 or not turns(scene, scene.drivers[over.driver]):
@@ -53,7 +53,7 @@ def _driver(scene: Scene, place: str, element: Varying, over: Over) -> Iterator[
     periods = 2.0 * math.pi / period
     if math.isinf(period) or abs(periods - round(periods)) > WHOLE or round(periods) == 0:
         yield Problem(
-            f"{place}/course",
+            f"{pointer}/course",
             f"A force over the angle of driver '{over.driver}' repeats every turn, 2 pi rad; this"
             f" course repeats after {period:g}. Give a periodic one.",
         )

@@ -8,7 +8,7 @@ from jointplay.storage.results.reader import ResultReader
 _FORCE = ".normal_force"
 
 
-def with_contact_peaks(run: ResultReader, name: str, bins: Floats, pairs: Floats) -> Floats:
+def with_contact_peaks(reader: ResultReader, name: str, bins: Floats, pairs: Floats) -> Floats:
     """Return minima and maxima (k, 2) of a channel, in which no contact's peak force is lost.
 
     A contact counts in the bin that its middle is in; other channels are returned as they are.
@@ -21,10 +21,10 @@ def with_contact_peaks(run: ResultReader, name: str, bins: Floats, pairs: Floats
         (k, 2) minima and maxima of the samples.
     """
     joint = name.removesuffix(_FORCE)
-    if not name.endswith(_FORCE) or joint not in run.joints or not len(bins):
+    if not name.endswith(_FORCE) or joint not in reader.joints or not len(bins):
         return pairs
-    rows = run.impacts()
-    rows = rows[rows["joint"] == run.joints.index(joint)]
+    rows = reader.impacts()
+    rows = rows[rows["joint"] == reader.joints.index(joint)]
     middle = np.where(
         np.isfinite(rows["release"]), 0.5 * (rows["onset"] + rows["release"]), rows["onset"]
     )

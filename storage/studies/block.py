@@ -202,7 +202,7 @@ class StudyBlock:
         passed = int(counts.min()) // sections if going.any() else self._layout.record
         full = sorted(key for key in self._part.open if key[0] == row and key[1] < passed)
         for key in full:
-            self._files.write(chunk_files(self._layout, key, self._part.open[key]), place_of(key))
+            self._files.write(chunk_files(self._layout, key, self._part.open[key]), path_of(key))
             del self._part.open[key]
 
     def _trimmed(self) -> dict[tuple[int, int], Floats]:
@@ -248,7 +248,7 @@ def written_chunks(files: Running, layout: StudyLayout, found: Part) -> Iterator
     """
     for key in found.written(layout):
         try:
-            yield from files.chunks(place_of(key))
+            yield from files.chunks(path_of(key))
         except FileNotFoundError as error:
             raise lost(files, found.index, key) from error
 
@@ -261,10 +261,10 @@ def require_chunks(files: Running, layout: StudyLayout, found: Part) -> None:
 
 def lost(files: Running, index: int, key: tuple[int, int]) -> LostObject:
     """Return the error for a chunk that a block had written and that is gone."""
-    return LostObject(f"{files.name} lacks {place_of(key)}, which block {index} had written")
+    return LostObject(f"{files.name} lacks {path_of(key)}, which block {index} had written")
 
 
-def place_of(key: tuple[int, int]) -> str:
+def path_of(key: tuple[int, int]) -> str:
     """Return the key of some array's chunk at a place of the grid."""
     return f"sections/{TIME}/c/{key[0]}/{key[1]}"
 

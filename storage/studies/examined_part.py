@@ -18,7 +18,7 @@ from jointplay.storage.results import metadata
 from jointplay.storage.results.chunk_files import ChunkFiles
 from jointplay.storage.results.examination import ODD
 from jointplay.storage.studies import documents, part
-from jointplay.storage.studies.block import paths_at, place_of
+from jointplay.storage.studies.block import path_of, paths_at
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.points import INDICATORS, STATISTICS
@@ -108,9 +108,9 @@ def _require_chunks(files: Running, found: Part, layout: StudyLayout) -> None:
     """Raise `CorruptStore` if a chunk that the block wrote is missing, or is none."""
     arrays = _sections(layout)
     for key in found.written(layout):
-        there = dict(files.chunks(place_of(key)))
+        there = dict(files.chunks(path_of(key)))
         if sorted(there) != sorted(paths_at(layout, key)):
-            raise CorruptStore(f"chunks at {place_of(key)} are not those of the job")
+            raise CorruptStore(f"chunks at {path_of(key)} are not those of the job")
         for path, content in there.items():
             array, _, place = path.rpartition("/c/")
             arrays[array].check(place, content)

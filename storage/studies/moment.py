@@ -21,7 +21,7 @@ from jointplay.storage.packed.running import PARTS
 from jointplay.storage.results.metadata import FILE
 from jointplay.storage.results.store_reader import StoreReader
 from jointplay.storage.studies import part
-from jointplay.storage.studies.block import lost, place_of
+from jointplay.storage.studies.block import lost, path_of
 from jointplay.storage.studies.kept_parts import KEPT_PARTS
 from jointplay.storage.studies.layout import STUDY_SCHEMAS, StudyLayout, on_map
 from jointplay.storage.studies.part import Part
@@ -115,7 +115,7 @@ class StudyMoment(StoreReader):
         """Look for a chunk that a part builds on and that is not there."""
         for index, one in parts.items():
             for key in one.written(self.layout):
-                if not files.has(place_of(key)):
+                if not files.has(path_of(key)):
                     return lost(files, index, key)
         return None
 

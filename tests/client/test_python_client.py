@@ -47,14 +47,14 @@ def test_a_refused_job_names_every_field(client):
         client.submit(PENDULUM | {"duration": -1.0, "colour": "red"})
     assert caught.value.status == 422
     assert caught.value.problem == "invalid-job"
-    assert {field.place for field in caught.value.fields} == {"/duration", "/colour"}
+    assert {field.pointer for field in caught.value.fields} == {"/duration", "/colour"}
     assert "/duration: " in str(caught.value)
 
 
 def test_a_number_that_json_does_not_know_is_refused_by_the_service(client):
     with pytest.raises(Refused) as caught:
         client.submit(PENDULUM | {"duration": math.inf})
-    assert caught.value.fields[0].place == "/duration"
+    assert caught.value.fields[0].pointer == "/duration"
 
 
 @pytest.mark.parametrize("job_id", ["nope", "../scenes", "a/b", "ü\n"])

@@ -37,7 +37,7 @@ def test_a_point_is_dragged_from_pose_to_pose(client):
 def test_what_cannot_be_moved_is_refused_at_its_field(client):
     with pytest.raises(Refused) as refused:
         client.drag("four-bar", "crank.Z", (0.0, 0.0))
-    assert [one.place for one in refused.value.fields] == ["/point"]
+    assert [one.pointer for one in refused.value.fields] == ["/point"]
     with pytest.raises(Refused) as refused:
         client.poses("four-bar", times=(1.0, 0.5))
-    assert [one.place for one in refused.value.fields] == ["/times/1"]
+    assert [one.pointer for one in refused.value.fields] == ["/times/1"]

@@ -100,7 +100,7 @@ def test_a_figure_of_one_value(client, finished_study):
     assert b"<svg" in section.content
     with pytest.raises(Refused) as caught:
         client.job(finished_study).figure("section")
-    assert caught.value.fields[0].place == "start"
+    assert caught.value.fields[0].pointer == "start"
 
 
 def test_a_batch_is_submitted_looked_at_waited_for_and_cancelled(client, worker):
@@ -131,7 +131,7 @@ def worker_job():
 def test_a_batch_is_refused_as_a_whole(client):
     with pytest.raises(Refused) as caught:
         client.submit_batch([PENDULUM, PENDULUM | {"duration": -1.0}])
-    assert [field.place for field in caught.value.fields] == ["/jobs/1/duration"]
+    assert [field.pointer for field in caught.value.fields] == ["/jobs/1/duration"]
 
 
 def test_what_accuracy_costs_comes_as_a_document(client, finished_accuracy, finished_sweep):

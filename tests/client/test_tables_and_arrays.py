@@ -189,7 +189,7 @@ def test_jobs_of_several_batches_are_all_queued_or_cancelled(client, monkeypatch
     wrong = [document | {"label": one}] * 7 + [document | {"duration": -1.0}]
     with pytest.raises(Refused, match="/jobs/7/duration") as refused:
         client.map(wrong)
-    assert [field.place for field in refused.value.fields] == ["/jobs/7/duration"]
+    assert [field.pointer for field in refused.value.fields] == ["/jobs/7/duration"]
     assert [job.state for job in client.jobs(label=one)] == ["cancelled"] * 6
 
     results = client.map([document | {"label": another}] * 8)

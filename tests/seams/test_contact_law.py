@@ -82,7 +82,7 @@ def test_a_law_that_is_in_no_roster_is_refused_at_its_tag(platform: Platform) ->
     with pytest.raises(Refused) as refused:
         platform.client.submit(thrown({"law": "hertz", "hardness": HARDNESS}))
     (field,) = refused.value.fields
-    assert field.place == "/scene/joints/bearing/clearance/contact/law"
+    assert field.pointer == "/scene/joints/bearing/clearance/contact/law"
     assert "'lankarani-nikravesh'" in field.detail
 
 
@@ -98,7 +98,7 @@ def test_its_parameters_are_checked_as_its_own(platform: Platform) -> None:
         with pytest.raises(Refused) as refused:
             platform.client.submit(thrown(contact))
         (found,) = refused.value.fields
-        assert found.place == f"{place}/{field}"
+        assert found.pointer == f"{place}/{field}"
         assert words in found.detail
 
 

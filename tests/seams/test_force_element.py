@@ -89,7 +89,7 @@ def test_an_element_that_is_in_no_roster_is_refused_at_its_type(platform: Platfo
     with pytest.raises(Refused) as refused:
         platform.client.submit(hauled())
     (field,) = refused.value.fields
-    assert field.place == "/scene/forces/winch/type"
+    assert field.pointer == "/scene/forces/winch/type"
     assert "'spring-damper'" in field.detail
 
 
@@ -108,7 +108,7 @@ def test_what_is_wrong_with_it_is_said_at_its_fields(
     with pytest.raises(Refused) as refused:
         platform.client.submit(hauled(**fields))
     (field,) = refused.value.fields
-    assert field.place == f"/scene/forces/winch{place}"
+    assert field.pointer == f"/scene/forces/winch{place}"
     assert words in field.detail
 
 

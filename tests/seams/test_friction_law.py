@@ -123,7 +123,7 @@ def test_a_law_that_is_in_no_roster_is_refused_at_its_tag(platform: Platform) ->
     with pytest.raises(Refused) as refused:
         platform.client.submit(SIMULATE | {"scene": thrown()})
     (field,) = refused.value.fields
-    assert field.place == "/scene/joints/bearing/clearance/friction/law"
+    assert field.pointer == "/scene/joints/bearing/clearance/friction/law"
     assert "'modified-coulomb'" in field.detail
 
 

@@ -66,7 +66,7 @@ def test_a_function_that_is_in_no_roster_is_refused_at_its_type(platform: Platfo
     with pytest.raises(Refused) as refused:
         platform.client.submit(turned())
     (field,) = refused.value.fields
-    assert field.place == "/scene/drivers/motor/motion/type"
+    assert field.pointer == "/scene/drivers/motor/motion/type"
     assert "'sinusoidal'" in field.detail
 
 
@@ -75,7 +75,7 @@ def test_what_is_wrong_with_it_is_said_at_its_field(platform: Platform) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(turned(curvature=0.0))
     (field,) = refused.value.fields
-    assert field.place == "/scene/drivers/motor/motion/curvature"
+    assert field.pointer == "/scene/drivers/motor/motion/curvature"
     assert "greater than 0" in field.detail
 
 

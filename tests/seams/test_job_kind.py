@@ -85,10 +85,10 @@ def test_a_job_of_the_kind_runs_from_its_document_to_the_client(platform: Platfo
 def test_a_bad_document_of_the_kind_is_refused_at_its_field(platform: Platform) -> None:
     with pytest.raises(Refused) as refusal:
         platform.client.submit(LINE | {"count": 1, "chains": 2})
-    assert {problem.place for problem in refusal.value.fields} == {"/count", "/chains"}
+    assert {problem.pointer for problem in refusal.value.fields} == {"/count", "/chains"}
     with pytest.raises(Refused) as refusal:
         platform.client.submit(LINE | {"start": {"slack": 1.0}, "stop": {"slack": 2.0}})
-    assert refusal.value.fields[0].place == "/start/slack"
+    assert refusal.value.fields[0].pointer == "/start/slack"
 
 
 @pytest.mark.usefixtures("line")

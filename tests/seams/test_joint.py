@@ -55,7 +55,7 @@ def test_a_joint_that_is_in_no_roster_is_refused_at_its_type(platform: Platform)
     with pytest.raises(Refused) as refused:
         platform.client.submit(circling((0.0, SPEED)))
     (field,) = refused.value.fields
-    assert field.place == "/scene/joints/ring/type"
+    assert field.pointer == "/scene/joints/ring/type"
     assert "'revolute'" in field.detail
 
 
@@ -75,7 +75,7 @@ def test_what_is_wrong_with_it_is_said_at_its_fields(
     with pytest.raises(Refused) as refused:
         platform.client.submit(circling((0.0, SPEED), **fields))
     (field,) = refused.value.fields
-    assert field.place == f"/scene{place}"
+    assert field.pointer == f"/scene{place}"
     assert words in field.detail
 
 

@@ -170,7 +170,7 @@ def test_what_is_no_map_is_refused_at_its_field(
 ) -> None:
     with pytest.raises(Refused) as refusal:
         platform.client.submit(RELIEF | change)
-    assert [problem.place for problem in refusal.value.fields] == [place]
+    assert [problem.pointer for problem in refusal.value.fields] == [place]
 
 
 def test_the_command_line_and_the_client_are_made_of_its_document(

@@ -47,7 +47,7 @@ def test_it_meets_the_specification_of_all_methods() -> None:
 def test_a_job_is_refused_by_a_name_that_is_in_no_roster(platform: Platform) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(SWING | {"kind": "simulate", "method": "heun-euler"})
-    assert [field.place for field in refused.value.fields] == ["/method"]
+    assert [field.pointer for field in refused.value.fields] == ["/method"]
     assert "'rodas' or 'rk4'" in refused.value.fields[0].detail
 
 

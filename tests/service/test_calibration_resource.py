@@ -74,11 +74,11 @@ def test_what_was_measured_is_checked_before_anything_is_queued(client):
     with pytest.raises(Refused) as refused:
         client.submit(JOB | {"cases": [{"targets": [wrong]}]})
     (problem,) = refused.value.fields
-    assert problem.place == "/cases/0/targets/0/channel"
+    assert problem.pointer == "/cases/0/targets/0/channel"
     assert "bearing.normal_force" in problem.detail
     with pytest.raises(Refused) as refused:
         client.submit(JOB | {"cases": [{"targets": [wrong] * 257}]})
-    assert "/cases/0/targets" in {field.place for field in refused.value.fields}
+    assert "/cases/0/targets" in {field.pointer for field in refused.value.fields}
 
 
 def test_the_document_that_a_worker_plans_from_is_the_admitted_one():

@@ -10,8 +10,8 @@ from jointplay.service.batches.admission import QueueBatch
 from jointplay.service.checking import SHORT, Checker, CheckJob
 from jointplay.service.idempotency import SentKey
 from jointplay.service.problems.handlers import refusal
-from jointplay.solver.kernels.record import length
-from jointplay.solver.kernels.record.equations import record
+from jointplay.solver.kernels.trace import length
+from jointplay.solver.kernels.trace.equations import record
 from jointplay.storage.catalogue.quotas import NO_QUOTA
 from tests.solver.random_mechanisms import chain
 

@@ -152,7 +152,7 @@ def test_a_continuation_is_estimated_before_it_is_queued(client):
 def test_what_cannot_be_followed_is_refused_at_its_field(client, change, place):
     with pytest.raises(Refused) as refusal:
         client.submit(JOB | change)
-    assert place in [problem.place for problem in refusal.value.fields]
+    assert place in [problem.pointer for problem in refusal.value.fields]
 
 
 @pytest.mark.parametrize(
@@ -167,5 +167,5 @@ def test_a_mechanism_that_nothing_drives_needs_a_section(client, section, place,
     with pytest.raises(Refused) as refusal:
         client.submit(job | {"section": section})
     (problem,) = refusal.value.fields
-    assert problem.place == place
+    assert problem.pointer == place
     assert sentence in problem.detail

@@ -103,7 +103,7 @@ def test_the_client_is_refused_alike_here_and_there(computed):
         for wrong in ({"output": "x"}, {"failing": "beside"}, {"confidence": 0.2}):
             with pytest.raises(Refused) as refused:
                 job.sensitivity(**wrong)
-            assert [field.place for field in refused.value.fields] == list(wrong)
+            assert [field.pointer for field in refused.value.fields] == list(wrong)
 
 
 def test_a_job_of_another_kind_has_none(client, finished_sweep):

@@ -83,17 +83,17 @@ class DeviceBundle(Bundle):
         self.runs["status"], self.runs["landing"] = Status.IDLE, NO_PAIR
         self.first_energy = np.zeros((len(ENERGIES), count))
         unused = () if energies else slots_of_energies(kernel)
-        sources, places = list(without(unused, kernel.module.tapes.sources)), kernel.places
-        slots = kernel.layout.size
+        sources, slots = list(without(unused, kernel.module.tapes.sources)), kernel.slots
+        rows = kernel.layout.size
         if tangents is not None:
             sources = [*sources, *tangents.module.tapes.sources]
-            places, slots = tangents.places, tangents.layout.size
-        work = np.zeros((slots, count))
+            slots, rows = tangents.slots, tangents.layout.size
+        work = np.zeros((rows, count))
         none = Buffers.of(0, 0, kernel.row.width, 0, tangents=False, steps=(0, 0, 0))
         self.groups = [Group(work, self.runs, none)]
-        sizes = Sizes(0, slots, *handed[:2], 0 if tangents is None else handed[2])
-        loaded = Code(device, write(sources, places, sizes), ENTRY)
-        shape = Shape(slots, kernel.row.width, *sizes[2:], DTYPE, IMPACT, GROWTH)
+        sizes = Sizes(0, rows, *handed[:2], 0 if tangents is None else handed[2])
+        loaded = Code(device, write(sources, slots, sizes), ENTRY)
+        shape = Shape(rows, kernel.row.width, *sizes[2:], DTYPE, IMPACT, GROWTH)
         self._lanes = DeviceLanes(device, loaded, shape, count)
         self._changed = np.ones(count, np.bool_)
         self._stale = np.zeros(count, np.bool_)

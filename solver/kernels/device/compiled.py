@@ -22,9 +22,9 @@ ROUNDS = 2
 """Times that the passes run: addresses of functions are known after the first."""
 
 
-def code(sources: Sequence[Source], places: NDArray[np.void], sizes: Sizes) -> str:
+def code(sources: Sequence[Source], slots: NDArray[np.void], sizes: Sizes) -> str:
     """Return a kernel for a device; seconds. See `kernel_text`."""
-    return ptx(kernel_text(sources, places, sizes))
+    return ptx(kernel_text(sources, slots, sizes))
 
 
 def ptx(text: str) -> str:

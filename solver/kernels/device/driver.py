@@ -49,7 +49,7 @@ class _Copy(ctypes.Structure):
 
 
 class Device:
-    """A device, and this process's place on it."""
+    """A device, and the context of this process on it."""
 
     def __init__(self, number: int = 0, *, name: str = LIBRARY, library: Any = None) -> None:
         """Open it, by the library of this name, or one that is loaded.
@@ -200,9 +200,9 @@ class Memory:
         array = np.ascontiguousarray(array, self._kind)
         if array.size > np.prod(self._shape):
             raise ValueError(f"an array {self._shape} has no room for one {array.shape}")
-        place = ctypes.c_void_p(array.ctypes.data)
+        source = ctypes.c_void_p(array.ctypes.data)
         size = ctypes.c_size_t(array.nbytes)
-        self._device.call("cuMemcpyHtoD_v2", ctypes.c_uint64(self.address), place, size)
+        self._device.call("cuMemcpyHtoD_v2", ctypes.c_uint64(self.address), source, size)
 
     def read(self, count: int | None = None) -> NDArray[Any]:
         """Return a copy of the first `count` columns of its last axis, by default of all."""

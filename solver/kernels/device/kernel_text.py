@@ -89,7 +89,7 @@ ON_HOST = f"define void @{MEET}() alwaysinline nounwind {{ ret void }}\n"
 
 
 def kernel_text(
-    sources: Sequence[Source], places: NDArray[np.void], sizes: Sizes, *, on_host: bool = False
+    sources: Sequence[Source], slots: NDArray[np.void], sizes: Sizes, *, on_host: bool = False
 ) -> str:
     """Return all but the loop, which `LOOP` stands for.
 
@@ -97,7 +97,7 @@ def kernel_text(
     ----------
     sources
         Of the kernel, and of its tangents if lanes have some.
-    places
+    slots
         Of the kernel, or of its tangents.
     sizes
         What a lane has. The number of lanes is known when they are launched.
@@ -109,7 +109,7 @@ def kernel_text(
             declared(1),
             LIBRARY,
             *_functions(sources),
-            _words("places", places.view(np.int64).reshape(-1)),
+            _words("slots", slots.view(np.int64).reshape(-1)),
             _lane(sizes, spare_rows(sources, sizes.slots) * INSTANTS),
             MOVED,
             *([ON_HOST] if on_host else [ON_DEVICE, _kernel(ENTRY), _kernel(MOVE)]),
@@ -152,7 +152,7 @@ def spare_rows(sources: Sequence[Source], slots: int) -> int:
 
 
 def _functions(sources: Sequence[Source]) -> Iterator[str]:
-    """Yield the text of all functions, and of a record that has them as the loop finds them."""
+    """Yield the text of all functions, and of a structure that has them as the loop finds them."""
     there = {one.name for one in sources}
     for one in sources:
         how = "noinline" if one.name in CALLED else "alwaysinline"
@@ -180,7 +180,7 @@ def _lane(sizes: Sizes, spare: int) -> str:
     """Return the function that gives a thread room and has the loop run."""
     given = ", ".join(
         [
-            "ptr %value, ptr %failure, ptr @functions, ptr @places",
+            "ptr %value, ptr %failure, ptr @functions, ptr @slots",
             *(f"ptr %{name}" for name in Lanes._fields),
             "ptr %work, ptr %spare, ptr %run, i64 %size.lanes",
             *(f"i64 {size}" for size in sizes[1:]),

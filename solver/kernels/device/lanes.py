@@ -31,7 +31,7 @@ class Shape:
     run: Any
     impact: Any
     growth: Any
-    """Types of these records."""
+    """Types of these structures."""
 
 
 class DeviceLanes:
@@ -79,7 +79,7 @@ class DeviceLanes:
         return int(np.dtype(self.shape.run).itemsize // WORD)
 
     def fetch(self, lanes: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.void]]:
-        """Return numbers (slots, lanes) and records (lanes,) of some lanes."""
+        """Return numbers (slots, lanes) and runs (lanes,) of some lanes."""
         slots, words = self.shape.slots, self._words
         columns = np.empty((slots, len(lanes)))
         runs = np.empty(len(lanes), self.shape.run)
@@ -96,7 +96,7 @@ class DeviceLanes:
     def send(
         self, lanes: NDArray[np.int64], columns: NDArray[np.float64], runs: NDArray[np.void]
     ) -> None:
-        """Set numbers (slots, lanes) and records (lanes,) of some lanes."""
+        """Set numbers (slots, lanes) and runs (lanes,) of some lanes."""
         words = self._words
         for first in range(0, len(lanes), PACKED):
             some = lanes[first : first + PACKED]
@@ -104,9 +104,9 @@ class DeviceLanes:
             own = np.ascontiguousarray(columns[:, part])
             self._packed.begin_with(own.view(np.int64))
             self._move(self.columns, some, (self.count, 1), own.size, into=1)
-            records = np.ascontiguousarray(runs[part]).view(np.int64).reshape(len(some), words)
-            self._packed.begin_with(records.T)
-            self._move(self.runs, some, (1, words), records.size, into=1)
+            packed = np.ascontiguousarray(runs[part]).view(np.int64).reshape(len(some), words)
+            self._packed.begin_with(packed.T)
+            self._move(self.runs, some, (1, words), packed.size, into=1)
 
     def _move(
         self,

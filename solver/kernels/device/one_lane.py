@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from numba import carray, from_dtype, int64, types, void
 
 from jointplay.records.impact import IMPACT
-from jointplay.solver.kernels.emit import functions, places
+from jointplay.solver.kernels.emit import functions, slots
 from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
@@ -60,7 +60,7 @@ def _at(kind: Any) -> Any:
 _NUMBERS, _RUN = _at(types.float64), _at(from_dtype(runs.DTYPE))
 SIGNATURE = void(
     _at(from_dtype(functions.DTYPE)),
-    _at(from_dtype(places.DTYPE)),
+    _at(from_dtype(slots.DTYPE)),
     types.NamedTuple(
         [
             _NUMBERS,
@@ -81,7 +81,7 @@ SIGNATURE = void(
 
 @inner_kernel()
 def advance_one_lane(
-    addresses: Any, places: Any, lanes: Lanes, room: Room, sizes: Sizes, lane: int, budget: int
+    addresses: Any, slots: Any, lanes: Lanes, room: Room, sizes: Sizes, lane: int, budget: int
 ) -> None:
     """Make at most `budget` attempts at a step, as `loop.advance` does for lanes side by side.
 
@@ -91,7 +91,7 @@ def advance_one_lane(
 
     Parameters
     ----------
-    addresses, places
+    addresses, slots
         Of the kernel's functions, and where quantities are, as `advance` takes them.
     lane
         Column of the lane.
@@ -102,7 +102,7 @@ def advance_one_lane(
     own[0].filled[0] = own[0].filled[1] = own[0].impacts = own[0].growths = 0
     for slot in range(sizes.slots):
         work[slot, 0] = lanes.columns[slot * sizes.lanes + lane]
-    at, call = carray(places, (1,))[0], carray(addresses, (1,))[0]
+    at, call = carray(slots, (1,))[0], carray(addresses, (1,))[0]
     rows = carray(lanes.rows, (sizes.lanes, 2, 1, sizes.rows, at.row.width))[lane]
     buffers = Buffers(
         unowned(rows),

@@ -1,1 +1,1 @@
-"""From recorded equations to kernels that advance several parameter sets at once."""
+"""From traced equations to kernels that advance several parameter sets at once."""

@@ -10,7 +10,7 @@ from operator import add
 
 from jointplay.solver.kernels.emit.emit import lane_function, nothing
 from jointplay.solver.kernels.layout import BENDS, Layout
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive, sqrt
 
 BEYOND = 0.5
@@ -36,8 +36,8 @@ def source(layout: Layout, pairs: int) -> str:
     """Return the source of foresee_bends(W), which says so by positive numbers."""
     if pairs == 0:
         return nothing("foresee_bends")
-    recorder = Recorder()
-    passes = [_passes(recorder.variable, j) for j in range(pairs)]
+    tracer = Tracer()
+    passes = [_passes(tracer.variable, j) for j in range(pairs)]
     return lane_function("foresee_bends", [("may_pass_bend", reduce(maximum, passes))], layout)
 
 

@@ -10,7 +10,7 @@ from jointplay.solver.kernels.emit import bends
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.emit.judging import PASSING
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.scalars import floor, maximum
 
 EVERY = 256
@@ -22,12 +22,12 @@ def source(layout: Layout, pairs: int, *, always: bool) -> str:
 
     `always` : of methods and scenes whose steps are all looked at.
     """
-    recorder = Recorder()
+    tracer = Tracer()
     tape = Tape(layout)
     if always:
-        tape.give(recorder.constant(1.0))
+        tape.give(tracer.constant(1.0))
         return tape.function("foresee_looks")
-    v = recorder.variable
+    v = tracer.variable
     rounds = (v("steps") + 1.0) * (1.0 / EVERY)
     due = maximum(v("rough_until") - v("steps"), 0.5 / EVERY - (rounds - floor(rounds)))
     inside = v("flag") - (PASSING - 0.5)  # the flags of `INSIDE` are the largest

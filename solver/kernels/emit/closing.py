@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.tracer import Expression
 
 MOVED = 0.01
 """Share of a step's way by which closing loops may move its end."""
@@ -18,7 +18,7 @@ def source(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
     """
     outputs: list[tuple[str, Expression]] = []
     for i, correction in enumerate(equations.corrections):
-        stage = equations.recorder.variable(f"stage{i}")
+        stage = equations.tracer.variable(f"stage{i}")
         outputs += [(f"correction{i}", correction), (f"stage{i}", stage + correction)]
     return lane_function("project", outputs, layout, fixed)
 

@@ -25,57 +25,57 @@ def factorise(
     `product` : a function that multiplies J with the direction; `tried` : the slot of h; `states` :
     how many, n; the other names are slots, of the first number of a block.
     """
-    place = _Places(lanes)
+    slots = _Slots(lanes)
     one, none = same(1.0), same(0.0)
     with lanes.loop("0", states) as i:
-        place.store(none, direction, i)
-    place.store(one, time)
+        slots.store(none, direction, i)
+    slots.store(one, time)
     lanes.lines.append(f"call void {product}(ptr %W)")
     with lanes.loop("0", states) as i:
-        place.store(place.load(products, i), drift, i)
-    place.store(none, time)
+        slots.store(slots.load(products, i), drift, i)
+    slots.store(none, time)
     with lanes.loop("0", states) as j:
-        place.store(one, direction, j)
+        slots.store(one, direction, j)
         lanes.lines.append(f"call void {product}(ptr %W)")
         with lanes.loop("0", states) as i:
-            slope = lanes.arithmetic("fmul", same(float(gamma)), place.load(products, i))
-            slope = lanes.arithmetic("fmul", slope, place.load(tried))
+            slope = lanes.arithmetic("fmul", same(float(gamma)), slots.load(products, i))
+            slope = lanes.arithmetic("fmul", slope, slots.load(tried))
             diagonal = lanes.new(f"icmp eq i64 {i}, {j}")
             numbers = lanes.numbers_type
             unit = lanes.new(f"select i1 {diagonal}, {numbers} {one}, {numbers} {none}")
             rest = lanes.arithmetic("fsub", unit, slope)
-            place.store(rest, factor, place.entry(i, states), j)
-        place.store(none, direction, j)
+            slots.store(rest, factor, slots.entry(i, states), j)
+        slots.store(none, direction, j)
     with lanes.loop("0", states) as k:
-        top = place.entry(k, states)
-        place.store(lanes.arithmetic("fdiv", one, place.load(factor, top, k)), pivot, k)
+        top = slots.entry(k, states)
+        slots.store(lanes.arithmetic("fdiv", one, slots.load(factor, top, k)), pivot, k)
         below = lanes.new(f"add i64 {k}, 1")
         with lanes.loop(below, states) as i:
-            row = place.entry(i, states)
-            share = place.load(factor, row, k)
-            share = lanes.arithmetic("fmul", share, place.load(pivot, k))
-            place.store(share, factor, row, k)
+            row = slots.entry(i, states)
+            share = slots.load(factor, row, k)
+            share = lanes.arithmetic("fmul", share, slots.load(pivot, k))
+            slots.store(share, factor, row, k)
             with lanes.loop(below, states) as j:
-                less = lanes.arithmetic("fmul", share, place.load(factor, top, j))
-                rest = lanes.arithmetic("fsub", place.load(factor, row, j), less)
-                place.store(rest, factor, row, j)
+                less = lanes.arithmetic("fmul", share, slots.load(factor, top, j))
+                rest = lanes.arithmetic("fsub", slots.load(factor, row, j), less)
+                slots.store(rest, factor, row, j)
 
 
 def substitute(lanes: Lanes, states: str, right: str, pivot: str, factor: str) -> None:
     """Write what solves the factorised equations, in place of their right side."""
-    place = _Places(lanes)
+    slots = _Slots(lanes)
     last = str(int(states) - 1)
     with lanes.loop("0", states) as i, lanes.loop("0", i) as k:
-        place.reduce(right, i, factor, states, k)
+        slots.reduce(right, i, factor, states, k)
     with lanes.loop("0", states) as done:
         i = lanes.new(f"sub i64 {last}, {done}")
         with lanes.loop(lanes.new(f"add i64 {i}, 1"), states) as k:
-            place.reduce(right, i, factor, states, k)
-        scaled = lanes.arithmetic("fmul", place.load(right, i), place.load(pivot, i))
-        place.store(scaled, right, i)
+            slots.reduce(right, i, factor, states, k)
+        scaled = lanes.arithmetic("fmul", slots.load(right, i), slots.load(pivot, i))
+        slots.store(scaled, right, i)
 
 
-class _Places:
+class _Slots:
     """Numbers of all lanes in blocks, at a slot and what is to be added to it."""
 
     def __init__(self, lanes: Lanes) -> None:
@@ -98,7 +98,7 @@ class _Places:
         self.store(rest, right, i)
 
     def _at(self, parts: tuple[str, ...]) -> str:
-        place, *others = parts
+        slot, *others = parts
         for other in others:
-            place = self.lanes.new(f"add i64 {place}, {other}")
-        return self.lanes.new(f"getelementptr {self.lanes.numbers_type}, ptr %W, i64 {place}")
+            slot = self.lanes.new(f"add i64 {slot}, {other}")
+        return self.lanes.new(f"getelementptr {self.lanes.numbers_type}, ptr %W, i64 {slot}")

@@ -1,4 +1,4 @@
-"""Writes recorded expressions as tapes: straight lines of arithmetic over all lanes.
+"""Writes traced expressions as tapes: straight lines of arithmetic over all lanes.
 
 Measurements say what makes them fast: no library call, no branch but selects, and one work array
 with constant offsets. Names on a tape are the emitter's own; nothing of a scene's text enters it.
@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import (
+from jointplay.solver.kernels.trace.reachable import reachable
+from jointplay.solver.kernels.trace.tracer import (
     MOST_STATEMENTS,
     Expression,
     too_many,
@@ -82,11 +82,11 @@ class Tape:
 
         To hold all of them until the last is known would take more registers than there are.
         """
-        place = {name: i for i, (name, _) in enumerate(outputs)}
+        order = {name: i for i, (name, _) in enumerate(outputs)}
         seen = set(self._found)
         for i, (_, expression) in enumerate(outputs):
             for node in reachable([expression], seen):
-                if node.operation == "variable" and place.get(str(node.data), i) < i:
+                if node.operation == "variable" and order.get(str(node.data), i) < i:
                     self._evaluate(node)
                 seen.add(node)
         for name, expression in outputs:

@@ -4,8 +4,8 @@ In free flight the local error vanishes, so that it says nothing of a step's len
 not limit, geometry must. Three rules make a step's inside known from its ends:
 
 1. No body turns by more than `TURN` in a step (`longest`).
-2. A journal's centre moves along the quintic that has its place, velocity and acceleration at both
-   ends of the step. As a Bezier curve it lies in the convex hull of its six control points, and a
+2. A journal's centre moves along the quintic that has its position, velocity and acceleration at
+   both ends of the step. As a Bezier curve it lies in the hull of its six control points, and a
    disc is convex: a journal whose control points are all inside its clearance circle does not touch
    within the step (`beyond`). What the quintic leaves out is at most h^6 |e^(6)| / 46080
    (Hermite's remainder). An eccentricity is a sum of vectors that turn with bodies and of paths of
@@ -21,8 +21,8 @@ from functools import reduce
 from operator import add
 
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import MOTION
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.equations import MOTION
+from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, sine_cosine, sqrt
 
 TURN = 0.5
@@ -143,9 +143,9 @@ def _between(v: Callable[[str], Expression], j: int) -> list[list[Expression]]:
     for axis in range(2):
         between = []
         for block, sense in zip(PATHS, (1.0, -1.0), strict=True):
-            place, rate, bend = (v(f"{block}{len(MOTION) * j + axis + 2 * k}") for k in range(3))
+            position, rate, bend = (v(f"{block}{len(MOTION) * j + axis + 2 * k}") for k in range(3))
             fifth = 0.2 * sense * step * rate
-            between += [place + fifth, place + 2.0 * fifth + 0.05 * step * step * bend]
+            between += [position + fifth, position + 2.0 * fifth + 0.05 * step * step * bend]
         points.append(between)
     return points
 

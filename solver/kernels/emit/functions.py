@@ -1,4 +1,4 @@
-"""Compiled functions of a kernel, by name: one record of addresses, which compiled loops take."""
+"""Compiled functions of a kernel, by name: a structure of addresses for compiled loops."""
 
 # mypy: disable-error-code="no-untyped-call"
 
@@ -50,8 +50,8 @@ Functions = namedtuple("Functions", SIGNATURES)  # type: ignore[misc]  # noqa: P
 """All of them, by name, inside compiled loops."""
 DTYPE = np.dtype([(name, np.int64) for name in SIGNATURES])
 ADDRESSES = from_dtype(DTYPE)[::1]
-"""Type of the record in loops: an array of one. First-class functions as arguments would cost 5 us
-each at every call from Python."""
+"""Type of the structure in loops: an array of one. First-class functions as arguments would cost
+5 us each at every call from Python."""
 
 
 def addresses_of(*modules: ModuleType) -> NDArray[np.void]:
@@ -79,21 +79,21 @@ def address_of(function: Any, expected: types.FunctionType) -> int:
     return int(function.address)
 
 
-def _functions_at(_typing: Any, record: Any) -> Any:
-    """Return the functions whose addresses a record has."""
+def _functions_at(_typing: Any, structure: Any) -> Any:
+    """Return the functions whose addresses a structure has."""
     named = types.NamedTuple(list(SIGNATURES.values()), Functions)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         functions = []
         for name, kind in SIGNATURES.items():
-            place = cgutils.get_record_member(builder, arguments[0], record.offset(name), WORD)
+            address = cgutils.get_record_member(builder, arguments[0], structure.offset(name), WORD)
             function = cgutils.create_struct_proxy(kind)(context, builder)
-            function.c_addr = builder.inttoptr(builder.load(place), cgutils.voidptr_t)
+            function.c_addr = builder.inttoptr(builder.load(address), cgutils.voidptr_t)
             function.py_addr = function.jit_addr = cgutils.voidptr_t(None)
             functions.append(function._getvalue())
         return context.make_tuple(builder, named, functions)
 
-    return named(record), generate
+    return named(structure), generate
 
 
 WORD = cgutils.intp_t

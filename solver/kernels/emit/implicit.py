@@ -1,6 +1,6 @@
 """Records one step of a Rosenbrock method: a Jacobian, its factors, stages, the ledger.
 
-The Jacobian's columns are derivatives of the recorded equations along one state each. The ledger,
+The Jacobian's columns are derivatives of the traced equations along one state each. The ledger,
 which nothing feeds back on, is integrated by Lobatto's formula on the dense output.
 """
 
@@ -8,11 +8,11 @@ import math
 
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.emit.emit import FixedNodes, Known, lane_function, statements
-from jointplay.solver.kernels.emit.stepping import StepRecorder
+from jointplay.solver.kernels.emit.stepping import StepTracer
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.derivative import Derivative
-from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.derivative import Derivative
+from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.tracer import Expression
 
 INNER = (0.5 - math.sqrt(0.05), 0.5 + math.sqrt(0.05))
 """Nodes of Lobatto's formula of order six between the ends of a step."""
@@ -29,7 +29,7 @@ def allocate(layout: Layout, states: int) -> None:
     layout.add_block("factor", states * states)
 
 
-class RosenbrockRecorder(StepRecorder):
+class RosenbrockTracer(StepTracer):
     """Records the functions of a Rosenbrock method's step."""
 
     unweighed = 1
@@ -55,7 +55,7 @@ class RosenbrockRecorder(StepRecorder):
         return parts
 
     def _swinging(self) -> tuple[Expression, Expression]:
-        none = self.recorder.constant(0.0)
+        none = self.tracer.constant(0.0)
         return none, none  # no limit of stability makes its slopes swing
 
     def _start(self) -> str:
@@ -65,12 +65,10 @@ class RosenbrockRecorder(StepRecorder):
 
     def _product(self) -> str:
         """Write product(W): the derivative of the slopes along the direction."""
-        recorder, count = self.equations.recorder, self.coordinates
-        along = {f"stage{i}": recorder.variable(f"direction{i}") for i in range(self.states)}
-        derivative = Derivative(along | {"stage_time": recorder.variable("direction_time")})
-        outputs = [
-            (f"product{i}", recorder.variable(f"direction{count + i}")) for i in range(count)
-        ]
+        tracer, count = self.equations.tracer, self.coordinates
+        along = {f"stage{i}": tracer.variable(f"direction{i}") for i in range(self.states)}
+        derivative = Derivative(along | {"stage_time": tracer.variable("direction_time")})
+        outputs = [(f"product{i}", tracer.variable(f"direction{count + i}")) for i in range(count)]
         outputs += [(f"product{i}", derivative(rate)) for i, rate in self.equations.slopes]
         return lane_function("product", outputs, self.layout, self.fixed)
 
@@ -90,7 +88,7 @@ class RosenbrockRecorder(StepRecorder):
     def _moved(self, weights: tuple[float, ...], i: int, newest: int = 0) -> Expression:
         """State i after h times a weighted sum of stages; the newest is in `right` still."""
         v = self.variable
-        total: Expression = self.recorder.constant(0.0)
+        total: Expression = self.tracer.constant(0.0)
         for s, weight in enumerate(weights, start=1):
             total = total + weight * v(f"right{i}" if s == newest else f"k{s + 1}_{i}")
         return v(f"y{i}") + v("tried") * total
@@ -117,21 +115,21 @@ class RosenbrockRecorder(StepRecorder):
             outputs.append((f"right{i}", gamma * total))
         return self._function(f"right_{s}", outputs)
 
-    def _inner(self, place: int) -> str:
+    def _inner(self, number: int) -> str:
         """Go to an inner node of the ledger's formula, and keep the ledger where it was."""
-        v, theta = self.variable, INNER[place - 1]
+        v, theta = self.variable, INNER[number - 1]
         weights = tuple(
             sum(c * math.prod([theta] * (k + 1)) for k, c in enumerate(row))
             for row in self.method.dense[1:]
         )
-        newest = len(self.method.nodes) if place == 1 else 0
+        newest = len(self.method.nodes) if number == 1 else 0
         outputs = [(f"stage{i}", self._moved(weights, i, newest)) for i in range(self.states)]
         outputs.append(("stage_time", v("time") + theta * v("tried")))
-        if place == 1:
+        if number == 1:
             outputs += self._stored(len(self.method.nodes))
         else:
             outputs += self._kept_ledger(2)
-        return self._function(f"inner_{place}", outputs)
+        return self._function(f"inner_{number}", outputs)
 
     def _finish(self) -> str:
         v = self.variable
@@ -157,10 +155,10 @@ class RosenbrockRecorder(StepRecorder):
         return LOBATTO
 
     def _calls(self) -> list[str]:
-        place = self.layout["slope0"] - self.layout["k1_0"]
+        offset = self.layout["slope0"] - self.layout["k1_0"]
         calls = ["start", "jacobian", "right_1", "solve"]
         for s in range(2, len(self.method.nodes) + 1):
-            calls += [f"point_{s}", f"slopes {place}", f"right_{s}", "solve"]
+            calls += [f"point_{s}", f"slopes {offset}", f"right_{s}", "solve"]
         for name in ("inner_1", "inner_2", "finish"):
             calls += [name, "right_hand_side"]
         return calls

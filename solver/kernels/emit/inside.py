@@ -9,7 +9,7 @@ from collections.abc import Callable
 from jointplay.solver.kernels.emit.emit import FixedNodes, Outputs, Tape
 from jointplay.solver.kernels.emit.judged_step import before
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import Equations
+from jointplay.solver.kernels.trace.equations import Equations
 
 
 def source(

@@ -17,10 +17,10 @@ from jointplay.solver.kernels.emit.judging import (
     growth,
     swings,
 )
-from jointplay.solver.kernels.emit.knots import KnotRecorder
+from jointplay.solver.kernels.emit.knots import KnotTracer
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.elementary import coarse_log2
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
@@ -44,20 +44,20 @@ class JudgedStep:
     def __init__(self, tableau: Method, equations: Equations, ledger: int, layout: Layout) -> None:
         self.tableau, self.equations = tableau, equations
         # fixed steps end where they end
-        self.knots = KnotRecorder(equations.knots if tableau.error else (), layout)
+        self.knots = KnotTracer(equations.knots if tableau.error else (), layout)
         self.states, self.coordinates = equations.states, len(equations.coordinates)
         self.ledger, self.pairs = ledger, len(equations.pairs)
         self.angles = [i for i, name in enumerate(equations.coordinates) if name.endswith(".theta")]
         self.layout = layout
-        self.recorder = Recorder()
+        self.tracer = Tracer()
 
     def variable(self, name: str) -> Expression:
         """Return the expression of a slot."""
-        return self.recorder.variable(name)
+        return self.tracer.variable(name)
 
     def _sum(self, weights: Iterable[float | Expression], slots: Iterable[str]) -> Expression:
         """Return a weighted sum of slots, of as many as there are weights."""
-        total: Expression = self.recorder.constant(0.0)
+        total: Expression = self.tracer.constant(0.0)
         for weight, slot in zip(weights, slots, strict=False):
             total = total + weight * self.variable(slot)
         return total
@@ -71,7 +71,7 @@ class JudgedStep:
 
     def _judge(self) -> str:
         """Error of the step, the next step size, and what needs attention."""
-        v, number = self.variable, self.recorder.constant
+        v, number = self.variable, self.tracer.constant
         squared = self._squared_error() if self.tableau.error else self._overflow()
         good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
         magnitude = 0.5 * coarse_log2(squared)
@@ -146,7 +146,7 @@ class JudgedStep:
         says when to look again, so only lanes that do are flagged; methods that are watched closely
         need no flag for it.
         """
-        most: Expression = self.recorder.constant(0.0)
+        most: Expression = self.tracer.constant(0.0)
         if self.tableau.watched_closely:
             return most, most
         v, last = self.variable, self.tableau.stages
@@ -157,7 +157,7 @@ class JudgedStep:
         late = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
         due = maximum(late, v("tried") - GROWN * v(before("tried")))
         wanted = minimum(v("seeks_extremes"), minimum(most, due))
-        flag: Expression = select_positive(wanted, self.recorder.constant(SWINGING), 0.0)
+        flag: Expression = select_positive(wanted, self.tracer.constant(SWINGING), 0.0)
         return flag, most
 
     def _enclosures(self) -> list[tuple[str, str]]:
@@ -189,7 +189,7 @@ class JudgedStep:
 
     def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
         """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
-        squared: Expression = self.recorder.constant(SMALLEST_ERROR)
+        squared: Expression = self.tracer.constant(SMALLEST_ERROR)
         for i in range(self.states):
             error = self._sum(weights, (self._slope(s, i) for s in count(1 + self.unweighed)))
             scaled = error * self._weighed(i)
@@ -203,7 +203,7 @@ class JudgedStep:
 
     def _overflow(self) -> Expression:
         """Almost zero, but infinite or NaN where a slope is."""
-        overflow: Expression = self.recorder.constant(SMALLEST_ERROR)
+        overflow: Expression = self.tracer.constant(SMALLEST_ERROR)
         for i in range(self.states):
             overflow = overflow + 1e-300 * abs(self.variable(f"slope{i}"))
         return overflow

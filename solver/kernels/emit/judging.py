@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.enclosure import beyond, may_open, whips_round
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.elementary import coarse_exp2, log2
 from jointplay.solver.quantities.scalars import Scalar, maximum, minimum, select_positive
 

@@ -26,19 +26,19 @@ from jointplay.solver.kernels.emit.emit import (
     module_source,
 )
 from jointplay.solver.kernels.emit.functions import addresses_of
-from jointplay.solver.kernels.emit.places import DenseRow, StepRow, places_of
+from jointplay.solver.kernels.emit.slots import DenseRow, StepRow, slots_of
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import (
+from jointplay.solver.kernels.trace.equations import (
     KEEPS_LEDGER,
     Equations,
     ledger_slopes,
     needed_again,
-    record,
     right_hand_side,
     slopes,
+    trace,
 )
-from jointplay.solver.kernels.record.fixed_numbers import FixedNumbers
-from jointplay.solver.kernels.record.rows import Rows, arrange
+from jointplay.solver.kernels.trace.fixed_numbers import FixedNumbers
+from jointplay.solver.kernels.trace.rows import Rows, arrange
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.scene.document import Scene
 
@@ -51,8 +51,8 @@ class Kernel:
     layout: Layout
     row: DenseRow
     step_row: StepRow
-    places: NDArray[np.void]
-    """Record that compiled loops take as `at`; see `solver.kernels.emit.places`."""
+    slots: NDArray[np.void]
+    """Record that compiled loops take as `at`; see `solver.kernels.emit.slots`."""
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
     clocks: tuple[str, ...]
@@ -88,7 +88,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     LimitExceeded
         The scene's equations are too long to compile.
     """
-    equations = record(scene, tree, formulation)
+    equations = trace(scene, tree, formulation)
     layout = Layout()
     states, pairs = equations.states, len(equations.pairs)
     clocks = len(equations.clocks)
@@ -115,9 +115,9 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     layout.add_block("wound", clocks)
     fixed = FixedNodes(layout)
     steps = (
-        implicit.RosenbrockRecorder(tableau, equations, fixed, ledger, layout, known)
+        implicit.RosenbrockTracer(tableau, equations, fixed, ledger, layout, known)
         if isinstance(tableau, Rosenbrock)
-        else stepping.StepRecorder(tableau, equations, ledger, layout, known)
+        else stepping.StepTracer(tableau, equations, ledger, layout, known)
     )
     observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
     energies = [
@@ -157,7 +157,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         layout,
         row,
         step_row,
-        places_of(layout, row, step_row, counts),
+        slots_of(layout, row, step_row, counts),
         equations.coordinates,
         equations.drivers,
         equations.clocks,
@@ -174,10 +174,10 @@ def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> 
 
     `row` : slots from those of the first stage.
     """
-    held = equations.recorder.held.values()
+    held = equations.tracer.held.values()
     tape = Tape(layout, fixed, {node: f"inverse_rate{j}" for j, node in enumerate(held)})
     tape.store_rows([(name.replace("slope", "k1_"), rate) for name, rate in slopes(equations)])
-    tape.go_on_where(equations.recorder.variable(KEEPS_LEDGER))
+    tape.go_on_where(equations.tracer.variable(KEEPS_LEDGER))
     rates = ledger_slopes(equations)
     tape.store_rows([(name.replace("ledger", "kledger1_"), rate) for name, rate in rates])
     return tape.function("slopes", "row")
@@ -189,6 +189,6 @@ def _right_hand_side(
     """Return the source of right_hand_side(W); the ledger's rates only where they are wanted."""
     tape = Tape(layout, fixed)
     tape.store(outputs)
-    tape.go_on_where(equations.recorder.variable(KEEPS_LEDGER))
+    tape.go_on_where(equations.tracer.variable(KEEPS_LEDGER))
     tape.store(ledger_slopes(equations))
     return tape.function("right_hand_side")

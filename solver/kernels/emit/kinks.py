@@ -10,10 +10,10 @@ slip at the jump, the mean slope grows beyond bounds and no tangent can be carri
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, nothing
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.derivative import Derivative
-from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.derivative import Derivative
+from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.reachable import reachable
+from jointplay.solver.kernels.trace.tracer import Expression
 
 Kinks = tuple[tuple[Expression, Expression], ...]
 """Piecewise linear functions, each with its argument."""
@@ -27,7 +27,7 @@ ROUNDING = 1e-9
 def kinks_of(equations: Equations) -> Kinks:
     """Return the piecewise linear functions that slopes depend on."""
     needed = {node.index for node in reachable(rate for _, rate in equations.slopes)}
-    kinks = equations.recorder.kinks
+    kinks = equations.tracer.kinks
     return tuple((value, kinks[value]) for value in kinks if value.index in needed)
 
 
@@ -48,10 +48,10 @@ def kink_function(kinks: Kinks, layout: Layout, fixed: FixedNodes) -> str:
         return nothing("kinks")
     outputs: list[tuple[str, Expression]] = []
     for q, (value, argument) in enumerate(kinks):
-        recorder = value.recorder
+        tracer = value.tracer
         memory = range(MEMORY * q, MEMORY * (q + 1))
         end = (argument, value, _slope(value, argument))
-        start, first, slope = (recorder.variable(f"kink_start{i}") for i in memory)
+        start, first, slope = (tracer.variable(f"kink_start{i}") for i in memory)
         bent = abs(value - first - slope * (argument - start))
         rounding = ROUNDING * (abs(value) + abs(first))
         jumped = (bent - rounding).select_positive(bent, 0.0)
@@ -64,8 +64,8 @@ def kink_function(kinks: Kinks, layout: Layout, fixed: FixedNodes) -> str:
 def bend(derivative: Derivative, kinks: Kinks) -> None:
     """Let a derivative take the mean slopes of kinks that the step passes."""
     for q, (value, argument) in enumerate(kinks):
-        passed = value.recorder.variable(f"kink_passed{q}")
-        mean = value.recorder.variable(f"kink_mean{q}")
+        passed = value.tracer.variable(f"kink_passed{q}")
+        mean = value.tracer.variable(f"kink_mean{q}")
         slope = passed.select_positive(mean, _slope(value, argument))
         derivative.assume(value, slope * derivative(argument))
 
@@ -73,5 +73,5 @@ def bend(derivative: Derivative, kinks: Kinks) -> None:
 def _slope(value: Expression, argument: Expression) -> Expression:
     """Slope of a function of one expression where that is."""
     derivative = Derivative({})
-    derivative.assume(argument, value.recorder.constant(1.0))
+    derivative.assume(argument, value.tracer.constant(1.0))
     return derivative(value)

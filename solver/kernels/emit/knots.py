@@ -1,7 +1,7 @@
 """Knots and steps: a step ends where a function has a derivative that jumps.
 
 No estimate of an error holds for a step with a knot inside. Knots of a clock limit the step before
-it is tried (`to_knot`). Knots of a place or a rate are met where the motion meets them: after a
+it is tried (`to_knot`). Knots of a position or a rate are met where the motion meets them: after a
 step whose argument has passed one, the cubic through the argument and its rate at both ends says
 after which share of the step (`knot_share`), and the step is redone to end there.
 """
@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.knots import KnotsOnPath
-from jointplay.solver.kernels.record.recorder import Expression, Knots
+from jointplay.solver.kernels.trace.knots import KnotsOnPath
+from jointplay.solver.kernels.trace.tracer import Expression, Knots
 from jointplay.solver.quantities.scalars import floor, maximum, minimum, select_positive, sign
 
 FAR = 1e300
@@ -29,12 +29,12 @@ ITERATIONS = 5
 """Newton steps, kept inside a bracket, to where a cubic meets a knot."""
 
 AT_ENDS = ("argument", "argument_rate")
-"""Quantities of knots of a place or a rate, known at both ends of a step."""
+"""Quantities of knots of a position or a rate, known at both ends of a step."""
 
 Outputs = list[tuple[str, Expression]]
 
 
-class KnotRecorder:
+class KnotTracer:
     """Records the functions that look for knots, for the equations of a scene."""
 
     def __init__(self, paths: Sequence[KnotsOnPath], layout: Layout) -> None:
@@ -82,7 +82,7 @@ class KnotRecorder:
         """Write what finds the time to the next knot of a clock."""
         if not self.clocked:
             return []
-        variable = self.clocked[0].rate.recorder.variable
+        variable = self.clocked[0].rate.tracer.variable
         soonest: Expression = variable("time") * 0.0 + FAR
         for path in self.clocked:
             soonest = _sooner(soonest, path)
@@ -96,7 +96,7 @@ class KnotRecorder:
         """Write what finds the share of a step after which it meets a knot; else 2."""
         if not self.met:
             return []
-        variable = self.met[0].rate.recorder.variable
+        variable = self.met[0].rate.tracer.variable
         first: Expression = variable("tried") * 0.0 + 2.0
         for i, path in enumerate(self.met):
             start, begun, end, ended = (
@@ -110,25 +110,27 @@ class KnotRecorder:
 
 def _inside(knots: Knots, x: Expression) -> tuple[Expression, list[Expression]]:
     """Return an argument brought between the first and the last knot, and the knots around it."""
-    places = list(knots.places)
+    positions = list(knots.positions)
     if knots.span is None:
-        return x, places
-    inside = x - knots.span * floor((x - places[0]) / knots.span)
-    return inside, [*places, places[1] + knots.span, places[-2] - knots.span]
+        return x, positions
+    inside = x - knots.span * floor((x - positions[0]) / knots.span)
+    return inside, [*positions, positions[1] + knots.span, positions[-2] - knots.span]
 
 
 def _sooner(soonest: Expression, path: KnotsOnPath) -> Expression:
     """Return the time to the next knot of a clock, s, where it comes sooner than another."""
     knots, rate = path.knots, path.rate
-    x, places = _inside(knots, knots.argument)
-    first, last = knots.places[0], knots.places[-1]
+    x, positions = _inside(knots, knots.argument)
+    first, last = knots.positions[0], knots.positions[-1]
     beside = SAME * (last - first) + ULPS * maximum(abs(first), abs(last))
     pace = select_positive(abs(rate), 1.0 / select_positive(abs(rate), rate, 1.0), 0.0)
     if knots.jumps:
-        places = [place + side * BESIDE * beside for place in places for side in (-1.0, 1.0)]
+        positions = [
+            position + side * BESIDE * beside for position in positions for side in (-1.0, 1.0)
+        ]
     least = beside * abs(pace)
-    for place in places:
-        ahead = (place - x) * pace
+    for position in positions:
+        ahead = (position - x) * pace
         soonest = minimum(soonest, select_positive(ahead - least, ahead, FAR))
     return soonest
 
@@ -144,7 +146,7 @@ def _share(
     way = end - start
     if knots.span is not None:  # an angle may begin anew
         way = way - knots.span * floor(way / knots.span + 0.5)
-    x, places = _inside(knots, start)
+    x, positions = _inside(knots, start)
     sense, length = sign(way), abs(way) + 1.0 / FAR
     first, last = begun * sense / length, ended * sense / length
     turn = begun / (begun - ended + 1.0 / FAR)
@@ -155,8 +157,8 @@ def _share(
     half = (0.5 - AT_END) * reached
     distance: Expression = length * 0.0 + FAR
     beyond: Expression = length * 0.0 - 1.0
-    for place in places:
-        ahead = (place - x) * sense
+    for position in positions:
+        ahead = (position - x) * sense
         distance = minimum(distance, select_positive(ahead - AT_END * length, ahead, FAR))
         beyond = maximum(beyond, half - abs(ahead - middle))
     within = (1.0 - AT_END) * length - distance

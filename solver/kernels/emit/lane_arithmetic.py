@@ -52,14 +52,14 @@ class Lanes:
         number = self._names
         index, following, before = f"%i{number}", f"%j{number}", self._block
         self.lines += [f"br label %head{number}", f"head{number}:", ""]
-        place = len(self.lines) - 1
+        line = len(self.lines) - 1
         more = self.new(f"icmp slt i64 {index}, {end}")
         self.lines.append(f"br i1 {more}, label %body{number}, label %end{number}")
         self._begin(f"body{number}")
         yield index
         self.lines.append(f"{following} = add nsw i64 {index}, 1")
         self.lines.append(f"br label %head{number}")
-        self.lines[place] = (
+        self.lines[line] = (
             f"{index} = phi i64 [ {first}, %{before} ], [ {following}, %{self._block} ]"
         )
         self._begin(f"end{number}")
@@ -147,13 +147,13 @@ class Lanes:
         given = ", ".join(f"{self.numbers_type} {one}" for one in operands)
         return self.new(f"call {self.numbers_type} @llvm.{name}.v{self.count}f64({given})")
 
-    def load(self, place: str) -> str:
+    def load(self, address: str) -> str:
         """Return the numbers at an address."""
-        return self.new(f"load {self.numbers_type}, ptr {place}, align {ALIGNED}")
+        return self.new(f"load {self.numbers_type}, ptr {address}, align {ALIGNED}")
 
-    def store(self, value: str, place: str) -> None:
+    def store(self, value: str, address: str) -> None:
         """Write numbers to an address."""
-        self.lines.append(f"store {self.numbers_type} {value}, ptr {place}, align {ALIGNED}")
+        self.lines.append(f"store {self.numbers_type} {value}, ptr {address}, align {ALIGNED}")
 
 
 INTRINSIC = {"fabs": 1, "sqrt": 1, "floor": 1, "fma": 3}
@@ -199,7 +199,7 @@ def largest(lanes: Lanes, x: str) -> str:
     return lanes.new(f"extractelement {lanes.numbers_type} {x}, i32 0")
 
 
-def _shuffled(lanes: Lanes, x: str, y: str, places: list[int]) -> str:
-    chosen, numbers = ", ".join(f"i32 {place}" for place in places), lanes.numbers_type
-    order = f"<{lanes.count} x i32> <{chosen}>"
-    return lanes.new(f"shufflevector {numbers} {x}, {numbers} {y}, {order}")
+def _shuffled(lanes: Lanes, x: str, y: str, order: list[int]) -> str:
+    chosen, numbers = ", ".join(f"i32 {one}" for one in order), lanes.numbers_type
+    mask = f"<{lanes.count} x i32> <{chosen}>"
+    return lanes.new(f"shufflevector {numbers} {x}, {numbers} {y}, {mask}")

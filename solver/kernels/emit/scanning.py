@@ -1,4 +1,4 @@
-"""The scan for extremes: which channels of which lanes just passed one that may be a record.
+"""The scan for extremes: which channels of which lanes just passed one that may be a new extreme.
 
 It looks at the values at step ends only to find candidates; the extremes themselves are then
 sought inside the steps on the dense output (`solver.kernels.loop.peaks`).
@@ -7,8 +7,8 @@ Before the second step there is no change before: it is NaN, and no candidate.
 
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.kernels.target import WIDTHS
+from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
 BLOCKS = ("channel", "previous", "change", "highest", "lowest")
@@ -29,7 +29,7 @@ BARELY = 1.0 + 1e-9
 
 
 def allocate(layout: Layout, rows: int, rest: int) -> None:
-    """Give slots to `rows` channel values, their predecessors, changes and records.
+    """Give slots to `rows` channel values, their predecessors, changes and extremes so far.
 
     `rest` further channel values are not scanned.
     """
@@ -58,24 +58,24 @@ def source(layout: Layout, rows: int) -> str:
 
 
 def _scan(name: str, layout: Layout, rows: int) -> str:
-    recorder = Recorder()
-    value, before, rose, highest, lowest = (recorder.variable(f"{block}0") for block in BLOCKS)
+    tracer = Tracer()
+    value, before, rose, highest, lowest = (tracer.variable(f"{block}0") for block in BLOCKS)
     change = value - before
     nearest = minimum(highest - before, before - lowest)
-    longer, far = recorder.variable("lengthening"), recorder.variable("reach")
+    longer, far = tracer.variable("lengthening"), tracer.variable("reach")
     onwards = longer * rose
     both, uneven = abs(onwards - change), longer * onwards + change
     found = far * uneven * uneven + (SPARE * both - nearest) * both
-    near = recorder.variable("nearness") * both - nearest
+    near = tracer.variable("nearness") * both - nearest
     # signs differ where it turned
     found, near = (select_positive(rose * change, 0.0, one) for one in (found, near))
     if name == "scan_some":
-        accepted = recorder.variable("accept")
+        accepted = tracer.variable("accept")
         value = select_positive(accepted, value, before)
         change = select_positive(accepted, change, rose)
     blocks = {f"{block}0" for block in BLOCKS}
     tape = Tape(layout, fetch=lambda name: f"load {layout[name]}{'+' * (name in blocks)}")
-    tape.mark("marked0", recorder.constant(0.0))
+    tape.mark("marked0", tracer.constant(0.0))
     tape.store_and_go_on_where(near, [("previous0", value), ("change0", change)])
     tape.mark("marked0", found)
     return tape.function(name, "rows", rows)

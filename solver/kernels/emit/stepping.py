@@ -18,9 +18,9 @@ from jointplay.solver.kernels.emit.emit import (
 )
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import KEEPS_LEDGER, MOTION, Equations
-from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER, MOTION, Equations
+from jointplay.solver.kernels.trace.reachable import reachable
+from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
 ENDS = ("gap", "gap_rate", "slip", "slip_rate")
@@ -65,7 +65,7 @@ def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) 
     enclosure.allocate(layout, pairs)
 
 
-class StepRecorder(JudgedStep):
+class StepTracer(JudgedStep):
     """Records the functions of one method for the equations of a scene."""
 
     def __init__(
@@ -101,8 +101,8 @@ class StepRecorder(JudgedStep):
         last = self.tableau.stages
         calls = []
         for s in range(2, last):
-            place = self.layout[f"k{s}_0"] - self.layout["k1_0"]
-            calls += [f"stage_{s}", f"slopes {place}"]
+            offset = self.layout[f"k{s}_0"] - self.layout["k1_0"]
+            calls += [f"stage_{s}", f"slopes {offset}"]
         return [*calls, f"stage_{last}", "right_hand_side"]
 
     def _ledger_weights(self) -> tuple[float, ...]:
@@ -110,7 +110,7 @@ class StepRecorder(JudgedStep):
 
     def _tried(self) -> list[tuple[str, Expression]]:
         """Return the length of the step, and what it would be if there were no knots ahead."""
-        v, none = self.variable, self.recorder.constant(0.0)
+        v, none = self.variable, self.tracer.constant(0.0)
         longest = self._longest()
         if not self.knots.clocked:
             return [("tried", select_positive(v("active"), longest, none))]
@@ -239,7 +239,7 @@ class StepRecorder(JudgedStep):
         theta, step = v("theta"), v("tried")
         weights: list[Expression] = []
         for row in self.tableau.dense:
-            total: Expression = self.recorder.constant(0.0)
+            total: Expression = self.tracer.constant(0.0)
             for coefficient in reversed(row):
                 total = (total + coefficient) * theta
             weights.append(total)

@@ -6,7 +6,7 @@ A tape has one statement a line::
     v0 = spread 12          slot 12 of W in one lane, the same at all instants
     v0 = spread 12 45       the same; slot 45 at the last four instants
     v0 = given 12           slot 12 of S
-    v3 = mul v1 0.5         arithmetic: see `solver.kernels.record.operations`
+    v3 = mul v1 0.5         arithmetic: see `solver.kernels.trace.operations`
     store 14 v3             into slot 14 of S, or of W where there is no S
     return v3               the largest of its lanes
 
@@ -44,7 +44,7 @@ from jointplay.solver.kernels.emit.lane_arithmetic import (
     same,
 )
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.record.operations import OPERATIONS
+from jointplay.solver.kernels.trace.operations import OPERATIONS
 
 ARGUMENTS: dict[str, dict[str, str]] = {
     "lanes": {"%W": "ptr"},
@@ -169,8 +169,8 @@ class _Tape:
         marked = lanes.new("load i8, ptr %marks")
         lanes.lines.append(f"store i8 {lanes.new(f'or i8 {marked}, {bits}')}, ptr %marks")
         first = self._place(self.target, slot)
-        place = lanes.new(f"getelementptr i8, ptr {first}, i64 {self.row}")
-        lanes.lines.append(f"store i8 {bits}, ptr {place}")
+        address = lanes.new(f"getelementptr i8, ptr {first}, i64 {self.row}")
+        lanes.lines.append(f"store i8 {bits}, ptr {address}")
 
     def _spread(self, slot: str, later_slot: str = "") -> str:
         lanes, early = self.lanes, self._spread_one(slot)
@@ -184,15 +184,15 @@ class _Tape:
         return lanes.new(f"select i1 {is_early}, {numbers} {early}, {numbers} {late}")
 
     def _place(self, array: str, slot: str) -> str:
-        place = slot.removesuffix("+")
+        offset = slot.removesuffix("+")
         if slot.endswith("+"):
-            place = self.lanes.new(f"add i64 {place}, {self.row}")
+            offset = self.lanes.new(f"add i64 {offset}, {self.row}")
         if self.part:  # only S is loaded from or stored to
-            whole = self.lanes.new(f"mul i64 {place}, {INSTANTS // self.lanes.count}")
-            place = self.lanes.new(f"add i64 {whole}, {self.part}")
-        return self.lanes.new(f"getelementptr {self.lanes.numbers_type}, ptr {array}, i64 {place}")
+            whole = self.lanes.new(f"mul i64 {offset}, {INSTANTS // self.lanes.count}")
+            offset = self.lanes.new(f"add i64 {whole}, {self.part}")
+        return self.lanes.new(f"getelementptr {self.lanes.numbers_type}, ptr {array}, i64 {offset}")
 
     def _spread_one(self, slot: str) -> str:
-        place = self.lanes.new(f"add i64 {int(slot) * self.lanes.count}, %index")
-        place = self.lanes.new(f"getelementptr double, ptr %W, i64 {place}")
-        return everywhere(self.lanes, self.lanes.new(f"load double, ptr {place}"))
+        offset = self.lanes.new(f"add i64 {int(slot) * self.lanes.count}, %index")
+        address = self.lanes.new(f"getelementptr double, ptr %W, i64 {offset}")
+        return everywhere(self.lanes, self.lanes.new(f"load double, ptr {address}"))

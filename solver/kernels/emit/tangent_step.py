@@ -17,8 +17,8 @@ from collections.abc import Sequence
 from jointplay.solver.kernels.emit.emit import lane_function, statements
 from jointplay.solver.kernels.emit.kinks import MEMORY
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.scalars import select_positive
 
 NODES = (0.0, 0.5, 0.75)
@@ -34,14 +34,14 @@ def allocate(layout: Layout, states: int) -> None:
         layout.add_block(name, states)
 
 
-class TangentRecorder:
+class TangentTracer:
     """Records tangent_step(W) and what it calls, for the equations of a scene."""
 
     def __init__(self, equations: Equations, kinks: int, layout: Layout) -> None:
         self.states, self.coordinates = equations.states, len(equations.coordinates)
         self.closed = equations.loops is not None
         self.kinks, self.layout = kinks, layout
-        self.recorder = Recorder()
+        self.tracer = Tracer()
 
     def source(self) -> str:
         """Return the source.
@@ -60,7 +60,7 @@ class TangentRecorder:
 
     def _begin(self) -> str:
         """Stage 0, where the step begins."""
-        v = self.recorder.variable
+        v = self.tracer.variable
         outputs = [("passing_time", v("time"))]
         for i in range(self.states):
             outputs += [(f"passing{i}", v(f"y{i}")), (f"carried{i}", v(f"tangent{i}"))]
@@ -68,7 +68,7 @@ class TangentRecorder:
 
     def _carry(self, s: int) -> str:
         """Stage s: the point that the base passes there, and the tangent carried there."""
-        v = self.recorder.variable
+        v = self.tracer.variable
         half, stage = divmod(s, len(NODES))
         share = 0.5 * (half + NODES[stage])
         outputs = [("passing_time", v("time") + share * v("tried"))]
@@ -89,24 +89,24 @@ class TangentRecorder:
         """Slope of component i at the stage just evaluated: of a coordinate's, its speed's."""
         count = self.coordinates
         name = f"carried{count + i}" if i < count else f"carried_slope{i}"
-        return self.recorder.variable(name)
+        return self.tracer.variable(name)
 
     def _passed(self, share: float, i: int) -> Expression:
         """State i after a share of the step: the cubic through both ends and their slopes."""
-        v, rest = self.recorder.variable, 1.0 - share
+        v, rest = self.tracer.variable, 1.0 - share
         start, end = v(f"y{i}"), v(f"stage{i}")
         first, last = v(f"k1_{i}"), v(f"slope{i}")
         slopes = (share * rest * rest) * first - (share * share * rest) * last
         return start + (share * share * (3.0 - 2.0 * share)) * (end - start) + v("tried") * slopes
 
     def _after_half(self, begun: Expression, i: int) -> Expression:
-        v = self.recorder.variable
+        v = self.tracer.variable
         slopes = [v(f"first_slope{i}"), v(f"second_slope{i}"), self._slope(i)]
         return begun + 0.5 * v("tried") * _sum(WEIGHTS, slopes)
 
     def _arrive(self) -> str:
         """Bring the tangent to the end of the step, in the lanes that take it."""
-        v = self.recorder.variable
+        v = self.tracer.variable
         moved = [(f"tangent{i}", self._after_half(v(f"middle{i}"), i)) for i in range(self.states)]
         moved += [(f"kink_start{i}", v(f"kink_end{i}")) for i in range(MEMORY * self.kinks)]
         taken = [(name, select_positive(v("accept"), new, v(name))) for name, new in moved]

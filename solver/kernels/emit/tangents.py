@@ -28,11 +28,11 @@ from jointplay.solver.kernels.emit.emit import (
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.kinks import Kinks
-from jointplay.solver.kernels.emit.places import OF_TANGENTS
+from jointplay.solver.kernels.emit.slots import OF_TANGENTS
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.derivative import Derivative
-from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.fixed_numbers import FixedNumbers
+from jointplay.solver.kernels.trace.derivative import Derivative
+from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.fixed_numbers import FixedNumbers
 from jointplay.solver.quantities.scalars import select_positive
 
 
@@ -42,7 +42,7 @@ class Tangents:
 
     module: ModuleType
     layout: Layout
-    places: NDArray[np.void]
+    slots: NDArray[np.void]
     """The kernel's, with those of tangents filled in."""
     fixed: FixedNumbers
     """Numbers that depend on those of the scene alone, beyond `Kernel.fixed`."""
@@ -68,18 +68,18 @@ def compile_tangents(kernel: Kernel) -> Tangents:
             kinks.kink_function(bends, layout, fixed),
             slope_function(equations, bends, layout, fixed),
             *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),
-            tangent_step.TangentRecorder(equations, len(bends), layout).source(),
+            tangent_step.TangentTracer(equations, len(bends), layout).source(),
             gap_function(equations, layout, fixed),
         ]
     )
-    places = kernel.places.copy()
+    slots = kernel.slots.copy()
     for name in OF_TANGENTS:
-        places[name] = layout.block(name).start
+        slots[name] = layout.block(name).start
     module = load(source)
     return Tangents(
         module,
         layout,
-        places,
+        slots,
         FixedNumbers({layout[f"fixed{index}"]: node for index, node in fixed.nodes.items()}),
         addresses_of(kernel.module, module),
     )
@@ -99,10 +99,10 @@ def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: Fi
 
     That point has slots of its own: the base's stage holds the state to come.
     """
-    recorder = equations.recorder
-    along = {f"stage{i}": recorder.variable(f"carried{i}") for i in range(equations.states)}
+    tracer = equations.tracer
+    along = {f"stage{i}": tracer.variable(f"carried{i}") for i in range(equations.states)}
     for j in range(len(equations.pairs)):
-        along[f"impact_rate{j}"] = recorder.variable(f"tangent_impact_rate{j}")
+        along[f"impact_rate{j}"] = tracer.variable(f"tangent_impact_rate{j}")
     derivative = Derivative(along)
     kinks.bend(derivative, bends)
     passing = {f"stage{i}": f"passing{i}" for i in range(equations.states)}
@@ -119,15 +119,15 @@ def hold_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> st
     At the state in the base's stage; the change is the least that takes away the derivatives of the
     loops' equations, and of their rates, along the tangent.
     """
-    recorder, loops = equations.recorder, equations.loops
+    tracer, loops = equations.tracer, equations.loops
     assert loops is not None  # noqa: S101  (asked before)
     count = len(equations.coordinates)
-    tangent = [recorder.variable(f"tangent{i}") for i in range(2 * count)]
+    tangent = [tracer.variable(f"tangent{i}") for i in range(2 * count)]
     changes = loops.correction(loops.along(tangent[:count]))
-    turned = [recorder.lift(old + new) for old, new in zip(tangent, changes, strict=False)]
+    turned = [tracer.lift(old + new) for old, new in zip(tangent, changes, strict=False)]
     along = Derivative({f"stage{i}": w for i, w in enumerate([*turned, *tangent[count:]])})
-    changes += loops.correction([along(recorder.lift(row.rate)) for row in loops.rows])
-    taken = recorder.variable("accept")
+    changes += loops.correction([along(tracer.lift(row.rate)) for row in loops.rows])
+    taken = tracer.variable("accept")
     outputs = [
         (f"tangent{i}", select_positive(taken, old + new, old))
         for i, (old, new) in enumerate(zip(tangent, changes, strict=True))
@@ -143,11 +143,11 @@ def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str
     """
     if not equations.gaps:
         return nothing("tangent_gaps")
-    recorder = equations.recorder
+    tracer = equations.tracer
     states = equations.states
-    tangent = Derivative({f"stage{i}": recorder.variable(f"tangent{i}") for i in range(states)})
-    flow = {f"stage{i}": recorder.variable(f"slope{i}") for i in range(states)}
-    motion = Derivative(flow | {"stage_time": recorder.constant(1.0)})
+    tangent = Derivative({f"stage{i}": tracer.variable(f"tangent{i}") for i in range(states)})
+    flow = {f"stage{i}": tracer.variable(f"slope{i}") for i in range(states)}
+    motion = Derivative(flow | {"stage_time": tracer.constant(1.0)})
     outputs = []
     for j, (gap, rate) in enumerate(equations.gaps):
         outputs += [

@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import LENGTH, PERIOD, TIME, Places
+from jointplay.solver.kernels.emit.slots import LENGTH, PERIOD, TIME, Slots
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.periods import set_clock
 from jointplay.solver.kernels.loop.runs import Run
 
 
 @inner_kernel()
-def write_step(row: np.ndarray, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def write_step(row: np.ndarray, lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Write the step that a lane is about to take, as `StepRow` arranges it."""
     columns = at.step_row
     row[PERIOD] = run.periods
@@ -27,7 +27,7 @@ def write_step(row: np.ndarray, lane: int, run: Run, at: Places, work: np.ndarra
 
 
 @inner_kernel()
-def read_step(row: np.ndarray, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def read_step(row: np.ndarray, lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Set a lane to the start of a step, which the next attempt makes again, bit for bit.
 
     Its stage is there, too.
@@ -51,9 +51,7 @@ def read_step(row: np.ndarray, lane: int, run: Run, at: Places, work: np.ndarray
 
 
 @inner_kernel()
-def read_steps(
-    steps: np.ndarray, first: int, runs: np.ndarray, at: Places, work: np.ndarray
-) -> int:
+def read_steps(steps: np.ndarray, first: int, runs: np.ndarray, at: Slots, work: np.ndarray) -> int:
     """Set all lanes to steps from index `first` on, and return how many of them there are.
 
     Lanes for which none is left repeat the last one.

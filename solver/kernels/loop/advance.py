@@ -10,7 +10,7 @@ import numpy as np
 from numba import int64
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.places import PLACES
+from jointplay.solver.kernels.emit.slots import AT
 from jointplay.solver.kernels.jit import deferred
 from jointplay.solver.kernels.loop.events import any_crossing
 from jointplay.solver.kernels.loop.lanes import (
@@ -29,10 +29,10 @@ from jointplay.solver.kernels.loop.step import Group
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
 
-@deferred(int64(ADDRESSES, PLACES, WORK, WORK, RUNS, BUFFERS, int64, int64))
+@deferred(int64(ADDRESSES, AT, WORK, WORK, RUNS, BUFFERS, int64, int64))
 def advance(
     addresses: np.ndarray,
-    places: np.ndarray,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     runs: np.ndarray,
@@ -47,14 +47,14 @@ def advance(
     addresses
         Of the kernel's functions, by name; those of tangents are not called where `buffers` has
         no room for growths.
-    places
-        Where quantities are in `work` and `spare`: one `Places`, in kernels called `at`.
+    slots
+        Where quantities are in `work` and `spare`: one `Slots`, in kernels called `at`.
     work : (slots, lanes)
         All quantities of all lanes.
     spare : (slots, INSTANTS)
         Room for instants inside a step of one lane.
     runs : (lanes,)
-        Record of each lane's run.
+        Each lane's run.
     buffers
         Rows that are handed out.
     watch
@@ -65,7 +65,7 @@ def advance(
     int
         How many attempts were made.
     """
-    call, at = functions_at(addresses[0]), places[0]
+    call, at = functions_at(addresses[0]), slots[0]
     work, spare, runs = unowned(work), unowned(spare), unowned(runs)
     group = Group(runs, at, work, spare, unowned(buffers.table), addresses[0])
     marked = unowned(work.reshape(work.size).view(np.uint64))

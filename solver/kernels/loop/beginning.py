@@ -1,4 +1,4 @@
-"""Evaluates a lane's start: first slopes, contacts that begin closed, first records, tangent."""
+"""Evaluates a lane's start: first slopes, contacts that begin closed, first extremes, tangent."""
 
 import math
 
@@ -25,7 +25,7 @@ CLOSING_STEPS = 8
 def begin(
     lane: Lane, problem: LaneProblem, resting: Floats, obstructed: bool | Flags = False
 ) -> None:
-    """Evaluate a lane's start: first slopes, contacts that begin closed, first records.
+    """Evaluate a lane's start: first slopes, contacts that begin closed, first extremes.
 
     Or that of all lanes of a work array; then `resting`, m/s as `resting_rates` returns them, is
     (pairs, lanes), and `obstructed`, where no tangent can follow, (lanes,).
@@ -53,8 +53,8 @@ def begin(
     lane["resumed"] = lane["gross"] = 0.0
     module.observe(lane.work)
     rows = lane.kernel.rows.scanned
-    for record in ("previous", "highest", "lowest"):
-        lane[record] = lane["channel"][:rows]
+    for kind in ("previous", "highest", "lowest"):
+        lane[kind] = lane["channel"][:rows]
     lane["highest_time"] = lane["lowest_time"] = 0.0
     lane["change"] = math.nan
     lane["lowest"][rows - len(floor) :] = -math.inf
@@ -92,11 +92,11 @@ def _start_tangent(lane: Lane, obstructed: bool | Flags) -> None:
     assert lane.tangents is not None  # noqa: S101  (asked before)
     columns = range(lane.work.shape[1])
     for index in columns[lane.index] if isinstance(lane.index, slice) else (lane.index,):
-        start_tangent(index, lane.places[0], lane.work)
+        start_tangent(index, lane.slots[0], lane.work)
     lane.tangents.module.kinks(lane.work)
     lane["kink_start"] = lane["kink_end"]
     if lane.kernel.equations.loops is not None:
-        accepting = lane.work[lane.places[0]["accept"]]
+        accepting = lane.work[lane.slots[0]["accept"]]
         others = accepting.copy()
         accepting[:] = 0.0
         lane["accept"] = 1.0

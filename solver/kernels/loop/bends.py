@@ -8,7 +8,7 @@ is smooth.
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.cuts_at_bends import MOST_PLACES, find_cuts, has_bend
+from jointplay.solver.kernels.loop.cuts_at_bends import MOST_INSTANTS, find_cuts, has_bend
 from jointplay.solver.kernels.loop.inner_peaks import place_evenly
 from jointplay.solver.kernels.loop.looks_into_steps import look_at_suspects
 from jointplay.solver.kernels.loop.step import Step, channels_within
@@ -19,7 +19,7 @@ SWAY = 2.0
 
 @inner_kernel()
 def find_in_reach(s: Step, found: np.ndarray) -> int:
-    """Write the rows that friction may bring to a record in this step. Returns how many.
+    """Write the rows that friction may bring to a new extreme in this step. Returns how many.
 
     It is as large as the normal force allows, and so it was where that was largest.
     """
@@ -45,7 +45,7 @@ def look_between_bends(chosen: np.ndarray, low: float, high: float, s: Step) -> 
     """Seek extremes of chosen rows between two shares, from one passage of a bend to the next."""
     if len(chosen) == 0:
         return
-    cuts, begin = np.empty((MOST_PLACES + 1, 2)), low
+    cuts, begin = np.empty((MOST_INSTANTS + 1, 2)), low
     count = find_cuts(low, high, s, cuts)
     cuts[count] = high
     for end, behind in cuts[: count + 1]:

@@ -18,7 +18,7 @@ from jointplay.solver.kernels.loop.periods import PACE_STEPS, set_clock, set_clo
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, SectionKind
 from jointplay.solver.kernels.loop.start import mechanism_size, start_state
-from jointplay.solver.kernels.record.equations import KEEPS_LEDGER
+from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER
 from jointplay.solver.mechanics.assembly import assemble, shortest_link, start_of
 from jointplay.solver.mechanics.impact_floors import impact_floor
 from jointplay.solver.quantities.scalars import greatest, least, minimum, sqrt
@@ -158,7 +158,7 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
 
 
 def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> None:
-    """Set a lane's time, its run's record, and what falls due when."""
+    """Set a lane's time, its run, and what falls due when."""
     scene = problem.scene
     since = 0.0 if problem.start is None else problem.start.time
     for name in ("memory", "steps", "tried", "before_step"):
@@ -186,11 +186,11 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     run["smallest_step"] = SMALLEST_STEP * period
     run["next"][..., SAMPLES], run["stop"][..., SAMPLES] = problem.first_sample, problem.samples
     run["next"][..., SECTIONS], run["stop"][..., SECTIONS] = problem.first_section, problem.sections
-    run["section_kind"], run["section_place"] = event.kind, event.place
+    run["section_kind"], run["section_index"] = event.kind, event.index
     run["section_value"], run["section_sense"] = event.value, event.sense
     run["section_turn"] = event.turn
     run["section_from"], run["section_offset"] = event.not_before, problem.section_offset
     if isinstance(lane.index, slice):
-        set_clocks(lane.places, lane.work, run)
+        set_clocks(lane.slots, lane.work, run)
     else:
-        set_clock(lane.index, run, lane.places[0], lane.work)
+        set_clock(lane.index, run, lane.slots[0], lane.work)

@@ -1,4 +1,4 @@
-"""Book of a bin: records of all rows of the channel block, and what is known of each beforehand.
+"""Book of a bin: extremes of all rows of the channel block, and what is known of each beforehand.
 
 An array (`LINES`, width): a column for each row, and some more that make the width a multiple of
 eight. Of a row that nobody asks for, no value is ever a new extreme.
@@ -14,7 +14,7 @@ from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 
 LOWEST, LOWEST_TIME, HIGHEST, HIGHEST_TIME = range(4)
-"""Lines of a book, and columns of a record in the order of `jointplay.records.peak.PEAK`."""
+"""Lines of a book, and columns of an extreme in the order of `jointplay.records.peak.PEAK`."""
 RANGE = 4
 """Line of each channel's range as far as it is known: extremes are sharp against that."""
 ROUNDING = 5
@@ -35,21 +35,21 @@ def blank_book(rows: int, wanted: NDArray[np.int64], ranges: Floats) -> Floats:
 
 
 @inner_kernel()
-def close_bin(book: np.ndarray, rows: np.ndarray, record: np.ndarray) -> None:
-    """Write the records (channels, 4) of wanted rows, and let these begin a new bin."""
-    write_bin(book, rows, record)
+def close_bin(book: np.ndarray, rows: np.ndarray, extremes: np.ndarray) -> None:
+    """Write the extremes (channels, 4) of wanted rows, and let these begin a new bin."""
+    write_bin(book, rows, extremes)
     for r in rows:
         book[RANGE, r] = max(book[RANGE, r], book[HIGHEST, r] - book[LOWEST, r])
         book[LOWEST, r], book[HIGHEST, r] = math.inf, -math.inf
 
 
 @inner_kernel()
-def write_bin(book: np.ndarray, rows: np.ndarray, record: np.ndarray) -> None:
-    """Write the records (channels, 4) of wanted rows, if they have any."""
+def write_bin(book: np.ndarray, rows: np.ndarray, extremes: np.ndarray) -> None:
+    """Write the extremes (channels, 4) of wanted rows, if they have any."""
     for c in range(len(rows)):
         if book[LOWEST, rows[c]] <= book[HIGHEST, rows[c]]:
             for line in range(RANGE):
-                record[c, line] = book[line, rows[c]]
+                extremes[c, line] = book[line, rows[c]]
 
 
 @inner_kernel()

@@ -1,26 +1,26 @@
-"""Brackets of steps in which extremes are sought: records of a table of numbers.
+"""Brackets of steps in which extremes are sought: rows of a table of numbers.
 
-A bracket is a channel, a sense, five equally spaced places of the step before or of this one, the
+A bracket is a channel, a sense, five equally spaced nodes of the step before or of this one, the
 values there, and where the extreme is by them (`solver.kernels.loop.extreme`).
 """
 
 STRIDE = 20
 """From a bracket of a table to the next."""
 ROW, SENSE, IN_THIS, START, SPACING, VALUES = 0, 1, 2, 3, 4, 5
-"""Columns of a bracket: channel, sense, 1 in this step and 0 in the one before, first place and
-distance of places in shares of that step, values."""
-PLACE, VALUE, ERROR, BENT = 10, 11, 12, 13
+"""Columns of a bracket: channel, sense, 1 in this step and 0 in the one before, first node and
+distance of nodes in shares of that step, values."""
+ABSCISSA, VALUE, ERROR, BENT = 10, 11, 12, 13
 """Results of `extreme`."""
 COLUMN, FOUND = 14, 15
-"""Where the channel is evaluated at that place, and its value there."""
+"""Where the channel is evaluated there, and its value there."""
 ROUNDS = 16
 """Number of times that a bracket was narrowed."""
 BEST = 17
-"""Place about which the extreme is sought: no value beside it is beyond its own."""
+"""Node about which the extreme is sought: no value beside it is beyond its own."""
 CLOSER, BRACKETS = 0, STRIDE
 """Where a table has the values of a closer look, and its brackets from."""
 MOST = 20
-"""Brackets of a channel: eight instants, twice; or five places of four parts of two steps."""
+"""Brackets of a channel: eight instants, twice; or five nodes of four parts of two steps."""
 
 
 def size_of_table(rows: int) -> int:

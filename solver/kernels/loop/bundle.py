@@ -29,7 +29,7 @@ from jointplay.solver.scene.references import tangent_obstacle
 
 Floats = NDArray[np.float64]
 LaneState = tuple[Floats, Any, Floats]
-"""A lane's numbers (slots,), its record, of type `Run`, and its first energies (3,), J."""
+"""A lane's numbers (slots,), its run, and its first energies (3,), J."""
 
 ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
@@ -136,7 +136,7 @@ class Bundle:
     def take_up(self, i: int, column: Floats, run: Any, first_energy: Floats) -> None:
         """Give a lane that does not run the state of another, wherever that was, bit for bit.
 
-        column : (slots,). run : record of type `Run`. first_energy : (3,) J.
+        column : (slots,). run : of type `Run`. first_energy : (3,) J.
         """
         group, index = divmod(i, self.width)
         self.groups[group].work[:, index] = column
@@ -181,8 +181,8 @@ class Bundle:
         lane["end"] = product_difference(duration, 1.0, whole, period)
         lane.run["stop"][SECTIONS] = sections
         if forget:
-            for record in ("highest", "lowest"):
-                lane[record], lane[f"{record}_time"] = lane["previous"], lane.time
+            for kind in ("highest", "lowest"):
+                lane[kind], lane[f"{kind}_time"] = lane["previous"], lane.time
             lane["change"] = math.nan
             # no change is known before the next step: a long one could hide an extreme
             lane["step"] = FIRST_STEP * lane.run["unit"]
@@ -193,7 +193,7 @@ class Bundle:
         lane = self.lane(i)
         lane.run["status"] = Status.RUNNING
         lane["active"] = 1.0
-        arguments = (lane.index, lane.run, lane.places[0], lane.work)
+        arguments = (lane.index, lane.run, lane.slots[0], lane.work)
         for kind in (SAMPLES, SECTIONS):
             look_ahead(kind, *arguments)
         lane["next_due"] = -math.inf  # the first step is looked at, whatever is due in it
@@ -229,7 +229,7 @@ class Bundle:
         """
         tangents = self.tangents
         addresses = self.kernel.addresses if tangents is None else tangents.addresses
-        places = self.kernel.places if tangents is None else tangents.places
+        slots = self.kernel.slots if tangents is None else tangents.slots
         for name in ("filled", "impacts", "growths", "kept"):
             self.runs[name] = 0
         goal = self.attempts + budget
@@ -238,7 +238,7 @@ class Bundle:
                 group.work[self.kernel.layout["seeks_extremes"]] = float(self.watch)
                 group.attempts += advance(
                     addresses,
-                    places,
+                    slots,
                     group.work,
                     self.spare,
                     group.runs,
@@ -278,7 +278,7 @@ class Bundle:
         out = np.empty((len(rows), len(columns)))
         blank = self.spare.reshape(-1)[: kernel.layout.size * self.width].reshape(-1, self.width)
         observe_rows(
-            kernel.addresses, kernel.places, lane.work, blank, lane.index, rows, columns, out
+            kernel.addresses, kernel.slots, lane.work, blank, lane.index, rows, columns, out
         )
         return out
 

@@ -11,15 +11,15 @@ from jointplay.solver.kernels.layout import BENDS, INSTANTS
 from jointplay.solver.kernels.loop.step import Step, gaps_within
 
 TURNS = 2
-"""Rounds in which places are added to either side of one where a slip turns near a bend."""
+"""Rounds in which instants are added to either side of one where a slip turns near a bend."""
 MOST_ROUNDS = 12
 """Rounds in which the interval of a passage becomes shorter, mostly by two orders of magnitude."""
 SAME = 1e-8
-"""Share of a step: places closer than that are one. To one side of a bend friction is flat."""
+"""Share of a step: instants closer than that are one. To one side of a bend friction is flat."""
 CLOSE, WIDE = 1e-4, 0.1
-"""Places beside the one where a straight line meets a bend, in widths of the interval: as far as
+"""Instants beside the one where a straight line meets a bend, in widths of the interval: as far as
 the line errs, which is less in a shorter interval, and to be sure."""
-MOST_PLACES = 256
+MOST_INSTANTS = 256
 
 
 @inner_kernel(borrows=True)
@@ -52,10 +52,11 @@ def has_bend(j: int, s: Step) -> bool:
 def find_cuts(low: float, high: float, s: Step, cuts: np.ndarray) -> int:
     """Find where slips pass bends between two shares of a step, in the order of time.
 
-    cuts : (MOST_PLACES, 2)
+    cuts : (MOST_INSTANTS, 2)
         Where the shares just before and just behind each bend are written. Returns how many.
     """
-    shares, slips, wanted = np.empty(MOST_PLACES), np.empty(MOST_PLACES), np.empty(MOST_PLACES)
+    shares, slips = np.empty(MOST_INSTANTS), np.empty(MOST_INSTANTS)
+    wanted = np.empty(MOST_INSTANTS)
     found = 0
     for j in range(s.at.pairs):
         if not has_bend(j, s):
@@ -73,11 +74,11 @@ def find_cuts(low: float, high: float, s: Step, cuts: np.ndarray) -> int:
                         wanted[first + i], s.spare[s.at.slip + j, i], shares, slips, count
                     )
             more = want_more(turn < TURNS, shares, slips, count, j, s, wanted)
-            if more == 0 or count + more > MOST_PLACES:
+            if more == 0 or count + more > MOST_INSTANTS:
                 break
         for i in range(1, count):
             below = bends_below(slips[i - 1], j, s)
-            if below != bends_below(slips[i], j, s) and found < MOST_PLACES:
+            if below != bends_below(slips[i], j, s) and found < MOST_INSTANTS:
                 insert(shares[i - 1], shares[i], cuts[:, 0], cuts[:, 1], found)
                 found += 1
     return found
@@ -104,7 +105,7 @@ def want_more(
     s: Step,
     wanted: np.ndarray,
 ) -> int:
-    """Write places next to those where a slip passes a bend, or turns near one.
+    """Write instants next to those where a slip passes a bend, or turns near one.
 
     Returns how many.
     """
@@ -119,7 +120,7 @@ def want_more(
                 for sense in (1.0, -1.0):
                     bend = sense * s.work[s.at.bend + k, s.lane]
                     between = (bend - slips[i]) * (bend - slips[right]) <= 0.0
-                    if between and width > SAME and more + 4 <= MOST_PLACES:
+                    if between and width > SAME and more + 4 <= MOST_INSTANTS:
                         share = (bend - slips[i]) / (slips[right] - slips[i])
                         near = min(max(CLOSE, 0.5 * width), 0.5 * WIDE)
                         for beside in (-WIDE, -near, near, WIDE):
@@ -129,7 +130,7 @@ def want_more(
         rise, fall = slips[i] - slips[left], slips[i] - slips[right]
         reached = nearest_bend(slips[i], j, s) < abs(rise) + abs(fall)
         same = bends_below(slips[left], j, s) == below == behind
-        if turning and rise * fall >= 0.0 and reached and same and more + 6 <= MOST_PLACES:
+        if turning and rise * fall >= 0.0 and reached and same and more + 6 <= MOST_INSTANTS:
             for k in range(1, 4):
                 wanted[more] = shares[left] + 0.25 * k * (shares[i] - shares[left])
                 wanted[more + 1] = shares[i] + 0.25 * k * width

@@ -4,7 +4,7 @@ import numpy as np
 from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.places import PERIOD, PLACES, TIME, Places
+from jointplay.solver.kernels.emit.slots import AT, PERIOD, TIME, Slots
 from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.periods import due_time
@@ -14,7 +14,7 @@ from jointplay.solver.kernels.loop.step import Step, states_within
 
 @inner_kernel()
 def write_row(
-    row: np.ndarray, i: int, lane: int, run: Run, at: Places, work: np.ndarray, source: np.ndarray
+    row: np.ndarray, i: int, lane: int, run: Run, at: Slots, work: np.ndarray, source: np.ndarray
 ) -> None:
     """Write the dense state in column i of `source`, a lane's, as `DenseRow` arranges it."""
     row[PERIOD] = run.periods
@@ -30,7 +30,7 @@ def write_row(
 
 
 @inner_kernel()
-def read_row(row: np.ndarray, i: int, at: Places, target: np.ndarray) -> None:
+def read_row(row: np.ndarray, i: int, at: Slots, target: np.ndarray) -> None:
     """Set column i of a work array to a dense state."""
     target[at.stage_time, i] = row[TIME]
     for k in range(at.clocks):
@@ -76,10 +76,10 @@ def hand_out(s: Step, rows: np.ndarray) -> bool:
     return False
 
 
-@deferred(void(ADDRESSES, PLACES, WORK, WORK, int64, float64[:, ::1], int64[::1], float64[:, ::1]))
+@deferred(void(ADDRESSES, AT, WORK, WORK, int64, float64[:, ::1], int64[::1], float64[:, ::1]))
 def observe_rows(
     addresses: np.ndarray,
-    places: np.ndarray,
+    slots: np.ndarray,
     work: np.ndarray,
     blank: np.ndarray,
     lane: int,
@@ -100,7 +100,7 @@ def observe_rows(
     out : (count, channels)
         In the channels' units.
     """
-    call, at = functions_at(addresses[0]), places[0]
+    call, at = functions_at(addresses[0]), slots[0]
     lanes = blank.shape[1]
     for s in range(at.numbers, at.size):
         for i in range(lanes):

@@ -12,7 +12,7 @@ from numba.core import cgutils
 
 from jointplay.solver.kernels.layout import INSTANTS
 
-NUMBER, WORD, PLACE = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
+NUMBER, WORD, INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
 EIGHT = ir.VectorType(NUMBER, INSTANTS)
 ALIGNED = 8
 
@@ -25,16 +25,16 @@ class Eights:
 
     def channels(self, values, row):
         """Return eight channels, from a slot on, at each of eight instants: (slots, INSTANTS)."""
-        places = (self.builder.add(row, WORD(k)) for k in range(INSTANTS))
-        offsets = (self.builder.mul(place, WORD(INSTANTS)) for place in places)
+        rows = (self.builder.add(row, WORD(k)) for k in range(INSTANTS))
+        offsets = (self.builder.mul(one, WORD(INSTANTS)) for one in rows)
         return _transposed(self.builder, [self.load(values, offset) for offset in offsets])
 
     def column(self, values, first, width):
         """Return eight numbers, `width` apart."""
         b, found = self.builder, ir.Constant(EIGHT, ir.Undefined)
         for k in range(INSTANTS):
-            place = b.gep(values, [b.add(first, b.mul(width, WORD(k)))])
-            found = b.insert_element(found, b.load(place, align=ALIGNED), PLACE(k))
+            address = b.gep(values, [b.add(first, b.mul(width, WORD(k)))])
+            found = b.insert_element(found, b.load(address, align=ALIGNED), INDEX(k))
         return found
 
     def load(self, values, offset):
@@ -60,8 +60,8 @@ class Eights:
     def first(self, count):
         """Return where the first numbers are, so many."""
         words = ir.VectorType(WORD, INSTANTS)
-        places = ir.Constant(words, list(range(INSTANTS)))
-        return self.builder.icmp_signed("<", places, self._everywhere(words, count))
+        columns = ir.Constant(words, list(range(INSTANTS)))
+        return self.builder.icmp_signed("<", columns, self._everywhere(words, count))
 
     def largest(self, x):
         """Return the largest of eight numbers."""
@@ -104,14 +104,14 @@ class Eights:
 
     def _everywhere(self, kind, one):
         undefined = ir.Constant(kind, ir.Undefined)
-        alone = self.builder.insert_element(undefined, one, PLACE(0))
+        alone = self.builder.insert_element(undefined, one, INDEX(0))
         return self.builder.shuffle_vector(alone, undefined, _order([0] * INSTANTS))
 
     def _one(self, combine, x):
         for half in (4, 2, 1):
             order = _order([k ^ half for k in range(INSTANTS)])
             x = combine(x, self.builder.shuffle_vector(x, x, order))
-        return self.builder.extract_element(x, PLACE(0))
+        return self.builder.extract_element(x, INDEX(0))
 
     def _pointer(self, values, offset):
         return self.builder.bitcast(self.builder.gep(values, [offset]), EIGHT.as_pointer())
@@ -132,5 +132,5 @@ def _transposed(builder, rows):
     return rows
 
 
-def _order(places: list[int]) -> Any:
-    return ir.Constant(ir.VectorType(PLACE, len(places)), places)
+def _order(order: list[int]) -> Any:
+    return ir.Constant(ir.VectorType(INDEX, len(order)), order)

@@ -2,7 +2,7 @@
 
 An angle crosses a value once a turn: its levels are a whole turn apart. Whether a channel may cross
 within a step is judged by its changes in this step and the one before. Where it may, it is looked
-at in eight places and about each passage of a journal by the centre of its bearing, and more
+at eight instants and about each passage of a journal by the centre of its bearing, and more
 closely where it turns near a level.
 """
 
@@ -23,12 +23,12 @@ LEVELS = 14
 REACH = 2.0
 """Changes of a channel in this step and the last one, by which it may be away in between."""
 ROUNDS = 4
-"""Each adds three places to either side of one where a channel turns near a level."""
-MOST_PLACES = 128
+"""Each adds three instants to either side of one where a channel turns near a level."""
+MOST_INSTANTS = 128
 MOST_IN_A_STEP = 64
 """Sections in a step: as much room is left in a buffer."""
 SAME = 1e-12
-"""Share of a step: places closer than that are one."""
+"""Share of a step: instants closer than that are one."""
 
 
 @inner_kernel()
@@ -101,14 +101,14 @@ def may_cross(s: Step) -> bool:
     lane, run, at, work = s.lane, s.run, s.at, s.work
     if run.section_kind != SectionKind.CROSSING:
         return False
-    place = run.section_place
-    if place >= at.rows or int(work[at.flag, lane]) & PASSING:
+    index = run.section_index
+    if index >= at.rows or int(work[at.flag, lane]) & PASSING:
         return True
-    before = height(work[at.previous + place, lane], run)
-    now = height(work[at.channel + place, lane], run)
+    before = height(work[at.previous + index, lane], run)
+    now = height(work[at.channel + index, lane], run)
     if level(before, run) != level(now, run):
         return True
-    reach = REACH * (abs(now - before) + abs(work[at.change + place, lane]))
+    reach = REACH * (abs(now - before) + abs(work[at.change + index, lane]))
     nearest = min(
         min(above(before, run), below(before, run)), min(above(now, run), below(now, run))
     )
@@ -119,8 +119,8 @@ def may_cross(s: Step) -> bool:
 def record_crossings(s: Step, rows: np.ndarray) -> bool:
     """Write a section for each crossing inside the step. Returns whether the buffer is full now."""
     run = s.run
-    shares, heights = np.empty(MOST_PLACES), np.empty(MOST_PLACES)
-    count = places_to_look_at(s, shares)
+    shares, heights = np.empty(MOST_INSTANTS), np.empty(MOST_INSTANTS)
+    count = instants_to_look_at(s, shares)
     look_at(shares, count, heights, s)
     for _ in range(ROUNDS):
         more = refined(shares, heights, count, run)
@@ -141,7 +141,7 @@ def record_crossings(s: Step, rows: np.ndarray) -> bool:
 
 
 @inner_kernel()
-def places_to_look_at(s: Step, shares: np.ndarray) -> int:
+def instants_to_look_at(s: Step, shares: np.ndarray) -> int:
     """Set the shares of the step at which to look first, in their order.
 
     Returns how many there are.
@@ -150,7 +150,7 @@ def places_to_look_at(s: Step, shares: np.ndarray) -> int:
         shares[i] = i / (INSTANTS - 1)
     count = INSTANTS
     for j in range(s.at.pairs):
-        if passes(j, s) and count + INSTANTS <= MOST_PLACES // 4:
+        if passes(j, s) and count + INSTANTS <= MOST_INSTANTS // 4:
             share, width = closest_approach(j, s)
             place_about(share, width, s)
             for i in range(INSTANTS):
@@ -176,22 +176,22 @@ def ordered(shares: np.ndarray, count: int) -> int:
 def look_at(shares: np.ndarray, count: int, heights: np.ndarray, s: Step) -> None:
     """Evaluate a section's channel at shares of the step; its ends are those of other steps."""
     lane, run, at, work = s.lane, s.run, s.at, s.work
-    place = run.section_place
+    index = run.section_index
     for first in range(0, count, INSTANTS):
         many = min(INSTANTS, count - first)
         for i in range(INSTANTS):
             s.spare[at.theta, i] = shares[first + min(i, many - 1)]
         channels_within(s)
         for i in range(many):
-            heights[first + i] = height(s.spare[at.channel + place, i], run)
-    if place < at.rows:
-        heights[0] = height(work[at.previous + place, lane], run)
-        heights[count - 1] = height(work[at.channel + place, lane], run)
+            heights[first + i] = height(s.spare[at.channel + index, i], run)
+    if index < at.rows:
+        heights[0] = height(work[at.previous + index, lane], run)
+        heights[count - 1] = height(work[at.channel + index, lane], run)
 
 
 @inner_kernel()
 def refined(shares: np.ndarray, heights: np.ndarray, count: int, run: Run) -> int:
-    """Add places next to those where a channel may turn at a level.
+    """Add instants next to those where a channel may turn at a level.
 
     Returns how many there are now.
     """
@@ -203,7 +203,7 @@ def refined(shares: np.ndarray, heights: np.ndarray, count: int, run: Run) -> in
         top = rise >= 0.0 and fall >= 0.0 and above(heights[i], run) < near
         bottom = rise <= 0.0 and fall <= 0.0 and below(heights[i], run) < near
         same = level(heights[left], run) == level(heights[i], run) == level(heights[right], run)
-        if (top or bottom) and same and total + 6 <= MOST_PLACES:
+        if (top or bottom) and same and total + 6 <= MOST_INSTANTS:
             for k in range(1, 4):
                 shares[total] = shares[left] + 0.25 * k * (shares[i] - shares[left])
                 shares[total + 1] = shares[i] + 0.25 * k * (shares[right] - shares[i])
@@ -226,7 +226,7 @@ def locate(wanted: float, low: float, high: float, s: Step) -> int:
         channels_within(s)
         found = INSTANTS - 1
         for i in range(INSTANTS):
-            if level(height(s.spare[s.at.channel + run.section_place, i], run), run) >= wanted:
+            if level(height(s.spare[s.at.channel + run.section_index, i], run), run) >= wanted:
                 found = i
                 break
         low, high = low + width * found, low + width * (found + 1)

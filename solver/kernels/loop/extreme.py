@@ -1,16 +1,16 @@
-"""The extreme of a function that is known at five equally spaced places: where a quartic turns."""
+"""The extreme of a function that is known at five equally spaced nodes: where a quartic turns."""
 
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel, kernel
 
-PLACES = 5
-MIDDLE, LAST = 2, PLACES - 1
+NODES = 5
+MIDDLE, LAST = 2, NODES - 1
 MOST_ITERATIONS = 8
 CLOSE = 1e-3
-"""Change of a place, in spacings, that ends the search: a value changes by its square."""
+"""Change of the abscissa, in spacings, that ends the search: a value changes by its square."""
 DOUBT = 0.1
-"""Weight of the term that is left out: three times the most that it is between five places."""
+"""Weight of the term that is left out: three times the most that it is between five nodes."""
 ROUGH = 0.25
 """Ratio of differences, from one order to the next but one, beyond which no quartic is trusted."""
 STEEP = 10.0
@@ -18,22 +18,22 @@ STEEP = 10.0
 LEFT_OUT = 4.0
 """Slope of what a quartic leaves out, by its value, if not larger."""
 BESIDE = 1e-6
-"""Distance from one of the places at which what is left out there is nothing but rounding."""
+"""Distance from one of the nodes at which what is left out there is nothing but rounding."""
 TINY = 1e-300
 TWELFTH = 1.0 / 12.0
 
 
 @kernel()
 def extreme(
-    table: np.ndarray, first: int, best: int, sense: float, record: float
+    table: np.ndarray, first: int, best: int, sense: float, so_far: float
 ) -> tuple[float, float, float, float]:
-    """Return the extreme (sense 1: maximum, -1: minimum) of a function about one of five places.
+    """Return the extreme (sense 1: maximum, -1: minimum) of a function about one of five nodes.
 
-    The values are at `first` of the table; none beside that at the place `best` is beyond it.
-    Where the extreme is, in spacings from the first place; its value; a bound on the value's error;
+    The values are at `first` of the table; none beside that at the node `best` is beyond it.
+    Where the extreme is, in spacings from the first node; its value; a bound on the value's error;
     and the second difference there. A sample that nothing surpasses is as it is, and the bound then
-    tells how far the function may go beyond it. What does not come near a `record` is not looked
-    for.
+    tells how far the function may go beyond it. What does not come near that `so_far` is not
+    looked for.
     """
     middle = table[first + MIDDLE]
     odd = table[first + 3] - table[first + 1]
@@ -47,7 +47,7 @@ def extreme(
     second, third, fourth = 2.0 * abs(bend) + TINY, abs(6.0 * twist), abs(24.0 * curl)
     shrinking = max(fourth / (second + third), third / (second + abs(slope)))
     error = DOUBT * (second + third) * shrinking * np.sqrt(shrinking)
-    sample, place = table[first + best], float(best - MIDDLE)
+    sample, abscissa = table[first + best], float(best - MIDDLE)
     if shrinking > ROUGH:  # maybe a corner: it goes on as steeply as to either side at most
         inner = first + min(max(best, 1), LAST - 1)
         rise, fall = table[inner] - table[inner - 1], table[inner] - table[inner + 1]
@@ -56,38 +56,38 @@ def extreme(
     if rests:
         return float(best), sample, 0.0, second
     if best in (0, LAST):
-        rate = slope + place * (2.0 * bend + place * (3.0 * twist + place * 4.0 * curl))
-        if sense * place * rate > STEEP * error:
+        rate = slope + abscissa * (2.0 * bend + abscissa * (3.0 * twist + abscissa * 4.0 * curl))
+        if sense * abscissa * rate > STEEP * error:
             return float(best), sample, 0.0, second
-    if not sense * sample + second + error > sense * record:
+    if not sense * sample + second + error > sense * so_far:
         return float(best), sample, error, second
     low, high = max(best - 1, 0) - MIDDLE, min(best + 1, LAST) - MIDDLE
     for _ in range(MOST_ITERATIONS):
-        rate = slope + place * (2.0 * bend + place * (3.0 * twist + place * 4.0 * curl))
-        bent = 2.0 * bend + place * (6.0 * twist + place * 12.0 * curl)
+        rate = slope + abscissa * (2.0 * bend + abscissa * (3.0 * twist + abscissa * 4.0 * curl))
+        bent = 2.0 * bend + abscissa * (6.0 * twist + abscissa * 12.0 * curl)
         if not sense * bent < 0.0:
             return float(best), sample, error, second
-        before = place
-        place = min(max(place - rate / bent, low), high)
-        if abs(place - before) < CLOSE:
+        before = abscissa
+        abscissa = min(max(abscissa - rate / bent, low), high)
+        if abs(abscissa - before) < CLOSE:
             break
-    value = middle + place * (slope + place * (bend + place * (twist + place * curl)))
-    if abs(place) == MIDDLE:
+    value = middle + abscissa * (slope + abscissa * (bend + abscissa * (twist + abscissa * curl)))
+    if abs(abscissa) == MIDDLE:
         value = sample
-    return place + MIDDLE, value, error, abs(bent)
+    return abscissa + MIDDLE, value, error, abs(bent)
 
 
 @kernel()
-def slope_left_out(place: float, off: float) -> float:
-    """Return the slope of what a quartic leaves out, by how much that is at a place.
+def slope_left_out(abscissa: float, off: float) -> float:
+    """Return the slope of what a quartic leaves out, by how much that is at an abscissa.
 
-    Mostly that is a multiple of the quintic with roots at the five places: next to one of them it
+    Mostly that is a multiple of the quintic with roots at the five nodes: next to one of them it
     is small, however steep.
     """
     steeper = 0.0
-    for i in range(PLACES):
-        if abs(place - i) > BESIDE:
-            steeper += 1.0 / (place - i)
+    for i in range(NODES):
+        if abs(abscissa - i) > BESIDE:
+            steeper += 1.0 / (abscissa - i)
     return off * max(abs(steeper), LEFT_OUT)
 
 

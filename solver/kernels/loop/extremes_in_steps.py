@@ -6,7 +6,7 @@ import numpy as np
 from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.places import PLACES
+from jointplay.solver.kernels.emit.slots import AT
 from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
@@ -34,7 +34,7 @@ from jointplay.solver.kernels.loop.suspects import Part, find_suspects
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
 MOTION = 6
-"""Numbers of a journal's motion: place, rate, acceleration."""
+"""Numbers of a journal's motion: position, rate, acceleration."""
 
 
 @inner_kernel()
@@ -51,8 +51,8 @@ def remember_start(s: Step) -> None:
 
 
 @inner_kernel()
-def load_records(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
-    """Set a lane's records of chosen rows to those of a book, and their ranges."""
+def load_extremes(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
+    """Set a lane's extremes of chosen rows to those of a book, and their ranges."""
     lane, at, work = s.lane, s.at, s.work
     for r in chosen:
         work[at.known_range + r, lane] = book[RANGE, r]
@@ -63,8 +63,8 @@ def load_records(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
 
 
 @inner_kernel()
-def store_records(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
-    """Set a book's records to those that a lane has of chosen rows."""
+def store_extremes(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
+    """Set a book's extremes to those that a lane has of chosen rows."""
     lane, at, work = s.lane, s.at, s.work
     for r in chosen:
         book[LOWEST, r] = work[at.lowest + r, lane]
@@ -128,7 +128,7 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
     chosen = wanted.every if passing or bending else wanted.suspects[:behind]
     if len(chosen) == 0:
         return
-    load_records(chosen, book, s)
+    load_extremes(chosen, book, s)
     behind = find_cornered(chosen, s, book, wanted.cornered)
     look_at_suspects(chosen, low, high, s)
     if behind > 0 and high > low:
@@ -137,18 +137,18 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
         look_about_passages(wanted.every, low, high, s)
     if bending and high > low:
         look_between_bends(wanted.every, low, high, s)
-    store_records(chosen, book, s)
+    store_extremes(chosen, book, s)
 
 
 @deferred(
     void(
-        *(ADDRESSES, PLACES, WORK, WORK, RUNS, float64[::1], float64[:, ::1], int64[:, ::1]),
+        *(ADDRESSES, AT, WORK, WORK, RUNS, float64[::1], float64[:, ::1], int64[:, ::1]),
         *(float64[:, ::1], int64[::1], float64, float64[:, ::1], float64[:, :, ::1]),
     )
 )
 def extremes_in_steps(
     addresses: np.ndarray,
-    places: np.ndarray,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     runs: np.ndarray,
@@ -159,7 +159,7 @@ def extremes_in_steps(
     rows: np.ndarray,
     sharp: float,
     book: np.ndarray,
-    records: np.ndarray,
+    extremes: np.ndarray,
 ) -> None:
     """Seek extremes of channels in parts of steps, and keep those of each bin.
 
@@ -181,10 +181,10 @@ def extremes_in_steps(
         Share of its range by which an extreme may be off unseen; 0: it is evaluated where it is.
     book
         See `solver.kernels.loop.book`: of bin 0 so far, then of the last one.
-    records : (bins, channels, 4)
+    extremes : (bins, channels, 4)
         Lowest value, its time, highest value, its time; left as it is where a bin has no part.
     """
-    call, at = functions_at(addresses[0]), places[0]
+    call, at = functions_at(addresses[0]), slots[0]
     work, spare, runs, table = unowned(work), unowned(spare), unowned(runs), unowned(table)
     group = Group(runs, at, work, spare, table, addresses[0])
     book, room = unowned(book), np.empty((2, book.shape[1]), np.int64)
@@ -198,9 +198,9 @@ def extremes_in_steps(
         call.attempt(work)
         while p < len(parts) and parts[p, 0] < first + count:
             if parts[p, 1] != present:
-                close_bin(book, rows, records[present])
+                close_bin(book, rows, extremes[present])
                 present = parts[p, 1]
             s = step_of(parts[p, 0] - first, group)
             look_into_part(part_of(shares[p, 0], shares[p, 1], sharp, s), wanted, s, book)
             p += 1
-    write_bin(book, rows, records[present])
+    write_bin(book, rows, extremes[present])

@@ -15,7 +15,7 @@ KEPT = """
 total gross potential_start stored_start highest lowest highest_time lowest_time
 onset_time approach onset_total largest_step steps pace_at smallest_step rough_until
 """
-"""Slots of counts and records of lanes, whatever the method."""
+"""Slots of counts and extremes of lanes, whatever the method."""
 SCALES = ("weight", "full", "fastest")
 """Slots in inverse proportion to the tolerance."""
 
@@ -23,7 +23,7 @@ SCALES = ("weight", "full", "fastest")
 def handed_over(bundle: Bundle, kernel: Kernel, problem: LaneProblem, sharper: float) -> Bundle:
     """Return a bundle of another method of the same scene, whose lanes go on where others are.
 
-    Counters, records, energies and contacts go on, too; steps begin as small as those of a run. A
+    Counters, extremes, energies and contacts go on, too; steps begin as small as those of a run. A
     lane that does not run keeps its status.
 
     Parameters
@@ -56,7 +56,7 @@ def handed_over(bundle: Bundle, kernel: Kernel, problem: LaneProblem, sharper: f
 
 
 def _take_over(lane: Lane, before: Lane, sharper: float) -> None:
-    """Give a lane that was loaded with the state of another what that has counted and recorded."""
+    """Give a lane that was loaded with the state of another what that has counted and found."""
     _touch(lane, before)
     _record_ends(before)
     for name in KEPT.split():
@@ -77,7 +77,7 @@ def _touch(lane: Lane, before: Lane) -> None:
 def _record_ends(lane: Lane) -> None:
     """Count the values where a lane's last step ended among its extremes."""
     now = lane["previous"]
-    for record, beyond in (("highest", now > lane["highest"]), ("lowest", now < lane["lowest"])):
+    for end, beyond in (("highest", now > lane["highest"]), ("lowest", now < lane["lowest"])):
         rows = np.flatnonzero(beyond)
-        lane[record][rows] = now[rows]
-        lane[f"{record}_time"][rows] = lane.time
+        lane[end][rows] = now[rows]
+        lane[f"{end}_time"][rows] = lane.time

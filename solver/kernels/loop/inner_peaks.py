@@ -20,12 +20,12 @@ from jointplay.solver.kernels.loop.passages import (
     passes,
 )
 from jointplay.solver.kernels.loop.peaks import look_at_extremes
-from jointplay.solver.kernels.loop.roughness import is_due, may_set_records
+from jointplay.solver.kernels.loop.roughness import is_due, may_set_extremes
 from jointplay.solver.kernels.loop.runs import NO_PAIR
 from jointplay.solver.kernels.loop.step import Step, channels_within
 from jointplay.solver.kernels.loop.tops import open_brackets
 from jointplay.solver.kernels.loop.turns_before_onset import turns_before_onset
-from jointplay.solver.kernels.record.rows import NO_ROW
+from jointplay.solver.kernels.trace.rows import NO_ROW
 
 EXACT = 0.0
 """Share of its range by which what is counted may be off: a quartic through such instants may pass
@@ -60,7 +60,7 @@ def look_at_passages(s: Step) -> None:
 
 @inner_kernel()
 def may_be_fastest(j: int, share: float, width: float, s: Step) -> bool:
-    """Whether slip or penetration of a pair may have a record where its journal passes the centre.
+    """Whether a pair's slip or penetration may have a new extreme where it passes the centre.
 
     There the slip is that of the spins, as at the end of the step, and all of the journal's speed.
     """
@@ -93,7 +93,7 @@ def look_inside(s: Step) -> None:
     place_evenly(0.0, 1.0, s)
     channels_within(s)
     if due:
-        wanted |= may_set_records(s)
+        wanted |= may_set_extremes(s)
     if not wanted:
         return
     waiting = 0

@@ -14,12 +14,12 @@ from jointplay.solver.kernels.loop.looks_into_steps import look_at_suspects
 from jointplay.solver.kernels.loop.seeking import SHARP
 from jointplay.solver.kernels.loop.step import Step, channels_within, states_within
 from jointplay.solver.kernels.loop.tops import CORNER
-from jointplay.solver.kernels.record.rows import NO_ROW
+from jointplay.solver.kernels.trace.rows import NO_ROW
 
 
 @inner_kernel()
 def may_surpass(k: int, s: Step) -> bool:
-    """Whether inner state `k` may have a record inside the step, beyond what a look is worth."""
+    """Whether inner state `k` may have an extreme inside the step that is worth a look."""
     lane, at, work = s.lane, s.at, s.work
     row = int(work[at.inner_row + k, lane])
     if row == NO_ROW:
@@ -34,7 +34,7 @@ def may_surpass(k: int, s: Step) -> bool:
 
 @inner_kernel()
 def surpasses(k: int, s: Step) -> bool:
-    """Whether inner state `k`, known at even instants, may have a record worth a look."""
+    """Whether inner state `k`, known at even instants, may have a new extreme worth a look."""
     lane, at, work = s.lane, s.at, s.work
     row = int(work[at.inner_row + k, lane])
     values = s.spare[at.stage + 2 * at.step_row.coordinates + k]

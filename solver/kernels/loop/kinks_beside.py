@@ -11,7 +11,7 @@ from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.brackets import CLOSER
 from jointplay.solver.kernels.loop.cuts_at_bends import has_bend
-from jointplay.solver.kernels.loop.extreme import PLACES
+from jointplay.solver.kernels.loop.extreme import NODES
 from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, SHARP
 from jointplay.solver.kernels.loop.step import Step, channels_around
 from jointplay.solver.kernels.loop.tops import open_brackets
@@ -49,7 +49,7 @@ def nearest_kink(step: int, s: Step) -> float:
 
 @inner_kernel(borrows=True)
 def any_in_reach(rows: np.ndarray, before: float, behind: float, s: Step) -> bool:
-    """Whether a row that turns about the start of this step may have a record at a kink beside it.
+    """Whether a row that turns about this step's start may have a new extreme at a kink beside it.
 
     Up to a kink it goes on as on the other side of the start. `before`, `behind` : how far kinks
     are away.
@@ -94,5 +94,5 @@ def look_at_kinks_beside(rows: np.ndarray, waiting: int, s: Step) -> int:
             junction = work[at.previous + r, lane] - work[at.change + r, lane]
             s.table[CLOSER + (1 - step) * HALF] = junction
             start, spacing = (1 - step) * (1.0 - 0.5 * HALF * beside), 0.5 * beside
-            waiting = open_brackets(r, step, start, spacing, PLACES, FORETOLD, waiting, s)
+            waiting = open_brackets(r, step, start, spacing, NODES, FORETOLD, waiting, s)
     return waiting

@@ -24,12 +24,12 @@ class Lane:
     index: int | slice
     """Column of the work array; or all of them: then blocks are (slots, lanes)."""
     run: Any
-    """Record of the lane's run, of type `Run`, or (lanes,); its fields can be set by name."""
+    """The lane's run, of type `Run`, or (lanes,); its fields can be set by name."""
 
     @property
-    def places(self) -> NDArray[np.void]:
-        """Named offsets, (1,); see `solver.kernels.emit.places`."""
-        return self.kernel.places if self.tangents is None else self.tangents.places
+    def slots(self) -> NDArray[np.void]:
+        """Named offsets, (1,); see `solver.kernels.emit.slots`."""
+        return self.kernel.slots if self.tangents is None else self.tangents.slots
 
     def __getitem__(self, name: str) -> Floats:
         layout = self.kernel.layout if self.tangents is None else self.tangents.layout

@@ -3,7 +3,7 @@
 import numpy as np
 
 from jointplay.solver.kernels.emit.judging import ATTENTION
-from jointplay.solver.kernels.emit.places import Places
+from jointplay.solver.kernels.emit.slots import Slots
 from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.loop.accepted_steps import write_step
 from jointplay.solver.kernels.loop.attention import attend, settle
@@ -15,7 +15,7 @@ from jointplay.solver.kernels.loop.step import Group, step_of
 
 
 @kernel()
-def count_active(at: Places, work: np.ndarray) -> int:
+def count_active(at: Slots, work: np.ndarray) -> int:
     """Return how many lanes run."""
     running = 0
     for lane in range(work.shape[1]):
@@ -25,7 +25,7 @@ def count_active(at: Places, work: np.ndarray) -> int:
 
 
 @inner_kernel()
-def any_accepted(at: Places, work: np.ndarray) -> bool:
+def any_accepted(at: Slots, work: np.ndarray) -> bool:
     """Return whether a lane takes the step that was just judged."""
     accepted = 0.0
     for lane in range(work.shape[1]):

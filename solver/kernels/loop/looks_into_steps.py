@@ -1,4 +1,4 @@
-"""Closer looks into a part of a step, at the rows that may have records there.
+"""Closer looks into a part of a step, at the rows that may have new extremes there.
 
 Extremes are evaluated: a quartic may pass where a contact ends.
 """

@@ -24,7 +24,7 @@ def look_between(low: float, high: float, s: Step) -> None:
 def first_onset(j: int, s: Step) -> float:
     """Return the share of the step after which pair j's gap first closes, `NO_ONSET` if never.
 
-    The gap is looked at in eight places; where its rate turns between two of them without the gap
+    The gap is looked at at eight instants; where its rate turns between two of them without the gap
     closing, though it might have, the turning point is sought (a grazing contact).
     """
     begun = 0

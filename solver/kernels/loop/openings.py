@@ -27,7 +27,7 @@ LATE = 0.95
 def dip(j: int, s: Step) -> float:
     """Return a share of the step at which pair j's gap is open, though it closes again.
 
-    The gap is looked at in eight places, and for where it turns between two of them. 1: it stays
+    The gap is looked at at eight instants, and for where it turns between two of them. 1: it stays
     closed, or once open it stays so. Where contact has only just begun, it must have been deeper.
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare

@@ -1,7 +1,7 @@
 """Passages of journals by the centre of their bearing, where the normal whips round.
 
 What follows the normal, such as the slip of a journal that touches nothing, has its extreme there,
-however long the step is. The journal's place is that on the quintic which encloses it
+however long the step is. The journal's position is that on the quintic which encloses it
 (`solver.kernels.emit.enclosure`).
 """
 
@@ -35,15 +35,15 @@ def power(k: int, axis: int, j: int, s: Step) -> float:
     lane, at, work = s.lane, s.at, s.work
     step = work[at.tried, lane]
     first, last = at.eccentricity_start + 6 * j + axis, at.eccentricity + 6 * j + axis
-    place, rate = work[first, lane], step * work[first + AXES, lane]
+    position, rate = work[first, lane], step * work[first + AXES, lane]
     bend = 0.5 * step * step * work[first + 2 * AXES, lane]
     if k == 0:
-        return float(place)
+        return float(position)
     if k == 1:
         return float(rate)
     if k == 2:
         return float(bend)
-    moved = work[last, lane] - place - rate - bend
+    moved = work[last, lane] - position - rate - bend
     turned = step * work[last + AXES, lane] - rate - 2.0 * bend
     bent = 0.5 * step * step * work[last + 2 * AXES, lane] - bend
     if k == 3:
@@ -69,14 +69,14 @@ def closest_approach(j: int, s: Step) -> tuple[float, float]:
     for _ in range(MOST_ITERATIONS):
         square = approach = slope = way = 0.0
         for axis in range(AXES):
-            place = rate = bend = 0.0
+            position = rate = bend = 0.0
             for k in range(5, -1, -1):
                 bend = bend * share + 2.0 * rate
-                rate = rate * share + place
-                place = place * share + x[axis, k]
-            square += place * place
-            approach += place * rate
-            slope += rate * rate + place * bend
+                rate = rate * share + position
+                position = position * share + x[axis, k]
+            square += position * position
+            approach += position * rate
+            slope += rate * rate + position * bend
             way += rate * rate
         distance, way = np.sqrt(square), np.sqrt(way)
         if approach > 0.0:
@@ -97,11 +97,11 @@ def distance_and_speed(j: int, share: float, s: Step) -> tuple[float, float]:
     """Return how far a journal is from the centre at a share of the step, m, and its speed, m/s."""
     square = way = 0.0
     for axis in range(AXES):
-        place = rate = 0.0
+        position = rate = 0.0
         for k in range(5, -1, -1):
-            rate = rate * share + place
-            place = place * share + power(k, axis, j, s)
-        square += place * place
+            rate = rate * share + position
+            position = position * share + power(k, axis, j, s)
+        square += position * position
         way += rate * rate
     return np.sqrt(square), np.sqrt(way) / s.work[s.at.tried, s.lane]
 

@@ -5,19 +5,19 @@ import numpy as np
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.brackets import (
+    ABSCISSA,
     BRACKETS,
     CLOSER,
     COLUMN,
     FOUND,
     IN_THIS,
-    PLACE,
     ROUNDS,
     ROW,
     SPACING,
     START,
     STRIDE,
 )
-from jointplay.solver.kernels.loop.extreme import PLACES
+from jointplay.solver.kernels.loop.extreme import NODES
 from jointplay.solver.kernels.loop.kinks_beside import look_at_kinks_beside
 from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, MOST_ROUNDS, is_done_by, seek
 from jointplay.solver.kernels.loop.step import Step, channels_around
@@ -77,7 +77,7 @@ def look_at_quarters(r: int, waiting: int, s: Step) -> int:
         for i in range(HALF):
             s.table[CLOSER + i] = s.spare[at.channel + r, HALF * step + i]
         s.table[CLOSER + HALF] = end if step else junction
-        waiting = open_brackets(r, step, 0.0, 1.0 / HALF, PLACES, FORETOLD, waiting, s)
+        waiting = open_brackets(r, step, 0.0, 1.0 / HALF, NODES, FORETOLD, waiting, s)
     return waiting
 
 
@@ -106,7 +106,8 @@ def look_where_foretold(waiting: int, s: Step) -> int:
             w = BRACKETS + STRIDE * behind
             column = late if table[w + IN_THIS] else early
             early, late = (early, late + 1) if table[w + IN_THIS] else (early + 1, late)
-            s.spare[s.at.theta, column] = table[w + START] + table[w + PLACE] * table[w + SPACING]
+            share = table[w + START] + table[w + ABSCISSA] * table[w + SPACING]
+            s.spare[s.at.theta, column] = share
             table[w + COLUMN] = column
             behind += 1
         channels_around(s)

@@ -7,7 +7,7 @@ from numba import void
 
 from jointplay.solver.kernels import compensated
 from jointplay.solver.kernels.emit.functions import WORK
-from jointplay.solver.kernels.emit.places import PLACES, Places
+from jointplay.solver.kernels.emit.slots import AT, Slots
 from jointplay.solver.kernels.jit import deferred, inner_kernel, kernel
 from jointplay.solver.kernels.loop.runs import (
     RUNS,
@@ -31,7 +31,7 @@ product_difference = kernel()(compensated.product_difference)
 
 
 @inner_kernel()
-def due_time(kind: int, index: int, lane: int, run: Run, at: Places, work: np.ndarray) -> float:
+def due_time(kind: int, index: int, lane: int, run: Run, at: Slots, work: np.ndarray) -> float:
     """Local time of a sample or section (`kind`); infinite past the last one."""
     whole = float(run.periods)
     if kind == SAMPLES:
@@ -49,20 +49,20 @@ def due_time(kind: int, index: int, lane: int, run: Run, at: Places, work: np.nd
 
 
 @kernel()
-def look_ahead(kind: int, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def look_ahead(kind: int, lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Note when the next sample or section is due."""
     run.due[kind] = due_time(kind, run.next[kind], lane, run, at, work)
 
 
 @kernel()
-def plan(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def plan(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Set the next local time at which a lane wants attention."""
     soonest = min(min(run.due[SAMPLES], run.due[SECTIONS]), run.period)
     work[at.next_due, lane] = min(soonest, work[at.end, lane])
 
 
 @inner_kernel()
-def turn_over(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def turn_over(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Begin a new period: local time goes back, and phases on where periods are not common."""
     run.periods += 1
     work[at.time, lane] -= run.period
@@ -73,7 +73,7 @@ def turn_over(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
 
 
 @kernel()
-def set_clock(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def set_clock(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Set the end and the clocks as they are in a lane's present period."""
     whole = float(run.periods)
     work[at.end, lane] = product_difference(run.duration, 1.0, whole, run.period)
@@ -88,17 +88,17 @@ def set_clock(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
         work[at.phase + k, lane] = start + turn * (travel - turns)
 
 
-@deferred(void(PLACES, WORK, RUNS))
-def set_clocks(places: np.ndarray, work: np.ndarray, runs: np.ndarray) -> None:
+@deferred(void(AT, WORK, RUNS))
+def set_clocks(slots: np.ndarray, work: np.ndarray, runs: np.ndarray) -> None:
     """Set the clocks of all lanes as they are in their present periods; note what is due next."""
     for lane in range(len(runs)):
-        set_clock(lane, runs[lane], places[0], work)
+        set_clock(lane, runs[lane], slots[0], work)
         for kind in range(2):
-            look_ahead(kind, lane, runs[lane], places[0], work)
+            look_ahead(kind, lane, runs[lane], slots[0], work)
 
 
 @kernel()
-def stop(status: int, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def stop(status: int, lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Take a lane out of the running."""
     run.status = status
     work[at.active, lane] = 0.0
@@ -106,7 +106,7 @@ def stop(status: int, lane: int, run: Run, at: Places, work: np.ndarray) -> None
 
 
 @inner_kernel()
-def check_pace(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+def check_pace(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Stop a lane that has used up its steps or hardly moves; counted in its own steps."""
     now = float(run.periods) * run.period + work[at.time, lane]
     steps = work[at.steps, lane]

@@ -21,9 +21,9 @@ def lagrange_coefficients() -> list[list[float]]:
     for i in range(INSTANTS):
         powers, others = [Fraction(1)], [k for k in range(INSTANTS) if k != i]
         for k in others:
-            place, shifted = Fraction(MIDDLE) - k, [Fraction(0), *powers]
+            abscissa, shifted = Fraction(MIDDLE) - k, [Fraction(0), *powers]
             powers = [
-                (one + place * other) / (i - k)
+                (one + abscissa * other) / (i - k)
                 for one, other in zip(shifted, [*powers, Fraction(0)], strict=True)
             ]
         found.append([float(power) for power in powers])
@@ -36,8 +36,8 @@ SEVENTH = (-1.0, 7.0, -21.0, 35.0)
 """Weights of the seventh difference, of a value less its mirror image."""
 MOST_ROUNDS = 8
 CLOSE = 1e-2
-"""Change of a place, in spacings, that ends the search: the next one would be its square, and a
-value changes by the square of that."""
+"""Change of the abscissa, in spacings, that ends the search: the next one would be its square,
+and a value changes by the square of that."""
 
 
 @inner_kernel()
@@ -71,11 +71,11 @@ def count_if_polynomial(
             fit(values, powers)
             known = True
         slope = 0.5 * (values[m + 1] - values[m - 1])
-        place = turning_point(powers, i - MIDDLE, m - MIDDLE - slope / bend)
+        abscissa = turning_point(powers, i - MIDDLE, m - MIDDLE - slope / bend)
         value = powers[LAST]
         for k in range(LAST - 1, -1, -1):
-            value = value * place + powers[k]
-        count_value(book, r, value, begin + spacing * (place + MIDDLE))
+            value = value * abscissa + powers[k]
+        count_value(book, r, value, begin + spacing * (abscissa + MIDDLE))
     return True
 
 
@@ -100,21 +100,21 @@ def fit(values: np.ndarray, powers: np.ndarray) -> None:
 
 @inner_kernel()
 def turning_point(powers: np.ndarray, best: float, start: float) -> float:
-    """Return where a polynomial turns within one spacing of a place, or that end of it.
+    """Return where a polynomial turns within one spacing of an abscissa, or that end of it.
 
     start : where it seems to turn.
     """
     low, high = max(best - 1.0, -MIDDLE), min(best + 1.0, MIDDLE)
-    place = min(max(start, low), high)
+    abscissa = min(max(start, low), high)
     for _ in range(MOST_ROUNDS):
         rate, bend = 0.0, 0.0
         for k in range(LAST, 0, -1):
-            bend = bend * place + rate
-            rate = rate * place + k * powers[k]
+            bend = bend * abscissa + rate
+            rate = rate * abscissa + k * powers[k]
         if bend == 0.0:
             break
-        before = place
-        place = min(max(place - rate / bend, low), high)
-        if abs(place - before) < CLOSE:
+        before = abscissa
+        abscissa = min(max(abscissa - rate / bend, low), high)
+        if abs(abscissa - before) < CLOSE:
             break
-    return place
+    return abscissa

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.emit.places import PERIOD, TIME, DenseRow
+from jointplay.solver.kernels.emit.slots import PERIOD, TIME, DenseRow
 from jointplay.solver.kernels.loop.runs import SectionKind
 from jointplay.solver.scene.document import Scene
 
@@ -19,7 +19,7 @@ class Event:
     """A Poincare section that no clock gives: an onset of a pair, or a channel at a value."""
 
     kind: SectionKind
-    place: int
+    index: int
     """Index of the contact pair, or row of the channel block."""
     value: float = 0.0
     sense: float = 1.0

@@ -42,7 +42,7 @@ class ReadyLanes:
     work: Floats
     """(lanes, slots)."""
     runs: NDArray[np.void]
-    """(lanes,) records of their runs."""
+    """(lanes,) their runs."""
     first_energy: Floats
     """(lanes, 3) J: kinetic, potential and stored elastic energy."""
 
@@ -73,12 +73,12 @@ def make_ready(
             resting = resting_rates(problem.scene)
     except REFUSALS:
         resting = np.zeros((len(kernel.pairs), len(problems)))
-        places = kernel.places if tangents is None else tangents.places
+        slots = kernel.slots if tangents is None else tangents.slots
         for i, problem in enumerate(problems):
             problem = replace(problem, scene=scene_of(i))
             bind(Lane(kernel, tangents, work, i, runs[i]), problem)
             resting[:, i] = resting_rates(problem.scene)
-        set_clocks(places, work, runs)
+        set_clocks(slots, work, runs)
     obstructed = _obstructed(problems, scene_of)
     resting = np.broadcast_to(resting.T, (len(problems), len(kernel.pairs))).T
     energies = np.empty((len(ENERGIES), len(problems)))

@@ -4,7 +4,7 @@ import numpy as np
 from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.places import LENGTH, PERIOD, PLACES, TIME
+from jointplay.solver.kernels.emit.slots import AT, LENGTH, PERIOD, TIME
 from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_step, read_steps
@@ -45,10 +45,10 @@ def find_steps(runs: np.ndarray, steps: np.ndarray, moments: np.ndarray, found: 
         found[i] = k
 
 
-@deferred(void(ADDRESSES, PLACES, WORK, WORK, RUNS, TABLE, TABLE, int64[::1], TABLE))
+@deferred(void(ADDRESSES, AT, WORK, WORK, RUNS, TABLE, TABLE, int64[::1], TABLE))
 def states_in_steps(
     addresses: np.ndarray,
-    places: np.ndarray,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     runs: np.ndarray,
@@ -70,7 +70,7 @@ def states_in_steps(
     rows : (m, width)
         Where dense rows are written.
     """
-    call, at = functions_at(addresses[0]), places[0]
+    call, at = functions_at(addresses[0]), slots[0]
     work, spare, runs = unowned(work), unowned(spare), unowned(runs)
     lanes, done = work.shape[1], 0
     begins = np.empty(lanes + 1, np.int64)
@@ -100,10 +100,10 @@ def states_in_steps(
         done = i
 
 
-@deferred(void(ADDRESSES, PLACES, WORK, RUNS, TABLE, TABLE))
+@deferred(void(ADDRESSES, AT, WORK, RUNS, TABLE, TABLE))
 def works_in_steps(
     addresses: np.ndarray,
-    places: np.ndarray,
+    slots: np.ndarray,
     work: np.ndarray,
     runs: np.ndarray,
     steps: np.ndarray,
@@ -113,7 +113,7 @@ def works_in_steps(
 
     Else as `states_in_steps`.
     """
-    call, at = functions_at(addresses[0]), places[0]
+    call, at = functions_at(addresses[0]), slots[0]
     work, runs = unowned(work), unowned(runs)
     for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, runs, at, work)
@@ -133,17 +133,17 @@ def works_in_steps(
                 works[first + lane, k] = work[at.total + k, lane]
 
 
-@deferred(void(ADDRESSES, PLACES, WORK, RUNS, TABLE, TABLE))
+@deferred(void(ADDRESSES, AT, WORK, RUNS, TABLE, TABLE))
 def step_ends(
     addresses: np.ndarray,
-    places: np.ndarray,
+    slots: np.ndarray,
     work: np.ndarray,
     runs: np.ndarray,
     steps: np.ndarray,
     ends: np.ndarray,
 ) -> None:
     """Write the states (n, states) that steps (n, width) end with; else as `states_in_steps`."""
-    call, at = functions_at(addresses[0]), places[0]
+    call, at = functions_at(addresses[0]), slots[0]
     work, runs = unowned(work), unowned(runs)
     for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, runs, at, work)

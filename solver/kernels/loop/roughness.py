@@ -3,8 +3,8 @@
 Friction that a steep ramp holds, and contacts that last, keep an explicit method's steps as short
 as is stable. Every such step may swing alike inside, by as much as the ramp allows, while its ends
 look smooth. Late stages of an explicit method tell (`solver.kernels.emit.judging.swings`): steps
-that swing are looked at inside while a record may be in reach. Of other methods one step in so many
-is, and all that follow a rough one.
+that swing are looked at inside while an extreme so far may be in reach. Of other methods one step
+in so many is, and all that follow a rough one.
 """
 
 import numpy as np
@@ -34,19 +34,19 @@ def is_due(s: Step) -> bool:
 
 
 @inner_kernel()
-def may_set_records(s: Step) -> bool:
-    """Whether a channel that leaves its values at the ends of a step has a record in reach.
+def may_set_extremes(s: Step) -> bool:
+    """Whether a channel that leaves its values at the ends of a step has an extreme in reach.
 
     Channels are known at eight even instants. Notes if the step is rough, and which of the next
-    ones that swing is to be looked at: when ends that move as these do may be as far from a record
-    as a swing goes, or when one swings more.
+    ones that swing is to be looked at: when ends that move as these do may be as far from an
+    extreme as a swing goes, or when one swings more.
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
     answer, pause, most, least = 0, 0.0, 0.0, ROUNDING * work[at.widest, lane]
-    records = (at.highest, at.lowest, at.contact_row)  # behind are those of single contacts
+    extremes = (at.highest, at.lowest, at.contact_row)  # behind are those of single contacts
     for _ in range(2):
         answer, pause, most, widest, narrowest = weigh_swings(
-            spare, at.channel, work, records, lane, least, EVERY - 1.0
+            spare, at.channel, work, extremes, lane, least, EVERY - 1.0
         )
         work[at.widest, lane] = widest
         if least <= ROUNDING * widest < narrowest:

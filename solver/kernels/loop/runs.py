@@ -1,4 +1,4 @@
-"""Records of each lane's run, beside the work array, and buffers of what the loop hands out."""
+"""Each lane's run, beside the work array, and buffers of what the loop hands out."""
 
 # mypy: disable-error-code="no-untyped-call"
 
@@ -41,7 +41,7 @@ NO_PAIR = -1
 
 
 class Run:
-    """Type of a lane's record: its clock, what it shall hand out, and what it has counted."""
+    """Type of a lane's run: its clock, what it shall hand out, and what it has counted."""
 
     status: int
     """Member of `Status`."""
@@ -89,7 +89,7 @@ class Run:
     """Time at the last check of the pace, s."""
     section_kind: int
     """Member of `SectionKind`."""
-    section_place: int
+    section_index: int
     """Joint with play, or row of the channel block, that events are of."""
     section_offset: float
     """Local time of sections at a crank angle, s."""
@@ -114,7 +114,7 @@ DTYPE = np.dtype(
     ]
 )
 RUNS = from_dtype(DTYPE)[::1]
-"""Type of the records of all lanes in kernels."""
+"""Type of the runs of all lanes in kernels."""
 
 GROWTH = np.dtype([("end", np.float64), ("logarithm", np.float64)])
 """Growth of a tangent: end of its time, s, and logarithm of the factor."""

@@ -1,4 +1,4 @@
-"""Eight channels at eight instants each: which of them may be beyond a record in between."""
+"""Eight channels at eight instants each: which may be beyond their extremes in between."""
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
 
@@ -50,7 +50,7 @@ def _screen(
         Share of its range by which an extreme may be off unseen.
 
     Bit k of the answer stands for channel k: its extremes may be inside. Bits from `ONE_BY_ONE`
-    on: it moves by no more than its rounding, and what it does is beyond a record. From `JAGGED`
+    on: it moves by no more than its rounding, and is beyond the extreme so far. From `JAGGED`
     on: it turns at every instant.
     """
 
@@ -112,7 +112,7 @@ def _answer(at, row, begin, end, sharp):
 
 
 def _hides_beside_ends(at, v, low, high, sharp):
-    """Return where beside an end there may be a record, by more than `sharp`, that no value shows.
+    """Return where beside an end an extreme may hide, beyond the one so far by more than `sharp`.
 
     A corner shows in the seventh difference of eight values by no less than it goes beyond them.
     Without one, a channel goes on from its end where it bends by less than it rises, or than is

@@ -5,13 +5,13 @@ import numpy as np
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.brackets import (
+    ABSCISSA,
     BENT,
     BEST,
     BRACKETS,
     CLOSER,
     ERROR,
     IN_THIS,
-    PLACE,
     ROUNDS,
     ROW,
     SENSE,
@@ -24,7 +24,7 @@ from jointplay.solver.kernels.loop.brackets import (
 from jointplay.solver.kernels.loop.extreme import (
     LAST,
     LEFT_OUT,
-    PLACES,
+    NODES,
     extreme,
     highest,
     slope_left_out,
@@ -44,41 +44,41 @@ MOST_ROUNDS = 12
 ENOUGH_AT_END = 3
 """Rounds after which a best value at the end of a step counts as it is."""
 SAME = 1e-9
-"""Share of a step: places closer than that are one."""
+"""Share of a step: instants closer than that are one."""
 
 
 @inner_kernel(borrows=True)
 def is_done(w: int, sharp: float, s: Step) -> bool:
-    """Look where a bracket's extreme is, and let it count if it is a record and sharp.
+    """Look where a bracket's extreme is, and let it count if it is beyond that so far and sharp.
 
-    Whether that is all there is to do: otherwise it may be a record, and is not sharp. `sharp` :
+    Whether that is all there is to do: otherwise it may be beyond, and is not sharp. `sharp` :
     share of the channel's range up to now by which it may be off.
     """
     table = s.table
     sense = table[w + SENSE]
     r = int(table[w + ROW])
-    record = s.work[(s.at.highest if sense > 0.0 else s.at.lowest) + r, s.lane]
-    place, value, error, bent = extreme(table, w + VALUES, int(table[w + BEST]), sense, record)
-    if not sense * value + error > sense * record:
+    so_far = s.work[(s.at.highest if sense > 0.0 else s.at.lowest) + r, s.lane]
+    abscissa, value, error, bent = extreme(table, w + VALUES, int(table[w + BEST]), sense, so_far)
+    if not sense * value + error > sense * so_far:
         return True
-    table[w + PLACE], table[w + VALUE], table[w + ERROR] = place, value, error
+    table[w + ABSCISSA], table[w + VALUE], table[w + ERROR] = abscissa, value, error
     table[w + BENT] = bent
     if error > sharp * spread(r, value, s):
         return False
-    count(w, place, value, s)
+    count(w, abscissa, value, s)
     return True
 
 
 @inner_kernel(forceinline=True, borrows=True)
 def is_done_by(value: float, w: int, s: Step) -> bool:
-    """Let the value at the place of a bracket's extreme count. Returns whether it is sharp.
+    """Let the value at a bracket's extreme count. Returns whether it is sharp.
 
     What is beyond the value found is the square of the slope there by twice the second derivative.
     """
     table = s.table
-    place = table[w + PLACE]
-    count(w, place, value, s)
-    slope = slope_left_out(place, abs(value - table[w + VALUE]))
+    abscissa = table[w + ABSCISSA]
+    count(w, abscissa, value, s)
+    slope = slope_left_out(abscissa, abs(value - table[w + VALUE]))
     slope = max(slope, LEFT_OUT * LEAST_OFF * table[w + ERROR])
     sharp = SHARP * spread(int(table[w + ROW]), value, s)
     return bool(0.5 * slope * slope <= sharp * table[w + BENT])
@@ -86,9 +86,9 @@ def is_done_by(value: float, w: int, s: Step) -> bool:
 
 @inner_kernel()
 def seek(waiting: int, s: Step) -> None:
-    """Narrow all waiting brackets about their extremes until these are sharp or no records.
+    """Narrow all waiting brackets until their extremes are sharp, or not beyond those so far.
 
-    Many channels have a kink where a law has one: brackets of the same places are narrowed at once.
+    Many channels have a kink where a law has one: brackets of the same nodes are narrowed at once.
     """
     table = s.table
     behind = BRACKETS + STRIDE * waiting
@@ -128,8 +128,8 @@ def spread(r: int, value: float, s: Step) -> float:
 
 
 @inner_kernel(borrows=True)
-def count(w: int, place: float, value: float, s: Step) -> None:
-    """Note a value at a place of a bracket, if it is a record of the bracket's channel."""
+def count(w: int, abscissa: float, value: float, s: Step) -> None:
+    """Note a value at an abscissa of a bracket, if it is beyond its channel's extreme so far."""
     lane, at, work, table = s.lane, s.at, s.work, s.table
     r, sense = int(table[w + ROW]), table[w + SENSE]
     block, times = at.lowest, at.lowest_time
@@ -137,7 +137,7 @@ def count(w: int, place: float, value: float, s: Step) -> None:
         block, times = at.highest, at.highest_time
     if not sense * value > sense * work[block + r, lane]:
         return
-    share = table[w + START] + place * table[w + SPACING]
+    share = table[w + START] + abscissa * table[w + SPACING]
     time = share * work[at.tried, lane]
     if table[w + IN_THIS] == 0.0:
         time = (share - 1.0) * work[at.before_step, lane]
@@ -147,9 +147,9 @@ def count(w: int, place: float, value: float, s: Step) -> None:
 
 @inner_kernel()
 def closer(w: int, table: np.ndarray) -> tuple[float, float, int]:
-    """Return where a closer look at a bracket begins, the distance of its places, how many parts.
+    """Return where a closer look at a bracket begins, the distance of its nodes, how many parts.
 
-    From the place before the best one to the one behind it, by thirds of the distance now; where
+    From the node before the best one to the one behind it, by thirds of the distance now; where
     the best is at an end of the bracket, by fifths.
     """
     best = int(table[w + BEST])
@@ -171,7 +171,7 @@ def place_closer(start: float, spacing: float, parts: int, first: int, s: Step) 
 
 @inner_kernel()
 def narrow(w: int, start: float, spacing: float, parts: int, s: Step) -> None:
-    """Narrow a bracket to five places about the best one of a closer look."""
+    """Narrow a bracket to five nodes about the best one of a closer look."""
     table = s.table
     r, sense = int(table[w + ROW]), table[w + SENSE]
     column = HALF * int(table[w + IN_THIS])
@@ -185,8 +185,8 @@ def narrow(w: int, start: float, spacing: float, parts: int, s: Step) -> None:
         else:
             table[CLOSER + k] = table[best]
     best = highest(table, CLOSER, CLOSER + parts + 1, sense) - CLOSER
-    kept = min(max(best - PLACES // 2, 0), parts + 1 - PLACES)
-    for i in range(PLACES):
+    kept = min(max(best - NODES // 2, 0), parts + 1 - NODES)
+    for i in range(NODES):
         table[w + VALUES + i] = table[CLOSER + kept + i]
     table[w + BEST] = best - kept
     table[w + START], table[w + SPACING] = start + kept * spacing, spacing

@@ -1,7 +1,7 @@
 """Seeks extremes as `seeking` does, so that a channel's do not depend on which others are sought.
 
 There, brackets of a channel may be narrowed in an order that those of other channels give, and a
-record that one of them sets decides how sharp the next has to be.
+extreme that one of them sets decides how sharp the next has to be.
 """
 
 from jointplay.solver.kernels.jit import inner_kernel
@@ -32,7 +32,7 @@ from jointplay.solver.kernels.loop.step import Step, channels_around
 def seek_in_turn(waiting: int, s: Step) -> None:
     """Narrow all waiting brackets about their extremes, those of a channel one after the other.
 
-    Brackets of the same places are narrowed at once, of each channel the first that is not done.
+    Brackets of the same nodes are narrowed at once, of each channel the first that is not done.
     """
     table = s.table
     behind = BRACKETS + STRIDE * waiting

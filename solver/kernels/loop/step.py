@@ -5,12 +5,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from jointplay.solver.kernels.emit.functions import functions_at
-from jointplay.solver.kernels.emit.places import Places
+from jointplay.solver.kernels.emit.slots import Slots
 from jointplay.solver.kernels.jit import inner_kernel, written_out
 from jointplay.solver.kernels.loop.runs import Run
 
 Addresses = Any
-"""Record of the kernel's functions; see `solver.kernels.emit.functions`."""
+"""Structure of the kernel's functions; see `solver.kernels.emit.functions`."""
 
 
 class Step(NamedTuple):
@@ -19,7 +19,7 @@ class Step(NamedTuple):
     lane: int
     """Column of the work array."""
     run: Run
-    at: Places
+    at: Slots
     work: np.ndarray
     """All quantities of all lanes of the group, (slots, lanes)."""
     spare: np.ndarray
@@ -34,7 +34,7 @@ class Group(NamedTuple):
 
     runs: np.ndarray
     """(lanes,) of `Run`."""
-    at: Places
+    at: Slots
     work: np.ndarray
     spare: np.ndarray
     table: np.ndarray

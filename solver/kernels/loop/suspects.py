@@ -1,4 +1,4 @@
-"""Channels that may be beyond their records inside a part of a step, known at even instants."""
+"""Channels, known at even instants of a part of a step, that may be beyond their extremes."""
 
 from typing import NamedTuple
 
@@ -48,9 +48,9 @@ def count_smooth(r: int, part: Part, s: Step, book: np.ndarray) -> None:
         value, time = values[i], part.begin + part.spacing * i
         rise, fall = value - values[i - 1], value - values[i + 1]
         if rise * fall > 0.0:
-            place = 0.5 * (rise - fall) / (rise + fall)
-            value += 0.25 * (rise - fall) * place
-            time += part.spacing * place
+            abscissa = 0.5 * (rise - fall) / (rise + fall)
+            value += 0.25 * (rise - fall) * abscissa
+            time += part.spacing * abscissa
         count_value(book, r, value, time)
 
 

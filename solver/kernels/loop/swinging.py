@@ -29,7 +29,7 @@ MUCH = 2.0 * SEEN / GROWTH
 """Share of its range by which a channel swings so much that `GROWTH` is all."""
 TINY = 1e-300
 NEARBY, UNEVEN, WIDELY = (0xFF << shift for shift in (0, 8, 16))
-"""Bits of an answer for a channel of each eight: has a record in reach; is rough; swings much."""
+"""Bits of an answer for a channel of each eight: an extreme is in reach; is rough; swings much."""
 FOUND = types.Tuple((int64, *[float64] * 4))
 
 
@@ -38,7 +38,7 @@ def _weigh(
     values: Any,
     channel: Any,
     work: Any,
-    records: Any,
+    extremes: Any,
     lane: Any,
     least: Any,
     pause: Any,
@@ -50,8 +50,8 @@ def _weigh(
     values : (slots, INSTANTS)
         At even instants, from the slot `channel` on.
     work : (slots, lanes)
-        Has the lane's records.
-    records
+        Has the lane's extremes so far.
+    extremes
         Slots of the first highest and lowest value, number of channels.
     least
         Range of channels that are left out.
@@ -60,7 +60,7 @@ def _weigh(
 
     Returns
     -------
-    Bits of `NEARBY`, `UNEVEN`, `WIDELY`. In how many steps a swing may come to a record, if less
+    Bits of `NEARBY`, `UNEVEN`, `WIDELY`. In how many steps a swing may come to an extreme, if less
     than the pause. The largest share of its range by which a channel swings, where that is not
     much. The largest range, and the smallest of those that are not left out.
     """
@@ -82,7 +82,7 @@ def _weigh(
             _add(found, at, v, highest, lowest, kept, arguments[5])
         return context.make_tuple(builder, FOUND, found.numbers())
 
-    return FOUND(values, channel, work, records, lane, least, pause), generate
+    return FOUND(values, channel, work, extremes, lane, least, pause), generate
 
 
 weigh_swings = cast(Callable[..., tuple[int, float, float, float, float]], intrinsic(_weigh))
@@ -125,7 +125,7 @@ def _add(found, at, v, highest, lowest, kept, least):
 
 
 class _Approach:
-    """In how many steps a swing may come to a record that now is farther by the `rest`.
+    """In how many steps a swing may come to an extreme that now is farther by the `rest`.
 
     Ends of steps must come as close to it, and turn: while they change by more than that from one
     step to the next, the next one is beyond all that is in this. They are taken to change and bend
@@ -197,7 +197,7 @@ class _Vector:
 
 
 class _Channels(Eights):
-    """Channels of a step, and records of its lane."""
+    """Channels of a step, and extremes so far of its lane."""
 
     def __init__(self, builder, spare, lanes, lane) -> None:
         super().__init__(builder)

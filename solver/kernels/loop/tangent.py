@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.places import Places
+from jointplay.solver.kernels.emit.slots import Slots
 from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.loop.logarithm import logarithm
 from jointplay.solver.kernels.loop.step import Step
@@ -16,7 +16,7 @@ SHORTEST = 1e-290
 
 
 @kernel()
-def start_tangent(lane: int, at: Places, work: np.ndarray) -> None:
+def start_tangent(lane: int, at: Slots, work: np.ndarray) -> None:
     """Give a lane a tangent of length 1 that has a share of every coordinate and speed."""
     for i in range(at.states):
         share = (i + 1) * GOLDEN - math.floor((i + 1) * GOLDEN) + 0.5
@@ -55,22 +55,22 @@ def latch_tangent(j: int, s: Step) -> None:
 
 @inner_kernel()
 def record_growth(now: float, s: Step, growths: np.ndarray) -> bool:
-    """Hand out by how much a lane's tangent grew since the record before.
+    """Hand out by how much a lane's tangent grew since the growth before.
 
     Returns whether none fits more.
 
     now : end of that time, s since the start.
     """
     run = s.run
-    record = growths[s.lane, run.growths]
-    record.end = now
-    record.logarithm = renormalise(s.lane, s.at, s.work)
+    growth = growths[s.lane, run.growths]
+    growth.end = now
+    growth.logarithm = renormalise(s.lane, s.at, s.work)
     run.growths += 1
     return run.growths >= growths.shape[1]
 
 
 @inner_kernel()
-def renormalise(lane: int, at: Places, work: np.ndarray) -> float:
+def renormalise(lane: int, at: Slots, work: np.ndarray) -> float:
     """Bring a lane's tangent back to length 1. Returns the logarithm of the length that it had.
 
     A tangent that has vanished stays so, with growth -inf; one that has overflowed is NaN from
@@ -88,7 +88,7 @@ def renormalise(lane: int, at: Places, work: np.ndarray) -> float:
 
 
 @kernel()
-def tangent_length(lane: int, at: Places, work: np.ndarray) -> float:
+def tangent_length(lane: int, at: Slots, work: np.ndarray) -> float:
     """Length in the metric of the error weights: the scene's own scales for metres and radians."""
     total = 0.0
     for i in range(at.states):
@@ -105,7 +105,7 @@ def tangent_length(lane: int, at: Places, work: np.ndarray) -> float:
 
 
 @inner_kernel()
-def scale_tangent(factor: float, lane: int, at: Places, work: np.ndarray) -> None:
+def scale_tangent(factor: float, lane: int, at: Slots, work: np.ndarray) -> None:
     """Multiply a lane's tangent."""
     for i in range(at.states):
         work[at.tangent + i, lane] *= factor

@@ -15,7 +15,7 @@ from jointplay.solver.kernels.loop.brackets import (
     STRIDE,
     VALUES,
 )
-from jointplay.solver.kernels.loop.extreme import PLACES
+from jointplay.solver.kernels.loop.extreme import NODES
 from jointplay.solver.kernels.loop.seeking import is_done
 from jointplay.solver.kernels.loop.step import Step
 
@@ -40,18 +40,18 @@ def open_brackets(
         least, most = min(least, values[i]), max(most, values[i])
         bend = max(bend, abs(values[i - 2] - 2.0 * values[i - 1] + values[i]))
     for sense in (1.0, -1.0):
-        record = s.work[(s.at.highest if sense > 0.0 else s.at.lowest) + r, s.lane]
-        if not (most if sense > 0.0 else -least) + CORNER * bend > sense * record:
+        so_far = s.work[(s.at.highest if sense > 0.0 else s.at.lowest) + r, s.lane]
+        if not (most if sense > 0.0 else -least) + CORNER * bend > sense * so_far:
             continue
         for best in range(count):
-            if not tops(values, best, sense, record):
+            if not tops(values, best, sense, so_far):
                 continue
-            kept = min(max(best - PLACES // 2, 0), count - PLACES)
+            kept = min(max(best - NODES // 2, 0), count - NODES)
             w = BRACKETS + STRIDE * waiting
             table[w + ROW], table[w + SENSE], table[w + IN_THIS] = r, sense, step
             table[w + START], table[w + SPACING] = start + kept * spacing, spacing
             table[w + BEST] = best - kept
-            for i in range(PLACES):
+            for i in range(NODES):
                 table[w + VALUES + i] = values[kept + i]
             if not is_done(w, sharp, s):
                 waiting += 1
@@ -59,8 +59,8 @@ def open_brackets(
 
 
 @inner_kernel()
-def tops(values: np.ndarray, i: int, sense: float, record: float) -> bool:
-    """Whether no value beside one is beyond it, and there may be a record.
+def tops(values: np.ndarray, i: int, sense: float, so_far: float) -> bool:
+    """Whether no value beside one is beyond it, and there may be a new extreme.
 
     A corner between two values is beyond them by half of the second difference there at most.
     """
@@ -69,4 +69,4 @@ def tops(values: np.ndarray, i: int, sense: float, record: float) -> bool:
     if (i > 0 and sense * values[i - 1] >= here) or (i < last and sense * values[i + 1] > here):
         return False
     bend = abs(values[middle - 1] - 2.0 * values[middle] + values[middle + 1])
-    return bool(here + CORNER * bend > sense * record)
+    return bool(here + CORNER * bend > sense * so_far)

@@ -14,7 +14,7 @@ REACH = 3.0
 
 @inner_kernel()
 def turns_before_onset(s: Step) -> bool:
-    """Whether a channel may have a record inside this step, by the ends of it and the one before.
+    """Whether a channel may have a new extreme inside this step, by the ends of two steps.
 
     To be called while ``channel`` has the values at the step's end, before the scan.
     """

@@ -24,7 +24,7 @@ class Derivatives(NamedTuple):
 
 
 class Function(Strict):
-    """A function of one number, whose unit and meaning its owner gives."""
+    """A function of one number, whose unit and meaning are given where it stands."""
 
     type: str
     rules: ClassVar[tuple[Rule, ...]] = ()

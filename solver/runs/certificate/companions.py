@@ -141,7 +141,7 @@ class Companions:
             if left > 0:
                 budget = min(budget, left)
                 continue
-            stop(Status.STEP_LIMIT, lane.index, lane.run, lane.places[0], lane.work)
+            stop(Status.STEP_LIMIT, lane.index, lane.run, lane.slots[0], lane.work)
         return budget
 
     def collect(self) -> None:
@@ -176,7 +176,7 @@ class Companions:
         lane.run["output_step"] = coarser * self.instants.finest
         lane.run["next"][SAMPLES] = -(-following * stride // coarser)
         lane.run["stop"][SAMPLES] = self.instants.last // coarser + 1
-        arguments = (lane.index, lane.run, lane.places[0], lane.work)
+        arguments = (lane.index, lane.run, lane.slots[0], lane.work)
         look_ahead(SAMPLES, *arguments)
         plan(*arguments)
 

@@ -104,7 +104,7 @@ class Windows:
     def logarithms(self) -> Floats:
         """Logarithm of how much each tangent has grown."""
         lanes = [self.bundle.lane(lane) for lane in range(BUNDLE)]
-        lengths = [tangent_length(lane.index, lane.places[0], lane.work) for lane in lanes]
+        lengths = [tangent_length(lane.index, lane.slots[0], lane.work) for lane in lanes]
         logarithms = [
             logarithm(length) if 0.0 < length < math.inf else length or -math.inf
             for length in lengths

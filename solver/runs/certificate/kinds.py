@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from jointplay.records.channel import Channel
-from jointplay.solver.kernels.record.rows import Rows
+from jointplay.solver.kernels.trace.rows import Rows
 
 POSITION, SPEED, FORCE, PRESCRIBED = "position", "speed", "force", "prescribed"
 MEANINGS = {

@@ -53,9 +53,9 @@ def scales_of(values: Floats, names: Sequence[str], units: Sequence[str], scene:
     finest = start_scales(scene, names, 1.0)  # of positions and angles, where there is play
     play = contact_pairs(scene)
     for column, name in enumerate(names):
-        owner, _, quantity = name.rpartition(".")
-        if owner in play and quantity in (*PLACE_OF_JOURNAL, GAP):
-            scales[column] = 2.0 * play[owner].play
-        elif play and owner and quantity in COORDINATES:  # an output may be called so, too
+        part, _, quantity = name.rpartition(".")
+        if part in play and quantity in (*PLACE_OF_JOURNAL, GAP):
+            scales[column] = 2.0 * play[part].play
+        elif play and part and quantity in COORDINATES:  # an output may be called so, too
             scales[column] = max(scales[column], finest[column])
     return scales

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.records.channel import Channel
-from jointplay.solver.kernels.emit.places import TIME, DenseRow
+from jointplay.solver.kernels.emit.slots import TIME, DenseRow
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem

@@ -35,7 +35,7 @@ def needs_no_steps(admission: Admission) -> bool:
 def step_columns(admission: Admission) -> tuple[str, ...]:
     """Return the columns of the steps that a run keeps; none if it keeps none.
 
-    In the order of `solver.kernels.emit.places.StepRow`, then the method. A run whose drivers leave
+    In the order of `solver.kernels.emit.slots.StepRow`, then the method. A run whose drivers leave
     no freedom makes no steps.
     """
     scene = admission.scene

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.kernels.emit.places import LENGTH
+from jointplay.solver.kernels.emit.slots import LENGTH
 from jointplay.solver.kernels.loop.book import HIGHEST, LOWEST
 from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.seeking import SHARP

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.emit.places import LENGTH
+from jointplay.solver.kernels.emit.slots import LENGTH
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.book import blank_book
 from jointplay.solver.kernels.loop.brackets import size_of_table
@@ -59,7 +59,7 @@ class ProblemReplay:
         bundle = self._bundle
         return (
             self.kernel.addresses,
-            self.kernel.places,
+            self.kernel.slots,
             bundle.groups[0].work,
             bundle.spare,
             self.runs,
@@ -112,7 +112,7 @@ class ProblemReplay:
         found = np.empty((len(steps), kernel.losses + len(kernel.drivers)))
         works_in_steps(
             kernel.addresses,
-            kernel.places,
+            kernel.slots,
             self._bundle.groups[0].work,
             self.runs,
             np.ascontiguousarray(steps),
@@ -137,7 +137,7 @@ class ProblemReplay:
         ends = np.empty((len(chosen), columns.slope - columns.state))
         step_ends(
             self.kernel.addresses,
-            self.kernel.places,
+            self.kernel.slots,
             self._bundle.groups[0].work,
             self.runs,
             np.ascontiguousarray(steps[chosen]),

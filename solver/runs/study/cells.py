@@ -22,9 +22,9 @@ class Cells:
     """Decisions on cells by the points that are known; a place is y * width + x."""
 
     missing: tuple[int, ...]
-    """Places of points that must be known next; none: every cell is decided."""
+    """Indices of points that must be known next; none: every cell is decided."""
     computed: frozenset[int]
-    """Places of points whose own results count, but for the origins of the coarsest cells."""
+    """Indices of points whose own results count, but for the origins of the coarsest cells."""
     inherited: dict[int, int]
     """From the places of points to that of the origin whose results they have."""
 

@@ -40,10 +40,10 @@ def inadmissible(scenes: PointScenes) -> Flags:
     """
     bad = np.zeros(len(scenes.values), np.bool_)
     for leaf in scenes.leaves:
-        owner, field, inside = _owner(scenes.base, leaf.path)
+        model, field, inside = _model_of(scenes.base, leaf.path)
         values, which = np.unique(scenes.column(leaf), return_inverse=True)
-        own = getattr(owner, field)
-        fields: Any = list[type(owner).model_fields[field].rebuild_annotation()]  # type: ignore[misc]
+        own = getattr(model, field)
+        fields: Any = list[type(model).model_fields[field].rebuild_annotation()]  # type: ignore[misc]
         adapter: TypeAdapter[Any] = TypeAdapter(fields, config=_CONFIG)
         try:
             adapter.validate_python([replaced(own, inside, value) for value in values.tolist()])
@@ -107,13 +107,13 @@ def _is_clearance(scene: Scene, path: str) -> bool:
 
 def _structural(scene: Scene, path: str) -> tuple[float, ...]:
     """Return values of a number that decide the form of the equations."""
-    owner, field, inside = _owner(scene, path)
-    extra = None if inside else type(owner).model_fields[field].json_schema_extra
+    model, field, inside = _model_of(scene, path)
+    extra = None if inside else type(model).model_fields[field].json_schema_extra
     found = extra.get("structural", ()) if isinstance(extra, dict) else ()
     return tuple(float(value) for value in found)  # type: ignore[union-attr,arg-type]
 
 
-def _owner(scene: Scene, path: str) -> tuple[BaseModel, str, list[str]]:
+def _model_of(scene: Scene, path: str) -> tuple[BaseModel, str, list[str]]:
     """Return the innermost part that a number stands in, its field, and the keys inside that."""
     keys = path.strip("/").split("/")
     for depth in range(len(keys) - 1, 0, -1):

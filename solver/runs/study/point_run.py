@@ -132,10 +132,10 @@ def statistics_in(study: Study, run: PointRun, pairs: tuple[str, ...]) -> dict[s
     found: dict[str, float] = {}
     for name, tally in zip(study.statistics, run.tallies, strict=True):
         if name in OF_CHANNELS:
-            owners = tuple(channel.name for channel in study.channels)
+            parts = tuple(channel.name for channel in study.channels)
             values = OF_CHANNELS[name].value(tally, run.sampled)
         else:
-            owners = pairs
+            parts = pairs
             values = OF_CONTACTS[name].value(tally, stretch.start, stretch.end)
-        found |= {f"{owner}.{name}": float(x) for owner, x in zip(owners, values, strict=True)}
+        found |= {f"{part}.{name}": float(x) for part, x in zip(parts, values, strict=True)}
     return found

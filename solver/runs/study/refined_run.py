@@ -37,10 +37,10 @@ class RefinedRun(StudyRun):
         self._known: dict[int, PointEnd] = {}
         """Ends by place, of points of this block and others; of the coarse grid none is kept."""
         self._told: set[int] = set()
-        """Places of those among them that were results of the block."""
+        """Indices of those among them that were results of the block."""
         coarse = coarse_points(study.shape, study.refine)
         self._origins = np.zeros(0, np.int64)
-        """Places of the origins of the block's coarsest cells."""
+        """Indices of the origins of the block's coarsest cells."""
         if first >= coarse:
             own = self._order[first : first + count]
             self._origins = _origins(own, study.shape, 1 << study.refine)

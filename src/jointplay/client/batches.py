@@ -93,7 +93,7 @@ def jobs_of(
 def counted_from(first: int, problems: Iterable[FieldProblem]) -> tuple[FieldProblem, ...]:
     """Name refused fields of a batch whose jobs are counted from `first`."""
 
-    def place_of(found: re.Match[str]) -> str:
+    def counted(found: re.Match[str]) -> str:
         return f"/jobs/{first + int(found[1])}"
 
-    return tuple(FieldProblem(_INDEX.sub(place_of, place), detail) for place, detail in problems)
+    return tuple(FieldProblem(_INDEX.sub(counted, pointer), detail) for pointer, detail in problems)

@@ -8,9 +8,9 @@ if TYPE_CHECKING:
 
 
 class FieldProblem(NamedTuple):
-    """One refused field: its place (JSON pointer or name of a parameter) and a sentence."""
+    """One refused field: its JSON pointer, or the name of a parameter, and a sentence."""
 
-    place: str
+    pointer: str
     detail: str
 
 
@@ -67,7 +67,7 @@ class Refused(ClientError):
         if not self.fields:
             return str(self.args[0])
         return "; ".join(
-            f"{field.place}: {field.detail}" if field.place else field.detail
+            f"{field.pointer}: {field.detail}" if field.pointer else field.detail
             for field in self.fields
         )
 

@@ -141,7 +141,7 @@ def draw_all(
             try:
                 content = job.figure(name, form=form, **shown).content
             except Refused as error:
-                if error.problem != "not-drawable" or error.fields[0].place != "name":
+                if error.problem != "not-drawable" or error.fields[0].pointer != "name":
                     raise
                 drawn.refused.append(f"{name}: {error.fields[0].detail}")
                 continue

@@ -16,7 +16,7 @@ MOST_VALUES = 50_000_000
 """Numbers of one window: 400 MB."""
 
 
-def trajectory_of(run: ResultReader) -> Trajectory:
+def trajectory_of(reader: ResultReader) -> Trajectory:
     """Return a run's trajectory; the solver is loaded by the first question."""
 
     def ask(question: Any) -> Any:
@@ -24,23 +24,23 @@ def trajectory_of(run: ResultReader) -> Trajectory:
 
         return answer(question)
 
-    return Trajectory(run, ask)
+    return Trajectory(reader, ask)
 
 
 def exact_window(
-    run: ResultReader,
+    reader: ResultReader,
     names: Sequence[str],
     query: WindowQuery,
 ) -> Window | str:
     """Return values at instants, or extremes of spans, of channels; or why there are none."""
-    trajectory, step = trajectory_of(run), query.step
+    trajectory, step = trajectory_of(reader), query.step
     first, last = _ends(trajectory, query.start, query.stop)
     if step is not None:
         if query.points is not None or not step > 0.0 or not np.isfinite(step):
             return "Give either a positive step in s, or points."
         if first > last:
             return f"The run is known to {trajectory.reached:g} s; {first:g} s is after it."
-        return _values(run, trajectory, names, first, last, step)
+        return _values(reader, trajectory, names, first, last, step)
     edges = trajectory.edges(first, last, query.points or 1)
     found = trajectory.extremes(names, edges)
     if found.values is None:
@@ -48,7 +48,7 @@ def exact_window(
     time = np.column_stack([edges[:-1], edges[1:]]).ravel()
     columns = {name: found.values[:, c, ::2].ravel() for c, name in enumerate(names)}
     return window_of(
-        run,
+        reader,
         time,
         columns,
         exact=False,
@@ -59,7 +59,7 @@ def exact_window(
 
 
 def _values(
-    run: ResultReader,
+    reader: ResultReader,
     trajectory: Trajectory,
     names: Sequence[str],
     first: float,
@@ -74,15 +74,15 @@ def _values(
     if found.values is None:
         return found.refused
     columns = dict(zip(names, found.values.T, strict=True))
-    return window_of(run, times, columns, note=found.note, resolution=found.resolution)
+    return window_of(reader, times, columns, note=found.note, resolution=found.resolution)
 
 
 def exact_peaks(
-    run: ResultReader, start: float | None, stop: float | None
+    reader: ResultReader, start: float | None, stop: float | None
 ) -> dict[str, Peak] | str:
     """Return the extremes of all channels in a window; or why there are none."""
-    trajectory = trajectory_of(run)
-    names = [channel.name for channel in run.channels]
+    trajectory = trajectory_of(reader)
+    names = [channel.name for channel in reader.channels]
     found = trajectory.extremes(names, np.array(_ends(trajectory, start, stop)))
     if found.values is None:
         return found.refused
@@ -91,15 +91,15 @@ def exact_peaks(
 
 
 def window_of(
-    run: ResultReader, time: Floats, columns: Mapping[str, Floats], **more: Any
+    reader: ResultReader, time: Floats, columns: Mapping[str, Floats], **more: Any
 ) -> Window:
     """Return columns over times as a window, with what the run says of its channels."""
-    described = {channel.name: channel for channel in run.channels}
+    described = {channel.name: channel for channel in reader.channels}
     series = {
         name: ChannelSeries(described[name].unit, described[name].long_name, values)
         for name, values in columns.items()
     }
-    return Window(np.asarray(time, np.float64), series, run.complete, **more)
+    return Window(np.asarray(time, np.float64), series, reader.complete, **more)
 
 
 def _ends(trajectory: Trajectory, start: float | None, stop: float | None) -> tuple[float, float]:

@@ -49,8 +49,8 @@ class FolderResults:
 
     def window(self, query: WindowQuery) -> Window:
         """Return channels in a window of time."""
-        run = self._run("history")
-        names = _chosen(query.channels, run)
+        reader = self._reader_of("history")
+        names = _chosen(query.channels, reader)
         start, stop, points = query.start, query.stop, query.points
         if start is not None and stop is not None and start > stop:
             raise _refused("stop", f"stop ({stop:g} s) is before start ({start:g} s); swap them.")
@@ -58,64 +58,66 @@ class FolderResults:
             raise _refused("points", f"points is {points}; it is at least 1.")
         note = ""
         if not query.of_samples:
-            found = exact_window(run, names, query)
+            found = exact_window(reader, names, query)
             if isinstance(found, Window):
                 return found
             if query.step is not None:
                 raise _refused("step", found)
             note = found
-        made_of = of_samples(run.attributes["job"])
-        first, last = run.between(start, stop)
+        made_of = of_samples(reader.attributes["job"])
+        first, last = reader.between(start, stop)
         if points is None or last - first <= points:
-            samples = run.history(names, first, last)
-            return window_of(run, *samples, note=note, resolution=made_of)
-        time, extremes = run.extremes(names, first, last, points)
-        pairs = {n: with_contact_peaks(run, n, time, pair) for n, pair in extremes.items()}
+            samples = reader.history(names, first, last)
+            return window_of(reader, *samples, note=note, resolution=made_of)
+        time, extremes = reader.extremes(names, first, last, points)
+        pairs = {n: with_contact_peaks(reader, n, time, pair) for n, pair in extremes.items()}
         columns = {name: pair.ravel() for name, pair in pairs.items()}
-        return window_of(run, time.ravel(), columns, exact=False, note=note, resolution=made_of)
+        return window_of(reader, time.ravel(), columns, exact=False, note=note, resolution=made_of)
 
     def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections."""
-        run = self._run("sections in time")
+        reader = self._reader_of("sections in time")
         return window_of(
-            run,
-            *run.sections(_chosen(channels, run)),
-            note=str(run.attributes.get("section_note", "")),
+            reader,
+            *reader.sections(_chosen(channels, reader)),
+            note=str(reader.attributes.get("section_note", "")),
         )
 
     def peaks(self, start: Seconds = None, stop: Seconds = None) -> Mapping[str, Peak]:
         """Return the signed extremes of every channel."""
-        run = self._run("peaks")
-        found = run.peaks()
+        reader = self._reader_of("peaks")
+        found = reader.peaks()
         if (start, stop) != (None, None):
-            looked = exact_peaks(run, start, stop)
+            looked = exact_peaks(reader, start, stop)
             if isinstance(looked, str):
                 raise _refused("start", looked)
             found = looked
         return {
-            one.name: Peak(**vars(found[one.name]), unit=one.unit) for one in run.channels if found
+            one.name: Peak(**vars(found[one.name]), unit=one.unit)
+            for one in reader.channels
+            if found
         }
 
     def impacts(self) -> Impacts:
         """Return the contacts of the clearance joints."""
-        run = self._run("impacts")
-        rows = run.impacts()
-        joints = [run.joints[index] for index in rows["joint"]]
+        reader = self._reader_of("impacts")
+        rows = reader.impacts()
+        joints = [reader.joints[index] for index in rows["joint"]]
         return Impacts(joint=joints, **{name: rows[name].copy() for name in IMPACT_UNITS})
 
     def statistics(self) -> dict[str, Any]:
         """Return what the run cost, and its energy ledger."""
-        run = self._run("statistics")
-        notes = run.attributes.get("notes", [])
-        return {"complete": run.complete, "notes": notes, **run.attributes.get("summary", {})}
+        reader = self._reader_of("statistics")
+        notes = reader.attributes.get("notes", [])
+        return {"complete": reader.complete, "notes": notes, **reader.attributes.get("summary", {})}
 
     def certificate(self) -> dict[str, Any]:
         """Return how far the run can be believed."""
-        run = self._run("certificate")
-        found = run.certificate()
+        reader = self._reader_of("certificate")
+        found = reader.certificate()
         if found is None:
             raise NotFound(f"{self._store} was computed without a certificate.")
-        return certificate_document(run, found)
+        return certificate_document(reader, found)
 
     def accuracy(self) -> dict[str, Any]:
         """Return what every method and tolerance costs and buys."""
@@ -173,7 +175,7 @@ class FolderResults:
 
     def source(self, query: WindowQuery) -> ResultReader:
         """Return a simulation: all there is, whatever was asked for."""
-        return self._run("history")
+        return self._reader_of("history")
 
     def figures(self) -> list[str]:
         """Return the names of the figures that can be drawn."""
@@ -196,20 +198,20 @@ class FolderResults:
         report: Callable[[float], object],
     ) -> None:
         """Write a film."""
-        run = self._run("film")
+        reader = self._reader_of("film")
         with _refusals():
             part = (shown.channels, shown.joints, shown.start, shown.stop)
-            figures.film(run, path, figures.select(run, *part), options, pace, report)
+            figures.film(reader, path, figures.select(reader, *part), options, pace, report)
 
-    def _run(self, what: str) -> ResultReader:
+    def _reader_of(self, what: str) -> ResultReader:
         if isinstance(self._reader, ResultReader):
             return self._reader
         raise NotFound(f"{self._store} is of a study; it has points and no {what}.")
 
 
-def _chosen(channels: Names, run: ResultReader) -> list[str]:
+def _chosen(channels: Names, reader: ResultReader) -> list[str]:
     with _refusals():
-        known = [channel.name for channel in run.channels]
+        known = [channel.name for channel in reader.channels]
         return choose(None if channels is None else ",".join(channels), known)
 
 
@@ -226,6 +228,6 @@ def _refusals() -> Iterator[None]:
         raise _refused(error.cause, str(error), problem="not-drawable") from None
 
 
-def _refused(place: str, *sentences: str, problem: str = "invalid-request") -> Refused:
-    fields = [FieldProblem(place, sentence) for sentence in sentences]
+def _refused(pointer: str, *sentences: str, problem: str = "invalid-request") -> Refused:
+    fields = [FieldProblem(pointer, sentence) for sentence in sentences]
     return Refused(" ".join(sentences), problem=problem, fields=fields)

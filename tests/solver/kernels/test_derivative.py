@@ -1,4 +1,4 @@
-"""Derivatives of recorded expressions: against differences, and where no difference would do."""
+"""Derivatives of traced expressions: against differences, and where no difference would do."""
 
 import math
 from collections.abc import Callable
@@ -9,14 +9,14 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from jointplay.solver.kernels.record.derivative import Derivative
-from jointplay.solver.kernels.record.equations import record
-from jointplay.solver.kernels.record.operations import OPERATIONS
-from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.kernels.trace.derivative import Derivative
+from jointplay.solver.kernels.trace.equations import trace
+from jointplay.solver.kernels.trace.operations import OPERATIONS
+from jointplay.solver.kernels.trace.reachable import reachable
+from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities import elementary, scalars
-from tests.solver.kernels.test_recorder import evaluate
+from tests.solver.kernels.test_tracer import evaluate
 from tests.solver.readable_mechanics import preset
 
 STEP = 1e-5
@@ -28,10 +28,10 @@ def rates(
     function: Callable[..., Any], point: dict[str, float], along: dict[str, float]
 ) -> tuple[float, float]:
     """Return the derivative of a function of variables along a direction, and its difference."""
-    recorder = Recorder()
-    variables = {name: recorder.variable(name) for name in point}
-    node = recorder.lift(function(*variables.values()))
-    derivative = Derivative({name: recorder.variable(f"d{name}") for name in along})(node)
+    tracer = Tracer()
+    variables = {name: tracer.variable(name) for name in point}
+    node = tracer.lift(function(*variables.values()))
+    derivative = Derivative({name: tracer.variable(f"d{name}") for name in along})(node)
     moving = {f"d{name}": rate for name, rate in along.items()}
     exact = evaluate(derivative, point | moving, {})
     ends = [
@@ -101,7 +101,7 @@ def formulas(draw: st.DrawFn) -> Callable[..., Expression]:
     ]
 
     def build(x: Expression, y: Expression) -> Expression:
-        known = [x, y, x.recorder.constant(0.75), x.recorder.number("size", 1.25)]
+        known = [x, y, x.tracer.constant(0.75), x.tracer.number("size", 1.25)]
         for operation, i, j, k in choices:
             a, b, c = (known[n % len(known)] for n in (i, j, k))
             known.append(RANDOM[operation](a, b, c))
@@ -137,10 +137,10 @@ RANDOM: dict[str, Callable[[Expression, Expression, Expression], Expression]] = 
 def test_random_expressions_are_differentiated(
     formula: Callable[..., Expression], x: float, y: float, dx: float, dy: float
 ) -> None:
-    recorder = Recorder()
-    node = formula(recorder.variable("x"), recorder.variable("y"))
-    numbers = dict(recorder.numbers)
-    derivative = Derivative({"x": recorder.variable("dx"), "y": recorder.variable("dy")})(node)
+    tracer = Tracer()
+    node = formula(tracer.variable("x"), tracer.variable("y"))
+    numbers = dict(tracer.numbers)
+    derivative = Derivative({"x": tracer.variable("dx"), "y": tracer.variable("dy")})(node)
     exact = evaluate(derivative, {"x": x, "y": y, "dx": dx, "dy": dy} | numbers, {})
 
     def at(step: float) -> float:
@@ -162,14 +162,14 @@ def test_random_expressions_are_differentiated(
 
 def derived(node: Expression, **values: float) -> float:
     """Return the derivative of a node along x."""
-    derivative = Derivative({"x": node.recorder.constant(1.0)})(node)
+    derivative = Derivative({"x": node.tracer.constant(1.0)})(node)
     return float(as_in_kernels([derivative], values)[0])
 
 
 def test_the_depth_of_a_contact_has_no_slope_where_it_begins() -> None:
     for exponent in (1.5, 1.3):
-        recorder = Recorder()
-        depth = scalars.positive_part(recorder.variable("x"))
+        tracer = Tracer()
+        depth = scalars.positive_part(tracer.variable("x"))
         force = scalars.power(depth, exponent)
         assert derived(force, x=0.0) == 0.0
         assert derived(force, x=-1.0) == 0.0
@@ -179,14 +179,14 @@ def test_the_depth_of_a_contact_has_no_slope_where_it_begins() -> None:
 
 
 def test_a_root_of_zero_does_not_change() -> None:
-    recorder = Recorder()
-    x = recorder.variable("x")
+    tracer = Tracer()
+    x = tracer.variable("x")
     assert derived((x * x).sqrt(), x=0.0) == 0.0
 
 
 def test_the_chosen_branch_alone_counts() -> None:
-    recorder = Recorder()
-    x = recorder.variable("x")
+    tracer = Tracer()
+    x = tracer.variable("x")
     chosen = (x - 1.0).select_positive(3.0 * x, 1.0 / (x - 0.5))
     assert derived(chosen, x=2.0) == 3.0
     assert derived(chosen, x=0.0) == -4.0
@@ -195,8 +195,8 @@ def test_the_chosen_branch_alone_counts() -> None:
 
 
 def test_what_vanishes_keeps_out_what_changes_infinitely_fast() -> None:
-    recorder = Recorder()
-    x, load = recorder.variable("x"), recorder.variable("load")
+    tracer = Tracer()
+    x, load = tracer.variable("x"), tracer.variable("load")
     force = scalars.positive_part(load)
     fast = x * 1e300 * 1e300
     for product in (force * fast, -(0.1 * force) * fast, (force / 3.0) * fast):
@@ -205,30 +205,30 @@ def test_what_vanishes_keeps_out_what_changes_infinitely_fast() -> None:
 
 
 def test_whole_numbers_and_powers_of_two_do_not_change() -> None:
-    recorder = Recorder()
-    x = recorder.variable("x")
+    tracer = Tracer()
+    x = tracer.variable("x")
     operate = elementary.operate
     exponent, mantissa = operate("exponent_of", x), operate("mantissa_of", x)
     whole = operate("floor", x)
     for node in (whole, exponent, operate("power_of_two", whole)):
-        assert Derivative({"x": recorder.constant(1.0)})(node).is_literal(0.0)
+        assert Derivative({"x": tracer.constant(1.0)})(node).is_literal(0.0)
     assert derived(mantissa, x=6.0) == 0.25
 
 
 def test_what_does_not_change_leaves_no_statement() -> None:
-    recorder = Recorder()
-    x, y = recorder.variable("x"), recorder.variable("y")
-    derivative = Derivative({"x": recorder.variable("dx")})
+    tracer = Tracer()
+    x, y = tracer.variable("x"), tracer.variable("y")
+    derivative = Derivative({"x": tracer.variable("dx")})
     sine, cosine = y.sine_cosine()
     assert derivative(sine + cosine * y).is_literal(0.0)
-    assert derivative(x * cosine + sine) is recorder.variable("dx") * cosine
+    assert derivative(x * cosine + sine) is tracer.variable("dx") * cosine
 
 
 def test_sines_are_derived_without_their_polynomials() -> None:
-    recorder = Recorder()
-    x = recorder.variable("x")
+    tracer = Tracer()
+    x = tracer.variable("x")
     sine, cosine = x.sine_cosine()
-    dx = recorder.variable("dx")
+    dx = tracer.variable("dx")
     derivative = Derivative({"x": dx})
     assert derivative(sine) is cosine * dx
     assert derivative(cosine) is -(sine * dx)
@@ -236,10 +236,10 @@ def test_sines_are_derived_without_their_polynomials() -> None:
 
 def test_tangent_slopes_of_the_press_cost_at_most_twice_its_accelerations() -> None:
     scene = preset("seven-bar-press", friction=0.1)
-    equations = record(scene, spanning_tree(scene), "reduced")
+    equations = trace(scene, spanning_tree(scene), "reduced")
     count = len(equations.coordinates)
-    recorder = equations.recorder
-    along = {f"stage{i}": recorder.variable(f"carried{i}") for i in range(2 * count)}
+    tracer = equations.tracer
+    along = {f"stage{i}": tracer.variable(f"carried{i}") for i in range(2 * count)}
     derivative = Derivative(along)
     derivatives = [derivative(acceleration) for acceleration in equations.accelerations]
     # what they share with the accelerations, values of the state, is counted too

@@ -6,11 +6,11 @@ import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from jointplay.solver.kernels.record.derivative import Derivative
-from jointplay.solver.kernels.record.equations import record
+from jointplay.solver.kernels.trace.derivative import Derivative
+from jointplay.solver.kernels.trace.equations import trace
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.kernels.test_derivative import as_in_kernels
-from tests.solver.kernels.test_recorder import variables
+from tests.solver.kernels.test_tracer import variables
 from tests.solver.random_mechanisms import instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, preset
 
@@ -47,15 +47,15 @@ def test_accelerations_of_mechanisms_are_differentiated(instant: Instant, seed: 
         for part, scale in (("position", 1e-3), ("speed", 1.0), ("impact_rate", 1e-2))
         for name in getattr(instant, part)
     }
-    equations = record(instant.scene, spanning_tree(instant.scene), "reduced")
-    recorder = equations.recorder
+    equations = trace(instant.scene, spanning_tree(instant.scene), "reduced")
+    tracer = equations.tracer
     names = [f"position {c}" for c in equations.coordinates]
     names += [f"speed {c}" for c in equations.coordinates]
-    along = {f"stage{i}": recorder.constant(direction[name]) for i, name in enumerate(names)}
+    along = {f"stage{i}": tracer.constant(direction[name]) for i, name in enumerate(names)}
     for j, joint in enumerate(equations.pairs):
-        along[f"impact_rate{j}"] = recorder.constant(direction[f"impact_rate {joint}"])
+        along[f"impact_rate{j}"] = tracer.constant(direction[f"impact_rate {joint}"])
     derivative = Derivative(along)
-    known = {**recorder.numbers, **variables(instant, "reduced")}
+    known = {**tracer.numbers, **variables(instant, "reduced")}
     exact = as_in_kernels([derivative(a) for a in equations.accelerations], known)
 
     def at(by: float) -> np.ndarray:

@@ -6,39 +6,39 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.loop.extreme import PLACES, slope_left_out
+from jointplay.solver.kernels.loop.extreme import NODES, slope_left_out
 from jointplay.solver.kernels.loop.extreme import extreme as extreme_of
 
 SENSES = pytest.mark.parametrize("sense", [1.0, -1.0])
-PLACE = np.arange(float(PLACES))
+ABSCISSA = np.arange(float(NODES))
 
 
 def extreme(values: NDArray[np.float64], sense: float) -> tuple[float, float, float]:
-    """Return the place of an extreme, its value, and the bound on what that is off."""
-    record, best = -sense * np.inf, int(np.argmax(sense * values))
-    place, value, error, _ = extreme_of(values, 0, best, sense, record)
-    return place, value, error
+    """Return the abscissa of an extreme, its value, and the bound on what that is off."""
+    so_far, best = -sense * np.inf, int(np.argmax(sense * values))
+    abscissa, value, error, _ = extreme_of(values, 0, best, sense, so_far)
+    return abscissa, value, error
 
 
 @SENSES
 @given(top=st.floats(0.5, 3.5), turn=st.floats(0.01, 1.0))
 def test_a_sine_is_within_the_bound_that_is_given(sense: float, top: float, turn: float) -> None:
     # samples a sixth of a turn apart at most; rounding counts where the sine hardly bends
-    place, value, error = extreme(sense * np.cos(turn * (PLACE - top)), sense)
+    abscissa, value, error = extreme(sense * np.cos(turn * (ABSCISSA - top)), sense)
     assert abs(sense * value - 1.0) <= error + 1e-15
     # the bound is of the order of the term that is left out, but for a middle that is not curved
     if abs(top - 2.0) <= 0.5 and turn <= 0.5:
         assert error <= turn**5 + 1e-15
-        assert place == pytest.approx(top, abs=0.1 * turn**2 + 2e-3 + 1e-7 / turn**2)
+        assert abscissa == pytest.approx(top, abs=0.1 * turn**2 + 2e-3 + 1e-7 / turn**2)
 
 
 @given(top=st.floats(1.0, 3.0), turn=st.floats(0.1, 0.4))
 def test_a_value_where_a_sine_seems_to_turn_tells_its_slope_there(top: float, turn: float) -> None:
-    place, value, _ = extreme(np.cos(turn * (PLACE - top)), 1.0)
-    off = abs(np.cos(turn * (place - top)) - value)
-    slope = abs(turn * np.sin(turn * (place - top)))
-    # terms beyond the fifth count a little; so does the place, which is not iterated to its end
-    assert slope <= 1.5 * slope_left_out(place, off) + 1e-5 * turn**2
+    abscissa, value, _ = extreme(np.cos(turn * (ABSCISSA - top)), 1.0)
+    off = abs(np.cos(turn * (abscissa - top)) - value)
+    slope = abs(turn * np.sin(turn * (abscissa - top)))
+    # terms beyond the fifth count a little; so does the abscissa, which is not iterated to its end
+    assert slope <= 1.5 * slope_left_out(abscissa, off) + 1e-5 * turn**2
 
 
 @SENSES
@@ -46,7 +46,7 @@ def test_a_value_where_a_sine_seems_to_turn_tells_its_slope_there(top: float, tu
 def test_a_corner_is_not_taken_for_sharp(
     sense: float, top: float, rise: float, fall: float
 ) -> None:
-    late = PLACE - top
+    late = ABSCISSA - top
     values = sense * np.where(late < 0.0, rise * late, -fall * late)
     _, value, error = extreme(values, sense)
     # the corner is no farther from the best sample than its neighbours are
@@ -57,21 +57,21 @@ def test_a_corner_is_not_taken_for_sharp(
 @SENSES
 @pytest.mark.parametrize("curvature", [-0.1, 0.0, 0.1])
 def test_what_rises_to_an_end_is_exact_there(sense: float, curvature: float) -> None:
-    values = sense * (PLACE + curvature * PLACE**2)
-    place, value, error = extreme(values, sense)
-    assert (place, value, error) == (PLACES - 1.0, values[-1], 0.0)
+    values = sense * (ABSCISSA + curvature * ABSCISSA**2)
+    abscissa, value, error = extreme(values, sense)
+    assert (abscissa, value, error) == (NODES - 1.0, values[-1], 0.0)
 
 
 @SENSES
 def test_what_rests_at_its_extreme_stays_there(sense: float) -> None:
     # a contact force that falls to zero: no polynomial through it may go below
-    values = -sense * np.maximum(1.4 - PLACE, 0.0) ** 1.5
+    values = -sense * np.maximum(1.4 - ABSCISSA, 0.0) ** 1.5
     _, value, error = extreme(values, sense)
     assert (value, error) == (0.0, 0.0)
 
 
 @SENSES
 def test_two_samples_alike_do_not_rest(sense: float) -> None:
-    place, value, _ = extreme(sense * np.cos(0.5 * (PLACE - 1.5)), sense)
-    assert place == pytest.approx(1.5, abs=1e-2)
+    abscissa, value, _ = extreme(sense * np.cos(0.5 * (ABSCISSA - 1.5)), sense)
+    assert abscissa == pytest.approx(1.5, abs=1e-2)
     assert sense * value == pytest.approx(1.0, abs=1e-3)

@@ -1,4 +1,4 @@
-"""Lanes that go on with another method in mid-run: what has counted and recorded goes on, too."""
+"""Lanes that go on with another method in mid-run: what has counted and found goes on, too."""
 
 import numpy as np
 
@@ -41,22 +41,22 @@ def landed() -> Bundle:
 
 
 def ended(bundle: Bundle) -> dict[str, np.ndarray]:
-    """Return what a lane has counted and recorded by its end."""
+    """Return what a lane has counted and found by its end."""
     while bundle.advance(1000):
         pass
     lane, contacts = bundle.lane(0), bundle.impacts(0)
     assert lane.status == Status.DONE
-    records = {name: lane[name].copy() for name in ("highest", "lowest")}
+    extremes = {name: lane[name].copy() for name in ("highest", "lowest")}
     impulses = contacts["impulse"].copy()
-    return records | {"onsets": lane.run["onsets"].copy(), "impulses": impulses}
+    return extremes | {"onsets": lane.run["onsets"].copy(), "impulses": impulses}
 
 
 def test_contacts_and_extremes_are_those_of_the_other_method_alone() -> None:
     wanted, found = ended(by("rodas", TIGHTER)), ended(changed(landed()))
     assert found["onsets"] == wanted["onsets"] == len(wanted["impulses"]) > 1
     np.testing.assert_allclose(found["impulses"], wanted["impulses"], rtol=1e-4)
-    for record in ("highest", "lowest"):
-        np.testing.assert_allclose(found[record], wanted[record], rtol=1e-4, atol=1e-7)
+    for kind in ("highest", "lowest"):
+        np.testing.assert_allclose(found[kind], wanted[kind], rtol=1e-4, atol=1e-7)
 
 
 def test_values_where_the_last_step_ended_count_among_the_extremes() -> None:

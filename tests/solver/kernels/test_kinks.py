@@ -7,9 +7,9 @@ from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import kinks
 from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, module_source
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.derivative import Derivative
-from jointplay.solver.kernels.record.recorder import Recorder
 from jointplay.solver.kernels.target import own_target
+from jointplay.solver.kernels.trace.derivative import Derivative
+from jointplay.solver.kernels.trace.tracer import Tracer
 from jointplay.solver.laws.friction.modified_coulomb import ModifiedCoulomb
 
 LANES = own_target().lanes
@@ -22,11 +22,11 @@ def slopes_over_steps(
 
     The normal force and the coefficient are 1; a step is its slip velocities at both ends.
     """
-    recorder = Recorder()
-    slip, along = recorder.variable("slip"), recorder.variable("along")
+    tracer = Tracer()
+    slip, along = tracer.variable("slip"), tracer.variable("along")
     law = ModifiedCoulomb(coefficient=1.0, static_velocity=static, dynamic_velocity=dynamic)
-    force = law.friction_force(recorder.variable("normal_force"), slip)
-    bends = tuple(recorder.kinks.items())
+    force = law.friction_force(tracer.variable("normal_force"), slip)
+    bends = tuple(tracer.kinks.items())
     derivative = Derivative({"slip": along})
     kinks.bend(derivative, bends)
     layout = Layout()

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from jointplay.solver.kernels.emit.functions import DTYPE as FUNCTIONS
-from jointplay.solver.kernels.emit.places import DTYPE as PLACES
+from jointplay.solver.kernels.emit.slots import DTYPE as SLOTS
 from jointplay.solver.kernels.jit import kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.inner_states import may_surpass, surpasses
@@ -81,14 +81,14 @@ def test_a_parabola_turns_at_its_top(turn: float, steep: float) -> None:
 
 def step_with(values: dict[str, list[float]], spare: Floats | None = None) -> Step:
     """Return a step of one lane with such blocks, of the states of one inner state."""
-    places, work = np.zeros(1, PLACES), np.zeros((64, 1))
-    place = 0
+    slots, work = np.zeros(1, SLOTS), np.zeros((64, 1))
+    slot = 0
     for name, numbers in values.items():
-        places[name], work[place : place + len(numbers), 0] = place, numbers
-        place += len(numbers)
+        slots[name], work[slot : slot + len(numbers), 0] = slot, numbers
+        slot += len(numbers)
     instants = np.zeros((1, INSTANTS)) if spare is None else spare
     rest = np.zeros(0), np.zeros(1, FUNCTIONS)[0]
-    return Step(0, np.zeros(1, RUN)[0], places[0], work, instants, *rest)
+    return Step(0, np.zeros(1, RUN)[0], slots[0], work, instants, *rest)
 
 
 @pytest.mark.parametrize(
@@ -103,19 +103,19 @@ def test_a_centre_orbits_anticlockwise(
 
 
 @pytest.mark.parametrize(
-    ("slopes", "records", "may"),
+    ("slopes", "extremes", "may"),
     [
         ((1.0, -1.0), (-9.0, 1.1), True),  # 0.2 s at 1 + 1 per s: up to 0.4 beyond
         ((1.0, -1.0), (-9.0, 1.5), False),
         ((-1.0, 1.0), (0.9, 9.0), True),
         ((-1.0, 1.0), (0.5, 9.0), False),
-        ((0.0, 0.0), (1.0, 1.0), False),  # at rest at its own records
+        ((0.0, 0.0), (1.0, 1.0), False),  # at rest at its own extremes
     ],
 )
 def test_an_inner_state_may_go_as_far_as_its_slopes_take_it(
-    slopes: tuple[float, float], records: tuple[float, float], may: bool
+    slopes: tuple[float, float], extremes: tuple[float, float], may: bool
 ) -> None:
-    lowest, highest = records
+    lowest, highest = extremes
     blocks = {"inner_row": [0.0], "previous": [1.0], "channel": [1.0], "tried": [0.2]}
     blocks |= {"lowest": [lowest], "highest": [highest], "k1_": [slopes[0]], "slope": [slopes[1]]}
     assert may_be_beyond(step_with(blocks)) is may

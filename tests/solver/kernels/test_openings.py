@@ -14,7 +14,7 @@ from jointplay.solver.kernels.emit.functions import DTYPE as FUNCTIONS
 from jointplay.solver.kernels.emit.functions import WORK
 from jointplay.solver.kernels.emit.judging import RELEASE
 from jointplay.solver.kernels.emit.kernel import compile_kernel
-from jointplay.solver.kernels.emit.places import DTYPE
+from jointplay.solver.kernels.emit.slots import DTYPE
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.lane import aligned_zeros
 from jointplay.solver.kernels.loop.openings import dip, falling_root
@@ -68,16 +68,16 @@ def gaps_of_a_polynomial(work: np.ndarray, spare: np.ndarray, lane: int) -> None
 
 def step_with_gap(zeros: tuple[float, ...], start: tuple[float, float]) -> Step:
     """Return a step of lane 3 whose gap has these zeros, and its gap and rate at the start."""
-    places, addresses = np.zeros(1, DTYPE), np.zeros(1, FUNCTIONS)
-    for place, name in enumerate(("theta", "gap", "gap_rate")):
-        places[name] = place
-    for place, name in enumerate(("gap_start", "gap_rate_start", "tried"), start=7):
-        places[name] = place
+    slots, addresses = np.zeros(1, DTYPE), np.zeros(1, FUNCTIONS)
+    for slot, name in enumerate(("theta", "gap", "gap_rate")):
+        slots[name] = slot
+    for slot, name in enumerate(("gap_start", "gap_rate_start", "tried"), start=7):
+        slots[name] = slot
     addresses["gaps_within"] = gaps_of_a_polynomial.address
     work, spare = np.zeros((10, LANES)), np.zeros((3, INSTANTS))
     work[3:7, 3], work[7:, 3] = zeros, (*start, 1.0)
     run = np.zeros(1, RUN)[0]
-    return Step(3, run, places[0], work, spare, np.zeros(0), addresses[0])
+    return Step(3, run, slots[0], work, spare, np.zeros(0), addresses[0])
 
 
 @pytest.mark.parametrize(

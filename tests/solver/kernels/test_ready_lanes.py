@@ -13,7 +13,7 @@ from jointplay.solver.kernels.loop import ready_lanes
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes, make_ready
-from jointplay.solver.kernels.record.operations import OPERATIONS, operate
+from jointplay.solver.kernels.trace.operations import OPERATIONS, operate
 from jointplay.solver.runs.study.scenes import Leaf, PointScenes
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene

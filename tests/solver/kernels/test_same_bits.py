@@ -17,8 +17,8 @@ from jointplay.solver.kernels.layout import BUNDLE, INSTANTS, Layout
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.lane import aligned_zeros
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.record.recorder import Recorder
 from jointplay.solver.kernels.target import Target, own_target
+from jointplay.solver.kernels.trace.tracer import Tracer
 from tests.solver.readable_mechanics import preset
 
 OWN = own_target()
@@ -91,9 +91,9 @@ def test_every_function_has_the_bits_of_this_processors_own(bundle: Bundle, targ
 
 def functions_of_numbers(target: Target) -> Any:
     """Return what sines, powers, logarithms and exponentials are of random numbers."""
-    layout, recorder = Layout(), Recorder()
+    layout, tracer = Layout(), Tracer()
     layout.add("x", "y", *(f"out{i}" for i in range(6)))
-    x, y = recorder.variable("x"), recorder.variable("y")
+    x, y = tracer.variable("x"), tracer.variable("y")
     size = abs(x) + 1e-9
     found = [*x.sine_cosine(), size.power(y), size.logarithm(), y.exponential(), x / size - x * y]
     tape, tapes = Tape(layout), Tapes()

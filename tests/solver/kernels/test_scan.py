@@ -1,4 +1,4 @@
-"""The scan marks the channels that turned and may be beyond a record, and leaves out no others."""
+"""The scan marks the channels that turned and may be beyond their extremes, and no others."""
 
 from types import ModuleType
 
@@ -14,7 +14,7 @@ from jointplay.solver.kernels.target import own_target
 ROWS, LANES = 13, own_target().lanes
 NO_ROUNDING = 1e-9
 BESIDE = 1e-3
-"""Share of its reach by which a record is nearer than an extreme may be, or farther."""
+"""Share of its reach by which an extreme so far is nearer than an extreme may be, or farther."""
 
 
 def scans() -> tuple[Layout, ModuleType]:

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.emit.tapes import Tapes
 from jointplay.solver.kernels.layout import INSTANTS, Layout
-from jointplay.solver.kernels.record.operations import OPERATIONS
-from jointplay.solver.kernels.record.recorder import Recorder
 from jointplay.solver.kernels.target import own_target
+from jointplay.solver.kernels.trace.operations import OPERATIONS
+from jointplay.solver.kernels.trace.tracer import Tracer
 
 LANES = own_target().lanes
 
@@ -125,9 +125,9 @@ ROWS = compiled("v0 = load 8+\nv1 = mul 2.0 v0\nmark 1 v0\nstore 16+ v1", "rows"
 
 
 def test_a_tape_evaluates_what_slots_held_before_any_is_stored() -> None:
-    layout, recorder = Layout(), Recorder()
+    layout, tracer = Layout(), Tracer()
     layout.add("one", "other", "sum")
-    one, other = recorder.variable("one"), recorder.variable("other")
+    one, other = tracer.variable("one"), tracer.variable("other")
     tape = Tape(layout)
     tape.store([("one", other), ("other", one), ("sum", one + other)])
     run = compiled("\n".join(tape.lines))

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from jointplay.solver.kernels import cache, watched
-from jointplay.solver.kernels.record.equations import record
+from jointplay.solver.kernels.trace.equations import trace
 from jointplay.solver.kernels.watched import CompilationTooLong, CompilationUnwanted
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.random_mechanisms import chain
@@ -63,7 +63,7 @@ def test_equations_that_are_unwanted_are_recorded_no_further() -> None:
         pytest.raises(CompilationUnwanted) as ended,
         watched.watched(lambda: "unwanted", 600.0),
     ):
-        record(scene, spanning_tree(scene), "reduced")
+        trace(scene, spanning_tree(scene), "reduced")
     assert ended.value.answer == "unwanted"
 
 

@@ -8,7 +8,7 @@ import pytest
 from jointplay.records.failure import LimitExceeded
 from jointplay.solver.integrators import AUTO, COARSE, Method
 from jointplay.solver.kernels.emit.kernel import compile_kernel
-from jointplay.solver.kernels.record.recorder import MOST_STATEMENTS
+from jointplay.solver.kernels.trace.tracer import MOST_STATEMENTS
 from jointplay.solver.kinds import admit
 from jointplay.solver.kinds.compilation import (
     LINES,

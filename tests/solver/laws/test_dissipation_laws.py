@@ -7,12 +7,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kernels.record.recorder import Recorder
+from jointplay.solver.kernels.trace.tracer import Recorder
 from jointplay.solver.laws.dissipation import LAWS, Dissipation, Elastic
 from jointplay.solver.laws.dissipation.exact import inverse_langevin
 from jointplay.solver.laws.stiffness import LAWS as STIFFNESS_LAWS
 from jointplay.solver.laws.stiffness import Stiffness
-from tests.solver.kernels.test_recorder import evaluate
+from tests.solver.kernels.test_tracer import evaluate
 from tests.solver.laws.made_dissipation import made
 from tests.solver.laws.specification.contact import FIT, Fit, depths, impact_rates
 from tests.solver.laws.specification.member import documented, rates

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kernels.record.recorder import Recorder
+from jointplay.solver.kernels.trace.tracer import Recorder
 from jointplay.solver.kinds import admit
 from jointplay.solver.laws.contact.film import Film
 from jointplay.solver.laws.contact.long_bearing_film import LongBearingFilm
@@ -18,7 +18,7 @@ from jointplay.solver.laws.contact.oil_film import OilFilm
 from jointplay.solver.laws.contact.short_bearing_film import ShortBearingFilm
 from jointplay.solver.quantities.scalars import direction_angle
 from tests.solver.completed_runs import run
-from tests.solver.kernels.test_recorder import evaluate
+from tests.solver.kernels.test_tracer import evaluate
 from tests.solver.laws.specification.contact import FIT
 
 DRY = {

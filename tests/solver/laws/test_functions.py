@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
-from jointplay.solver.kernels.record.derivative import Derivative
-from jointplay.solver.kernels.record.recorder import Recorder
+from jointplay.solver.kernels.trace.derivative import Derivative
+from jointplay.solver.kernels.trace.tracer import Recorder
 from jointplay.solver.laws.function import FUNCTIONS, Function
 from jointplay.solver.laws.function.constant import Constant
 from jointplay.solver.laws.function.piecewise_polynomial import PiecewisePolynomial
@@ -20,7 +20,7 @@ from jointplay.solver.laws.function.ramp import Ramp
 from jointplay.solver.laws.function.sinusoidal import Sinusoidal
 from jointplay.solver.laws.function.start_up import StartUp
 from jointplay.solver.laws.function.table import Table
-from tests.solver.kernels.test_recorder import evaluate
+from tests.solver.kernels.test_tracer import evaluate
 
 some = settings(
     max_examples=40, suppress_health_check=[HealthCheck.differing_executors], database=None

@@ -12,13 +12,13 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kernels.record.recorder import Recorder
+from jointplay.solver.kernels.trace.tracer import Recorder
 from jointplay.solver.kinds import admit
 from jointplay.solver.laws.stiffness import LAWS, Stiffness
 from jointplay.solver.laws.stiffness.logarithmic import LAST_T, Logarithmic, lower_branch
 from jointplay.solver.laws.stiffness.pereira import Pereira
 from jointplay.solver.scene.sizes import ill_sized
-from tests.solver.kernels.test_recorder import evaluate
+from tests.solver.kernels.test_tracer import evaluate
 from tests.solver.laws.specification.contact import FIT, Fit
 from tests.solver.laws.specification.member import documented
 from tests.solver.laws.specification.units import Units, rescaled, some_units

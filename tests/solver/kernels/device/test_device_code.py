@@ -31,7 +31,7 @@ def kernel() -> Kernel:
 
 @pytest.fixture(scope="module")
 def text(kernel: Kernel) -> str:
-    return code(kernel.module.tapes.sources, kernel.places, Sizes(0, kernel.layout.size, 8, 16, 0))
+    return code(kernel.module.tapes.sources, kernel.slots, Sizes(0, kernel.layout.size, 8, 16, 0))
 
 
 def test_code_is_whole_and_calls_nothing_by_address(text: str) -> None:
@@ -50,7 +50,7 @@ def test_every_operation_of_floats_is_rounded_as_written(text: str) -> None:
 def test_tangents_are_whole_too(kernel: Kernel) -> None:
     tangents = compile_tangents(kernel)
     sources = [*kernel.module.tapes.sources, *tangents.module.tapes.sources]
-    found = code(sources, tangents.places, Sizes(0, tangents.layout.size, 8, 16, 8))
+    found = code(sources, tangents.slots, Sizes(0, tangents.layout.size, 8, 16, 8))
     assert ".extern" not in found
     assert ".callprototype" not in found
 
@@ -60,8 +60,8 @@ def test_what_a_job_does_not_ask_for_makes_code_shorter(kernel: Kernel, text: st
     sizes = Sizes(0, kernel.layout.size, 8, 16, 0)
     lean = list(without(slots_of_energies(kernel), sources))
     shared = dict.fromkeys(kernel.fixed.slots, 1.5)
-    shorter = code(lean, kernel.places, sizes)
-    shortest = code(list(with_constants(shared, lean)), kernel.places, sizes)
+    shorter = code(lean, kernel.slots, sizes)
+    shortest = code(list(with_constants(shared, lean)), kernel.slots, sizes)
     assert stored(shorter) < stored(text)
     assert loaded(shortest) < loaded(shorter)
 

@@ -4,7 +4,7 @@ from itertools import product
 
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import record, slopes
+from jointplay.solver.kernels.trace.equations import record, slopes
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
 from tests.solver.runs.study.jobs_of_studies import PRESS, SWEEP, study

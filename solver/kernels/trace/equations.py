@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from itertools import islice
 
-from jointplay.solver.kernels.record.derivative import Derivative
-from jointplay.solver.kernels.record.knots import KnotsOnPath, knots_on_path
-from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.kernels.trace.derivative import Derivative
+from jointplay.solver.kernels.trace.knots import KnotsOnPath, knots_on_path
+from jointplay.solver.kernels.trace.reachable import reachable
+from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.mechanics.closing_rows import closing_rows
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
@@ -38,7 +38,7 @@ class Equations:
     needs no turns), ``mode<j>`` and ``impact_rate<j>`` of contact pair j, in document order.
     """
 
-    recorder: Recorder
+    tracer: Tracer
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
     clocks: tuple[str, ...]
@@ -78,18 +78,16 @@ class Equations:
         return tuple(enumerate(rates, start=len(self.coordinates)))
 
 
-def record(
-    scene: Scene, tree: Tree, formulation: str, recorder: Recorder | None = None
-) -> Equations:
-    """Run the mechanics on expressions of a recorder, by default a new one.
+def trace(scene: Scene, tree: Tree, formulation: str, tracer: Tracer | None = None) -> Equations:
+    """Run the mechanics on expressions of a tracer, by default a new one.
 
     Raises
     ------
     LimitExceeded
         The scene's equations are too long to compile.
     """
-    recorder = recorder or Recorder()
-    numbers = view(scene, recorder.number)
+    tracer = tracer or Tracer()
+    numbers = view(scene, tracer.number)
     lagrange = formulation == "lagrange"
     coordinates = (
         tuple(f"{body}.{axis}" for body in scene.bodies for axis in ("x", "y", "theta"))
@@ -100,22 +98,22 @@ def record(
     speeds = slice(count, 2 * count)
     laws = inner_states(scene)
     states = 2 * count + sum(len(states) for states in laws.values())
-    stage = [recorder.variable(f"stage{i}") for i in range(states)]
+    stage = [tracer.variable(f"stage{i}") for i in range(states)]
     own = iter(stage[2 * count :])
     inner = {name: list(islice(own, len(states))) for name, states in laws.items()}
-    time = recorder.variable("stage_time")
+    time = tracer.variable("stage_time")
     driven = {
-        name: recorder.variable(f"phase{k}") + numbers.drivers[name].clock_rate * time
+        name: tracer.variable(f"phase{k}") + numbers.drivers[name].clock_rate * time
         for k, name in enumerate(scene.drivers)
     }
     for k, name in islice(enumerate(clocks(scene)), len(scene.drivers), None):
-        driven[name] = recorder.variable(f"phase{k}") + time
+        driven[name] = tracer.variable(f"phase{k}") + time
     if lagrange:  # here a driven angle is a coordinate, which goes on turning
         for k, (name, driver) in enumerate(scene.drivers.items()):
             if isinstance(driver, SteadyDriver):
-                driven[name] = driven[name] + recorder.variable(f"wound{k}")
-    modes = {name: recorder.variable(f"mode{j}") for j, name in enumerate(tree.pairs)}
-    rates = {name: recorder.hold(f"impact_rate{j}") for j, name in enumerate(tree.pairs)}
+                driven[name] = driven[name] + tracer.variable(f"wound{k}")
+    modes = {name: tracer.variable(f"mode{j}") for j, name in enumerate(tree.pairs)}
+    rates = {name: tracer.hold(f"impact_rate{j}") for j, name in enumerate(tree.pairs)}
 
     mechanism: LagrangeMechanism | ReducedMechanism
     loops, corrections = None, []
@@ -126,15 +124,15 @@ def record(
     else:
         position = dict(zip(coordinates, stage[:count], strict=True))
         speed = dict(zip(coordinates, stage[speeds], strict=True))
-        windings = _windings(scene, tree, recorder)
+        windings = _windings(scene, tree, tracer)
         mechanism = ReducedMechanism(tree, numbers, position, speed, driven, windings)
         motion = mechanism.motion(modes, rates, inner)
-        known = [recorder.variable(f"slope{count + i}") for i in range(count)]
+        known = [tracer.variable(f"slope{count + i}") for i in range(count)]
         observed = mechanism.motion(modes, rates, inner, known)
         if tree.closing:
             loops = mechanism.loops()
             corrections = _corrections(mechanism, loops)
-    lift = recorder.lift
+    lift = tracer.lift
     channels = {name: lift(value) for name, value in channel_values(numbers, observed).items()}
     for body, wound in windings.items():
         channels[f"{body}.theta"] = channels[f"{body}.theta"] + wound
@@ -143,10 +141,10 @@ def record(
     inner_rates = tuple(lift(r) for found in motion.contacts.values() for r in found.inner_rates)
     along = {f"stage{i}": stage[count + i] for i in range(count)}
     along |= {f"stage{count + i}": a for i, a in enumerate(accelerations)}
-    derivative = Derivative(along | {"stage_time": recorder.constant(1.0)})
+    derivative = Derivative(along | {"stage_time": tracer.constant(1.0)})
     slips = [lift(found.rubbing_slip) for found in motion.contacts.values()]
     return Equations(
-        recorder,
+        tracer,
         coordinates,
         tuple(scene.drivers),
         tuple(clocks(scene)),
@@ -160,7 +158,7 @@ def record(
         ),
         tuple((slip, derivative(slip)) for slip in slips),
         tuple(
-            _path(recorder, found.eccentricity, found.eccentricity_rate, derivative)
+            _path(tracer, found.eccentricity, found.eccentricity_rate, derivative)
             for found in motion.contacts.values()
         ),
         tuple(found.enclosure for found in motion.contacts.values()),
@@ -187,28 +185,28 @@ def _corrections(mechanism: ReducedMechanism, loops: Loops) -> list[Scalar]:
 
 
 def _path(
-    recorder: Recorder, place: Pair, rate: Pair, derivative: Derivative
+    tracer: Tracer, position: Pair, rate: Pair, derivative: Derivative
 ) -> tuple[Expression, ...]:
-    """Return place, rate and acceleration of a journal's centre."""
-    rates = [recorder.lift(part) for part in rate]
-    places = [recorder.lift(part) for part in place]
-    return (*places, *rates, *(derivative(part) for part in rates))
+    """Return position, rate and acceleration of a journal's centre."""
+    rates = [tracer.lift(part) for part in rate]
+    positions = [tracer.lift(part) for part in position]
+    return (*positions, *rates, *(derivative(part) for part in rates))
 
 
-def _windings(scene: Scene, tree: Tree, recorder: Recorder) -> dict[str, Expression]:
+def _windings(scene: Scene, tree: Tree, tracer: Tracer) -> dict[str, Expression]:
     """Whole turns of bodies that drivers turn steadily, as seen from the ground."""
     drivers = list(scene.drivers)
     steady = {name for name, d in scene.drivers.items() if isinstance(d, SteadyDriver)}
     found: dict[str, Expression] = {}
     for branch in tree.branches:
         if branch.turned_by in steady:
-            found[branch.body] = recorder.variable(f"wound{drivers.index(branch.turned_by)}")
+            found[branch.body] = tracer.variable(f"wound{drivers.index(branch.turned_by)}")
         wound = found.get(branch.parent)
         free = branch.freedom == "all" or f"{branch.body}.theta" in branch.coordinates
         if free or branch.turned_by is not None:
             continue
         if branch.freedom == "turn" and branch.driver in steady:
-            own = recorder.variable(f"wound{drivers.index(branch.driver)}")
+            own = tracer.variable(f"wound{drivers.index(branch.driver)}")
             own = own if branch.outward else -own
             wound = own if wound is None else wound + own
         if wound is not None:
@@ -232,7 +230,7 @@ def ledger_slopes(equations: Equations) -> list[tuple[str, Expression]]:
 def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
     """Return what is needed where a step ends: slopes, gaps, slips, journals."""
     count = len(equations.coordinates)
-    speeds = [equations.recorder.variable(f"stage{count + i}") for i in range(count)]
+    speeds = [equations.tracer.variable(f"stage{count + i}") for i in range(count)]
     outputs = [(f"slope{i}", speed) for i, speed in enumerate(speeds)] + slopes(equations)
     for j, (gap, rate) in enumerate(equations.gaps):
         outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
@@ -245,7 +243,7 @@ def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
 
 def needed_again(equations: Equations) -> list[Expression]:
     """Return what observing needs of the right-hand side: sines, cosines, multipliers."""
-    functions = equations.recorder.functions
+    functions = equations.tracer.functions
     angles = [
         node
         for node in reachable(expression for _, expression in right_hand_side(equations))

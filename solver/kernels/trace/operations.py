@@ -1,4 +1,4 @@
-"""Operations of recorded expressions: one table of what each is on floats, on lanes, derived.
+"""Operations of traced expressions: one table of what each is on floats, on lanes, derived.
 
 On lanes each is rounded as it is written, but that a sum of a product is rounded once.
 
@@ -20,7 +20,7 @@ from jointplay.solver.quantities.elementary import HIGHEST, LOWEST, ON_FLOATS
 from jointplay.solver.quantities.scalars import exponential, logarithm, power, sine_cosine
 
 Node = Any
-"""An expression of `solver.kernels.record.recorder`, which uses this table."""
+"""An expression of `solver.kernels.trace.tracer`, which uses this table."""
 Rates = tuple[Node, ...]
 """Derivatives of a node's arguments."""
 Lanes = Any
@@ -37,7 +37,7 @@ WHOLE = 1.5 * 2.0**MANTISSA_BITS
 
 @dataclass(frozen=True)
 class Operation:
-    """An operation of the recorder."""
+    """An operation of the tracer."""
 
     on_floats: Callable[..., float]
     """Its value for numbers."""
@@ -45,11 +45,11 @@ class Operation:
     """Its derivative, from a node and the derivatives of its arguments."""
     on_lanes: Callable[..., Vector] | None = None
     """Its code, from a builder and vectors; none of what kernels have as arithmetic
-    (`solver.quantities.elementary`), whose node and one argument the recorder knows."""
+    (`solver.quantities.elementary`), whose node and one argument the tracer knows."""
 
 
 def _nothing(node: Node, _rates: Rates) -> Node:
-    return node.recorder.constant(0.0)
+    return node.tracer.constant(0.0)
 
 
 def _vanishing(node: Node) -> Node | None:
@@ -100,7 +100,7 @@ def _root_rate(node: Node, rates: Rates) -> Node:
 
 
 def _power_rate(node: Node, rates: Rates) -> Node:
-    known = node.recorder.functions[node.index]
+    known = node.tracer.functions[node.index]
     slope = known.partner * node / known.argument
     return known.argument.select_positive(slope * rates[0], 0.0)
 
@@ -187,22 +187,22 @@ OPERATIONS: dict[str, Operation] = {
     "power_of_two": Operation(ON_FLOATS["power_of_two"], _nothing, _power_of_two),
     "quarter_turns": Operation(
         ON_FLOATS["quarter_turns"],
-        lambda node, rates: node.recorder.apply(
+        lambda node, rates: node.tracer.apply(
             "quarter_turns", node.arguments[0], rates[1], rates[2]
         ),
         _quarter_turns,
     ),
     "sin": Operation(
         lambda x: sine_cosine(x)[0],
-        lambda node, rates: node.recorder.functions[node.index].partner * rates[0],
+        lambda node, rates: node.tracer.functions[node.index].partner * rates[0],
     ),
     "cos": Operation(
         lambda x: sine_cosine(x)[1],
-        lambda node, rates: -1.0 * node.recorder.functions[node.index].partner * rates[0],
+        lambda node, rates: -1.0 * node.tracer.functions[node.index].partner * rates[0],
     ),
     "pow": Operation(power, _power_rate),
     "log": Operation(
-        logarithm, lambda node, rates: rates[0] / node.recorder.functions[node.index].argument
+        logarithm, lambda node, rates: rates[0] / node.tracer.functions[node.index].argument
     ),
     "exp": Operation(exponential, lambda node, rates: node * rates[0]),
 }

@@ -1,15 +1,15 @@
-"""Length of equations in recorded statements, known before they are compiled."""
+"""Length of equations in traced statements, known before they are compiled."""
 
 from jointplay.records.failure import LimitExceeded
-from jointplay.solver.kernels.record.equations import ledger_slopes, needed_again, record, slopes
-from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import MOST_STATEMENTS, Recorder, too_many
+from jointplay.solver.kernels.trace.equations import ledger_slopes, needed_again, slopes, trace
+from jointplay.solver.kernels.trace.reachable import reachable
+from jointplay.solver.kernels.trace.tracer import MOST_STATEMENTS, Tracer, too_many
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import form
 from jointplay.solver.scene.document import Scene
 
 SURELY_SHORT = 7
-"""Bodies up to which no scene comes near the limit: recording it would only cost time."""
+"""Bodies up to which no scene comes near the limit: tracing it would only cost time."""
 _lengths: dict[tuple[str, Tree, str], int | LimitExceeded] = {}
 _MOST_KEPT = 64
 """Lengths that a process keeps: jobs of a batch differ in numbers, seldom in form."""
@@ -38,9 +38,9 @@ def statements(scene: Scene, tree: Tree, formulation: str) -> int:
 
 
 def _counted(scene: Scene, tree: Tree, formulation: str) -> int:
-    # a third of what is recorded may never be used; closing loops records half as much again
+    # a third of what is traced may never be used; closing loops adds half as much again
     most = (3 if tree.closing else 2) * MOST_STATEMENTS
-    equations = record(scene, tree, formulation, Recorder(most))
+    equations = trace(scene, tree, formulation, Tracer(most))
     found = frozenset(needed_again(equations)) if tree.closing else frozenset()
     total = len(reachable(equations.corrections))
     for expressions, known in (

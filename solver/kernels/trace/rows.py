@@ -7,9 +7,9 @@ of the watch: its extremes follow afterwards. What is watched costs memory traff
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.reachable import reachable
+from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.scene.document import Scene
 
 NO_ROW = -1
@@ -22,7 +22,7 @@ IN_TIME = ("stage_time", "phase")
 class Rows:
     """The channel block: watched channels, normal force of each pair again, then the rest.
 
-    The repeated normal forces have records of their own, for the peak of each contact.
+    The repeated normal forces have extremes of their own, for the peak of each contact.
     """
 
     watched: tuple[str, ...]
@@ -46,7 +46,7 @@ class Rows:
         return self.names.index(name)
 
     def watched_row(self, name: str) -> int:
-        """Return the row that has a channel's records, its own or that which it equals.
+        """Return the row that has a channel's extremes, its own or that which it equals.
 
         `NO_ROW` if it has none: a constant, or a function of time alone.
         """

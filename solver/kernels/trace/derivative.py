@@ -1,18 +1,18 @@
-"""The derivative of recorded expressions along a direction: what tangent vectors follow.
+"""The derivative of traced expressions along a direction: what tangent vectors follow.
 
-Forward mode on the recorded graph: every node gets one more node, its rate of change when the
-variables change along given directions. The recorder's own simplification drops what is zero, and
+Forward mode on the traced graph: every node gets one more node, its rate of change when the
+variables change along given directions. The tracer's own simplification drops what is zero, and
 hash-consing shares the rest, so a derivative costs about as much again as what it differentiates.
 """
 
 from collections.abc import Mapping
 
-from jointplay.solver.kernels.record.operations import OPERATIONS
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.operations import OPERATIONS
+from jointplay.solver.kernels.trace.tracer import Expression
 
 
 class Derivative:
-    """The derivative along one direction, of any expressions of one recorder.
+    """The derivative along one direction, of any expressions of one tracer.
 
     `along` : rate of change of each variable, by name; one that is missing does not change.
     """
@@ -43,13 +43,13 @@ class Derivative:
 
     def _derive(self, node: Expression, arguments: tuple[Expression, ...]) -> Expression:
         if node.fixed:
-            return node.recorder.constant(0.0)
+            return node.tracer.constant(0.0)
         if node.operation == "variable":
-            return self._along.get(str(node.data), node.recorder.constant(0.0))
+            return self._along.get(str(node.data), node.tracer.constant(0.0))
         rates = tuple(self._found[a.index] for a in arguments)
         if all(rate.is_literal(0.0) for rate in rates):
-            return node.recorder.constant(0.0)
-        known = node.recorder.functions.get(node.index)
+            return node.tracer.constant(0.0)
+        known = node.tracer.functions.get(node.index)
         operation = OPERATIONS[known.name if known else node.operation]
         rate: Expression = operation.rate(node, rates)
         return rate
@@ -59,5 +59,5 @@ def _differentiated(node: Expression) -> tuple[Expression, ...]:
     """Return the nodes whose derivatives a node's own is made of."""
     if node.fixed:
         return ()
-    known = node.recorder.functions.get(node.index)
+    known = node.tracer.functions.get(node.index)
     return (known.argument,) if known else node.arguments

@@ -1,4 +1,4 @@
-"""Places that loops find by name: slots, functions and columns of dense rows."""
+"""Slots that loops find by name: slots, functions and columns of dense rows."""
 
 from types import SimpleNamespace
 from typing import Any, cast
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.functions import SIGNATURES, addresses_of
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
-from jointplay.solver.kernels.emit.places import (
+from jointplay.solver.kernels.emit.slots import (
     DERIVED,
     NAMES,
     OF_TANGENTS,
@@ -20,7 +20,7 @@ from jointplay.solver.kernels.emit.places import (
     TIME,
     DenseRow,
     StepRow,
-    places_of,
+    slots_of,
 )
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.layout import Layout
@@ -49,19 +49,19 @@ def layout_without(missing: str) -> Layout:
 @pytest.mark.parametrize("missing", SLOTS)
 def test_a_slot_that_the_layout_lacks_is_an_error(missing: str) -> None:
     rows = DenseRow.of(0, 6, 1), StepRow.of(3, 6, 1)
-    places_of(layout_without(""), *rows, COUNTS)
+    slots_of(layout_without(""), *rows, COUNTS)
     with pytest.raises(KeyError, match=missing):
-        places_of(layout_without(missing), *rows, COUNTS)
+        slots_of(layout_without(missing), *rows, COUNTS)
 
 
 def test_every_block_is_where_the_layout_has_it_even_if_it_is_empty() -> None:
     kernel = kernel_of("pendulum")
     assert not kernel.pairs
     for name in SLOTS:
-        assert kernel.places[name][0] == kernel.layout.block(name).start
+        assert kernel.slots[name][0] == kernel.layout.block(name).start
     tangents = compile_tangents(kernel)
     for name in OF_TANGENTS:
-        assert tangents.places[name][0] == tangents.layout.block(name).start
+        assert tangents.slots[name][0] == tangents.layout.block(name).start
     assert set(NAMES) == {*SLOTS, *OF_TANGENTS, *COUNTS, *DERIVED}
 
 

@@ -7,8 +7,8 @@ mechanism lies or moves meets them where the motion does.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
-from jointplay.solver.kernels.record.reachable import reachable
-from jointplay.solver.kernels.record.recorder import Expression, Knots
+from jointplay.solver.kernels.trace.reachable import reachable
+from jointplay.solver.kernels.trace.tracer import Expression, Knots
 
 
 @dataclass(frozen=True)
@@ -34,10 +34,10 @@ def knots_on_path(
     """
     found: dict[tuple[object, ...], Knots] = {}
     for node in reachable(rates):
-        knots = node.recorder.knots.get(node)
+        knots = node.tracer.knots.get(node)
         if knots is None:
             continue
-        key = (knots.argument, knots.places, knots.span)
+        key = (knots.argument, knots.positions, knots.span)
         jumps = knots.jumps or (key in found and found[key].jumps)
         found[key] = replace(knots, jumps=jumps)
     paths = [KnotsOnPath(knots, derivative(knots.argument)) for knots in found.values()]

@@ -1,8 +1,8 @@
-"""Nodes of a recording that outputs need, in the order of evaluation."""
+"""Nodes of a trace that outputs need, in the order of evaluation."""
 
 from collections.abc import Container, Iterable
 
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.tracer import Expression
 
 
 def reachable(outputs: Iterable[Expression], known: Container[Expression] = ()) -> list[Expression]:

@@ -1,4 +1,4 @@
-"""Named offsets into work arrays and dense rows: one record, which compiled loops take as `at`."""
+"""Named slots of work arrays and dense rows: one structure, which compiled loops take as `at`."""
 
 from __future__ import annotations
 
@@ -115,30 +115,30 @@ NAMES = (*COUNTS, *SLOTS, *OF_TANGENTS, *DERIVED)
 DTYPE = np.dtype(
     [*((name, np.int64) for name in NAMES), ("row", ROW_DTYPE), ("step_row", STEP_DTYPE)]
 )
-Places = Any
-"""Type of `at` in loops: a record of `DTYPE`, ``work[at.mode + j, lane]``."""
-PLACES = from_dtype(DTYPE)[::1]
-"""Type of the record in kernels: an array of one, which costs Python least to pass."""
+Slots = Any
+"""Type of `at` in loops: a structure of `DTYPE`, ``work[at.mode + j, lane]``."""
+AT = from_dtype(DTYPE)[::1]
+"""Type of the structure in kernels: an array of one, which costs Python least to pass."""
 
 
-def places_of(
+def slots_of(
     layout: Layout, row: DenseRow, step_row: StepRow, counts: Mapping[str, int]
 ) -> NDArray[np.void]:
-    """Return the record of all offsets, (1,); `counts`: numbers of states, pairs and so on.
+    """Return the structure of all slots, (1,); `counts`: numbers of states, pairs and so on.
 
     Raises
     ------
     KeyError
         The layout lacks a slot that the loop reads.
     """
-    places = np.zeros(1, DTYPE)
+    slots = np.zeros(1, DTYPE)
     found = dict(counts) | {name: layout.block(name).start for name in SLOTS}
     found |= dict.fromkeys(OF_TANGENTS, -1) | {"size": layout.size}
     found["impulse"] = layout.block("total").stop - counts["pairs"]
     found["power"] = layout.block("ledger").start
     found["contact_row"] = counts["rows"] - counts["pairs"]
     for name in NAMES:
-        places[name] = found[name]
+        slots[name] = found[name]
     for name, kind in (("row", row), ("step_row", step_row)):
-        places[name] = tuple(getattr(kind, column) for column in type(kind).__annotations__)
-    return places
+        slots[name] = tuple(getattr(kind, column) for column in type(kind).__annotations__)
+    return slots

@@ -1,6 +1,6 @@
 """Numbers of a start that may vary from point to point, as declared parameters do.
 
-A place is a JSON pointer into a scene: a coordinate of its start, or the phase of a driver.
+Each has a JSON pointer into a scene: a coordinate of its start, or the phase of a driver.
 """
 
 import re
@@ -16,7 +16,7 @@ _POINT: Final = r"([A-Za-z][A-Za-z0-9_-]{0,31}\.[A-Za-z][A-Za-z0-9_-]{0,31})"
 
 
 @dataclass(frozen=True)
-class StartPlace:
+class StartNumber:
     """A number of a start, or two of a vector in world axes."""
 
     path: str
@@ -36,43 +36,43 @@ class StartPlace:
         return path + ("/([01])" if self.is_vector else "")
 
 
-PLACES: Final = (
-    StartPlace("/start/angles/NAME", "bodies", "angle", "rad"),
-    StartPlace("/start/points/POINT", "bodies", "place", "m", is_vector=True),
-    StartPlace("/start/angular_velocities/NAME", "bodies", "angular_velocity", "rad/s"),
-    StartPlace("/start/velocities/NAME", "bodies", "velocity", "m/s", is_vector=True),
-    StartPlace("/start/joints/NAME/eccentricity", "joints", "eccentricity", "m", is_vector=True),
-    StartPlace("/start/joints/NAME/rate", "joints", "eccentricity_rate", "m/s", is_vector=True),
-    StartPlace("/start/guides/NAME/offset", "joints", "offset", "m"),
-    StartPlace("/start/guides/NAME/tilt", "joints", "tilt", "rad"),
-    StartPlace("/start/guides/NAME/rate", "joints", "offset_rate", "m/s"),
-    StartPlace("/start/guides/NAME/tilt_rate", "joints", "tilt_rate", "rad/s"),
-    StartPlace("/drivers/NAME/position", "drivers", "position", "rad"),
+NUMBERS: Final = (
+    StartNumber("/start/angles/NAME", "bodies", "angle", "rad"),
+    StartNumber("/start/points/POINT", "bodies", "place", "m", is_vector=True),
+    StartNumber("/start/angular_velocities/NAME", "bodies", "angular_velocity", "rad/s"),
+    StartNumber("/start/velocities/NAME", "bodies", "velocity", "m/s", is_vector=True),
+    StartNumber("/start/joints/NAME/eccentricity", "joints", "eccentricity", "m", is_vector=True),
+    StartNumber("/start/joints/NAME/rate", "joints", "eccentricity_rate", "m/s", is_vector=True),
+    StartNumber("/start/guides/NAME/offset", "joints", "offset", "m"),
+    StartNumber("/start/guides/NAME/tilt", "joints", "tilt", "rad"),
+    StartNumber("/start/guides/NAME/rate", "joints", "offset_rate", "m/s"),
+    StartNumber("/start/guides/NAME/tilt_rate", "joints", "tilt_rate", "rad/s"),
+    StartNumber("/drivers/NAME/position", "drivers", "position", "rad"),
 )
-PATTERN: Final = "^(" + "|".join(place.pattern for place in PLACES) + ")$"
+PATTERN: Final = "^(" + "|".join(number.pattern for number in NUMBERS) + ")$"
 """Regular expression of all pointers."""
 
 
 def name_of(pointer: str) -> str:
     """Return the name of a number of a start: ``stop.eccentricity_x``, ``motor.position``."""
-    place, name, index = _read(pointer)
-    return f"{name}.{place.name}" + ("" if index is None else f"_{'xy'[index]}")
+    number, name, index = _read(pointer)
+    return f"{name}.{number.name}" + ("" if index is None else f"_{'xy'[index]}")
 
 
 def obstacle(scene: Scene, pointer: str) -> str:
     """Return why a scene has no such number, as a sentence; empty: it has."""
-    place, name, _ = _read(pointer)
-    parts: Mapping[str, Any] = getattr(scene, place.part)
-    owner, _, point = name.partition(".")
-    if owner not in parts:
-        kind = {"bodies": "body", "joints": "joint", "drivers": "driver"}[place.part]
-        return unknown(kind, owner, parts)
-    if point and point not in parts[owner].points:
-        return unknown("point", name, [f"{owner}.{one}" for one in parts[owner].points])
+    number, name, _ = _read(pointer)
+    parts: Mapping[str, Any] = getattr(scene, number.part)
+    part, _, point = name.partition(".")
+    if part not in parts:
+        kind = {"bodies": "body", "joints": "joint", "drivers": "driver"}[number.part]
+        return unknown(kind, part, parts)
+    if point and point not in parts[part].points:
+        return unknown("point", name, [f"{part}.{one}" for one in parts[part].points])
     return ""
 
 
-def with_places(
+def with_start_numbers(
     document: Mapping[str, Any], scene: Scene, pointers: Sequence[str]
 ) -> tuple[dict[str, Any], Scene]:
     """Return a scene in which numbers of its start are declared parameters, and its document.
@@ -84,9 +84,9 @@ def with_places(
     for pointer in pointers:
         if obstacle(scene, pointer):
             continue
-        place, name, index = _read(pointer)
-        driven = scene.drivers[name].joint if place.part == "drivers" else None
-        unit = "m" if driven and scene.joints[driven].freedom == "slide" else place.unit
+        number, name, index = _read(pointer)
+        driven = scene.drivers[name].joint if number.part == "drivers" else None
+        unit = "m" if driven and scene.joints[driven].freedom == "slide" else number.unit
         filled = _with_zero(filled, pointer.strip("/").split("/"), index)
         parameters[name_of(pointer)] = Parameter(
             help=f"Of the start: {pointer}.", unit=unit, targets=[Target(path=pointer)]
@@ -94,12 +94,12 @@ def with_places(
     return filled, scene.model_copy(update={"parameters": parameters})
 
 
-def _read(pointer: str) -> tuple[StartPlace, str, int | None]:
+def _read(pointer: str) -> tuple[StartNumber, str, int | None]:
     """Return what a pointer leads to, the part's name, and the index into a vector."""
-    for place in PLACES:
-        found = re.fullmatch(place.pattern, pointer)
+    for number in NUMBERS:
+        found = re.fullmatch(number.pattern, pointer)
         if found:
-            return place, found[1], int(found[2]) if place.is_vector else None
+            return number, found[1], int(found[2]) if number.is_vector else None
     raise ValueError(f"{pointer!r} is no number of a start")
 
 

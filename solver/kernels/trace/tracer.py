@@ -1,6 +1,6 @@
 """Records what the mechanics compute, as a graph of arithmetic that simplifies as it grows.
 
-A small recorder of our own, not CasADi or SymPy: what is needed is a few simplifications, one
+A small tracer of our own, not CasADi or SymPy: what is needed is a few simplifications, one
 pass of common-subexpression elimination that falls out of hash-consing, a bound on the number of
 statements, and control over the text that is emitted; all of it fits here, without a
 dependency of 100 MB and without symbolic algebra, whose simplifier takes minutes on a mechanism.
@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from jointplay.records.failure import LimitExceeded
-from jointplay.solver.kernels.record.operations import OPERATIONS
+from jointplay.solver.kernels.trace.operations import OPERATIONS
 from jointplay.solver.kernels.watched import require_wanted
 from jointplay.solver.quantities import elementary
 
@@ -29,8 +29,8 @@ _LOOK = 2048
 COMMUTING = frozenset({"add", "mul"})
 
 
-class Recorder:
-    """Owns the nodes of one recording, `most` of them; derivatives need more than equations."""
+class Tracer:
+    """Owns the nodes of one trace, `most` of them; derivatives need more than equations."""
 
     def __init__(self, most: int = 16 * MOST_STATEMENTS) -> None:
         self._most = most
@@ -41,9 +41,9 @@ class Recorder:
         self.held: dict[Expression, Expression] = {}
         """Inverses of variables that do not change within a step, by variable; see `hold`."""
         self.kinks: dict[Expression, Expression] = {}
-        """Piecewise linear functions and their arguments, in the order of recording."""
+        """Piecewise linear functions and their arguments, in the order of tracing."""
         self.knots: dict[Expression, Knots] = {}
-        """Functions that are smooth between knots, in the order of recording."""
+        """Functions that are smooth between knots, in the order of tracing."""
 
     def constant(self, value: float) -> Expression:
         """Return the node of a literal number; minus zero is zero."""
@@ -102,16 +102,16 @@ def too_many(count: int) -> LimitExceeded:
     """Return the refusal of a scene whose equations are too long to compile."""
     return LimitExceeded.at(
         "/scene",
-        f"The equations of this scene take {count} recorded statements or more; the limit is"
+        f"The equations of this scene take {count} traced statements or more; the limit is"
         f" {MOST_STATEMENTS}. Use fewer bodies.",
     )
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Expression:
-    """A node: an operation on other nodes. Arithmetic on it records more nodes."""
+    """A node: an operation on other nodes. Arithmetic on it adds more nodes."""
 
-    recorder: Recorder = field(repr=False)
+    tracer: Tracer = field(repr=False)
     index: int
     operation: str
     arguments: tuple[Expression, ...] = field(repr=False)
@@ -129,7 +129,7 @@ class Expression:
         return self.operation == "constant" and self.data == value
 
     def __add__(self, other: object) -> Expression:
-        b = self.recorder.lift(other)
+        b = self.tracer.lift(other)
         if self.is_literal(0.0):
             return b
         if b.is_literal(0.0):
@@ -138,7 +138,7 @@ class Expression:
             return self - b.arguments[0]
         if self.operation == "neg":
             return b - self.arguments[0]
-        return self.recorder.apply("add", self, b)
+        return self.tracer.apply("add", self, b)
 
     __radd__ = __add__
 
@@ -146,28 +146,28 @@ class Expression:
         if self.operation == "neg":
             return self.arguments[0]
         if self.operation == "sub":
-            return self.recorder.apply("sub", self.arguments[1], self.arguments[0])
-        return self.recorder.apply("neg", self)
+            return self.tracer.apply("sub", self.arguments[1], self.arguments[0])
+        return self.tracer.apply("neg", self)
 
     def __sub__(self, other: object) -> Expression:
-        b = self.recorder.lift(other)
+        b = self.tracer.lift(other)
         if b.is_literal(0.0):
             return self
         if self.is_literal(0.0):
             return -b
         if self is b:
-            return self.recorder.constant(0.0)
+            return self.tracer.constant(0.0)
         if b.operation == "neg":
             return self + b.arguments[0]
-        return self.recorder.apply("sub", self, b)
+        return self.tracer.apply("sub", self, b)
 
     def __rsub__(self, other: object) -> Expression:
-        return self.recorder.lift(other) - self
+        return self.tracer.lift(other) - self
 
     def __mul__(self, other: object) -> Expression:
-        a, b = self, self.recorder.lift(other)
+        a, b = self, self.tracer.lift(other)
         if a.is_literal(0.0) or b.is_literal(0.0):
-            return self.recorder.constant(0.0)
+            return self.tracer.constant(0.0)
         for one, rest in ((a, b), (b, a)):
             if one.is_literal(1.0):
                 return rest
@@ -175,79 +175,79 @@ class Expression:
                 return -rest
             if one.operation == "neg":
                 return -(one.arguments[0] * rest)
-        return self.recorder.apply("mul", a, b)
+        return self.tracer.apply("mul", a, b)
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: object) -> Expression:
-        b = self.recorder.lift(other)
+        b = self.tracer.lift(other)
         if self.is_literal(0.0):
             return self
         if b.is_literal(1.0):
             return self
-        if b in self.recorder.held:
-            return self * self.recorder.held[b]
+        if b in self.tracer.held:
+            return self * self.tracer.held[b]
         if b.fixed and not self.fixed:
-            return self * (self.recorder.constant(1.0) / b)
-        return self.recorder.apply("div", self, b)
+            return self * (self.tracer.constant(1.0) / b)
+        return self.tracer.apply("div", self, b)
 
     def __rtruediv__(self, other: object) -> Expression:
-        return self.recorder.lift(other) / self
+        return self.tracer.lift(other) / self
 
     def __abs__(self) -> Expression:
-        return self.recorder.apply("abs", self)
+        return self.tracer.apply("abs", self)
 
     def sqrt(self) -> Expression:
         """Square root."""
-        return self.recorder.apply("sqrt", self)
+        return self.tracer.apply("sqrt", self)
 
     def floor(self) -> Expression:
         """Return the largest whole number that is not above this."""
-        return self.recorder.apply("floor", self)
+        return self.tracer.apply("floor", self)
 
     def select_positive(self, if_positive: object, otherwise: object) -> Expression:
         """`if_positive` where x > 0, else `otherwise`."""
-        a, b = self.recorder.lift(if_positive), self.recorder.lift(otherwise)
+        a, b = self.tracer.lift(if_positive), self.tracer.lift(otherwise)
         if a is b:
             return a
         if self.operation == "constant":
             return a if self.value > 0.0 else b
-        return self.recorder.apply("select", self, a, b)
+        return self.tracer.apply("select", self, a, b)
 
     def sine_cosine(self) -> tuple[Expression, Expression]:
         """Sine and cosine by arithmetic of our own; outside the kernel where x is fixed."""
         if self.fixed:
-            return self.recorder.apply("sin", self), self.recorder.apply("cos", self)
+            return self.tracer.apply("sin", self), self.tracer.apply("cos", self)
         sine, cosine = elementary.sine_cosine(self)
-        self.recorder.functions[sine.index] = Function("sin", self, cosine)
-        self.recorder.functions[cosine.index] = Function("cos", self, sine)
+        self.tracer.functions[sine.index] = Function("sin", self, cosine)
+        self.tracer.functions[cosine.index] = Function("cos", self, sine)
         return sine, cosine
 
     def kinked(self, argument: Expression) -> Expression:
         """Note that this is a piecewise linear function of one expression."""
         if not self.fixed:
-            self.recorder.kinks[self] = argument
+            self.tracer.kinks[self] = argument
         return self
 
     def knotted(
         self, argument: object, knots: Sequence[object], span: object | None, *, jumps: bool
     ) -> Expression:
         """Note that this is a function of one expression, smooth between knots."""
-        lift = self.recorder.lift
+        lift = self.tracer.lift
         if not self.fixed:
-            places = tuple(lift(knot) for knot in knots)
+            positions = tuple(lift(knot) for knot in knots)
             period = None if span is None else lift(span)
-            self.recorder.knots[self] = Knots(lift(argument), places, period, jumps)
+            self.tracer.knots[self] = Knots(lift(argument), positions, period, jumps)
         return self
 
     def power(self, exponent: object) -> Expression:
         """X ** exponent for x >= 0 by arithmetic of our own."""
-        lifted = self.recorder.lift(exponent)
+        lifted = self.tracer.lift(exponent)
         if self.fixed and lifted.fixed:
-            return self.recorder.apply("pow", self, lifted)
+            return self.tracer.apply("pow", self, lifted)
         result: Expression = elementary.power(self, lifted)
         if lifted.fixed:
-            self.recorder.functions[result.index] = Function("pow", self, lifted)
+            self.tracer.functions[result.index] = Function("pow", self, lifted)
         return result
 
     def logarithm(self) -> Expression:
@@ -260,15 +260,15 @@ class Expression:
 
     def _function(self, name: str, on_lanes: Callable[[Expression], Expression]) -> Expression:
         if self.fixed:
-            return self.recorder.apply(name, self)
+            return self.tracer.apply(name, self)
         result = on_lanes(self)
-        self.recorder.functions[result.index] = Function(name, self, self)
+        self.tracer.functions[result.index] = Function(name, self, self)
         return result
 
 
 @dataclass(frozen=True)
 class Function:
-    """Function that a node stands for, recorded as arithmetic: derivatives need not go there.
+    """Function that a node stands for, traced as arithmetic: derivatives need not go there.
 
     `partner` : the cosine of a sine and the sine of a cosine; the exponent of a power; else the
     argument.
@@ -284,7 +284,7 @@ class Knots:
     """Knots of a function of one expression: where a derivative jumps."""
 
     argument: Expression
-    places: tuple[Expression, ...]
+    positions: tuple[Expression, ...]
     """In ascending order."""
     span: Expression | None
     """Length of the argument after which they repeat: from the first to the last; None: never."""

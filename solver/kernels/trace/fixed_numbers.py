@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
-from jointplay.solver.kernels.record.operations import operate
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.trace.operations import operate
+from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 
@@ -19,13 +19,13 @@ class FixedNumbers:
         """List what is to be evaluated, by slot."""
         self.slots = list(nodes)
         self._nodes = _in_order(nodes.values())
-        places = {node.index: i for i, node in enumerate(self._nodes)}
-        self._wanted = [places[node.index] for node in nodes.values()]
+        order = {node.index: i for i, node in enumerate(self._nodes)}
+        self._wanted = [order[node.index] for node in nodes.values()]
         self._pointers = [
             str(node.data).split("/")[1:] if node.operation == "number" else []
             for node in self._nodes
         ]
-        self._arguments = [[places[a.index] for a in node.arguments] for node in self._nodes]
+        self._arguments = [[order[a.index] for a in node.arguments] for node in self._nodes]
 
     def values(self, scene: Scene) -> list[Scalar]:
         """Return the numbers of a scene in the order of `slots`; (points,) where they vary.
@@ -54,15 +54,15 @@ def _in_order(nodes: Iterable[Expression]) -> list[Expression]:
         if node.index not in found:
             found[node.index] = node
             waiting.extend(node.arguments)
-    return [found[index] for index in sorted(found)]  # nodes are recorded behind their arguments
+    return [found[index] for index in sorted(found)]  # nodes come behind their arguments
 
 
 def _number_at(scene: Scene, pointer: Sequence[str]) -> Scalar:
     """Return the number at the parts of a JSON pointer."""
-    place: Any = scene
+    part_of_scene: Any = scene
     for part in pointer:
-        if isinstance(place, BaseModel):
-            place = getattr(place, part)
+        if isinstance(part_of_scene, BaseModel):
+            part_of_scene = getattr(part_of_scene, part)
         else:
-            place = place[int(part) if isinstance(place, list) else part]
-    return place if isinstance(place, np.ndarray) else float(place)
+            part_of_scene = part_of_scene[int(part) if isinstance(part_of_scene, list) else part]
+    return part_of_scene if isinstance(part_of_scene, np.ndarray) else float(part_of_scene)

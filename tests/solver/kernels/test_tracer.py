@@ -1,4 +1,4 @@
-"""Recorded expressions are the mechanics: they evaluate to what the same code gives on floats."""
+"""Traced expressions are the mechanics: they evaluate to what the same code gives on floats."""
 
 import math
 import re
@@ -11,9 +11,9 @@ from jointplay.records.failure import LimitExceeded
 from jointplay.records.names import RESERVED_OUTPUTS
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
-from jointplay.solver.kernels.record import operations
-from jointplay.solver.kernels.record.equations import record
-from jointplay.solver.kernels.record.recorder import MOST_STATEMENTS, Expression, Recorder
+from jointplay.solver.kernels.trace import operations
+from jointplay.solver.kernels.trace.equations import trace
+from jointplay.solver.kernels.trace.tracer import MOST_STATEMENTS, Expression, Tracer
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
@@ -66,24 +66,24 @@ OPERATIONS = {
 def test_recorded_arithmetic_equals_arithmetic_on_floats(
     operation: str, kind: str, x: float, y: float
 ) -> None:
-    recorder = Recorder()
+    tracer = Tracer()
     if kind == "variable":
-        a, b = recorder.variable("x"), recorder.variable("y")
+        a, b = tracer.variable("x"), tracer.variable("y")
     else:
-        a, b = recorder.number("x", x), recorder.number("y", y)
-    recorded = recorder.lift(OPERATIONS[operation](a, b))
+        a, b = tracer.number("x", x), tracer.number("y", y)
+    traced = tracer.lift(OPERATIONS[operation](a, b))
     exact = OPERATIONS[operation](x, y)
     # a few roundings of the largest operand, 1e4 for products; angles up to 1e4 lose as much
     tolerance = 1e-15 * max(1.0, abs(x) + abs(y), abs(exact)) * max(1.0, abs(x), abs(y))
-    assert evaluate(recorded, {"x": x, "y": y}, {}) == pytest.approx(exact, abs=tolerance)
+    assert evaluate(traced, {"x": x, "y": y}, {}) == pytest.approx(exact, abs=tolerance)
 
 
 def test_the_same_expression_is_recorded_once() -> None:
-    recorder = Recorder()
-    x, y = recorder.variable("x"), recorder.variable("y")
+    tracer = Tracer()
+    x, y = tracer.variable("x"), tracer.variable("y")
     assert x * y is y * x
     assert x + y is y + x
-    assert x - x is recorder.constant(0.0)
+    assert x - x is tracer.constant(0.0)
     assert x + 0.0 is x
     assert x * 1.0 is x
     negated = -x
@@ -100,7 +100,7 @@ scenes_near_start = st.one_of(
 
 
 def variables(instant: Instant, formulation: str) -> dict[str, float]:
-    """Return the values of the variables that `solver.kernels.record.equations` names."""
+    """Return the values of the variables that `solver.kernels.trace.equations` names."""
     if formulation == "lagrange":
         q, v = instant.absolute_state()
     else:
@@ -125,8 +125,8 @@ def test_recorded_mechanics_equal_the_mechanics_on_floats(
     formulation: str, instant: Instant
 ) -> None:
     scene = instant.scene
-    equations = record(scene, spanning_tree(scene), formulation)
-    given_values = {**equations.recorder.numbers, **variables(instant, formulation)}
+    equations = trace(scene, spanning_tree(scene), formulation)
+    given_values = {**equations.tracer.numbers, **variables(instant, formulation)}
     found: dict[int, float] = {}
     motion = getattr(instant, formulation)()
     # the direction of a concentric journal is a matter of rounding
@@ -140,13 +140,13 @@ def test_recorded_mechanics_equal_the_mechanics_on_floats(
     expected |= {f"a{i}": value for i, value in enumerate(motion.accelerations)}
     rates = ledger_rates(numbers, motion)
     expected |= {f"rate{i}": value for i, value in enumerate(rates.values())}
-    recorded = {**equations.channels}
-    recorded |= {f"a{i}": node for i, node in enumerate(equations.accelerations)}
-    recorded |= {f"rate{i}": node for i, node in enumerate(equations.ledger)}
+    traced = {**equations.channels}
+    traced |= {f"a{i}": node for i, node in enumerate(equations.accelerations)}
+    traced |= {f"rate{i}": node for i, node in enumerate(equations.ledger)}
     # simplification reorders sums; as for the formulations, chains amplify its rounding
     scale = max(1.0, *(abs(value) for value in expected.values()))
     for name, value in expected.items():
-        got = evaluate(recorded[name], given_values, found)
+        got = evaluate(traced[name], given_values, found)
         assert got == pytest.approx(value, rel=1e-9, abs=1e-12 * scale), name
 
 
