@@ -48,7 +48,7 @@ def without_parameters() -> list[str]:
 
 
 def main() -> int:
-    """Warm presets and say how long each took; 3 if a check finds something compiled."""
+    """Warm presets and say how long each took. Returns 3 if a check finds something compiled."""
     parser = argparse.ArgumentParser(prog="python -m jointplay.worker.warm", description=__doc__)
     parser.add_argument("--check", action="store_true", help="fail if anything is compiled")
     parser.add_argument("preset", nargs="*", help="names of presets")

@@ -74,7 +74,10 @@ class SimulationWork:
         return self._settings.sealed_run(self._block.job, attempt)
 
     def _adopted(self, target: StoredObject) -> Outcome | None:
-        """Take over what an attempt sealed that was lost before it could say so; None: nothing."""
+        """Take over what an attempt sealed that was lost before it could say so.
+
+        Returns None if none sealed anything.
+        """
         for attempt in range(self._block.attempt - 1, 0, -1):
             lost = self._sealed(attempt)
             try:

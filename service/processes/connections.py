@@ -194,10 +194,10 @@ def _refusal(kind: ProblemKind, detail: str, **headers: str) -> bytes:
     """Return an answer of which no application knows."""
     document = ProblemDocument(type=kind.type, title=kind.title, status=kind.status, detail=detail)
     body = document.model_dump_json(exclude_defaults=True).encode()
-    told = {"Content-Type": MEDIA_TYPE, **DEFAULTS, **headers}
-    told |= {"Connection": "close", "Content-Length": str(len(body))}
+    fields = {"Content-Type": MEDIA_TYPE, **DEFAULTS, **headers}
+    fields |= {"Connection": "close", "Content-Length": str(len(body))}
     head = f"HTTP/1.1 {kind.status} {HTTPStatus(kind.status).phrase}\r\n"
-    head += "".join(f"{name}: {value}\r\n" for name, value in told.items())
+    head += "".join(f"{name}: {value}\r\n" for name, value in fields.items())
     return f"{head}\r\n".encode() + body
 
 

@@ -34,10 +34,10 @@ def record_progress(
     settings: SettingsDependency,
     block: BlockId,
     attempt: Attempt,
-    told: Annotated[protocol.Progress, said(protocol.Progress)],
+    message: Annotated[protocol.Progress, said(protocol.Progress)],
 ) -> Answered:
     """Note how far the block is, and hold it longer."""
-    known = told.model_dump()
+    known = message.model_dump()
     return Answered(verdict=catalogue.record_progress(block, attempt, settings.lease, **known))
 
 
@@ -47,14 +47,14 @@ def record_checkpoint(
     settings: SettingsDependency,
     block: BlockId,
     attempt: Attempt,
-    told: Annotated[protocol.Checkpoint, said(protocol.Checkpoint)],
+    message: Annotated[protocol.Checkpoint, said(protocol.Checkpoint)],
 ) -> Answered:
     """Name a restart point, whose files are there; with its progress the block is held longer."""
-    point = told.model_dump(exclude={"progress"})
+    point = message.model_dump(exclude={"progress"})
     catalogue.record_checkpoint(block, attempt, **point)
-    if told.progress is None:
+    if message.progress is None:
         return Answered(verdict=catalogue.verdict(block, attempt))
-    return record_progress(catalogue, settings, block, attempt, told.progress)
+    return record_progress(catalogue, settings, block, attempt, message.progress)
 
 
 @router.post("/activity", status_code=204)
@@ -62,10 +62,10 @@ def note_activity(
     catalogue: CatalogueDependency,
     block: BlockId,
     attempt: Attempt,
-    told: Annotated[protocol.Activity, said(protocol.Activity)],
+    message: Annotated[protocol.Activity, said(protocol.Activity)],
 ) -> None:
     """Show what takes long."""
-    catalogue.note_activity(block, attempt, told.activity)
+    catalogue.note_activity(block, attempt, message.activity)
 
 
 @router.post("/release", status_code=204)
@@ -79,10 +79,10 @@ def put_off(
     catalogue: CatalogueDependency,
     block: BlockId,
     attempt: Attempt,
-    told: Annotated[protocol.Activity, said(protocol.Activity)],
+    message: Annotated[protocol.Activity, said(protocol.Activity)],
 ) -> None:
     """Take the block back until a fault of the worker has passed."""
-    catalogue.put_off(block, attempt, told.activity)
+    catalogue.put_off(block, attempt, message.activity)
 
 
 @router.post("/finish")
@@ -92,12 +92,12 @@ def finish(
     bell: BellDependency,
     held: HeldBlock,
     job: JobOfBlock,
-    told: Annotated[protocol.Finish, said(protocol.Finish)],
+    message: Annotated[protocol.Finish, said(protocol.Finish)],
 ) -> Finished:
     """End the block, if its results are there, and, with its last block, the job."""
-    HandedIn(catalogue, settings, job, held).require_end(told.outcome, told.steps)
+    HandedIn(catalogue, settings, job, held).require_end(message.outcome, message.steps)
     try:
-        state = catalogue.finish(held.id, held.attempt, BlockEnd(**dict(told)))
+        state = catalogue.finish(held.id, held.attempt, BlockEnd(**dict(message)))
     except ValueError as error:
         raise RequestRefused.of_parameter("outcome", f"{error}.") from error
     if settings.most_running:  # its owner may have another block computed

@@ -13,7 +13,7 @@ from jointplay.worker.joined.protocol import Drop, DropAt
 
 router = APIRouter(prefix="/v1/worker/blocks/{block}/{attempt}/drops", include_in_schema=False)
 _SIGNED_FOR: Final = 900.0  # s
-Told = Annotated[Drop, said(Drop)]
+DropMessage = Annotated[Drop, said(Drop)]
 
 
 @router.post("", response_model=None)
@@ -23,7 +23,7 @@ def offer(
     uploads: UploadsDependency,
     held: HeldBlock,
     job: JobOfBlock,
-    told: Told,
+    message: DropMessage,
 ) -> DropAt | Response:
     """Return where a file of so many bytes may be put, or 204 if it is to be sent here.
 
@@ -33,13 +33,13 @@ def offer(
     if settings.results_redirect:
         try:
             dropped = HandedIn(catalogue, settings, job, held).offered(
-                uploads, told.name, told.sha256, told.size, _SIGNED_FOR
+                uploads, message.name, message.sha256, message.size, _SIGNED_FOR
             )
         except ValueError as error:
             raise _refused(error) from error
         if dropped is not None:
             address = dropped.place.link_to_put(
-                dropped.key, settings.results_redirect, _SIGNED_FOR, told.size
+                dropped.key, settings.results_redirect, _SIGNED_FOR, message.size
             )
     return Response(status_code=204) if address is None else DropAt(address=address)
 
@@ -50,11 +50,13 @@ def take(
     settings: SettingsDependency,
     held: HeldBlock,
     job: JobOfBlock,
-    told: Told,
+    message: DropMessage,
 ) -> None:
     """Make a file of the job of what was put, once its bytes were found right."""
     try:
-        HandedIn(catalogue, settings, job, held).take(told.name, told.sha256, told.size, told.md5)
+        HandedIn(catalogue, settings, job, held).take(
+            message.name, message.sha256, message.size, message.md5
+        )
     except (ValueError, FileNotFoundError) as error:
         raise _refused(error) from error
 

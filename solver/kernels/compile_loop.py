@@ -44,7 +44,7 @@ def compile_part(part: str) -> None:
 
 
 def begin(part: str) -> subprocess.Popen[bytes] | None:
-    """Start compiling a part in a process of its own; None when it is in the cache."""
+    """Start compiling a part in a process of its own. Returns None where it is in the cache."""
     if marker(part).exists():
         return None
     return subprocess.Popen(  # noqa: S603 - our own program
@@ -56,7 +56,7 @@ def begin(part: str) -> subprocess.Popen[bytes] | None:
 
 
 def main(parts: Sequence[str]) -> int:
-    """Compile the parts that are named, or all; 1 if one does not compile."""
+    """Compile the parts that are named, or all. Returns 1 if one does not compile, else 0."""
     for part in parts:
         compile_part(part)
     begun = [] if parts else [begin(part) for part in PARTS]

@@ -9,7 +9,7 @@ from jointplay.solver.quantities.roster import NameIn
 from jointplay.solver.quantities.units import Name, Strict, quantity
 from jointplay.solver.runs.admission import STANDARD_TOLERANCE
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.unions import form, has, told_by
+from jointplay.solver.scene.unions import discriminated_by, form, has
 
 Method = Annotated[str, NameIn(METHODS, "auto")]
 Accuracy = Literal["draft", "standard", "fine", "reference"]
@@ -63,7 +63,9 @@ def _form_of_scene(value: Any) -> str | None:
 
 SceneChoice = Annotated[
     Annotated[PresetScene, form("preset")] | Annotated[Scene, form("scene")],
-    told_by(_form_of_scene, "'scene' must be a scene document, or an object with a 'preset'"),
+    discriminated_by(
+        _form_of_scene, "'scene' must be a scene document, or an object with a 'preset'"
+    ),
     Field(description="a preset with parameters set, or a whole scene document"),
 ]
 

@@ -11,7 +11,7 @@ from jointplay.solver.kinds.points import Axis, Points, plane
 from jointplay.solver.kinds.values import Values, axis, count
 from jointplay.solver.quantities.units import Name, Strict
 from jointplay.solver.scene import start_numbers
-from jointplay.solver.scene.unions import form, has, told_by
+from jointplay.solver.scene.unions import discriminated_by, form, has
 
 
 class Along(Strict):
@@ -60,7 +60,7 @@ def _form_of_axis(value: Any) -> str | None:
 
 AnyAlong = Annotated[
     Annotated[Along, form("parameter")] | Annotated[AlongStart, form("start")],
-    told_by(
+    discriminated_by(
         _form_of_axis,
         "An axis must be an object with 'values', and 'parameter' or 'start'",
     ),

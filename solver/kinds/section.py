@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from jointplay.solver.quantities.units import Strict, quantity
-from jointplay.solver.scene.unions import form, has, told_by
+from jointplay.solver.scene.unions import discriminated_by, form, has
 
 
 class CrankSection(Strict):
@@ -47,7 +47,7 @@ Section = Annotated[
     Annotated[CrankSection, form("crank_angle")]
     | Annotated[OnsetSection, form("onset")]
     | Annotated[ChannelSection, form("channel")],
-    told_by(
+    discriminated_by(
         _form_of_section,
         "'section' must be an object with 'crank_angle', with 'onset', or with 'channel' and"
         " 'value'",

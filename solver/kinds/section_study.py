@@ -21,7 +21,7 @@ from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.scene.unions import form, told_by
+from jointplay.solver.scene.unions import discriminated_by, form
 
 Indicator = Literal["lyapunov", "zero_one", "recurrence", "rotation", "spectrum"]
 INDICATORS: tuple[Indicator, ...] = get_args(Indicator)
@@ -41,7 +41,7 @@ def _form_of_settle(value: Any) -> str | None:
 Settle = Annotated[
     Annotated[int, Field(ge=0, le=10**12), form("periods")]
     | Annotated[Literal["auto"], form("auto")],
-    told_by(_form_of_settle, "'settle' must be a whole number of periods, or 'auto'"),
+    discriminated_by(_form_of_settle, "'settle' must be a whole number of periods, or 'auto'"),
     quantity(
         "periods",
         description=(
@@ -65,7 +65,7 @@ IndicatorChoice = Annotated[
         form("list"),
     ]
     | Annotated[Literal["all"], form("all")],
-    told_by(_form_of_indicators, "'indicators' must be a list of indicators, or 'all'"),
+    discriminated_by(_form_of_indicators, "'indicators' must be a list of indicators, or 'all'"),
     Field(description="what tells regular from chaotic motion, each with its uncertainty"),
 ]
 

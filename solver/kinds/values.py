@@ -12,7 +12,7 @@ from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds.points import Axis
 from jointplay.solver.quantities.units import Strict, quantity
-from jointplay.solver.scene.unions import form, told_by
+from jointplay.solver.scene.unions import discriminated_by, form
 
 UNIT = "the parameter's unit"
 
@@ -38,7 +38,7 @@ def _form_of_values(value: Any) -> str | None:
 Values = Annotated[
     Annotated[Range, form("range")]
     | Annotated[list[Annotated[float, quantity(UNIT)]], Field(min_length=1), form("list")],
-    told_by(
+    discriminated_by(
         _form_of_values,
         "The values must be a list of numbers, or an object with 'from', 'to' and 'count'",
     ),

@@ -11,7 +11,7 @@ from jointplay.solver.quantities.units import (
     Strict,
     quantity,
 )
-from jointplay.solver.scene.unions import form, has, told_by
+from jointplay.solver.scene.unions import discriminated_by, form, has
 
 
 class Driver(Strict):
@@ -91,5 +91,5 @@ def _form_of_driver(value: Any) -> str:
 
 AnyDriver = Annotated[
     Annotated[SteadyDriver, form("speed")] | Annotated[MovingDriver, form("motion")],
-    told_by(_form_of_driver, "a driver is an object with 'speed' or with 'motion'"),
+    discriminated_by(_form_of_driver, "a driver is an object with 'speed' or with 'motion'"),
 ]

@@ -16,7 +16,7 @@ def form(name: str) -> Tag:
     return Tag(_PREFIX + name)
 
 
-def told_by(tell: Callable[[Any], str | None], otherwise: str) -> Discriminator:
+def discriminated_by(tell: Callable[[Any], str | None], otherwise: str) -> Discriminator:
     """Return what tells the forms of a field apart.
 
     `tell` takes the value and returns the name of its form, or None; `otherwise` is said of a value

@@ -29,10 +29,10 @@ class Unsuccessful(NamedTuple):
 
 def unsuccessful(unit: Unit, batch_id: str) -> tuple[Unsuccessful, ...]:
     """Return the jobs of a batch that failed or were cancelled and did not expire, in order."""
-    told = exists().where(_event.c.job == _job.c.id, _event.c.type == _RETRIED)
+    noted = exists().where(_event.c.job == _job.c.id, _event.c.type == _RETRIED)
     there = or_(_job.c.expires.is_(None), _job.c.expires > unit.now)
     rows = unit.execute(
-        select(_job, told.label(_RETRIED))
+        select(_job, noted.label(_RETRIED))
         .where(_job.c.batch == batch_id, _job.c.state.in_(RETRIABLE), there)
         .order_by(_job.c.id)
     )
@@ -53,7 +53,7 @@ def tell(unit: Unit, retries: Sequence[tuple[str, str]]) -> None:
 
 
 def tell_once(unit: Unit, old: str, new: str) -> None:
-    """Record with a job that another one, which was there, computes the same; unless it is told."""
-    told = select(_event.c.data).where(_event.c.job == old, _event.c.type == _RETRIED)
-    if {"job": new} not in unit.execute(told).scalars().all():
+    """Record with a job that another one, which was there, computes the same, but only once."""
+    noted = select(_event.c.data).where(_event.c.job == old, _event.c.type == _RETRIED)
+    if {"job": new} not in unit.execute(noted).scalars().all():
         tell(unit, [(old, new)])

@@ -125,16 +125,16 @@ def wake_again(unit: Unit, block_id: str, solver: Solver) -> None:
     """
     outbox = tables.outbox
     of_block = outbox.c.block == block_id
-    told = or_(outbox.c.tries > 0, outbox.c.due <= unit.now)  # otherwise it was put off since
+    offered = or_(outbox.c.tries > 0, outbox.c.due <= unit.now)  # otherwise it was put off since
     may = select(_job.c.id).join(_block).where(_block.c.id == block_id, _waits, _FITS)
     found = unit.execute(
-        select(outbox.c.created, may.exists()).where(of_block, told), _asked_by(unit, solver)
+        select(outbox.c.created, may.exists()).where(of_block, offered), _asked_by(unit, solver)
     ).one_or_none()
     if found is not None:
         created, may_take = found
         longer = min(max(_PART_OF_WAIT * (unit.now - created), 1.0), _LONGEST_PAUSE)
         due = unit.now + (0.0 if may_take else longer)
-        unit.execute(update(outbox).where(of_block, told).values(due=due, tries=0))
+        unit.execute(update(outbox).where(of_block, offered).values(due=due, tries=0))
 
 
 def machine_of(worker: str) -> str:

@@ -12,11 +12,11 @@ from jointplay.records.peak import PeakColumns
 from jointplay.records.point import Failure
 from jointplay.records.run import Floats
 from jointplay.storage.errors import UnknownChannel
-from jointplay.storage.studies.moment import StudyMoment
 from jointplay.storage.studies.points import INDICATORS, STATISTICS
+from jointplay.storage.studies.snapshot import StudySnapshot
 
 
-class StudyReader(StudyMoment):
+class StudyReader(StudySnapshot):
     """One study's store as it is at this moment: sealed, growing, or left incomplete."""
 
     @property

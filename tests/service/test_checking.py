@@ -11,7 +11,7 @@ from jointplay.service.checking import SHORT, Checker, CheckJob
 from jointplay.service.idempotency import SentKey
 from jointplay.service.problems.handlers import refusal
 from jointplay.solver.kernels.trace import length
-from jointplay.solver.kernels.trace.equations import record
+from jointplay.solver.kernels.trace.equations import trace
 from jointplay.storage.catalogue.quotas import NO_QUOTA
 from tests.solver.random_mechanisms import chain
 
@@ -85,7 +85,7 @@ def test_a_document_that_is_no_json_is_refused_alike(checker):
 
 
 def test_a_check_that_takes_too_long_is_ended_and_refused(settings, catalogue):
-    scene = chain(63).model_dump()  # its equations are recorded, in another process
+    scene = chain(63).model_dump()  # its equations are traced, in another process
     checker = Checker(settings, catalogue, patience=0.0)
     with pytest.raises(LimitExceeded, match="more than 0 s"):
         checker.check(CheckJob(), json.dumps(JOB | {"scene": scene}).encode())
@@ -96,8 +96,8 @@ def test_a_check_that_takes_too_long_is_ended_and_refused(settings, catalogue):
 def test_a_form_of_too_many_bodies_is_recorded_once_for_a_whole_batch(
     checker, catalogue, monkeypatch
 ):
-    recorded = []
-    monkeypatch.setattr(length, "record", lambda *a: recorded.append(a) or record(*a))
+    traced = []
+    monkeypatch.setattr(length, "trace", lambda *a: traced.append(a) or trace(*a))
     monkeypatch.setattr(length, "MOST_STATEMENTS", 10)
     job = JOB | {"scene": chain(8).model_dump()}
     with pytest.raises(LimitExceeded) as refused:
@@ -105,4 +105,4 @@ def test_a_form_of_too_many_bodies_is_recorded_once_for_a_whole_batch(
             {"jobs": [job, job | {"duration": 1.0}]}, checker._settings, catalogue
         )
     assert [one.pointer for one in refused.value.problems] == ["/jobs/0/scene", "/jobs/1/scene"]
-    assert len(recorded) == 1
+    assert len(traced) == 1

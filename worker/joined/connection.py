@@ -65,7 +65,7 @@ class Connection:
         self._http.close()
 
     def claim(self, request: ClaimRequest) -> Claimed | None:
-        """Wait for a block; None if there was none in the time that the request says."""
+        """Wait for a block. Returns None if there was none in the time that the request says."""
         patient = httpx.Timeout(request.wait + _PATIENCE, connect=_CONNECT)
         with self._answering():
             response = self._http.post("/v1/worker/claims", **_json(request), timeout=patient)

@@ -81,7 +81,7 @@ class Kernel:
 
 
 def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) -> Kernel:
-    """Record, emit and load the kernel of a scene's structure; seconds when it is not cached.
+    """Trace, emit and load the kernel of a scene's structure; seconds when it is not cached.
 
     Raises
     ------

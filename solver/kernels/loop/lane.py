@@ -28,7 +28,7 @@ class Lane:
 
     @property
     def slots(self) -> NDArray[np.void]:
-        """Named offsets, (1,); see `solver.kernels.emit.slots`."""
+        """Named slots, (1,); see `solver.kernels.emit.slots`."""
         return self.kernel.slots if self.tangents is None else self.tangents.slots
 
     def __getitem__(self, name: str) -> Floats:

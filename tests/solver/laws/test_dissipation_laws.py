@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kernels.trace.tracer import Recorder
+from jointplay.solver.kernels.trace.tracer import Tracer
 from jointplay.solver.laws.dissipation import LAWS, Dissipation, Elastic
 from jointplay.solver.laws.dissipation.exact import inverse_langevin
 from jointplay.solver.laws.stiffness import LAWS as STIFFNESS_LAWS
@@ -95,20 +95,20 @@ def test_it_is_dimensionally_homogeneous(
 
 @each
 def test_it_is_recorded_as_it_is_written(law: Dissipation) -> None:
-    recorder = Recorder()
+    tracer = Tracer()
     numbers = {
-        name: recorder.number(name, value)
+        name: tracer.number(name, value)
         for name, value in law.model_dump().items()
         if isinstance(value, float)
     }
     seen = type(law).model_construct(**{**law.model_dump(), **numbers})
-    depth, rate, impact = (recorder.variable(name) for name in ("depth", "rate", "impact"))
+    depth, rate, impact = (tracer.variable(name) for name in ("depth", "rate", "impact"))
     for stiffness in STIFFNESSES:
-        node = recorder.lift(seen.normal_force(Elastic(stiffness, FIT, depth), rate, impact))
+        node = tracer.lift(seen.normal_force(Elastic(stiffness, FIT, depth), rate, impact))
         for here in (-1e-6, 0.0, 1e-9, 1e-5):
             for speed in (-0.1, 0.3):
                 values = {"depth": here, "rate": speed, "impact": 0.2}
-                found = evaluate(node, recorder.numbers | values, {})
+                found = evaluate(node, tracer.numbers | values, {})
                 exact = law.normal_force(Elastic(stiffness, FIT, here), speed, 0.2)
                 assert found == pytest.approx(exact, rel=1e-12)
 

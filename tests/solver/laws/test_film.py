@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kernels.trace.tracer import Recorder
+from jointplay.solver.kernels.trace.tracer import Tracer
 from jointplay.solver.kinds import admit
 from jointplay.solver.laws.contact.film import Film
 from jointplay.solver.laws.contact.long_bearing_film import LongBearingFilm
@@ -144,8 +144,8 @@ def test_in_a_long_bearing_it_has_those_of_sommerfeld() -> None:
 @given(st.floats(-1e3, 1e3), st.floats(-1e3, 1e3))
 def test_a_recorded_angle_of_a_direction_is_the_librarys(x: float, y: float) -> None:
     assume(math.hypot(x, y) > 1e-9)
-    recorder = Recorder()
-    recorded = direction_angle(recorder.variable("x"), recorder.variable("y"))
+    tracer = Tracer()
+    recorded = direction_angle(tracer.variable("x"), tracer.variable("y"))
     found = evaluate(recorded, {"x": x, "y": y}, {})
     apart = math.remainder(found - math.atan2(y, x), 2.0 * math.pi)
     assert apart == pytest.approx(0.0, abs=1e-15 * math.pi)

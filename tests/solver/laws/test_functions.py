@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from jointplay.solver.kernels.trace.derivative import Derivative
-from jointplay.solver.kernels.trace.tracer import Recorder
+from jointplay.solver.kernels.trace.tracer import Tracer
 from jointplay.solver.laws.function import FUNCTIONS, Function
 from jointplay.solver.laws.function.constant import Constant
 from jointplay.solver.laws.function.piecewise_polynomial import PiecewisePolynomial
@@ -50,10 +50,10 @@ class FunctionSpecification:
         """A recorded derivative is exact, and follows the branch that is in force."""
         function = data.draw(self.functions)
         assume(not self.bends_at(function, x))
-        recorder = Recorder()
-        variable = recorder.variable("x")
-        found = [recorder.lift(part) for part in function.at(variable)]
-        derivative = Derivative({"x": recorder.constant(1.0)})
+        tracer = Tracer()
+        variable = tracer.variable("x")
+        found = [tracer.lift(part) for part in function.at(variable)]
+        derivative = Derivative({"x": tracer.constant(1.0)})
         given_x = {"x": x}
         here = function.at(x)
         exact = [evaluate(derivative(part), given_x, {}) for part in found[:2]]
@@ -229,8 +229,8 @@ def test_a_refused_argument_is_not_a_number(model: str) -> None:
     assert function.domain == (0.0, 2.0)
     assert math.isfinite(function.at(2.0 + 1e-10).value)
     assert math.isnan(function.at(2.0 + 1e-8).value)
-    recorder = Recorder()
-    recorded = recorder.lift(function.at(recorder.variable("x")).value)
+    tracer = Tracer()
+    recorded = tracer.lift(function.at(tracer.variable("x")).value)
     assert math.isnan(evaluate(recorded, {"x": -1.0}, {}))
     assert evaluate(recorded, {"x": 1.0}, {}) == pytest.approx(function.at(1.0).value)
 

@@ -12,7 +12,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kernels.trace.tracer import Recorder
+from jointplay.solver.kernels.trace.tracer import Tracer
 from jointplay.solver.kinds import admit
 from jointplay.solver.laws.stiffness import LAWS, Stiffness
 from jointplay.solver.laws.stiffness.logarithmic import LAST_T, Logarithmic, lower_branch
@@ -78,20 +78,20 @@ def test_it_is_dimensionally_homogeneous(law: Stiffness, units: Units, share: fl
 
 @each
 def test_it_is_recorded_as_it_is_written(law: Stiffness) -> None:
-    recorder = Recorder()
+    tracer = Tracer()
     numbers = {
-        name: recorder.number(name, value)
+        name: tracer.number(name, value)
         for name, value in law.model_dump().items()
         if isinstance(value, float) and not (name == "exponent" and value == 1.5)
     }
     seen = type(law).model_construct(**{**law.model_dump(), **numbers})
-    fit = Fit(*(recorder.number(f"fit{i}", length) for i, length in enumerate(FIT)))
-    depth = recorder.variable("depth")
+    fit = Fit(*(tracer.number(f"fit{i}", length) for i, length in enumerate(FIT)))
+    depth = tracer.variable("depth")
     for name in ("force", "energy", "slope"):
-        node = recorder.lift(getattr(seen, name)(fit, depth))
+        node = tracer.lift(getattr(seen, name)(fit, depth))
         for share in (-1e-3, 0.0, 1e-9, 1e-4, 0.03, 0.7, 2.0):
             here = share * FIT.radial_clearance
-            found = evaluate(node, {**recorder.numbers, "depth": here}, {})
+            found = evaluate(node, {**tracer.numbers, "depth": here}, {})
             # logarithms and exponentials of our own, to 4e-16 of numbers up to 700
             assert found == pytest.approx(getattr(law, name)(FIT, here), rel=1e-12), (name, share)
 

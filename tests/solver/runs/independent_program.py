@@ -1,7 +1,7 @@
 """An independent program: SciPy's DOP853 on the float mechanics, in absolute coordinates.
 
 It shares with the solver the readable mechanics (which other tests hold to the laws of nature)
-and nothing of what makes a run: no recorder, no kernel, no step control, no dense output of ours,
+and nothing of what makes a run: no tracer, no kernel, no step control, no dense output of ours,
 no search for onsets. Onsets are located by SciPy's events; every contact is a restart.
 """
 

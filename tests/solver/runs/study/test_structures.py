@@ -4,7 +4,7 @@ from itertools import product
 
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.trace.equations import record, slopes
+from jointplay.solver.kernels.trace.equations import slopes, trace
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
 from tests.solver.runs.study.jobs_of_studies import PRESS, SWEEP, study
@@ -13,7 +13,7 @@ from tests.solver.runs.study.jobs_of_studies import PRESS, SWEEP, study
 def right_hand_side(scene: Scene) -> str:
     """Return the generated source of a scene's right-hand side."""
     layout = Layout()
-    equations = record(scene, spanning_tree(scene), "reduced")
+    equations = trace(scene, spanning_tree(scene), "reduced")
     names = dict.fromkeys(name for name, _ in slopes(equations))
     variables = [f"stage{i}" for i in range(2 * len(equations.coordinates))]
     play = range(len(equations.pairs))

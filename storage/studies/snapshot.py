@@ -31,7 +31,7 @@ from jointplay.storage.studies.store import FAILURES, REASONS, RESULTS
 _PATIENCE = 100  # times that parts may be replaced while they are being read
 
 
-class StudyMoment(StoreReader):
+class StudySnapshot(StoreReader):
     """One study's store: its attributes and its points, all of one moment.
 
     Opening reads one small file; everything else is read when it is asked for.
