@@ -93,7 +93,7 @@ def test_a_check_that_takes_too_long_is_ended_and_refused(settings, catalogue):
     assert checker.check(CheckJob(), json.dumps(JOB).encode()).job  # not of many bodies
 
 
-def test_a_form_of_too_many_bodies_is_recorded_once_for_a_whole_batch(
+def test_a_form_of_too_many_bodies_is_traced_once_for_a_whole_batch(
     checker, catalogue, monkeypatch
 ):
     traced = []
