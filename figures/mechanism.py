@@ -23,7 +23,7 @@ def draw_mechanism(
     Parameters
     ----------
     scene
-        The scene document, checked.
+        The scene document, checked, and the `curves` that its joints are drawn by, if any.
     pose
         By body: x and y of the centre of mass [m] and angle [rad].
     options

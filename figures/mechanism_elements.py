@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.figures import colours, page
-from jointplay.figures.mechanism_geometry import GROUND, Point, Pose, world
+from jointplay.figures.mechanism_geometry import GROUND, Point, Pose, angle_of, world
 
 TURNING = ("torsion-spring", "torque", "motor")
 _COILS, _WIDTH = 6, 0.02
@@ -47,8 +47,7 @@ def elements(scene: Mapping[str, Any], pose: Pose) -> list[Element]:
             x, y = element["direction"]
             size = math.hypot(x, y) * (-1.0 if element["magnitude"] < 0.0 else 1.0)
             body = {"first": first, "second": second}.get(element.get("axes", "world"), GROUND)
-            name = body.partition(".")[0]
-            angle = 0.0 if name == GROUND else pose[name][2]
+            angle = angle_of(pose, body)
             c, s = math.cos(angle), math.sin(angle)
             direction = ((c * x - s * y) / size, (s * x + c * y) / size)
         ends = world(scene, pose, first), world(scene, pose, second)

@@ -160,8 +160,20 @@ def _look(joint: Mapping[str, Any], driven: bool) -> str:
 def heading(joint: Mapping[str, Any], pose: Pose) -> float:
     """Return the angle in the world of the axis of a joint that has one [rad]."""
     marks = marks_of(joint)
-    part, (x, y) = joint[marks["ends"][0]].partition(".")[0], joint[marks["axis"]]
-    return (0.0 if part == GROUND else pose[part][2]) + math.atan2(y, x)
+    x, y = joint[marks["axis"]]
+    return angle_of(pose, joint[marks["ends"][0]]) + math.atan2(y, x)
+
+
+def angle_of(pose: Pose, reference: str) -> float:
+    """Return the angle in the world of the body of a named point [rad]."""
+    body = reference.partition(".")[0]
+    return 0.0 if body == GROUND else pose[body][2]
+
+
+def turned(angle: float, points: Floats) -> Floats:
+    """Turn points (..., 2) about the origin [rad]."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.asarray(points @ np.array([[c, s], [-s, c]]))
 
 
 def world(scene: Mapping[str, Any], pose: Pose, reference: str) -> Point:

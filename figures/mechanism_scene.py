@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.mechanism_cams import Curves, cam_curves, draw_cams
+from jointplay.figures.mechanism_curves import Curve, curves, draw_curves
 from jointplay.figures.mechanism_elements import (
     Element,
     Wheels,
@@ -34,7 +34,7 @@ class PlacedScene:
     """All that is drawn of a scene at a pose; lengths in m, in the world."""
 
     shape: Geometry
-    cams: list[Curves]
+    curves: list[Curve]
     gears: list[Wheels]
     elements: list[Element]
     guides: list[Guide]
@@ -52,15 +52,15 @@ class PlacedScene:
 
 
 def place(scene: Mapping[str, Any], pose: Pose) -> PlacedScene:
-    """Place a scene document, checked, at a pose of all its bodies."""
-    curves, gears = cam_curves(scene, pose), wheels(scene, pose)
-    wide = [curve for pair in curves for curve in pair if curve is not None]
-    wide += [circle for gear in gears for circle in circles(gear)]
+    """Place a scene document, checked, with its curves at a pose of all its bodies."""
+    drawn, gears = curves(scene, pose), wheels(scene, pose)
+    wide = [curve.points for curve in drawn]
+    wide += [circle.T for gear in gears for circle in circles(gear)]
     shape = geometry(scene, pose)
     walled = guides(scene, pose, shape.size)
-    wide += [points.T for guide in walled for points in (guide.slider, *guide.walls)]
-    placed = PlacedScene(shape, curves, gears, elements(scene, pose), walled)
-    return placed.within((x, y) for curve in wide for x, y in curve.T.tolist())
+    wide += [points for guide in walled for points in (guide.slider, *guide.walls)]
+    placed = PlacedScene(shape, drawn, gears, elements(scene, pose), walled)
+    return placed.within((x, y) for points in wide for x, y in points.tolist())
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class View:
 def draw_placed(axes: page.Axes, placed: PlacedScene, metre: float) -> None:
     """Draw a scene, from the back to the front; `metre` [m] is one of the panel's units."""
     draw_rails(axes, placed.shape, metre)
-    draw_cams(axes, placed.cams, metre)
+    draw_curves(axes, placed.curves, metre)
     draw_wheels(axes, placed.gears, metre)
     draw_guides(axes, placed.guides, placed.shape, metre)
     draw_bodies(axes, placed.shape, metre)

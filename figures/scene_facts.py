@@ -29,6 +29,12 @@ def clearances(scene_document: Mapping[str, Any]) -> dict[str, float]:
     return found
 
 
+def is_drawn(scene_document: Mapping[str, Any], name: str) -> bool:
+    """Tell whether the curves of a joint are there, if it has any: older results lack them."""
+    has_curves = marks_of(scene_document["joints"][name])["has_curves"]
+    return not has_curves or any(one["joint"] == name for one in scene_document["curves"])
+
+
 def chosen_joints(source: Source, selection: Selection) -> dict[str, float]:
     """Give the journals with clearance to draw with their radial clearance [m].
 
@@ -100,6 +106,6 @@ def channel(source: Source, name: str) -> Channel:
 
 
 def scene(source: Source) -> Mapping[str, Any]:
-    """Give the scene document; empty where the results carry none."""
-    found: Mapping[str, Any] = source.attributes.get("scene") or {}
-    return found
+    """Give the scene document, with the `curves` of its joints; empty if there is no document."""
+    found: dict[str, Any] = source.attributes.get("scene") or {}
+    return found and found | {"curves": source.attributes.get("curves", [])}

@@ -30,11 +30,8 @@ class Marks(TypedDict):
     """Field of its clearance that says how large its parts are, m."""
     block: tuple[str, str] | None
     """Fields of its clearance for length and height of a block between walls along the axis."""
-    circles: list[tuple[int, str]]
-    """Circles about its ends: which, and the field of their radius."""
-    cam: dict[str, str]
-    """Field of the `profile` of a cam about the first point, and of the `face` (its normal) or
-    `roller` (its radius) that follows; empty: it has no cam."""
+    has_curves: bool
+    """Whether it is drawn by curves, too, which the solver makes of a scene's joints."""
     is_journal: bool
     """Whether its contact pair has an eccentricity."""
     parts: dict[str, tuple[float, float]]

@@ -1,6 +1,7 @@
 """Layouts of the stores of jobs: what results a job has, before anything of it is computed."""
 
 from jointplay.records.channel import Channel
+from jointplay.solver.joints.curves import joint_curves
 from jointplay.solver.kinds import KINDS, Admission, Study
 from jointplay.solver.nonlinear.settling import SETTLINGS
 from jointplay.solver.nonlinear.verdict import VERDICTS
@@ -18,6 +19,7 @@ from jointplay.storage.studies.layout import StudyLayout
 
 def layout_of_run(admission: Admission) -> ResultLayout:
     """Return what a run's store holds."""
+    curves = joint_curves(admission.scene.joints)
     return ResultLayout(
         channels=admission.channels,
         samples=admission.samples,
@@ -26,6 +28,7 @@ def layout_of_run(admission: Admission) -> ResultLayout:
         attributes={
             "job": admission.job,
             "scene": admission.scene_document(),
+            **({"curves": curves} if curves else {}),
             "digest": admission.digest,
             "solver_version": SOLVER_VERSION,
             "period": admission.period,

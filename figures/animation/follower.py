@@ -6,21 +6,14 @@ from typing import Any, Final
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, shown, turned
-from jointplay.figures.mechanism_cams import (
-    ANGLES,
-    cam_angle,
-    mean_profile,
-    profile_angle,
-    surface,
-)
-from jointplay.figures.mechanism_geometry import Pose
+from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, shown
+from jointplay.figures.mechanism_geometry import Pose, angle_of, turned, world
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.records.arrays import Floats
-from jointplay.records.joint_marks import marks_of, play_of
+from jointplay.records.joint_marks import play_of
 
 ROLLER: Final = 1.0 - GAP
-"""Radius of a roller; under a flat face the mean of the cam's profile is 1."""
+"""Radius of a roller; the scale of a flat face is that of half its length in the mechanism."""
 FARTHEST: Final = 2.0 * GAP
 """A follower that has lifted off farther is drawn there, or it would leave the picture."""
 _THICK, _LONG = 0.34, 1.35
@@ -35,7 +28,8 @@ class Follower:
     name
         Of the joint.
     scene
-        The scene document.
+        The scene document, and its `curves`: of the joint the outline of the cam, whose points are
+        uniform in the angle of the profile, and the face, two points, or the roller.
     columns
         (m,) values by channel; NaN where they were not computed.
     """
@@ -44,14 +38,15 @@ class Follower:
 
     def __init__(self, name: str, scene: Mapping[str, Any], columns: Mapping[str, Floats]) -> None:
         self._scene = scene
-        self._joint = joint = scene["joints"][name]
         self._depth, self._force = (columns[f"{name}.{one}"] for one in self.QUANTITIES)
-        self._lash = play_of(joint)
+        self._lash = play_of(scene["joints"][name])
         self._deepest = max(float(np.nanmax(self._depth, initial=0.0)), 1e-9)
         self._strongest = float(np.nanmax(self._force, initial=0.0)) or 1.0
-        cam = marks_of(joint)["cam"]
-        self._is_flat = "face" in cam
-        self._drawn = mean_profile(joint) if self._is_flat else joint[cam["roller"]] / ROLLER
+        cam, follower = (one for one in scene["curves"] if one["joint"] == name)
+        self._ends = cam["about"], follower["about"]
+        self._cam, self._moved = np.array(cam["points"]), np.array(follower["points"])
+        self._is_flat = len(self._moved) == 2
+        self._drawn = float(np.hypot(*self._moved[0])) / ROLLER
         self.magnified = (
             GAP * self._drawn / self._lash,
             DEEPEST * self._drawn / self._deepest,
@@ -71,15 +66,30 @@ class Follower:
         inside = shown(float(self._depth[at]) + self._lash, self._lash, self._deepest)
         return min(GAP - inside, FARTHEST)
 
+    def touched(self, pose: Pose) -> tuple[Floats, Floats]:
+        """Return where the cam is touched, (2,) m in its axes, and its normal there in the world.
+
+        Between two points of the outline, the touched one moves from one to the other.
+        """
+        cam, follower = self._ends
+        x, y = np.subtract(world(self._scene, pose, follower), world(self._scene, pose, cam))
+        if self._is_flat:
+            along = turned(angle_of(pose, follower), self._moved[1] - self._moved[0])
+            x, y = along[1], -along[0]
+        turn, angles = angle_of(pose, cam), np.linspace(0.0, 2.0 * np.pi, len(self._cam))
+        at = np.arctan2(y, x) - turn + angles[1] * np.array([-1.0, 0.0, 1.0])
+        near = [np.interp(at, angles, column, period=2.0 * np.pi) for column in self._cam.T]
+        before, touched, after = np.transpose(near)
+        along = turned(turn, after - before)
+        return touched, np.array([along[1], -along[0]]) / np.hypot(*along)
+
     def draw(self, axes: page.Axes, at: int, pose: Pose) -> None:
         """Draw it at an instant, the place of the cam where they touch in the middle."""
         from matplotlib.patches import Circle
 
-        angle = profile_angle(self._scene, self._joint, pose)
-        outline, normals = surface(self._joint, angle + ANGLES)
-        cam = turned(cam_angle(self._joint, pose), (outline - outline[:, :1]).T / self._drawn)
-        away = turned(cam_angle(self._joint, pose), normals[:, 0])
+        touched, away = self.touched(pose)
         tip = self.apart(at) * away
+        cam = turned(angle_of(pose, self._ends[0]), self._cam - touched) / self._drawn
         axes.fill(*cam.T, facecolor=WALL, edgecolor=EDGE, linewidth=0.8, zorder=1)
         look: page.Look = {"facecolor": TINTS[0], "edgecolor": EDGE, "linewidth": 0.8, "zorder": 3}
         if self._is_flat:

@@ -34,11 +34,12 @@ def magnified(source: Source, selection: Selection) -> dict[str, tuple[str, ...]
     NotDrawable
         A chosen joint has no play, or its channels were not stored, or there are too many.
     """
-    joints = scene_facts.scene(source).get("joints", {})
+    scene = scene_facts.scene(source)
+    joints = scene.get("joints", {})
     found = {
         name: PICTURES[marks_of(joints[name])["picture"]].channels(name, joints[name])
-        for name in scene_facts.clearances(scene_facts.scene(source))
-        if marks_of(joints[name])["picture"]
+        for name in scene_facts.clearances(scene)
+        if marks_of(joints[name])["picture"] and scene_facts.is_drawn(scene, name)
     }
     if selection.joints:
         scene_facts.check_joints(found, selection)

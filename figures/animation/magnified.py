@@ -5,8 +5,6 @@ Lengths of a picture are in radii of its bearing, or about that, whatever the jo
 
 from typing import Final
 
-import numpy as np
-
 from jointplay.figures import colours, page
 from jointplay.records.arrays import Floats
 
@@ -48,9 +46,3 @@ def arrow(axes: page.Axes, tip: Floats, normal: Floats, share: float) -> None:
         },
         zorder=6,
     )
-
-
-def turned(angle: float, points: Floats) -> Floats:
-    """Turn points (..., 2) about the middle [rad]."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.asarray(points @ np.array([[c, s], [-s, c]]))

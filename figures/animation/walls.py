@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, shown, turned
-from jointplay.figures.mechanism_geometry import Pose, heading
+from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, shown
+from jointplay.figures.mechanism_geometry import Pose, heading, turned
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.records.arrays import Floats
 from jointplay.records.joint_marks import marks_of, play_of

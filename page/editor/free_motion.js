@@ -58,7 +58,8 @@ export class FreeMotion {
   async take(scene) {
     const found = await poses(scene, [0], this.signal);
     if (!found.poses.length) return;
-    Object.assign(this, { scene, found, box: bounds(scene, found.poses) });
+    this.scene = { ...scene, curves: found.curves };
+    Object.assign(this, { found, box: bounds(this.scene, found.poses) });
     const { drivers_time: own } = found;
     this.slider.disabled = this.until.disabled = own === null;
     this.until.placeholder = own === null ? "" : String(Number(own.toPrecision(4)));

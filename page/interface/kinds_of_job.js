@@ -26,10 +26,10 @@ const SWINGS = 20; // in times of a fall through the mechanism
  *
  * @param found what the service answers of the scene's pose
  */
-export function someDuration(document, { poses: [pose], drivers_time: once, repeats }) {
+export function someDuration(document, { poses: [pose], curves, drivers_time: once, repeats }) {
   if (document.reported?.length) return document.reported[0].duration;
   if (once !== null) return rounded(repeats ? TURNS * once : once);
-  const scene = withParameters(document);
+  const scene = { ...withParameters(document), curves };
   const gravity = Math.hypot(...(scene.gravity ?? [0, 0]));
   if (!gravity || !pose) return WITHOUT_TURNING;
   const [left, low, right, high] = bounds(scene, [pose]);

@@ -1,6 +1,6 @@
 /** How far a mechanism reaches. */
 
-import { cams } from "./cams.js";
+import { curves } from "./curves.js";
 import { guides } from "./guides.js";
 import { GROUND, ends, marks, placeOf, reference, world } from "./placing.js";
 
@@ -26,7 +26,7 @@ export function bounds(scene, poses) {
     }
   }
   for (const pose of poses) {
-    for (const { outline = [], moved = [] } of cams(scene, pose)) [...outline, ...moved].forEach(include);
+    for (const { points } of curves(scene, pose)) points.forEach(include);
   }
   const extent = Math.max(box[2] - box[0], box[3] - box[1]);
   for (const pose of poses) {

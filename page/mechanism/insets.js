@@ -72,7 +72,7 @@ export class Insets {
     if (picture === "journal") {
       return bearing(joint.clearance, contacts[0], this.motion.trail(name, time, TRAIL), limits);
     }
-    if (picture === "surface") return follower(scene, joint, pose, contacts[0], limits);
+    if (picture === "surface") return follower(scene, name, pose, contacts[0], limits);
     return walls(joint, heading(pose, joint), contacts, limits);
   }
 

@@ -17,7 +17,8 @@ function needed(scene) {
 /** Names of the joints whose play can be shown magnified. */
 export function magnifiable(scene) {
   return Object.entries(scene.joints)
-    .filter(([, joint]) => marks(joint).picture && play(joint) > 0)
+    .filter(([name, joint]) => marks(joint).picture && play(joint) > 0
+      && (!marks(joint).has_curves || scene.curves.some((curve) => curve.joint === name)))
     .map(([name]) => name);
 }
 

@@ -7,7 +7,7 @@
 import { MARKS } from "./joint_marks.js"; // the service makes it
 
 export const GROUND = "ground";
-const UNKNOWN = { ends: [], circles: [], cam: {}, parts: {} }; // a type that is being written
+const UNKNOWN = { ends: [], parts: {} }; // a type that is being written
 
 /** Returns the marks by which a joint is drawn, as its type gives them to the service. */
 export function marks(joint) {
@@ -50,7 +50,12 @@ export function play(joint) {
 
 /** Returns the angle in the world of the axis of a joint that slides. */
 export function heading(pose, joint) {
-  const owner = ends(joint)[0].split(".")[0];
   const [x, y] = joint[marks(joint).axis];
-  return (owner === GROUND ? 0 : pose[owner][2]) + Math.atan2(y, x);
+  return angleOf(pose, ends(joint)[0]) + Math.atan2(y, x);
+}
+
+/** Returns the angle in the world of the body of a reference such as `rod.crank`. */
+export function angleOf(pose, text) {
+  const [body] = text.split(".");
+  return body === GROUND ? 0 : pose[body][2];
 }

@@ -7,7 +7,7 @@
  */
 
 import { bounds } from "./bounds.js";
-import { cams } from "./cams.js";
+import { curves } from "./curves.js";
 import { guides } from "./guides.js";
 import { GROUND, ends, heading, marks, placeOf, play, world } from "./placing.js";
 
@@ -17,11 +17,11 @@ const BLOCK = [15, 9]; // half a slider's length and height, px
 export function shapes(scene, pose, { labels = false } = {}) {
   const box = bounds(scene, [pose]);
   const size = Math.max(box[2] - box[0], box[3] - box[1]);
-  const pairs = cams(scene, pose);
+  const drawn = curves(scene, pose);
   return [
     ...rails(scene, pose, size),
-    ...pairs.filter(({ outline }) => outline).map(({ outline }) =>
-      ({ kind: "polygon", points: outline, fill: "ground", stroke: "edge", width: 1.2 })),
+    ...drawn.filter(({ filled }) => filled).map(({ points }) =>
+      ({ kind: "polygon", points, fill: "ground", stroke: "edge", width: 1.2 })),
     ...supports(scene, pose),
     ...guides(scene, pose, size).flatMap(({ slider, walls }) => [
       { kind: "polygon", points: slider, fill: "ground", stroke: "edge", width: 1.2 },
@@ -29,8 +29,8 @@ export function shapes(scene, pose, { labels = false } = {}) {
     ]),
     ...Object.keys(scene.bodies).flatMap((name, i) => body(scene, pose, name, i)),
     ...springs(scene, pose),
-    ...pairs.filter(({ moved }) => moved).map(({ moved }) =>
-      ({ kind: "line", points: moved, colour: "edge", width: 2 })),
+    ...drawn.filter(({ filled }) => !filled).map(({ points }) =>
+      ({ kind: "line", points, colour: "edge", width: 2 })),
     ...joints(scene, pose),
     ...(labels ? names(scene, pose) : []),
   ];

@@ -45,7 +45,8 @@ export class Sketch {
       if (error.status === 401) this.options.onKeyless?.(error);
       throw error;
     });
-    Object.assign(this, { scene, found, poses: found.poses, box: bounds(scene, found.poses) });
+    this.scene = { ...scene, curves: found.curves };
+    Object.assign(this, { found, poses: found.poses, box: bounds(this.scene, found.poses) });
     this.draw();
     if (this.playing) await this.sweep();
   }

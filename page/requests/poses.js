@@ -23,7 +23,7 @@ export async function dragged(scene, pose, point, place, signal) {
   return (await post("/v1/scenes/drag", { scene: plain(scene), pose, point, place }, signal)).pose;
 }
 
-/** Returns a scene without what was declared for it: its parameters are set. */
-function plain({ parameters, reported, ...scene }) {
+/** Returns a scene without what was declared for it, as its parameters are set, and its curves. */
+function plain({ parameters, reported, curves, ...scene }) {
   return scene;
 }

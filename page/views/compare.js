@@ -4,7 +4,7 @@ import { ChannelChoice } from "../interface/channel_choice.js";
 import { element, fill } from "../interface/element.js";
 import { declaredFor, differing } from "../interface/job_words.js";
 import { address, go, note } from "../interface/place.js";
-import { sceneOf } from "../interface/scene_of_job.js";
+import { drawnSceneOf } from "../interface/scene_of_job.js";
 import { sceneName } from "../interface/state.js";
 import { Clock } from "../mechanism/clock.js";
 import { Motion } from "../mechanism/motion.js";
@@ -32,7 +32,7 @@ export async function show(room, { query, signal }) {
     fill(room, head, element("p", { class: "panel" }, "Choose jobs above, or mark them in the list of jobs."));
     return;
   }
-  const scenes = await Promise.all(jobs.map((job) => sceneOf(job.job)));
+  const scenes = await Promise.all(jobs.map((job) => drawnSceneOf(job.job, signal)));
   const clock = new Clock(0, Math.max(...jobs.map((job) => job.progress.time), 1e-9));
   clock.speed = watchable(Math.min(turn(scenes[0]) ?? Infinity, clock.last));
   const draw = () => stage.draw(clock.time);

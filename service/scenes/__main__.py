@@ -40,7 +40,7 @@ def _scene_in(body: bytes) -> Any:
 
 def _drawing(scene: AssembledScene, form: Form, page: dict[str, Any]) -> bytes:
     try:
-        return render_mechanism(scene.document, scene.pose(), form, Options(**page))
+        return render_mechanism(scene.drawn(), scene.pose(), form, Options(**page))
     except NotDrawable as error:
         raise RequestRefused(kinds.NOT_DRAWABLE, str(error)) from None
 

@@ -29,12 +29,22 @@ class Stop(BaseModel):
     detail: str
 
 
+class Curve(BaseModel):
+    """A curve that a joint is drawn by; it moves with a body."""
+
+    joint: str
+    about: str = Field(description="Point of the body, body.point.")
+    filled: bool = Field(description="Whether it is the outline of something.")
+    points: list[tuple[float, float]] = in_unit("m", "From that point, in the body's axes.")
+
+
 class Poses(BaseModel):
     """Poses of a scene at t = 0 and as its drivers go on, its clearances closed."""
 
     scene: str
     times: list[float] = in_unit("s", "Those asked for, up to where the drivers stop.")
     poses: list[Pose] = Field(description="One an instant.")
+    curves: list[Curve] = Field(description="Outlines of cams, and what else joints are drawn by.")
     residual: float = Field(description="What loops miss by as they are put together, m or rad.")
     drivers_time: float | None = in_unit(
         "s",

@@ -12,6 +12,7 @@ from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput
 from jointplay.records.strict_json import parse
 from jointplay.service.problems.refusals import refusal
+from jointplay.solver.joints.curves import joint_curves
 from jointplay.solver.kinds.assembled import resolved_scene
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.dragging import drag
@@ -77,6 +78,7 @@ def poses(document: Any) -> dict[str, Any]:
         "scene": scene.name,
         "times": question.times[: len(found.poses)],
         "poses": [_by_body(scene, pose) for pose in found.poses],
+        "curves": joint_curves(scene.joints),
         "residual": assemble(scene).residual,
         "drivers_time": None if own is None else min(own.seconds, latest),
         "repeats": own is not None and own.repeats and own.seconds <= latest,

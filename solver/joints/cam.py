@@ -16,6 +16,7 @@ from pydantic import AfterValidator
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.joints.contact import Contact, Meeting, Touch, surfaces
+from jointplay.solver.joints.drawing import ANGLES, Curve
 from jointplay.solver.joints.holding import Distance, Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint, Table
 from jointplay.solver.joints.wall import WALL
@@ -26,9 +27,9 @@ from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.laws.function import Derivatives, Function
 from jointplay.solver.laws.function.uses import Prescribed
-from jointplay.solver.quantities.frames import Pair, dot
+from jointplay.solver.quantities.frames import Pair, dot, plus, scaled
 from jointplay.solver.quantities.roster import MemberOf
-from jointplay.solver.quantities.scalars import Scalar, sqrt
+from jointplay.solver.quantities.scalars import Scalar, sine_cosine, sqrt
 from jointplay.solver.quantities.units import PointReference, RadialClearance, Rule
 
 TURN = 2.0 * math.pi
@@ -136,6 +137,23 @@ class CamJoint(Joint):
         """Return the force on an ideal follower, N, along its normal out of the cam; < 0: pulls."""
         along = self.lift(between).distance.along
         return (dot(force, along) / sqrt(dot(along, along)),)
+
+    def surface(self, facing: float) -> Curve:
+        """Return where the cam ends: what the contact touches if the follower is on the profile.
+
+        Uniform in the profile's angle. `facing` : angle in the follower's axes that is the
+        profile's in the cam's, rad.
+        """
+        profile = np.broadcast_to(self.profile.at(ANGLES).value, ANGLES.shape)
+        turned = ANGLES - facing
+        (s, c), (sine, cosine) = sine_cosine(ANGLES), sine_cosine(turned)
+        gap, still = scaled((c, s), profile), (0.0, 0.0)
+        frames = ((1.0, 0.0), (cosine, sine))
+        between = Ends(gap, still, still, frames, (0.0, turned))
+        met = self.meeting(between, self.lift(between), 0.0)
+        lash = self.slack.play if self.slack else 0.0
+        inside = plus(met.arm, scaled(met.normal, lash))
+        return Curve(0, np.stack(plus(gap, inside), axis=1), filled=True)
 
     @property
     def size(self) -> float:

@@ -10,10 +10,12 @@ Source: Angeles and López-Cajún 1991, Optimization of Cam Mechanisms (support 
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
+import numpy as np
+
 from jointplay.records.arrays import Floats
 from jointplay.solver.joints.cam import CAPTION, CamJoint, Lift
 from jointplay.solver.joints.contact import Meeting
-from jointplay.solver.joints.drawing import Drawing
+from jointplay.solver.joints.drawing import ANGLES, Curve, Drawing
 from jointplay.solver.joints.holding import Distance
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
@@ -29,6 +31,9 @@ FACE = (
     ),
 )
 
+HALF = 0.615
+"""Half the length of a face that is drawn, in means of the profile."""
+
 
 class FlatFollower(CamJoint):
     """A flat face, through the follower's point, on a convex cam.
@@ -37,9 +42,7 @@ class FlatFollower(CamJoint):
     from the cam's centre, over the direction of that normal.
     """
 
-    drawing: ClassVar[Drawing] = Drawing(
-        cam={"profile": "profile", "face": "normal"}, picture="surface", caption=CAPTION
-    )
+    drawing: ClassVar[Drawing] = Drawing(picture="surface", caption=CAPTION)
     rules: ClassVar[tuple[Rule, ...]] = FACE
     type: Literal["flat-follower"]
     normal: Direction
@@ -73,6 +76,12 @@ class FlatFollower(CamJoint):
         touching = plus(scaled(u, p.value - lash), scaled(left(u), p.slope))
         arm = plus(touching, scaled(between.gap, -1.0))
         return Meeting(scaled(u, -1.0), u, arm, -found.distance.value)
+
+    def curves(self) -> Iterator[Curve]:
+        """Yield the cam's outline and the face, to its left if its normal points upwards."""
+        x, y = scaled(unit(self.normal), HALF * float(np.mean(self.profile.at(ANGLES[1:]).value)))
+        yield self.surface(facing=direction_angle(*self.normal))
+        yield Curve(1, np.array([[y, -x], [-y, x]]))
 
     def unreached(self, angles: Floats, profile: Derivatives) -> Iterator[tuple[str, str]]:
         """Yield where the cam is not convex."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from jointplay.records.arrays import Flags
 from jointplay.solver.joints.contact import Contact, Touch
-from jointplay.solver.joints.drawing import Drawing
+from jointplay.solver.joints.drawing import Curve, Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.starts import JournalStart
 from jointplay.solver.laws.contact import ContactLaw
@@ -167,6 +167,10 @@ class Joint(Strict):
     def is_within(self, parts: Mapping[str, float], play: float) -> bool:
         """Return whether constraints of that value, m or rad by part, are within a play, m."""
         return all(abs(value) <= play for value in parts.values())
+
+    def curves(self) -> Iterator[Curve]:
+        """Yield the curves that it is drawn by besides its marks."""
+        yield from ()
 
     def functions(self) -> Iterator[tuple[str, Function]]:
         """Yield its fields that are functions."""

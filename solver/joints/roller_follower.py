@@ -12,7 +12,7 @@ from typing import ClassVar, Literal
 from jointplay.records.arrays import Floats
 from jointplay.solver.joints.cam import CAPTION, CENTRED, CamJoint, Lift
 from jointplay.solver.joints.contact import Meeting
-from jointplay.solver.joints.drawing import Drawing
+from jointplay.solver.joints.drawing import Curve, Drawing, circle
 from jointplay.solver.joints.holding import Distance
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
@@ -28,12 +28,7 @@ class RollerFollower(CamJoint):
     it lies.
     """
 
-    drawing: ClassVar[Drawing] = Drawing(
-        circles=((1, "roller_radius"),),
-        cam={"profile": "profile", "roller": "roller_radius"},
-        picture="surface",
-        caption=CAPTION,
-    )
+    drawing: ClassVar[Drawing] = Drawing(picture="surface", caption=CAPTION)
     type: Literal["roller-follower"]
     roller_radius: Radius
 
@@ -77,6 +72,11 @@ class RollerFollower(CamJoint):
         push = plus(scaled(lift.along, cosine), around)
         n = scaled(push, -1.0 / sqrt(dot(push, push)))
         return Meeting(n, push, scaled(n, self.roller_radius), -(lift.value * cosine))
+
+    def curves(self) -> Iterator[Curve]:
+        """Yield the cam's outline and the roller's."""
+        yield self.surface(facing=0.0)
+        yield Curve(1, circle(self.roller_radius))
 
     def unreached(self, angles: Floats, profile: Derivatives) -> Iterator[tuple[str, str]]:
         """Yield where the roller is too large for the bends of its path."""

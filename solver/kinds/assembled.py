@@ -8,6 +8,7 @@ from pydantic import ValidationError
 
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.remarks import without_remarks
+from jointplay.solver.joints.curves import joint_curves
 from jointplay.solver.kinds import admit
 from jointplay.solver.kinds.mechanism import resolve
 from jointplay.solver.kinds.simulate import SimulateJob
@@ -33,6 +34,11 @@ class AssembledScene:
     def problems(self) -> list[Problem]:
         """Reasons that keep it from being run."""
         return [] if self.refusal is None else list(self.refusal.problems)
+
+    def drawn(self) -> dict[str, Any]:
+        """Return the document with the `curves` that its joints are drawn by."""
+        joints = Scene.model_validate(self.document).joints
+        return self.document | {"curves": joint_curves(joints)}
 
     def pose(self) -> dict[str, tuple[float, float, float]]:
         """Return x, y [m] and theta [rad] of every body at t = 0."""

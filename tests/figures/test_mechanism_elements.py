@@ -8,9 +8,11 @@ import pytest
 
 from jointplay import figures
 from jointplay.figures import colours
-from jointplay.figures.mechanism_cams import cam_curves
+from jointplay.figures.mechanism_curves import curves
 from jointplay.figures.mechanism_elements import Wheels, circles, elements
 from jointplay.figures.mechanism_guides import guides
+from jointplay.solver.joints import JOINTS
+from jointplay.solver.joints.curves import joint_curves
 
 RADIUS, ECCENTRICITY, ROLLER = 0.03, 0.01, 0.008
 KNOTS = np.linspace(0.0, 2.0 * math.pi, 64)
@@ -18,7 +20,12 @@ PITCH = -ECCENTRICITY * np.sin(KNOTS) + np.sqrt(
     (RADIUS + ROLLER) ** 2 - (ECCENTRICITY * np.cos(KNOTS)) ** 2
 )
 WAVE = {"type": "sinusoidal", "offset": RADIUS, "amplitude": -ECCENTRICITY, "frequency": 1.0}
-TABLE = {"type": "table", "knots": KNOTS.tolist(), "values": [*PITCH[:-1], PITCH[0]]}
+TABLE = {
+    "type": "table",
+    "knots": KNOTS.tolist(),
+    "values": [*PITCH[:-1], PITCH[0]],
+    "outside": "periodic",
+}
 PAIR = {"first": "ground.S", "second": "tappet.F"}
 SCENE = {
     "ground": {"points": {"O": [0.0, 0.0], "S": [0.0, 0.2]}},
@@ -43,6 +50,13 @@ FOLLOWERS = {
     "flat": {"type": "flat-follower", "profile": WAVE, "normal": [0.0, 1.0]},
     "roller": {"type": "roller-follower", "profile": TABLE, "roller_radius": ROLLER},
 }
+
+
+def on_cam(shape: str, **fields: Any) -> dict[str, Any]:
+    """The scene with a follower on a cam in place of its joints, and the curves of both."""
+    joint = FOLLOWERS[shape] | {"cam": "shaft.O", "follower": "tappet.F"} | fields
+    checked = JOINTS[joint["type"]].model_validate(joint)
+    return SCENE | {"joints": {"cam": joint}, "curves": joint_curves({"cam": checked})}
 
 
 def guided(length: float) -> dict[str, Any]:
@@ -79,14 +93,14 @@ def test_a_guide_with_play_is_drawn_and_named_in_the_legend() -> None:
 
 @pytest.mark.parametrize("shape", FOLLOWERS)
 def test_the_outline_of_an_eccentric_cam_is_its_circle(shape: str) -> None:
-    joint = FOLLOWERS[shape] | {"cam": "shaft.O", "follower": "tappet.F"}
-    ((outline, moved),) = cam_curves(SCENE | {"joints": {"cam": joint}}, POSE)
+    (outline, filled), (moved, is_outline) = curves(on_cam(shape), POSE)
+    assert (filled, is_outline) == (True, False)
     # the circle's centre is below the shaft's, and turns with it
     centre = ECCENTRICITY * np.array([math.sin(0.7), -math.cos(0.7)])
-    # of a table of 64 knots, whose first and last piece have the spline's largest errors
-    reach = np.hypot(*(outline - centre[:, None]))
-    np.testing.assert_allclose(reach, RADIUS, rtol=0.0, atol=2e-6)
-    np.testing.assert_allclose(moved.mean(axis=1), [0.0, 0.03], atol=1e-3)
+    # of a table of 64 knots
+    reach = np.hypot(*(outline - centre).T)
+    np.testing.assert_allclose(reach, RADIUS, rtol=0.0, atol=2e-8)
+    np.testing.assert_allclose(moved.mean(axis=0), [0.0, 0.03], atol=1e-3)
 
 
 def test_elements_stand_where_their_points_are() -> None:
@@ -106,8 +120,8 @@ def test_wheels_side_by_side_touch_and_a_belt_has_no_circles() -> None:
 
 
 def test_all_of_it_is_drawn_within_the_frame() -> None:
-    joint = FOLLOWERS["flat"] | {"cam": "shaft.O", "follower": "tappet.F"}
-    scene = SCENE | {"joints": SCENE["joints"] | {"cam": joint}}
+    scene = on_cam("flat")
+    scene["joints"] |= SCENE["joints"]
     (axes,) = figures.draw_mechanism(scene, POSE).axes
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     for line in axes.lines:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar, Literal
 
 from jointplay.solver.joints.contact import Contact, Meeting, Touch, surfaces
-from jointplay.solver.joints.drawing import Drawing
+from jointplay.solver.joints.drawing import Curve, Drawing, circle
 from jointplay.solver.joints.holding import Distance, Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint
 from jointplay.solver.joints.wall import WALL
@@ -42,7 +42,7 @@ class RingSlot(Joint):
     called: ClassVar[str] = "a pin in a ring"
     end_fields: ClassVar[tuple[str, str]] = ("hub", "pin")
     drawing: ClassVar[Drawing] = Drawing(
-        size="pin_radius", circles=((0, "radius"),), places=tuple((0.0, s) for s in SIDES.values())
+        size="pin_radius", places=tuple((0.0, s) for s in SIDES.values())
     )
     parts: ClassVar[tuple[str, ...]] = (*SIDES,)
     type: Literal["ring-slot"]
@@ -62,6 +62,9 @@ class RingSlot(Joint):
         arm = scaled(n, clearance.pin_radius)
         met = Meeting(n, scaled(n, -1.0), arm, side * found.value)
         return surfaces(name, self.points, between, met, clearance, touch)
+
+    def curves(self) -> Iterator[Curve]:
+        yield Curve(0, circle(self.radius))
 
     @property
     def size(self) -> float:

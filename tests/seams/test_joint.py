@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from jointplay.client import Refused
-from jointplay.figures.mechanism_cams import cam_curves
+from jointplay.figures import draw_mechanism
 from jointplay.records.joint_marks import MARKS
 from jointplay.solver.joints import JOINTS
 from jointplay.solver.joints.marks import marks
+from jointplay.solver.kinds.assembled import assembled_scene
 from jointplay.solver.scene.schema import scene_schema
 from tests.seams.conftest import Platform
 from tests.seams.ring_slot import RingSlot
@@ -30,7 +31,10 @@ def circling(velocity: tuple[float, float], **fields: Any) -> dict[str, Any]:
             "ground": {"points": {"O": [0.0, 0.0]}},
             "bodies": {"disc": {"mass": MASS, "inertia": 0.01, "points": {"centre": [0.0, 0.0]}}},
             "joints": {"ring": ring | fields},
-            "start": {"points": {"disc.centre": [RADIUS, 0.0]}, "velocities": {"disc": velocity}},
+            "start": {
+                "points": {"disc.centre": [RADIUS, 0.0]},
+                "velocities": {"disc": [*velocity]},
+            },
         },
         "duration": 0.3,
         "output_step": 0.001,
@@ -142,22 +146,22 @@ def test_a_study_varies_its_play_and_knows_when_there_is_none(platform: Platform
 
 @pytest.mark.usefixtures("ring_slot")
 def test_figures_draw_its_ring_and_its_pin(platform: Platform) -> None:
-    document = circling((0.0, SPEED))
     for fields, sign in (({}, "ideal joint"), (loose(), "joint with clearance")):
         job = platform.computed(circling((0.0, SPEED), **fields))
         assert sign in job.figure("mechanism", form="svg").content.decode()
-    ((outline, ring),) = cam_curves(document["scene"], {"disc": (RADIUS, 0.0, 0.0)})
-    assert outline is None
-    assert ring is not None
-    np.testing.assert_allclose(np.hypot(*ring), RADIUS, rtol=1e-12)
+    stored = job.open().attrs
+    scene = stored["scene"] | {"curves": stored["curves"]}
+    (axes,) = draw_mechanism(scene, {"disc": (RADIUS, 0.0, 0.0)}).axes
+    (ring,) = (line for line in axes.lines if len(line.get_xdata()) > 100)
+    np.testing.assert_allclose(np.hypot(*ring.get_xydata().T), RADIUS, rtol=1e-12)
 
 
 @pytest.mark.usefixtures("ring_slot")
 def test_the_page_draws_them_too(browsing: Any, service_url: str) -> None:
     drawn = "async (asked) => (await import('/page/mechanism/shapes.js')).shapes(...asked)"
     with browsing.page(service_url) as page:
-        asked = [circling((0.0, SPEED))["scene"], {"disc": [RADIUS, 0.0, 0.0]}]
-        shapes = page.evaluate(drawn, asked)
+        scene = assembled_scene(circling((0.0, SPEED))["scene"], is_whole=True).drawn()
+        shapes = page.evaluate(drawn, [scene, {"disc": [RADIUS, 0.0, 0.0]}])
     (ring,) = (shape["points"] for shape in shapes if len(shape["points"]) > 100)
     np.testing.assert_allclose(np.hypot(*np.array(ring).T), RADIUS, rtol=1e-12)
     discs = [shape["radius"] for shape in shapes if shape["kind"] == "disc"]

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from jointplay.solver.kinds.assembled import assembled_scene
+from tests.solver.cams import CIRCLE, RADIUS, follower, valve
 from tests.two_assemblies import arm, five_bar, toggle
 
 
@@ -24,6 +25,15 @@ def test_the_pose_is_that_in_which_the_scene_is_run(http, scene):
     expected = assembled_scene(scene, is_whole=True).pose()
     assert (found["times"], found["stopped"]) == ([0.0], None)
     assert found["poses"] == [{body: list(pose) for body, pose in expected.items()}]
+
+
+def test_curves_come_along_that_joints_are_drawn_by(http):
+    assert posed(http, toggle()).json()["curves"] == []
+    cam, face = posed(http, valve(follower("flat", CIRCLE, lash=1e-4))).json()["curves"]
+    shown = [(one["joint"], one["about"], one["filled"]) for one in (cam, face)]
+    assert shown == [("cam", "shaft.O", True), ("cam", "tappet.F", False)]
+    # a circle whose rightmost point is right of its centre
+    assert max(x for x, _ in cam["points"]) == pytest.approx(RADIUS - 1e-4)
 
 
 def test_bodies_move_as_drivers_prescribe(http):

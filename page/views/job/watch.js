@@ -5,7 +5,7 @@ import { gaps, spansInWords } from "../../interface/converged.js";
 import { element, fill } from "../../interface/element.js";
 import { saving } from "../../interface/saving.js";
 import { note } from "../../interface/place.js";
-import { sceneOf } from "../../interface/scene_of_job.js";
+import { drawnSceneOf } from "../../interface/scene_of_job.js";
 import { Clock } from "../../mechanism/clock.js";
 import { Insets } from "../../mechanism/insets.js";
 import { Motion } from "../../mechanism/motion.js";
@@ -38,7 +38,7 @@ class Watch {
 
   async begin() {
     const { job, query, signal } = this;
-    const scene = await sceneOf(job.job);
+    const scene = await drawnSceneOf(job.job, signal);
     this.clock = new Clock(0, TERMINAL.has(job.state) && !job.error && job.state === "succeeded"
       ? job.job.duration : Math.max(job.progress.time, 1e-9));
     this.clock.speed = watchable(Math.min(turn(scene) ?? Infinity, job.job.duration));

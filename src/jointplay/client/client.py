@@ -227,7 +227,8 @@ class Client:
         dict
             ``poses``: for each of ``times``, by body, x, y (m) and theta (rad). Both end where the
             drivers cannot go on; ``stopped`` says when and why, and is None otherwise.
-            ``drivers_time``: in which the drivers come round, s.
+            ``drivers_time``: in which the drivers come round, s. ``curves``: of the joints that are
+            drawn by any, such as outlines of cams, (n, 2) m from a point in its body's axes.
         """
         asked = {"times": [float(time) for time in times]}
         return self._about("poses", scene, parameters, asked)

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from jointplay.solver.joints import JOINTS
 from tests.solver.cams import (
     CIRCLE,
     ECCENTRICITY,
@@ -50,6 +51,25 @@ def test_a_roller_on_an_eccentric_circle_is_a_rod_from_its_centre() -> None:
     # a cubic spline through 64 knots
     np.testing.assert_allclose(table["tappet.y"], exact["tappet.y"], rtol=0.0, atol=3e-8)
     np.testing.assert_allclose(table["cam.force_y"], exact["cam.force_y"], rtol=1e-3)
+
+
+@pytest.mark.parametrize("shape", ["flat", "roller"])
+def test_a_follower_is_a_lash_from_the_outline_that_its_cam_is_drawn_by(shape: str) -> None:
+    profile = CIRCLE if shape == "flat" else pitch_table()
+    joint = follower(shape, profile, lash=1e-4)
+    outline, moved = JOINTS[joint["type"]].model_validate(joint).curves()
+    assert (outline.end, outline.filled, moved.end, moved.filled) == (0, True, 1, False)
+    ideal = run(valve(follower(shape, profile)), TURN, output_step=TURN / 36)
+    for nth, height in enumerate(ideal["tappet.y"] - 0.02):
+        upwards = np.pi / 2.0 - SPEED * ideal.time[nth]  # in the cam's axes
+        up = np.array([np.cos(upwards), np.sin(upwards)])
+        if shape == "flat":
+            apart = height - outline.points @ up
+        else:
+            apart = np.hypot(*(outline.points - height * up).T) - np.hypot(*moved.points[0])
+        # points are a degree apart, so that one of them is touched
+        assert (apart.argmin() + 10 * nth) % 360 == 90
+        assert apart.min() == pytest.approx(1e-4, abs=1e-12)
 
 
 @pytest.mark.parametrize("shape", ["flat", pytest.param("roller", marks=pytest.mark.long)])

@@ -38,7 +38,7 @@ def draw(
     file = output or Path(f"{scene.document['name']}.png")
     form, page = form_of(file), page_of(options)
     try:
-        picture = figures.render_mechanism(scene.document, scene.pose(), form, page)
+        picture = figures.render_mechanism(scene.drawn(), scene.pose(), form, page)
     except figures.NotDrawable as error:
         raise Stopped(str(error)) from None
     file.write_bytes(picture)
