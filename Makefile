@@ -49,7 +49,7 @@ test: $(STAMP)
 	@tests/page/install_chromium.sh & $(BIN)/python -m tests.everything; code=$$?; wait; exit $$code
 
 test-long: $(STAMP)
-	@$(BIN)/python -m pytest -m long --timeout 3600
+	@$(BIN)/python -m tests.everything --long
 
 bench: $(STAMP)
 	@$(BIN)/python -m benchmarks

@@ -1,8 +1,9 @@
-"""Everything that `make test` checks, six steps side by side, with the time of each.
+"""Everything that `make test` and `make test-long` check, six steps side by side, with their times.
 
 The integration loop is compiled first, by one step for all tests: each would compile it for itself.
 
-Run as ``python -m tests.everything [STEP ...]``; without a step, all of them. A third of the tests
+Run as ``python -m tests.everything [--long] [STEP ...]``; without a step, all of them. With
+``--long`` these are the tests that take longer, and no checks of the code. A third of the tests
 wait (for leases, restarts, shutdowns) while the others compute. Processor seconds are those of the
 processes that ended before the step did. Those of each file of tests are in build/test-times.json;
 the dearest files are printed.
@@ -43,6 +44,7 @@ ENVIRONMENT = {
 }
 """Without bytecode every process that a test starts would translate our sources again."""
 TIMES = ROOT / "build" / "test-times.json"
+LONG_TIMES = ROOT / "build" / "long-times.json"
 _COUNTS = re.compile(r"(\d+) (passed|failed|errors?|skipped)\b")
 
 
@@ -91,28 +93,36 @@ class Step:
         return self
 
 
-def steps() -> list[Step]:
-    """Return the checks of the code, then the tests: what has no group of its own, the groups."""
+def steps(*, long: bool) -> list[Step]:
+    """Return the checks of the code, then the tests: what has no group of its own, the groups.
+
+    Of `long` tests no checks of the code.
+    """
     bin_folder = Path(sys.executable).parent
     tests = ROOT / "tests"
     files = {path.relative_to(tests).parts[0] for path in tests.rglob("test_*.py")}
     others = sorted(files.difference(*GROUPS))
     loop = Step("loop", [sys.executable, "-m", "jointplay.solver.kernels.compile_loop"])
-    return [
-        loop,
+    checks = [
         Step("format", [str(bin_folder / "ruff"), "format", "--check", "."]),
         Step("lint", [str(bin_folder / "ruff"), "check", "."]),
         Step("types", [str(bin_folder / "mypy")]),
         Step("imports", [str(bin_folder / "lint-imports")]),
-        _pytest("tests", others, loop.ended),
-        *(_pytest(f"tests/{'+'.join(group)}", group, loop.ended) for group in GROUPS),
+    ]
+    return [
+        loop,
+        *([] if long else checks),
+        _pytest("tests", others, loop.ended, long),
+        *(_pytest(f"tests/{'+'.join(group)}", group, loop.ended, long) for group in GROUPS),
     ]
 
 
-def _pytest(name: str, folders: Iterable[str], after: Event) -> Step:
+def _pytest(name: str, folders: Iterable[str], after: Event, long: bool) -> Step:
     tests, times = ROOT / "tests", TIMES.with_name(f"times-{name.replace('/', '-')}.json")
-    command = [sys.executable, "-m", "pytest", "-m", "not long", "-p", "tests.times"]
-    command += ["--times", str(times), *(str(tests / folder) for folder in folders)]
+    command = [sys.executable, "-m", "pytest", "-m", "long" if long else "not long"]
+    command += ["--timeout", "3600"] if long else []
+    command += ["-p", "tests.times", "--times", str(times)]
+    command += [str(tests / folder) for folder in folders]
     if "solver" in folders:
         command += ["--ignore", str(tests / "solver/runs")]  # half of it
     return Step(name, command, times=times, after=after)
@@ -120,30 +130,30 @@ def _pytest(name: str, folders: Iterable[str], after: Event) -> Step:
 
 def main() -> int:
     """Run the steps and close with one line of counts."""
-    chosen = sys.argv[1:]
-    run = [step for step in steps() if not chosen or step.name in chosen]
+    long, chosen = "--long" in sys.argv, [name for name in sys.argv[1:] if name != "--long"]
+    run = [step for step in steps(long=long) if not chosen or step.name in chosen]
     if not any(step.name == "loop" for step in run):
         run = [replace(step, after=None) for step in run]
     if not run:
-        print("there are these steps: " + ", ".join(step.name for step in steps()))
+        print("there are these steps: " + ", ".join(step.name for step in steps(long=long)))
         return 2
     begun = time.monotonic()
     with ThreadPoolExecutor(6) as pool:
         for done in as_completed([pool.submit(step.run) for step in run]):
             step = done.result()
             print(f"\n== {step.name}\n{step.output}", flush=True)
-    _report(run, time.monotonic() - begun)
+    _report(run, time.monotonic() - begun, LONG_TIMES if long else TIMES)
     return int(any(step.failed for step in run))
 
 
-def _report(run: Sequence[Step], seconds: float) -> None:
-    """Print where the time went, and close with one line of counts."""
+def _report(run: Sequence[Step], seconds: float, times: Path) -> None:
+    """Print where the time went, keep what each test took, and close with one line of counts."""
     files = {}
     for step in run:
         if step.times is not None and step.times.exists():
             files |= json.loads(step.times.read_text())
     if files:
-        TIMES.write_text(json.dumps(files, indent=1))
+        times.write_text(json.dumps(files, indent=1))
         print(f"\n{dearest(files)}")
     print("\nstep                              seconds  of processor")
     for step in run:
