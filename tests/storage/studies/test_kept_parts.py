@@ -8,7 +8,7 @@ from made_up_studies import MadeUpStudy, made_up_map
 
 from jointplay.storage import durable
 from jointplay.storage.errors import CorruptStore
-from jointplay.storage.studies import kept_parts, moment
+from jointplay.storage.studies import kept_parts, snapshot
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.kept_parts import KeptParts
 from jointplay.storage.studies.part import Part
@@ -36,7 +36,7 @@ def reads(monkeypatch):
 @pytest.fixture
 def keeping(monkeypatch):
     kept = KeptParts()
-    monkeypatch.setattr(moment, "KEPT_PARTS", kept)
+    monkeypatch.setattr(snapshot, "KEPT_PARTS", kept)
     return kept
 
 
@@ -93,7 +93,7 @@ def test_two_studies_with_parts_of_one_name_have_their_own(growing, keeping, tmp
 
 def test_what_is_kept_is_bounded(growing, monkeypatch, reads):
     size = Part.read(StudyReader(growing).files, "00000", StudyReader(growing).attributes["layout"])
-    monkeypatch.setattr(moment, "KEPT_PARTS", KeptParts(2 * size.nbytes))
+    monkeypatch.setattr(snapshot, "KEPT_PARTS", KeptParts(2 * size.nbytes))
     looked(growing)
     looked(growing)
     assert sum(reads.values()) > BLOCKS + 1
