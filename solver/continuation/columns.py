@@ -33,7 +33,7 @@ OF_ORBITS = (
     (
         "multiplier_error",
         "1",
-        "error of the multipliers: three times what differences at two scales part",
+        "error of the multipliers, by differences at two scales and runs at two tolerances",
     ),
 )
 

@@ -6,7 +6,7 @@ those of states and parameters; latched impact rates do not count.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,7 +21,7 @@ from jointplay.solver.continuation.multipliers import (
 )
 from jointplay.solver.continuation.passage import Linear, Section
 from jointplay.solver.continuation.section_map import COARSER, SectionMap
-from jointplay.solver.continuation.special_map import GRAZING, SpecialMap
+from jointplay.solver.continuation.special_map import FINE, GRAZING, SpecialMap
 from jointplay.solver.linear_algebra.elimination import solve
 
 AnyMap = SectionMap | SpecialMap
@@ -40,8 +40,12 @@ FINER = (1.0, 0.03, 0.001)
 SHARP = 1e-3
 """Error of the multipliers, in the largest, above which a finer scale may be tried."""
 BAR = 3.0
-"""Bar of the multipliers, in how far differences at two scales are apart: once that is too little
-for 2 of 200 random orbits, by a factor of 1.4 at most (`benchmarks random_orbits`)."""
+"""Share of the multipliers' bar in how far differences at two scales are apart: once that is too
+little for 2 of 200 random orbits, by a factor of 1.4 at most (`benchmarks random_orbits`)."""
+LOOSER = 10.0
+"""The second tolerance of runs, in the first. Of 48 orbits with and without impacts, at tolerances
+from 1e-7 to 5e-11, differences at two scales alone err by more than their share of the bar for 23,
+by a factor of up to 190; the whole bar is too little for 4, by a factor of 1.9 at most."""
 
 
 @dataclass(frozen=True)
@@ -121,13 +125,25 @@ class Orbit:
         """Distance of the multipliers by differences at two scales."""
         return spread(self.multipliers, multipliers_of(self.coarser.monodromy))
 
-    @property
+    @cached_property
+    def looser(self) -> Linear:
+        """The map here by runs at the looser tolerance, at the scale of the orbit's differences."""
+        map_ = self.curve.sections
+        fine = FINE if self.curve.of == GRAZING else 1.0
+        again = replace(map_, tolerance=LOOSER * map_.tolerance)
+        (found,) = again.linears([self.section], fine * self.scale, over=0)
+        return found
+
+    @cached_property
     def bar(self) -> float:
-        """Bar of the multipliers.
+        """Bar of the multipliers: by differences at two scales, and by runs at two tolerances.
 
         The finer differences may err on the side of the coarser ones, by more than they are apart.
         """
-        return BAR * self.error
+        if self.looser.passage.failure:
+            return math.inf
+        apart = spread(self.multipliers, multipliers_of(self.looser.monodromy))
+        return BAR * self.error + apart
 
     @cached_property
     def sure(self) -> bool:

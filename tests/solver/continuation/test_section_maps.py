@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from jointplay.solver.continuation.orbit import Orbit
+from jointplay.solver.continuation.multipliers import spread
+from jointplay.solver.continuation.orbit import BAR, Orbit
 from jointplay.solver.continuation.passage import Section
 from jointplay.solver.continuation.settled import NoStart
 from jointplay.solver.continuation.start import first_orbit
@@ -33,6 +34,17 @@ def test_an_impact_takes_the_square_of_its_restitution_from_the_product_of_multi
     assert product == pytest.approx(0.64 * math.exp(-DAMPING * 2.0 * math.pi / 25.0), rel=2e-4)
     # Newton's law of impact has 0.06918 and 0.61836; a stop that gives way a little differs by that
     assert orbit.multipliers[0] == pytest.approx(0.06918 + 0.61836j, abs=1e-3)
+
+
+def test_bars_cover_what_runs_err_by_where_differences_at_two_scales_say_too_little() -> None:
+    found, section = curve(1e8, 25.0)
+    sharp = first_orbit(found, section)
+    # runs of both scales take the same steps here, and err alike
+    rough = first_orbit(replace(found, map=replace(found.map, tolerance=1e-7)), section)
+    away = spread(rough.multipliers, sharp.multipliers)
+    assert BAR * rough.error < 0.1 * away
+    assert away <= rough.bar < 100.0 * away
+    assert sharp.bar < 1e-7
 
 
 @pytest.mark.parametrize("scale", [0.1, 10.0])
