@@ -35,6 +35,13 @@ OF_ORBITS = (
         "1",
         "error of the multipliers, by differences at two scales and runs at two tolerances",
     ),
+    ("least_gap", "m", "least gap where a pair comes near and does not touch; none: NaN"),
+    (
+        "least_penetration",
+        "m",
+        "least penetration where a pair nearly opens and does not; none: NaN",
+    ),
+    ("slowest_impact", "m/s", "approach rate of the slowest impact in a period; none: NaN"),
 )
 
 

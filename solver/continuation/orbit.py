@@ -127,10 +127,14 @@ class Orbit:
 
     @cached_property
     def looser(self) -> Linear:
-        """The map here by runs at the looser tolerance, at the scale of the orbit's differences."""
+        """The map here by runs at the looser tolerance, at the scale of the orbit's differences.
+
+        They tell the orbit's margins, too.
+        """
         map_ = self.curve.sections
         fine = FINE if self.curve.of == GRAZING else 1.0
-        again = replace(map_, tolerance=LOOSER * map_.tolerance)
+        margins = bool(map_.kernel.pairs)
+        again = replace(map_, tolerance=LOOSER * map_.tolerance, watches=False, margins=margins)
         (found,) = again.linears([self.section], fine * self.scale, over=0)
         return found
 

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.closest_approach import NO_MARGINS, Margins
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,8 @@ class Passage:
     """Distance from another impact, if that is watched; see `Approaches.nearest`."""
     duration: float = math.nan
     """s."""
+    margins: Margins = NO_MARGINS
+    """Distances from another number of impacts, if they are watched, of an orbit."""
 
 
 @dataclass(frozen=True)

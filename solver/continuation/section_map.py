@@ -14,7 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from jointplay.records.arrays import Floats, Integers
-from jointplay.solver.continuation.closest_approach import Approaches, rows_of
+from jointplay.solver.continuation.closest_approach import (
+    NO_MARGINS,
+    Approaches,
+    Margins,
+    fine_rows_of,
+    rows_of,
+)
 from jointplay.solver.continuation.crossing import PATIENCE, Crossing, Crossings
 from jointplay.solver.continuation.passage import Linear, Passage, Section
 from jointplay.solver.kernels.emit.kernel import Kernel
@@ -36,8 +42,9 @@ DIFFERENCE = 1e-5
 SLOWEST, SPARE = 30.0, 10 * ATTEMPTS
 """Steps of a run at most, in those of the motion that a branch begins with, and besides: a run that
 Newton's method asks for may begin deep in a contact, and then take for ever."""
-TOLD = 4
-"""Numbers of a run beside its end: how near it comes to another impact, s, onsets, steps."""
+TOLD = 7
+"""Numbers of a run beside its end: margins, how near it comes to another impact, s, onsets, steps.
+"""
 TURN = 2.0 * math.pi
 COARSER = 4.0
 """The second scale of differences, in the first."""
@@ -65,6 +72,8 @@ class SectionMap:
     """Scale of the second parameter."""
     watches: bool = False
     """Whether runs tell how near they come to another impact."""
+    margins: bool = False
+    """Whether the first of runs side by side tells its margins; not beside `watches`."""
     steps: float = math.inf
     """Accepted steps in a period of the motion that the branch begins with."""
     crossing: Crossing | None = None
@@ -112,7 +121,7 @@ class SectionMap:
     def observed(self, section: Section, rows: Integers) -> Floats:
         """Return (rows,) channels at a section, by their indices in the kernel's block."""
         scene, bundle = self.scene_at(*section.values), Bundle(self.kernel, watch=False)
-        bundle.load(0, self._problem(scene, section, self.interval(scene), None))
+        bundle.load(0, self._problem(scene, section, self.interval(scene)))
         return np.asarray(bundle.observe(0, bundle.lane(0).row(), rows)[0])
 
     def distance(self, linear: Linear) -> float:
@@ -189,10 +198,12 @@ class SectionMap:
                 failures += failed
             return np.concatenate(numbers), failures
 
-        return [
-            Passage(row[:-TOLD], int(row[-2]), int(row[-1]), failure, *row[-TOLD:-2].tolist())
-            for row, failure in zip(*self.recall(compute), strict=True)
-        ]
+        found = list[Passage]()
+        for row, failure in zip(*self.recall(compute), strict=True):
+            *margins, near, duration, onsets, steps = row[-TOLD:].tolist()
+            whole = int(onsets), int(steps), failure, near, duration, Margins(*margins)
+            found.append(Passage(row[:-TOLD], *whole))
+        return found
 
     def _bundle(self, sections: Sequence[Section]) -> Answers:
         scenes = [self.scene_at(*one.values) for one in sections]
@@ -210,8 +221,12 @@ class SectionMap:
         for lane, duration in enumerate(durations):
             at = ended.bundle.lane(lane)
             interval = float(at.run["output_step"])
-            near = ended.approaches.nearest(lane, interval) if self.watches else math.nan
-            told = near, duration, at.run["onsets"], ended.steps[lane] + steps[lane]
+            near, margins = math.nan, NO_MARGINS
+            if self.watches:
+                near = ended.approaches.nearest(lane, interval)
+            elif self._rows(lane) and not failures[lane]:
+                margins = ended.approaches.margins(lane, interval)
+            told = *margins, near, duration, at.run["onsets"], ended.steps[lane] + steps[lane]
             numbers[lane] = np.append(self.numbers_at(at.row()[0]), told)
         return numbers, failures
 
@@ -227,10 +242,12 @@ class SectionMap:
         for lane, section in enumerate(sections):
             values = [one.values for one in sections[:lane]]
             like = values.index(section.values) if section.values in values else None
-            problem = self._problem(scenes[lane], section, durations[lane], event)
+            rows = self._rows(lane) if event is None else 0
+            problem = self._problem(scenes[lane], section, durations[lane], event, rows)
             bundle.load(lane, problem, like)
         attempts, most = 0, SLOWEST * self.steps * self.periods + SPARE
-        approaches = Approaches(bundle, len(sections) if self.watches and event is None else 0)
+        watched = sum(self._rows(lane) > 0 for lane in range(len(sections)))
+        approaches = Approaches(bundle, watched if event is None else 0)
         crossings = Crossings(bundle, 0 if event is None else len(sections))
         running = 1
         while running and attempts < most:
@@ -250,11 +267,21 @@ class SectionMap:
                 failures.append(failure_of(bundle, lane, self.tolerance, scene).detail)
         return _Runs(bundle, approaches, crossings, failures)
 
+    def _rows(self, lane: int) -> int:
+        """Return how many rows a run hands out, by its lane."""
+        if self.watches:
+            return rows_of(self.periods)
+        return fine_rows_of(self.periods) if self.margins and lane == 0 else 0
+
     def _problem(
-        self, scene: Scene, section: Section, duration: float, event: Event | None
+        self,
+        scene: Scene,
+        section: Section,
+        duration: float,
+        event: Event | None = None,
+        rows: int = 0,
     ) -> LaneProblem:
         start = LaneStart.at_section(section.state, self.kernel.states)
-        rows = rows_of(self.periods) if self.watches and event is None else 0
         return LaneProblem(
             scene,
             duration,

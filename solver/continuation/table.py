@@ -34,6 +34,7 @@ def row_of(row: Row, seconds: Sequence[float] = ()) -> Floats:
         float(unstable(orbit.multipliers, orbit.curve.of)),
         orbit.residual,
         orbit.bar,
+        *orbit.looser.passage.margins,
     ]
     if seconds:
         facts += [*seconds, bounds[1]]

@@ -11,7 +11,14 @@ from jointplay.solver.continuation.orbit import BAR, Orbit
 from jointplay.solver.continuation.passage import Section
 from jointplay.solver.continuation.settled import NoStart
 from jointplay.solver.continuation.start import first_orbit
-from tests.solver.continuation.oscillator import DAMPING, curve, free_multipliers
+from tests.solver.continuation.oscillator import (
+    DAMPING,
+    GAP,
+    SHAKEN,
+    STIFFNESS,
+    curve,
+    free_multipliers,
+)
 
 
 def orbit_at(speed: float, stop: float = 1e12, periods: int = 1) -> Orbit:
@@ -45,6 +52,17 @@ def test_bars_cover_what_runs_err_by_where_differences_at_two_scales_say_too_lit
     assert BAR * rough.error < 0.1 * away
     assert away <= rough.bar < 100.0 * away
     assert sharp.bar < 1e-7
+
+
+def test_an_orbit_tells_its_gap_or_the_speed_of_its_impact_as_closed_forms_have_them() -> None:
+    free = orbit_at(33.0).looser.passage.margins
+    response = abs(1.0 / complex(STIFFNESS - 33.0**2, 33.0 * DAMPING))
+    assert free.gap == pytest.approx(GAP - SHAKEN * response, abs=1e-10)
+    assert np.isnan([free.speed, free.penetration]).all()
+    struck = orbit_at(25.0).looser.passage.margins
+    # of a rigid stop; this one gives way a little
+    assert struck.speed == pytest.approx(0.2851232770, abs=2e-4)
+    assert np.isnan([struck.gap, struck.penetration]).all()
 
 
 @pytest.mark.parametrize("scale", [0.1, 10.0])
