@@ -19,6 +19,7 @@ LABELS = {
     "CP": "cusp: two folds meet",
     "R1": "resonance 1:1: a second multiplier passes 1",
     "R2": "resonance 1:2: a second multiplier passes -1",
+    "ST": "sticking: a phase in which friction holds, or slides, begins or ends",
 }
 """Labels as AUTO and COCO print them; stores keep their positions."""
 

@@ -118,7 +118,7 @@ def root(piece: Piece, test: Callable[[Orbit], float], coarser: Callable[[Orbit]
     return Found(x1, best, tuple(np.maximum(bounds, rounding).tolist()))
 
 
-def change(piece: Piece, count: Callable[[Orbit], int], begin: float = 0.0) -> Found:
+def change(piece: Piece, count: Callable[[Orbit], object], begin: float = 0.0) -> Found:
     """Return where a count first is not what it is at `begin`, by halving; it differs at the end.
 
     The orbit is the one before the change.

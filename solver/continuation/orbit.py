@@ -129,12 +129,11 @@ class Orbit:
     def looser(self) -> Linear:
         """The map here by runs at the looser tolerance, at the scale of the orbit's differences.
 
-        They tell the orbit's margins, too.
+        They tell the orbit's margins and phases of friction, too.
         """
         map_ = self.curve.sections
         fine = FINE if self.curve.of == GRAZING else 1.0
-        margins = bool(map_.kernel.pairs)
-        again = replace(map_, tolerance=LOOSER * map_.tolerance, watches=False, margins=margins)
+        again = replace(map_, tolerance=LOOSER * map_.tolerance, watches=False, tells=True)
         (found,) = again.linears([self.section], fine * self.scale, over=0)
         return found
 
@@ -148,6 +147,13 @@ class Orbit:
             return math.inf
         apart = spread(self.multipliers, multipliers_of(self.looser.monodromy))
         return BAR * self.error + apart
+
+    @property
+    def phases(self) -> tuple[int, ...]:
+        """Number of times that each slip sticks and slides, in turn; none if a run failed."""
+        if not self.curve.sections.rubs or self.looser.passage.failure:
+            return ()
+        return self.looser.passage.phases
 
     @cached_property
     def sure(self) -> bool:

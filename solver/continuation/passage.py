@@ -47,7 +47,9 @@ class Passage:
     duration: float = math.nan
     """s."""
     margins: Margins = NO_MARGINS
-    """Distances from another number of impacts, if they are watched, of an orbit."""
+    """Distances from another number of impacts, of an orbit that tells them."""
+    phases: tuple[int, ...] = ()
+    """Number of times that each slip sticks and slides in a period, in turn, of such an orbit."""
 
 
 @dataclass(frozen=True)

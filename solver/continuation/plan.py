@@ -8,7 +8,14 @@ from typing import Any
 from jointplay.solver.continuation.columns import LABELS
 from jointplay.solver.runs.study.plan import Study
 
-COUNTED = {"LP": "folds", "PD": "doublings", "NS": "tori", "BP": "branch_points", "GR": "grazings"}
+COUNTED = {
+    "LP": "folds",
+    "PD": "doublings",
+    "NS": "tori",
+    "BP": "branch_points",
+    "GR": "grazings",
+    "ST": "stickings",
+}
 """Names of numbers of a branch, by the label of the special orbits that they count."""
 OUTPUTS = {
     "orbits": ("1", "orbits of the branch, special ones counted"),
@@ -17,6 +24,7 @@ OUTPUTS = {
     "tori": ("1", "Neimark-Sacker bifurcations (NS)"),
     "branch_points": ("1", "branch points (BP)"),
     "grazings": ("1", "grazings: an impact begins or ends (GR)"),
+    "stickings": ("1", "phases of friction that begin or end (ST)"),
 }
 """Unit and long name of what each branch has beside its orbits and accepted steps."""
 

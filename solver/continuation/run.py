@@ -18,6 +18,7 @@ from jointplay.solver.continuation.passage import Section
 from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach, Second
 from jointplay.solver.continuation.section_map import Answers, SectionMap
 from jointplay.solver.continuation.settled import NoStart, settle
+from jointplay.solver.continuation.slips import rubbings
 from jointplay.solver.continuation.special_curve import starts_of_curves
 from jointplay.solver.continuation.start import first_orbit, scaled
 from jointplay.solver.continuation.switching import beside_branch_point
@@ -253,7 +254,8 @@ def section_map(
 
     LimitExceeded: the scene's equations are too long to compile.
     """
-    kernel = ready_kernel(study.point_scene(0), study.job["formulation"], study.method)
+    scene = study.point_scene(0)
+    kernel = ready_kernel(scene, study.job["formulation"], study.method)
     second = () if study.second is None else (study.second.start,)
     scenes = scenes_of(study)
 
@@ -272,6 +274,7 @@ def section_map(
         width,
         looked,
         recall,
+        rubs=bool(rubbings(scene)),
         crossing=section and Crossing(crossing_event(kernel, section), float(study.period[0])),
         angles=tuple(k for k, one in enumerate(kernel.coordinates) if one.endswith(".theta")),
     )

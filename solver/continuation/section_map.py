@@ -23,6 +23,7 @@ from jointplay.solver.continuation.closest_approach import (
 )
 from jointplay.solver.continuation.crossing import PATIENCE, Crossing, Crossings
 from jointplay.solver.continuation.passage import Linear, Passage, Section
+from jointplay.solver.continuation.slips import Slips
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -72,8 +73,11 @@ class SectionMap:
     """Scale of the second parameter."""
     watches: bool = False
     """Whether runs tell how near they come to another impact."""
-    margins: bool = False
-    """Whether the first of runs side by side tells its margins; not beside `watches`."""
+    rubs: bool = False
+    """Whether there are slips whose phases may change along a branch."""
+    tells: bool = False
+    """Whether the first of runs side by side tells margins and phases of friction; not beside
+    `watches`."""
     steps: float = math.inf
     """Accepted steps in a period of the motion that the branch begins with."""
     crossing: Crossing | None = None
@@ -191,7 +195,7 @@ class SectionMap:
         """Return the runs from sections, eight lanes side by side."""
 
         def compute() -> Answers:
-            numbers, failures = [np.zeros((0, self.size + TOLD))], list[str]()
+            numbers, failures = list[Floats](), list[str]()
             for first in range(0, len(sections), BUNDLE):
                 part, failed = self._bundle(sections[first : first + BUNDLE])
                 numbers.append(part)
@@ -201,8 +205,9 @@ class SectionMap:
         found = list[Passage]()
         for row, failure in zip(*self.recall(compute), strict=True):
             *margins, near, duration, onsets, steps = row[-TOLD:].tolist()
-            whole = int(onsets), int(steps), failure, near, duration, Margins(*margins)
-            found.append(Passage(row[:-TOLD], *whole))
+            phases = tuple(map(int, row[self.size : -TOLD]))
+            told = int(onsets), int(steps), failure, near, duration, Margins(*margins), phases
+            found.append(Passage(row[: self.size], *told))
         return found
 
     def _bundle(self, sections: Sequence[Section]) -> Answers:
@@ -217,7 +222,8 @@ class SectionMap:
             steps, failures = found.steps, found.failures
         ended = self._run(sections, scenes, durations)
         failures = [one or other for one, other in zip(failures, ended.failures, strict=True)]
-        numbers = np.empty((len(sections), self.size + TOLD))
+        phases = [] if ended.slips is None else ended.slips.phases()
+        numbers = np.empty((len(sections), self.size + len(phases) + TOLD))
         for lane, duration in enumerate(durations):
             at = ended.bundle.lane(lane)
             interval = float(at.run["output_step"])
@@ -227,7 +233,7 @@ class SectionMap:
             elif self._rows(lane) and not failures[lane]:
                 margins = ended.approaches.margins(lane, interval)
             told = *margins, near, duration, at.run["onsets"], ended.steps[lane] + steps[lane]
-            numbers[lane] = np.append(self.numbers_at(at.row()[0]), told)
+            numbers[lane] = np.concatenate([self.numbers_at(at.row()[0]), phases, told])
         return numbers, failures
 
     def _run(
@@ -249,11 +255,14 @@ class SectionMap:
         watched = sum(self._rows(lane) > 0 for lane in range(len(sections)))
         approaches = Approaches(bundle, watched if event is None else 0)
         crossings = Crossings(bundle, 0 if event is None else len(sections))
+        slips = Slips(bundle, scenes[0]) if self.tells and event is None else None
         running = 1
         while running and attempts < most:
             running = bundle.advance(ATTEMPTS)
             approaches.collect()
             crossings.collect()
+            if slips is not None:
+                slips.collect()
             attempts += ATTEMPTS
             self.looked()
         failures = list[str]()
@@ -265,13 +274,13 @@ class SectionMap:
                 failures.append("" if event is None else crossings.lack(lane, self.periods))
             else:
                 failures.append(failure_of(bundle, lane, self.tolerance, scene).detail)
-        return _Runs(bundle, approaches, crossings, failures)
+        return _Runs(bundle, approaches, crossings, slips, failures)
 
     def _rows(self, lane: int) -> int:
         """Return how many rows a run hands out, by its lane."""
         if self.watches:
             return rows_of(self.periods)
-        return fine_rows_of(self.periods) if self.margins and lane == 0 else 0
+        return fine_rows_of(self.periods) if self.tells and lane == 0 else 0
 
     def _problem(
         self,
@@ -303,6 +312,7 @@ class _Runs:
     bundle: Bundle
     approaches: Approaches
     crossings: Crossings
+    slips: Slips | None
     failures: list[str]
 
     @property

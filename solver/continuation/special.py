@@ -1,7 +1,7 @@
 """Special orbits of a branch between two that are near each other: what bifurcates or grazes."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -23,7 +23,12 @@ Test = Callable[[Complexes], float]
 
 MOST_GRAZINGS = 8
 """Impacts that may begin or end between two orbits; where more do, steps are shorter."""
-CHANGES = {"LP": 1, "BP": 1, "PD": 1, "NS": 2, "GR": 0}
+MOST_STICKINGS = 4
+"""Phases of friction that may begin or end between two orbits; others are not told."""
+SHAKEN = 1e-6
+"""Length along the branch within which that is one: a symmetric motion has two, apart by what the
+steps of runs leave."""
+CHANGES = {"LP": 1, "BP": 1, "PD": 1, "NS": 2, "GR": 0, "ST": 0}
 """By how many the unstable multipliers may change."""
 RESONANCES = {"LP": "R1", "PD": "R2"}
 """Where a second multiplier comes to that of a fold, or of a doubling."""
@@ -74,6 +79,7 @@ def _every(piece: Piece) -> Iterator[Special]:
         if label != "NS" or is_torus(found.orbit.multipliers):
             yield Special(label, found)
     yield from _grazing(piece)
+    yield from _sticking(piece)
 
 
 def _beside(piece: Piece) -> Iterator[Special]:
@@ -136,6 +142,36 @@ def _grazing(piece: Piece) -> Iterator[Special]:
         gained = "begins" if behind > onsets else "ends"
         yield Special("GR", found, f"an impact {gained}: {onsets} before, {behind} behind")
         onsets = behind
+
+
+def _sticking(piece: Piece) -> Iterator[Special]:
+    """Yield where phases of friction begin or end; no more of a piece in which that cannot be told.
+
+    A branch does not depend on them, so that it goes on there.
+    """
+    at, before, last = 0.0, piece.first.phases, piece.last.phases
+    for _ in range(MOST_STICKINGS):
+        if before == last or len(before) != len(last):
+            return
+        try:
+            found = change(piece, _phases, at)
+            at = min(found.at + SHAKEN, piece.length)
+            behind = piece.last if at == piece.length else piece.orbit(at)
+        except NotLocated:
+            return
+        values = zip(found.orbit.values, behind.values, strict=True)
+        found = replace(found, bounds=tuple(abs(b - a) for a, b in values))
+        note = f"friction {_told(before)} before, {_told(behind.phases)} behind"
+        yield Special("ST", found, note)
+        before = behind.phases
+
+
+def _phases(orbit: Orbit) -> tuple[int, ...]:
+    return orbit.phases
+
+
+def _told(phases: tuple[int, ...]) -> str:
+    return f"sticks {sum(phases[::2])} and slides {sum(phases[1::2])} times a period"
 
 
 def _onsets(orbit: Orbit) -> int:

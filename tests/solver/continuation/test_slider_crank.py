@@ -1,6 +1,7 @@
 """A slider-crank whose pin is in contact all the time: what friction does to its orbits."""
 
 import json
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -93,3 +94,11 @@ def test_a_lasting_contact_tells_how_near_it_is_to_opening() -> None:
     # samples miss the least, of swings of 1e-6 m that last 600 of them, by less than 1e-10 m
     least = seen["P.penetration"].min()
     assert found["least_penetration"][0] == pytest.approx(least, abs=1e-10)
+
+
+def test_the_slip_of_a_lasting_contact_tells_its_phases() -> None:
+    map_ = replace(section_map(studied()), tells=True)
+    assert map_.rubs
+    (passage,) = map_.passages([Section(178.0, np.array(SECTION))])
+    # the journal turns against its bearing one way, 178 rad/s at least less what the rod swings
+    assert passage.phases == (0, 1)

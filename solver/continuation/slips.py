@@ -1,0 +1,119 @@
+"""Slips that friction follows, of a run: those of pairs, and the argument of a table of a rate."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.friction_phases import phases
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.runs import SAMPLES
+from jointplay.solver.laws.force import Ends, ForceElement
+from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.laws.function.table import Table
+from jointplay.solver.mechanics.courses import acting_between
+from jointplay.solver.quantities.frames import WORLD
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.pairs import contact_pairs
+
+MOTION = "x", "y", "theta", "vx", "vy", "omega"
+"""Channels of a body that tell how its points move."""
+
+
+class Rubbing(NamedTuple):
+    """A slip that friction follows, and the ramp in which that turns over."""
+
+    name: str
+    """That of the pair or the force element."""
+    low: float
+    high: float
+    """Ends of the ramp, m/s or rad/s."""
+    pair: int | None
+    """Index of the pair; none: of a force element."""
+
+
+def rubbings(scene: Scene) -> tuple[Rubbing, ...]:
+    """Return the slips of a scene: of pairs with friction, and forces that oppose a rate."""
+    found = list[Rubbing]()
+    for index, (name, pair) in enumerate(contact_pairs(scene).items()):
+        law = pair.clearance.friction
+        if law is not None and not law.is_off and np.isfinite(law.full_slip_speed):
+            width = float(law.full_slip_speed)
+            found.append(Rubbing(name, -width, width, index))
+    for name, element in scene.forces.items():
+        if ramp := _ramp(element):
+            found.append(Rubbing(name, *ramp, None))
+    return tuple(found)
+
+
+def _ramp(element: ForceElement) -> tuple[float, float] | None:
+    """Return between which rates a force that is a table of one turns over; None: it does not."""
+    over = element.follows()
+    if over is None or not over.rate or over.quantity == "driver":
+        return None
+    if not isinstance(element, Varying) or not isinstance(element.course, Table):
+        return None
+    knots, values = element.course.knots, element.course.values
+    turns = [k for k in range(len(values) - 1) if values[k] * values[k + 1] < 0.0]
+    return (float(knots[turns[0]]), float(knots[turns[0] + 1])) if len(turns) == 1 else None
+
+
+class Slips:
+    """Collects the slips of a bundle's first lane while it advances."""
+
+    def __init__(self, bundle: Bundle, scene: Scene) -> None:
+        """Begin with none."""
+        self._bundle, self._scene, self._rubbed = bundle, scene, rubbings(scene)
+        names = [f"{one.name}.slip_velocity" for one in self._rubbed if one.pair is not None]
+        if len(names) < len(self._rubbed):
+            names += [f"{body}.{one}" for body in scene.bodies for one in MOTION]
+        self._names = names
+        self._columns = np.array([bundle.kernel.rows.index(one) for one in names], np.int64)
+        self._values = [np.zeros((0, len(names)))]
+        self._touching = [np.zeros((0, len(bundle.kernel.pairs)))]
+
+    def collect(self) -> None:
+        """Take what the bundle has handed out in its last call."""
+        rows, at = self._bundle.rows(SAMPLES, 0), self._bundle.kernel.row
+        if len(rows) and self._rubbed:
+            self._values.append(self._bundle.observe(0, rows, self._columns))
+            self._touching.append(rows[:, at.mode : at.impact_rate].copy())
+
+    def phases(self) -> list[int]:
+        """Return how often each slip sticks and slides, in turn; 0 where a pair is apart once."""
+        values = dict(zip(self._names, np.concatenate(self._values).T, strict=True))
+        touching, found = np.concatenate(self._touching), list[int]()
+        for one in self._rubbed:
+            if one.pair is None:
+                slip = _argument(self._scene, one.name, values)
+            else:
+                slip = values[f"{one.name}.slip_velocity"]
+            apart = one.pair is not None and not touching[:, one.pair].all()
+            found += (0, 0) if apart else phases(slip, one.low, one.high)
+        return found
+
+
+def _argument(scene: Scene, name: str, values: Mapping[str, Floats]) -> Floats:
+    """Return the rate that a force depends on, from channels of bodies."""
+
+    def ends(first: str, second: str) -> Ends:
+        one, other = (_point(scene, reference, values) for reference in (first, second))
+        x, y, vx, vy, angle, spin = (b - a for a, b in zip(one, other, strict=True))
+        zero = 0.0 * angle
+        return Ends((x, y), (vx, vy), (zero, spin), angles=(zero, angle))
+
+    return np.asarray(acting_between(scene, name, ends, {}).argument, np.float64)
+
+
+def _point(scene: Scene, reference: str, values: Mapping[str, Floats]) -> list[Floats]:
+    """Return place, velocity, angle and angular velocity of a named point."""
+    body, point = reference.split(".")
+    if body == WORLD:
+        place = scene.ground.points[point]
+        return [np.array(one) for one in (*place, 0.0, 0.0, 0.0, 0.0)]
+    across, up = scene.bodies[body].points[point]
+    x, y, angle, vx, vy, spin = (values[f"{body}.{one}"] for one in MOTION)
+    dx = across * np.cos(angle) - up * np.sin(angle)
+    dy = across * np.sin(angle) + up * np.cos(angle)
+    return [x + dx, y + dy, vx - spin * dy, vy + spin * dx, angle, spin]
