@@ -1,5 +1,6 @@
 """``/v1/estimates``: what a job will cost, before anything is queued."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Annotated
 
@@ -19,6 +20,7 @@ from jointplay.service.fields import in_unit
 from jointplay.service.jobs.submission import REQUEST_BODY
 from jointplay.service.prober import Prober
 from jointplay.service.problems import kinds, problems
+from jointplay.storage.catalogue.at_work import Devices
 
 router = APIRouter(prefix="/v1/estimates", tags=["jobs"])
 
@@ -33,6 +35,12 @@ class Estimate(BaseModel):
         "s",
         "What compiling the equations took of one core, 0 where they were compiled before; the code"
         " is kept, so that workers on this machine need not compile it again.",
+    )
+    device_seconds: float | None = in_unit(
+        "s",
+        "Time in which the graphics processors of all workers that are alive make these steps"
+        " together; preparing and judging points, a few milliseconds each, is not in it. Null:"
+        " there are none, or they do not compute such a job.",
     )
     steps: int = in_unit("1", "Accepted steps of the solver.")
     bytes: int = in_unit("B", "What the results take on the disk.")
@@ -73,4 +81,18 @@ def estimate_job(
     own = replace(found.job, owner=caller.owner)
     cached = found.reuse and catalogue.identical(own) is not None
     refined = bool(own.spec.get("refine"))
-    return Estimate(**prober.cost_of(own.spec), at_most=refined, cached=cached)
+    cost = prober.cost_of(own.spec)
+    there = catalogue.devices() if cost.pop("on_devices") else {}
+    seconds = on_devices(cost["steps"], cost["points"], there)
+    return Estimate(**cost, device_seconds=seconds, at_most=refined, cached=cached)
+
+
+def on_devices(steps: float, points: int, devices: Mapping[str, Devices]) -> float | None:
+    """Return how long devices take for so many steps together [s]; None: there are no devices.
+
+    Points that do not fill the lanes take as long as if they did.
+    """
+    if not devices:
+        return None
+    rate, lanes = (sum(getattr(one, of) for one in devices.values()) for of in ("rate", "lanes"))
+    return float(steps / (rate * min(points / lanes, 1.0)))

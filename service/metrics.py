@@ -20,6 +20,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.census import Census
 from jointplay.storage.catalogue.counters import (
     COMPILING,
+    ON_DEVICES,
     OUTCOMES,
     PUBLISHED,
     PUBLISHING,
@@ -56,6 +57,11 @@ class Counted(Collector):
         yield _single("jobs_unserved", said, found.unserved)
         said = "Wake-ups that were sent and not answered yet."
         yield _single("wake_ups_on_the_way", said, found.on_the_way)
+        rates = {name: devices.rate for name, devices in found.devices.items()}
+        counts = {name: devices.count for name, devices in found.devices.items()}
+        yield _family("devices", "Graphics processors that workers have.", "device", counts)
+        said = "Accepted steps of these processors, as they were tried."
+        yield _family("device_steps_per_second", said, "device", rates)
         yield from _totals(found.totals)
         ahead = self._catalogue.clock() - time.time()
         said = "Clock of the catalogue less that of this machine."
@@ -109,6 +115,11 @@ def _totals(totals: Mapping[str, float]) -> Iterator[Metric]:
         "jointplay_compile_seconds",
         "Time in which workers compiled kernels, or waited for them.",
         value=totals.get(COMPILING, 0.0),
+    )
+    yield CounterMetricFamily(
+        "jointplay_device_points",
+        "Points of studies that graphics processors computed.",
+        value=totals.get(ON_DEVICES, 0.0),
     )
 
 

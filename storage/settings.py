@@ -107,9 +107,10 @@ class Settings(BaseSettings):
     )
     device: str = Field(
         "cpu",
-        pattern=r"^(cpu|auto|cuda:\d{1,4})$",
+        pattern=r"^(cpu|auto|host|cuda:\d{1,4})$",
         description="What workers compute points of studies on: cpu, or cuda:0, the first graphics"
-        " processor; auto: the first that is made for double precision, else cpu.",
+        " processor; auto: the first that is made for double precision, else cpu; host: a trial"
+        " without a card.",
     )
     most_stored: int = Field(
         0, ge=0, le=2**60, description="Bytes of results of one owner; 0: any number."

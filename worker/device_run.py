@@ -18,9 +18,9 @@ from jointplay.records.point import StudySlice
 from jointplay.solver.computations import Computation, computation_of
 from jointplay.solver.kernels.device.driver import DeviceError
 from jointplay.solver.kinds import parse
-from jointplay.solver.runs.study.device_lanes import required_study
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.pool import Pool
+from jointplay.solver.runs.study.required_study import required_study
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
@@ -31,6 +31,7 @@ from jointplay.worker.local.pooled import LAUNCH
 from jointplay.worker.own_solver import own_solver
 from jointplay.worker.presence import own_name
 from jointplay.worker.scratch.computing import compute
+from jointplay.worker.spent import computed_on_device
 from jointplay.worker.study_block import computed_by
 
 MOST_BLOCKS = 256
@@ -90,6 +91,7 @@ class _DeviceRun:
                 while waiting and self._has_room():
                     self._claim(waiting.popleft())
                 for run, piece in self._pool.advance():
+                    computed_on_device(len(piece.ended))
                     self._go_on(run.block, piece)
         except DeviceError as error:
             for attempt in list(self._attempts.values()):

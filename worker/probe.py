@@ -19,6 +19,7 @@ from jointplay.solver.kernels.cache import SPENT
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.runs.dense_output.columns import most_steps
 from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.runs.study.required_study import required_study
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
@@ -52,6 +53,7 @@ class Cost:
     blocks: int  # that can be computed at the same time
     exact: bool  # it was computed to its end
     failure: str | None  # why it will end early
+    on_devices: bool  # whether graphics processors compute it, too
 
 
 @dataclass(frozen=True)
@@ -106,6 +108,7 @@ def _of_simulation(admission: Admission) -> Cost:
         blocks=1,
         exact=exact,
         failure=outcome.error.detail if outcome.error else None,
+        on_devices=False,
     )
 
 
@@ -173,7 +176,16 @@ def _of_study(study: Study) -> Cost:
         blocks=count,
         exact=exact and len(chosen) == count,
         failure=failure,
+        on_devices=_on_devices(study),
     )
+
+
+def _on_devices(study: Study) -> bool:
+    try:
+        required_study(study)
+    except InvalidInput:
+        return False
+    return True
 
 
 def _run_block(study: Study, index: int, budget: float) -> tuple[list[Mark], str | None]:

@@ -1,4 +1,7 @@
-"""Seconds that this process spends on publishing and compiling, told to the catalogue by and by."""
+"""Seconds of publishing and compiling, and points that a device computes, of this process.
+
+They are told to the catalogue by and by.
+"""
 
 import time
 from collections.abc import Iterator, Mapping
@@ -6,12 +9,12 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from jointplay.solver.kernels.cache import SPENT
-from jointplay.storage.catalogue.counters import COMPILING, PUBLISHED, PUBLISHING
+from jointplay.storage.catalogue.counters import COMPILING, ON_DEVICES, PUBLISHED, PUBLISHING
 
 if TYPE_CHECKING:
     from jointplay.storage.catalogue.catalogue import Catalogue
 
-_published = {PUBLISHED: 0.0, PUBLISHING: 0.0}  # since this process began
+_counted = {PUBLISHED: 0.0, PUBLISHING: 0.0, ON_DEVICES: 0.0}  # since this process began
 
 
 @contextmanager
@@ -22,12 +25,17 @@ def publishing(jobs: float = 1.0) -> Iterator[None]:
     """
     began = time.monotonic()
     yield
-    _published[PUBLISHED] += jobs
-    _published[PUBLISHING] += time.monotonic() - began
+    _counted[PUBLISHED] += jobs
+    _counted[PUBLISHING] += time.monotonic() - began
+
+
+def computed_on_device(points: int) -> None:
+    """Count points that this process's device has computed to their ends."""
+    _counted[ON_DEVICES] += points
 
 
 def _spent() -> dict[str, float]:
-    return {**_published, COMPILING: SPENT.seconds + SPENT.elsewhere}
+    return {**_counted, COMPILING: SPENT.seconds + SPENT.elsewhere}
 
 
 class Telling:

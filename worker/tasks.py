@@ -5,21 +5,24 @@ import os
 import signal
 import threading
 import time
-from contextlib import closing
+from contextlib import closing, suppress
 from functools import lru_cache
-from multiprocessing import get_context
+from multiprocessing import Pipe, get_context
+from multiprocessing.connection import Connection
 from typing import Any
 
 from billiard.process import active_children
 from celery.signals import setup_logging, worker_init, worker_process_init, worker_shutting_down
 
+from jointplay.records.failure import InvalidInput
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.installation import OtherFiles, require_own_files
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, app
-from jointplay.worker.local.devices import FIRST, PROCESSOR, Lanes, opener
+from jointplay.worker.local.devices import Lanes, opener
+from jointplay.worker.own_device import OwnDevice, tried_device
 from jointplay.worker.own_solver import own_solver
 from jointplay.worker.presence import own_name
 from jointplay.worker.scratch.computing import (
@@ -30,8 +33,8 @@ from jointplay.worker.wake_up import wake_relay
 
 _log = logging.getLogger(__name__)
 _draining = threading.Event()
-_lost = threading.Event()
-"""Set once this process's device does not go on: from then on the processor computes."""
+_device: OwnDevice | None = None
+"""None: there is none, or it does not go on: the processor computes."""
 _DRAIN_SIGNAL = signal.SIGUSR2
 _LOOK_AGAIN = 0.2  # s
 
@@ -65,25 +68,12 @@ def run_block(block: str) -> None:
     if claim is not None:
         if claim.block.id != block:
             wake_relay(settings.redis_url)  # somebody else may be free for that one
-        device = PROCESSOR if _lost.is_set() else _device(settings.device)
-        if device == PROCESSOR:
+        if _device is None:
             compute(catalogue, settings, claim, _draining)
         else:
-            _compute_on(opener(device), claim)
+            _compute_on(opener(_device.name), claim)
         if settings.most_running:
             wake_relay(settings.redis_url)  # its owner may have another block computed
-
-
-@lru_cache(maxsize=1)
-def _device(name: str) -> str:
-    """Return the name of this process's device; never looked for before the fork."""
-    if name != FIRST:
-        return name
-    from jointplay.solver.runs.found_device import found_device
-
-    found = found_device() or PROCESSOR
-    _log.info("points of studies are computed by %s", found)
-    return found
 
 
 def _compute_on(device: Lanes, claim: Claim) -> None:
@@ -91,11 +81,12 @@ def _compute_on(device: Lanes, claim: Claim) -> None:
     from jointplay.solver.kernels.device.driver import DeviceError
     from jointplay.worker.device_run import compute_on_device
 
+    global _device
     settings, catalogue = _platform()
     try:
         compute_on_device(catalogue, settings, claim, _draining, device)
     except DeviceError as error:
-        _lost.set()
+        _device = None
         _log.error("from now on the processor computes, for the device does not go on: %s", error)
 
 
@@ -111,36 +102,33 @@ def _prepare(**_: Any) -> None:
     Another process looks at files and device: what has asked a bucket has threads that no fork
     takes along, for which the children would wait for ever, nor does it take an open device along.
     """
+    global _device
     settings = Settings()
     with closing(Catalogue(settings.catalogue_url)) as catalogue:
         while not _is_migrated(catalogue):
             time.sleep(_LOOK_AGAIN)
-    looking = get_context("fork").Process(target=_look, args=(settings,))
+    found, finds = Pipe(duplex=False)
+    looking = get_context("fork").Process(target=_look, args=(settings, finds))
     looking.start()
+    finds.close()
+    with suppress(EOFError):  # it says why
+        _device = found.recv()
     looking.join()
     if looking.exitcode:
         raise SystemExit(1)
 
 
-def _look(settings: Settings) -> None:
-    if settings.device not in (PROCESSOR, FIRST):
-        _look_at_device(settings.device)
+def _look(settings: Settings, finds: Connection) -> None:
+    try:
+        finds.send(tried_device(settings.device))
+    except InvalidInput as error:
+        detail = error.problems[0].detail
+        raise SystemExit(f"the worker does not start: JOINTPLAY_DEVICE {detail}") from None
     with closing(Catalogue(settings.catalogue_url)) as catalogue:
         try:
             require_own_files(settings, catalogue)
         except (OtherFiles, Unavailable) as error:
             raise SystemExit(f"the worker does not start: {error}") from None
-
-
-def _look_at_device(name: str) -> None:
-    from jointplay.records.failure import InvalidInput
-    from jointplay.solver.kernels.device.named import device_named
-
-    try:
-        device_named(name)
-    except InvalidInput as error:
-        detail = error.problems[0].detail
-        raise SystemExit(f"the worker does not start: JOINTPLAY_DEVICE {detail}") from None
 
 
 def _is_migrated(catalogue: Catalogue) -> bool:
@@ -158,12 +146,13 @@ def _listen_for_drain(**_: Any) -> None:
 
 
 def _be_present() -> None:
-    """Tell the catalogue now and then that there is a worker with this solver."""
+    """Tell the catalogue now and then that there is a worker with this solver, and its device."""
     settings, catalogue = _platform()
     telling = Telling()
     while True:
         try:
-            catalogue.note_worker(own_name(), own_solver())
+            told = None if _device is None else _device.told
+            catalogue.note_worker(own_name(), own_solver(), told)
             telling.tell(catalogue, own_name())
         except Unavailable as fault:
             _log.debug("not known to be there: %s", fault)

@@ -1,16 +1,18 @@
 """The first graphics processor, or, where there is none, this processor in its driver's place."""
 
-from functools import partial
 from typing import NamedTuple
 
 from jointplay.solver.kernels.device.bundle import Write
 from jointplay.solver.kernels.device.compiled import code
 from jointplay.solver.kernels.device.driver import Device, DeviceError
-from jointplay.solver.kernels.device.kernel_text import kernel_text
+from jointplay.solver.kernels.device.host_driver import HostDriver
+from jointplay.solver.kernels.device.named import HOST, written_for
 from jointplay.solver.kinds import Study
 from jointplay.solver.runs.study.device_lanes import device_lanes
 from jointplay.solver.runs.study.lane_group import Make
-from tests.solver.kernels.device.driver_by_host import DriverByHost
+
+MEMORY = 2**33
+"""Bytes that this processor has in a device's place."""
 
 
 class Opened(NamedTuple):
@@ -30,6 +32,4 @@ def opened() -> Opened:
     try:
         return Opened(Device(), code, there=True)
     except DeviceError:
-        memory = 2**33
-        driver = DriverByHost(memory)
-        return Opened(Device(library=driver), partial(kernel_text, on_host=True), there=False)
+        return Opened(Device(library=HostDriver(MEMORY)), written_for(HOST), there=False)

@@ -48,10 +48,12 @@ function words(found) {
   const compiling = found.compilation > 0.05
     ? " Its equations are being compiled for the first time."
     : "";
+  const devices = found.device_seconds === null ? ""
+    : ` Or ${span(found.device_seconds)} of the workers' graphics processors.`;
   const failing = found.failure ? ` It will end early: ${found.failure}` : "";
   return [
     found.at_most ? "At most " : "About ", element("strong", {}, span(found.seconds)), ` of one core${points}, `,
     element("strong", {}, bytes(found.bytes)), ` of results, ${short(found.steps, 3)} steps.`,
-    compiling, failing,
+    devices, compiling, failing,
   ];
 }

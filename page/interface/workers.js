@@ -32,11 +32,11 @@ export function whyQueued(alive) {
 
 /** Returns a table of the blocks of a job that workers have, or null. */
 export function atWork(alive, job) {
-  const rows = alive.flatMap(({ name, processor, blocks }) => blocks
+  const rows = alive.flatMap(({ name, processor, device, blocks }) => blocks
     .filter((one) => one.job === job)
     .map(({ block, attempt, since }) => element("tr", {},
       element("td", { class: "small", title: name }, processOf(name)),
-      element("td", { class: "small" }, processor),
+      element("td", { class: "small" }, device ?? processor),
       element("td", {}, String(block)),
       element("td", {}, String(attempt)),
       element("td", {}, new Date(since).toLocaleTimeString([], { hour12: false })))));

@@ -33,13 +33,13 @@ function table(alive) {
       element("tbody", {}, alive.map(row))));
 }
 
-function row({ name, since, seen, blocks, processor, version }) {
+function row({ name, since, seen, blocks, processor, device, version }) {
   return element("tr", {},
     element("th", { scope: "row", title: name }, processOf(name)),
     element("td", {}, blocks.length ? blocks.map(held) : element("span", { class: "quiet" }, "nothing")),
     element("td", { title: since }, since ? ago(since) : "–"),
     element("td", { title: seen }, ago(seen)),
-    element("td", { class: "small" }, processor),
+    element("td", { class: "small" }, device ?? processor),
     element("td", { class: "small" }, element("code", {}, version)));
 }
 

@@ -5,6 +5,7 @@ from pydantic import BaseModel, Field
 
 from jointplay.service.access import CallerDependency
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency
+from jointplay.service.fields import in_unit
 from jointplay.service.jobs.schemas import Moment
 from jointplay.service.problems import kinds, problems
 
@@ -30,6 +31,13 @@ class Worker(BaseModel):
         description="When it was heard of first; null: before the service kept this."
     )
     seen: Moment = Field(description="When it was heard of last.")
+    device: str | None = Field(
+        description="Graphics processor that computes points of studies for it; null: it has none."
+    )
+    rate: float | None = in_unit(
+        "1/s", "Accepted steps of that processor, as it was tried when the worker started."
+    )
+    lanes: int | None = Field(description="Points that it computes at a time.")
     blocks: list[BlockAtWork]
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.device.bundle import DeviceBundle
 from jointplay.solver.kernels.device.compiled import code
 from jointplay.solver.kernels.device.driver import Device
@@ -36,6 +37,8 @@ class Trial:
     same_bits: bool
     revolutions: float
     """A second, of the mechanism's crank, in all lanes."""
+    steps: float
+    """Accepted ones a second, in all lanes."""
 
     @property
     def serves(self) -> bool:
@@ -63,28 +66,36 @@ def try_device(
     DeviceError
         The device does not do it.
     """
+    lanes = lanes or LANES * device.processors
     problems = [LaneProblem(scene, 1e6, 1e-6, 1e6, 1, 0, 0.0) for scene in scenes]
     kernel = ready_kernel(problems[0].scene, "reduced")
     here = Bundle(kernel, problems, watch=False)
-    there = DeviceBundle(device, kernel, lanes or LANES * device.processors, write=write)
-    for i, problem in enumerate(problems):
-        there.load(i, problem)
-    there.repeat(BUNDLE)
-    there.advance(ATTEMPTS)
-    while here.attempts < ATTEMPTS:
-        here.advance(ATTEMPTS - here.attempts)
-    same = all((there.lane(i)["time"] == here.lane(i)["time"]).all() for i in range(BUNDLE))
-    state = there.state("there")["there/work"][kernel.layout.block("y"), :BUNDLE]
-    before, begun = _revolutions(there), time.perf_counter()
-    there.advance(ATTEMPTS)
-    seconds = time.perf_counter() - begun
-    return Trial(
-        device.name,
-        device.ratio,
-        same and bool((state == here.block("y")).all()),
-        (_revolutions(there) - before) / seconds,
-    )
+    there = DeviceBundle(device, kernel, lanes, write=write)
+    try:
+        for i, problem in enumerate(problems):
+            there.load(i, problem)
+        there.repeat(BUNDLE)
+        there.advance(ATTEMPTS)
+        while here.attempts < ATTEMPTS:
+            here.advance(ATTEMPTS - here.attempts)
+        same = _same(here, there)
+        before, begun = _made(there), time.perf_counter()
+        there.advance(ATTEMPTS)
+        seconds = time.perf_counter() - begun
+        revolutions, steps = (_made(there) - before) / seconds
+    finally:
+        there.release()
+    return Trial(device.name, device.ratio, same, float(revolutions), float(steps))
 
 
-def _revolutions(bundle: DeviceBundle) -> float:
-    return float((bundle.now() / bundle.runs["unit"]).sum())
+def _same(here: Bundle, there: DeviceBundle) -> bool:
+    """Return whether the first lanes there have the bits of those here."""
+    times = all((there.lane(i)["time"] == here.lane(i)["time"]).all() for i in range(BUNDLE))
+    state = there.state("there")["there/work"][here.kernel.layout.block("y"), :BUNDLE]
+    return times and bool((state == here.block("y")).all())
+
+
+def _made(bundle: DeviceBundle) -> Floats:
+    """Return the revolutions and the accepted steps of all lanes, (2,)."""
+    steps = bundle.groups[0].work[bundle.kernel.layout["steps"]]
+    return np.array([(bundle.now() / bundle.runs["unit"]).sum(), steps.sum()])

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from sqlalchemy import and_, select
+from sqlalchemy import and_, func, select
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
@@ -30,7 +30,34 @@ class WorkerAtWork:
     processor: str
     since: float | None  # None: it was there before this was kept
     seen: float
+    device: str | None  # see `WorkerDevice`; None: it has none
+    rate: float | None
+    lanes: int | None
     blocks: tuple[HeldBlock, ...]
+
+
+@dataclass(frozen=True)
+class Devices:
+    """All devices of one name that workers have."""
+
+    count: int
+    rate: float  # accepted steps a second, of all of them
+    lanes: int
+
+
+def devices(unit: Unit) -> dict[str, Devices]:
+    """Return the devices of workers that were heard of in the last minute, by the maker's name."""
+    worker = tables.worker
+    found = (
+        select(worker.c.device, func.count(), func.sum(worker.c.rate), func.sum(worker.c.lanes))
+        .where(worker.c.device.is_not(None), worker.c.seen > unit.now - PATIENCE)
+        .group_by(worker.c.device)
+        .order_by(worker.c.device)
+    )
+    return {
+        name: Devices(count, float(rate), int(lanes))
+        for name, count, rate, lanes in unit.execute(found)
+    }
 
 
 def workers_at_work(unit: Unit) -> tuple[WorkerAtWork, ...]:

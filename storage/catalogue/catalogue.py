@@ -294,6 +294,7 @@ class Catalogue:
     take_lead = writing(upkeep.take_lead)
     workers = reading(solvers.workers)
     workers_at_work = reading(at_work.workers_at_work)
+    devices = reading(at_work.devices)
     forget_workers = writing(solvers.forget_workers)
     unserved = reading(solvers.unserved)
     note_unserved = writing(solvers.note_unserved)

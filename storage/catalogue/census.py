@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from sqlalchemy import func, select
 
 from jointplay.storage.catalogue import tables, tally
+from jointplay.storage.catalogue.at_work import Devices, devices
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.records import LIVE, QUEUES, BlockState, JobState
 from jointplay.storage.catalogue.solvers import count_unserved
@@ -30,6 +31,7 @@ class Census:
     overdue: int  # ... of those, whose lease ran out and is not taken back yet
     unserved: int  # jobs whose solver no worker has
     on_the_way: int  # wake-ups that were sent and not answered yet
+    devices: Mapping[str, Devices]  # of workers, by the maker's name
     totals: Mapping[str, float]  # counters that never fall; see `storage.catalogue.tally`
 
 
@@ -53,5 +55,6 @@ def census(unit: Unit) -> Census:
         unit.execute(late).scalar_one(),
         count_unserved(unit),
         on_the_way(unit),
+        devices(unit),
         tally.totals(unit),
     )

@@ -7,7 +7,8 @@ OUTCOMES: Final = ("done", "failed", "cancelled", "released", "put-off", "lost",
 PUBLISHED: Final = "published"
 PUBLISHING: Final = "seconds of publishing"
 COMPILING: Final = "seconds of compiling"
-OF_WORKERS: Final = (PUBLISHED, PUBLISHING, COMPILING)
+ON_DEVICES: Final = "points on devices"
+OF_WORKERS: Final = (PUBLISHED, PUBLISHING, COMPILING, ON_DEVICES)
 """Counters that workers tell themselves."""
 
 

@@ -82,6 +82,15 @@ class Solver:
 
 
 @dataclass(frozen=True)
+class WorkerDevice:
+    """A graphics processor that computes points of studies for a worker."""
+
+    device: str  # the maker's name, of at most 64 characters
+    rate: float  # accepted steps a second in all lanes, as it was tried
+    lanes: int  # points that it computes at a time
+
+
+@dataclass(frozen=True)
 class JobRequest:
     """Facts of a job that are known from the request for it on."""
 

@@ -6,9 +6,9 @@ from sqlalchemy import Connection, inspect, text
 
 from jointplay.storage.catalogue import functions, tables
 
-REVISION = "0013"
+REVISION = "0014"
 """The newest migration; a test compares it with the folder storage/migrations. One that takes
-something away which programs before it need is called by the next thousand: 1001 after 0013."""
+something away which programs before it need is called by the next thousand: 1001 after 0014."""
 
 
 def present_revision(connection: Connection) -> str | None:

@@ -6,13 +6,21 @@ waits, and its status says so.
 """
 
 from collections.abc import Collection, Sequence
+from dataclasses import fields
 from typing import Any, Final
 
 from sqlalchemy import and_, bindparam, delete, insert, or_, select, update
 
 from jointplay.storage.catalogue import tables, tally, turns
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.records import LIVE, QUEUES, BlockState, Job, Solver
+from jointplay.storage.catalogue.records import (
+    LIVE,
+    QUEUES,
+    BlockState,
+    Job,
+    Solver,
+    WorkerDevice,
+)
 
 PATIENCE: Final = 60.0
 """Seconds after which a worker that is silent, or a job that none has taken, is on its own."""
@@ -20,6 +28,7 @@ UNSERVED: Final = tables.NO_SOLVER
 _CANDIDATES: Final = 8
 """Abandoned blocks that a worker tries to take over: others may be quicker."""
 _FORGOTTEN: Final = 3600.0  # s
+_OF_DEVICES: Final = tuple(field.name for field in fields(WorkerDevice))
 _PART_OF_WAIT: Final = 0.25
 _LONGEST_PAUSE: Final = 300.0  # s
 _job, _block, _worker = tables.job, tables.block, tables.worker
@@ -151,9 +160,10 @@ _HEARD_OF: Final = (
 )
 
 
-def note_worker(unit: Unit, name: str, solver: Solver) -> None:
-    """Remember that a worker was heard of just now."""
+def note_worker(unit: Unit, name: str, solver: Solver, device: WorkerDevice | None = None) -> None:
+    """Remember that a worker was heard of just now, and its device if it has one."""
     facts = {"version": solver.version, "processor": solver.processor, "seen": unit.now}
+    facts |= dict.fromkeys(_OF_DEVICES) if device is None else vars(device)
     known = update(_worker).where(_worker.c.name == name).values(facts)
     if not unit.execute(known).rowcount:
         unit.execute(insert(_worker).values(name=name, since=unit.now, **facts))

@@ -280,6 +280,9 @@ worker = Table(
     Column("processor", String(64), nullable=False),
     Column("seen", Float(53), nullable=False),
     Column("since", Float(53)),
+    Column("device", String(64)),  # the maker's name
+    Column("rate", Float(53)),  # accepted steps of the device a second
+    Column("lanes", Integer),  # of the device: points that it computes at a time
 )
 
 # Which process does what only one should do at a time, and until when.

@@ -16,7 +16,7 @@ from tests.waiting import until
 COMMAND = [sys.executable, "-P", "-m", "jointplay", "worker", "--settings"]
 
 
-def test_a_worker_takes_its_addresses_from_a_file(tmp_path: Path) -> None:
+def test_a_worker_takes_its_addresses_from_a_file_and_tells_of_its_device(tmp_path: Path) -> None:
     broker = Broker(tmp_path / "broker", tmp_path / "broker.log")
     settings = tmp_path / "settings"
     settings.write_text(f"JOINTPLAY_DATA={tmp_path}\nJOINTPLAY_REDIS_URL={broker.url}\n")
@@ -24,12 +24,17 @@ def test_a_worker_takes_its_addresses_from_a_file(tmp_path: Path) -> None:
     try:
         with closing(Catalogue(Settings(data=tmp_path).catalogue_url)) as books:
             books.migrate()
-            with subprocess.Popen([*COMMAND, settings.name], cwd=tmp_path) as worker:
+            command = [*COMMAND, settings.name, "--device", "host"]
+            with subprocess.Popen(command, cwd=tmp_path) as worker:
                 try:
                     until(lambda: bool(books.workers()) or worker.poll() is not None)
+                    (told,) = books.workers_at_work()
                 finally:
                     worker.terminate()
             assert worker.returncode == 0
+            assert (told.device, told.lanes) == ("this processor", 256)
+            assert told.rate is not None
+            assert told.rate > 0.0
     finally:
         broker.stop()
 

@@ -2,6 +2,7 @@
 
 import pytest
 
+from jointplay.service.estimates import on_devices
 from jointplay.service.prober import Prober
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs.dense_output.columns import most_steps, step_columns
@@ -9,6 +10,8 @@ from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
 from jointplay.solver.scene import presets
+from jointplay.storage.catalogue.at_work import Devices
+from jointplay.storage.catalogue.records import Solver, WorkerDevice
 from tests.presets_given import given
 
 LONG = {
@@ -64,7 +67,16 @@ def test_an_estimate_is_right_within_a_factor_of_two(http, name):
     assert (estimate["points"], estimate["blocks"], estimate["failure"]) == (1, 1, None)
 
 
-def test_an_estimate_of_a_study_is_right_within_a_factor_of_two(http):
+@pytest.fixture
+def device(catalogue):
+    """A device of a worker: its rate and lanes are told, nothing is computed."""
+    told = WorkerDevice("a card", 1e6, 64)
+    catalogue.note_worker("with a card", Solver("1", "zen4"), told)
+    yield told
+    catalogue.forget_workers(["with a card"])
+
+
+def test_an_estimate_of_a_study_is_right_within_a_factor_of_two(http, device):
     estimate = estimated(http, STUDY)
     study = admit(STUDY)
     assert isinstance(study, Study)
@@ -77,6 +89,14 @@ def test_an_estimate_of_a_study_is_right_within_a_factor_of_two(http):
     assert steps / 2 < estimate["steps"] < 2 * steps
     assert (estimate["points"], estimate["blocks"]) == (64, len(study.blocks))
     assert not estimate["exact"]
+    assert estimate["device_seconds"] == estimate["steps"] / device.rate
+
+
+def test_devices_take_the_longer_the_fewer_points_fill_their_lanes():
+    devices = {"a card": Devices(2, 2e6, 8), "another": Devices(1, 1e6, 4)}
+    assert on_devices(3e6, 12, devices) == on_devices(3e6, 100, devices) == 1.0
+    assert on_devices(3e6, 3, devices) == 4.0
+    assert on_devices(3e6, 12, {}) is None
 
 
 def test_an_estimate_of_a_refined_map_is_the_most_that_it_may_cost(http):
@@ -94,6 +114,7 @@ def test_an_estimate_of_a_refined_map_is_the_most_that_it_may_cost(http):
     assert refined["points"] == whole["points"] == 33 * 33
 
 
+@pytest.mark.usefixtures("device")
 def test_an_estimate_of_a_short_accuracy_study_is_exact(http):
     study = {"kind": "accuracy-study", "scene": {"preset": "seven-bar-press"}, "duration": 0.003}
     estimate = estimated(http, study)
@@ -104,6 +125,7 @@ def test_an_estimate_of_a_short_accuracy_study_is_exact(http):
     assert (estimate["points"], estimate["blocks"]) == (admitted.points, 1)
     assert (estimate["exact"], estimate["failure"]) == (True, None)
     assert 0.0 < estimate["seconds"] < 60.0  # without compiling
+    assert estimate["device_seconds"] is None  # no device computes such a study
 
 
 def test_nothing_is_queued_and_a_short_job_is_known_exactly(http):

@@ -13,13 +13,27 @@ from jointplay.service import metrics, readiness
 from jointplay.service.app import create_app
 from jointplay.service.readiness import Readiness
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.counters import COMPILING, OUTCOMES, PUBLISHED, PUBLISHING
-from jointplay.storage.catalogue.records import QUEUES, BlockEnd, BlockState, NewJob
+from jointplay.storage.catalogue.counters import (
+    COMPILING,
+    ON_DEVICES,
+    OUTCOMES,
+    PUBLISHED,
+    PUBLISHING,
+)
+from jointplay.storage.catalogue.records import (
+    QUEUES,
+    BlockEnd,
+    BlockState,
+    NewJob,
+    Solver,
+    WorkerDevice,
+)
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 from tests.waiting import until
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
+SOLVER = Solver("1", "zen4")
 
 
 @pytest.fixture(autouse=True)
@@ -67,7 +81,14 @@ def test_what_waits_and_what_runs_is_counted(tmp_path: Path) -> None:
         assert abs(found["jointplay_clock_ahead_seconds"]) < 1
         assert found["process_resident_memory_bytes"] > 1e6
         assert catalogue.reap(3).requeued == (f"{jobs[0]}-0",)
-        catalogue.note_spent("worker", {PUBLISHED: 2, PUBLISHING: 0.5, COMPILING: 3.0})
+        spent = {PUBLISHED: 2, PUBLISHING: 0.5, COMPILING: 3.0, ON_DEVICES: 64}
+        catalogue.note_spent("worker", spent)
+        for name, rate in (("first", 4e8), ("second", 5e8)):
+            catalogue.note_worker(name, SOLVER, WorkerDevice("a card", rate, 33792))
+        catalogue.note_worker("third", SOLVER)
+        found = shown(http.get("/metrics"))
+        assert found["jointplay_devices a card"] == 2
+        assert found["jointplay_device_steps_per_second a card"] == 9e8
         assert catalogue.finish(f"{jobs[1]}-0", 1, BlockEnd(BlockState.done)).terminal
         for _ in range(2):
             found = shown(http.get("/metrics"))
@@ -77,6 +98,7 @@ def test_what_waits_and_what_runs_is_counted(tmp_path: Path) -> None:
             assert found["jointplay_publish_seconds_count"] == 2
             assert found["jointplay_publish_seconds_sum"] == 0.5
             assert found["jointplay_compile_seconds_total"] == 3
+            assert found["jointplay_device_points_total"] == 64
             assert found["jointplay_jobs_unserved"] == 0
             catalogue.forget_workers(["worker"])
         catalogue.close()

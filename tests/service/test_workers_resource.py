@@ -5,11 +5,12 @@ import pytest
 
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import NewJob, Solver
+from jointplay.storage.catalogue.records import NewJob, Solver, WorkerDevice
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 
 SOLVER = Solver("1", "zen4")
+DEVICE = WorkerDevice("a card", 5e8, 33792)
 
 
 @pytest.fixture
@@ -50,6 +51,16 @@ def test_a_worker_is_listed_with_what_it_has_and_an_owner_is_told_of_his_own_job
     assert again["since"] == idle["since"] < again["seen"]
     (hidden,) = workers_seen_by(guarded, "bob")[0]["blocks"]
     assert hidden["job"] is None
+
+
+def test_a_device_is_told_with_its_rate_until_it_is_lost(guarded):
+    _, catalogue = guarded
+    catalogue.note_worker("one", SOLVER, DEVICE)
+    (one,) = workers_seen_by(guarded, "ada")
+    assert (one["device"], one["rate"], one["lanes"]) == ("a card", 5e8, 33792)
+    catalogue.note_worker("one", SOLVER)
+    (one,) = workers_seen_by(guarded, "ada")
+    assert (one["device"], one["rate"], one["lanes"]) == (None, None, None)
 
 
 def test_a_worker_that_has_ended_is_alive_no_more(guarded):

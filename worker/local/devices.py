@@ -27,7 +27,7 @@ def lanes_of(name: str, job: "Admission | Study") -> Lanes | None:
     if name == PROCESSOR:
         return None
     from jointplay.solver.kernels.device.named import device_named
-    from jointplay.solver.runs.study.device_lanes import required_study
+    from jointplay.solver.runs.study.required_study import required_study
 
     required_study(job)
     device_named(name)
@@ -38,7 +38,7 @@ def first_device(job: "Admission | Study") -> str:
     """Return the name of the first device that serves and computes a job; else `PROCESSOR`."""
     from jointplay.records.failure import InvalidInput
     from jointplay.solver.runs.found_device import found_device
-    from jointplay.solver.runs.study.device_lanes import required_study
+    from jointplay.solver.runs.study.required_study import required_study
 
     try:
         required_study(job)
@@ -53,7 +53,7 @@ def opener(name: str) -> Lanes:
 
 
 def _opened(name: str, study: "Study") -> "Make":
-    from jointplay.solver.kernels.device.named import device_named
+    from jointplay.solver.kernels.device.named import device_named, written_for
     from jointplay.solver.runs.study.device_lanes import device_lanes
 
-    return device_lanes(device_named(name), study)
+    return device_lanes(device_named(name), study, written_for(name))

@@ -16,14 +16,16 @@ class Estimate:
     """Expected cost of a job on the machine of the service.
 
     ``seconds`` of one core, beside those that the ``compilation`` of its equations took (0: they
-    were compiled), accepted ``steps`` of the solver, ``bytes`` on the disk; ``blocks``
-    can be computed at the same time.  ``exact``: the whole job was computed for it.  ``at_most``: a
-    map that is refined computes few of its points, and costs less.  ``failure`` says why it will
-    end early, ``cached`` that an identical job is there already.
+    were compiled); ``device_seconds`` that the graphics processors of all workers take together
+    instead (None: there are none, or none computes it); accepted ``steps`` of the solver, ``bytes``
+    on the disk; ``blocks`` can be computed at the same time.  ``exact``: the whole job was computed
+    for it.  ``at_most``: a map that is refined computes few of its points, and costs less.
+    ``failure`` says why it will end early, ``cached`` that an identical job is there already.
     """
 
     seconds: float
     compilation: float
+    device_seconds: float | None
     steps: int
     bytes: int
     points: int

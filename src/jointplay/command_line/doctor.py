@@ -18,10 +18,6 @@ if TYPE_CHECKING:
     from jointplay.storage.reconciliation import Finding, Look
 
 
-TRIED = "slider-crank"
-"""Preset by which a device is tried."""
-
-
 def doctor(
     folder: Annotated[
         Path,
@@ -90,26 +86,17 @@ def doctor(
 def _try_device(*, as_json: bool) -> None:
     """Say whether a device serves."""
     from jointplay.solver.kernels.device.driver import Device, DeviceError
-    from jointplay.solver.kinds import admit
-    from jointplay.solver.runs.admission import Admission
     from jointplay.solver.runs.device_trial import try_device
-    from jointplay.solver.scene.document import Scene
-
-    def scene(clearance: float) -> Scene:
-        given = {"preset": TRIED, "parameters": {"clearance": clearance}}
-        job = {"kind": "simulate", "scene": given, "duration": 1.0}
-        admitted = admit(job)
-        assert isinstance(admitted, Admission)  # noqa: S101  (narrows the type)
-        return Scene.model_validate(admitted.scene)
+    from jointplay.worker.own_device import TRIED, trial_scenes
 
     try:
-        trial = try_device(Device(), [scene(1e-4 * (1 + k / 2)) for k in range(8)])
+        trial = try_device(Device(), [*trial_scenes()])
     except DeviceError as error:
         raise Stopped(f"{error}.", Exit.CHECK_FAILED) from error
     bits = "the bits of this processor" if trial.same_bits else "OTHER BITS than this processor"
     lines = [
         f"{trial.name}: {bits}",
-        f"{TRIED}: {trial.revolutions:.3g} revolutions a second",
+        f"{TRIED}: {trial.revolutions:.3g} revolutions, {trial.steps:.3g} steps a second",
         f"single precision is {trial.ratio} times as fast as double",
     ]
     tell(asdict(trial) | {"serves": trial.serves}, lines, as_json=as_json)

@@ -72,6 +72,8 @@ def _lines(estimate: "Estimate") -> Iterator[str]:
     seconds = estimate.seconds
     time = duration(seconds) if seconds >= 10 else f"{seconds:.2g} s"
     yield f"computing  {time} of one core, {estimate.steps:.3g} steps"
+    if estimate.device_seconds is not None:
+        yield f"or         {estimate.device_seconds:.2g} s of the workers' graphics processors"
     yield f"results    {estimate.bytes / 1e6:.3g} MB"
     if estimate.points > 1:
         yield f"points     {estimate.points} in {estimate.blocks} blocks"

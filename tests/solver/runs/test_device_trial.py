@@ -22,7 +22,7 @@ def test_a_device_with_the_same_bits_serves() -> None:
     trial = trial_by(partial(kernel_text, on_host=True))
     assert trial.serves
     assert trial.name == "this processor"
-    assert trial.revolutions > 0.0
+    assert trial.steps > trial.revolutions > 0.0
 
 
 def test_a_device_with_other_bits_does_not() -> None:

@@ -16,12 +16,15 @@ from jointplay.solver.runs.study.device_lanes import device_lanes
 from jointplay.solver.runs.study.lane_group import Make
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
+from jointplay.storage.catalogue.counters import ON_DEVICES
+from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, WorkerDevice
 from jointplay.storage.settings import Settings
 from jointplay.worker import tasks
 from jointplay.worker.device_run import compute_on_device
 from jointplay.worker.local.devices import opener
 from jointplay.worker.local.folder import STORE
+from jointplay.worker.own_device import OwnDevice
+from jointplay.worker.spent import Telling
 from tests.solver.kernels.device.driver_by_host import DriverByHost
 from tests.stores import files_of
 
@@ -103,7 +106,9 @@ def test_blocks_are_computed_together_beside_those_of_others(
 ) -> None:
     run(catalogue, settings, f"{study}-1")
     driver = DriverByHost()
+    telling = Telling()
     compute(catalogue, settings, study, driver)
+    assert telling.untold()[ON_DEVICES] == len(CLEARANCES) - admit(dict(JOB)).blocks[1][1]
     *blocks, seal = catalogue.blocks(study)
     assert {block.state for block in blocks} == {BlockState.done}
     assert {block.attempt for block in blocks} == {1}
@@ -183,14 +188,14 @@ def test_what_no_device_computes_the_processor_does(
 def test_a_worker_that_lost_its_device_goes_on_with_the_processor(
     catalogue: Catalogue, settings: Settings, study: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    driver, lost = DriverByHost(), threading.Event()
-    with_device = settings.model_copy(update={"device": "cuda:0"})
-    monkeypatch.setattr(tasks, "_platform", lambda: (with_device, catalogue))
+    driver = DriverByHost()
+    device = OwnDevice("cuda:0", WorkerDevice("this processor", 1e6, 512))
+    monkeypatch.setattr(tasks, "_platform", lambda: (settings, catalogue))
     monkeypatch.setattr(tasks, "opener", lambda name: partial(by_host, driver))
-    monkeypatch.setattr(tasks, "_lost", lost)
+    monkeypatch.setattr(tasks, "_device", device)
     driver.lost_at = 5
     tasks.run_block(f"{study}-0")
-    assert lost.is_set()
+    assert tasks._device is None
     launches, other = driver.launches, submit(catalogue, JOB | {"record": 1})
     tasks.run_block(f"{other}-0")
     assert catalogue.blocks(other)[0].state is BlockState.done

@@ -16,8 +16,9 @@ from jointplay.solver.kernels.device.driver import Device
 from jointplay.solver.kernels.device.kernel_text import kernel_text
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kinds import Study, admit
-from jointplay.solver.runs.study.device_lanes import device_lanes, required_study
+from jointplay.solver.runs.study.device_lanes import device_lanes
 from jointplay.solver.runs.study.lane_group import Make
+from jointplay.solver.runs.study.required_study import required_study
 from jointplay.worker.execute import Outcome
 from jointplay.worker.local import computing, keeping
 from jointplay.worker.local.devices import lanes_of
