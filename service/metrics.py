@@ -59,7 +59,9 @@ class Counted(Collector):
         yield _single("wake_ups_on_the_way", said, found.on_the_way)
         rates = {name: devices.rate for name, devices in found.devices.items()}
         counts = {name: devices.count for name, devices in found.devices.items()}
-        yield _family("devices", "Graphics processors that workers have.", "device", counts)
+        yield _family(
+            "devices", "Workers that have a graphics processor, by its name.", "device", counts
+        )
         said = "Accepted steps of these processors, as they were tried."
         yield _family("device_steps_per_second", said, "device", rates)
         yield from _totals(found.totals)

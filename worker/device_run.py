@@ -7,9 +7,9 @@ of all attempts are computed at once.
 
 import logging
 import threading
-from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
+from typing import Protocol
 
 from greenlet import getcurrent, greenlet
 
@@ -22,33 +22,43 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.pool import Pool
 from jointplay.solver.runs.study.required_study import required_study
 from jointplay.solver.runs.study.run import StudyRun
-from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.errors import Unavailable
-from jointplay.storage.catalogue.records import BlockState, Claim
-from jointplay.storage.settings import Settings
+from jointplay.storage.catalogue.errors import Fenced, Unavailable
+from jointplay.storage.catalogue.records import Claim
 from jointplay.worker.local.devices import Lanes
 from jointplay.worker.local.pooled import LAUNCH
-from jointplay.worker.own_solver import own_solver
-from jointplay.worker.presence import own_name
-from jointplay.worker.scratch.computing import compute
 from jointplay.worker.spent import computed_on_device
 from jointplay.worker.study_block import computed_by
 
 MOST_BLOCKS = 256
 """That a worker holds at a time: each has a thread for its lease, and restart points."""
+AT_ONCE = 16
+"""That are claimed with one question."""
 _log = logging.getLogger(__name__)
 
 
+class Blocks(Protocol):
+    """Blocks as the catalogue gives them, or a service that was joined."""
+
+    def beside(self, claim: Claim, most: int, /) -> Sequence[Claim]:
+        """Claim at most so many queued blocks of a claim's study; none if none can be had."""
+        ...
+
+    def compute(self, claim: Claim, /) -> None:
+        """Compute a block to its end; `CatalogueError`, where its own attempt has ended."""
+        ...
+
+
 def compute_on_device(
-    catalogue: Catalogue,
-    settings: Settings,
-    claim: Claim,
-    draining: threading.Event,
-    device: Lanes,
-) -> None:
+    blocks: Blocks, claim: Claim, draining: threading.Event, device: Lanes
+) -> int:
     """Compute a block, and beside it blocks of its study that wait, as many as there is room for.
 
     What no device computes is computed by the processor.
+
+    Returns
+    -------
+    int
+        Blocks that were computed, or given back.
 
     Raises
     ------
@@ -61,35 +71,38 @@ def compute_on_device(
     except InvalidInput:  # which whoever computes it tells
         study = None
     if study is None:
-        compute(catalogue, settings, claim, draining)
-        return
+        blocks.compute(claim)
+        return 1
     try:
         pool = Pool(study, device(study), LAUNCH)
     except InvalidInput as error:
-        compute(catalogue, settings, claim, draining)
+        blocks.compute(claim)
         raise DeviceError(error.problems[0].detail) from error
-    _DeviceRun(catalogue, settings, draining, pool).run(claim)
+    return _DeviceRun(blocks, draining, pool).run(claim)
 
 
 class _DeviceRun:
     """Attempts at blocks of one study, and the lanes that they share."""
 
-    def __init__(
-        self, catalogue: Catalogue, settings: Settings, draining: threading.Event, pool: Pool
-    ) -> None:
-        self._catalogue, self._settings, self._draining = catalogue, settings, draining
-        self._pool = pool
+    def __init__(self, blocks: Blocks, draining: threading.Event, pool: Pool) -> None:
+        self._blocks, self._draining, self._pool = blocks, draining, pool
         self._attempts: dict[int, greenlet] = {}
         """By index of the block; each waits for its next slice."""
+        self._claims: dict[int, Claim] = {}
+        """Those of attempts that are under way."""
+        self._ended = 0
 
-    def run(self, first: Claim) -> None:
-        """Compute the first block, and others, until none is under way."""
-        waiting = self._waiting(first)
+    def run(self, first: Claim) -> int:
+        """Compute the first block, and others, until none is under way; count them."""
+        more = True
         try:
             self._begin(first)
             while self._attempts:
-                while waiting and self._has_room():
-                    self._claim(waiting.popleft())
+                while more and (most := self._room(first.block.count)):
+                    claims = self._blocks.beside(next(iter(self._claims.values())), most)
+                    for claim in claims:
+                        self._begin(claim)
+                    more = bool(claims)
                 for run, piece in self._pool.advance():
                     computed_on_device(len(piece.ended))
                     self._go_on(run.block, piece)
@@ -102,40 +115,28 @@ class _DeviceRun:
             for attempt in self._attempts.values():
                 if not attempt.dead:  # after an error of ours: leases end, and others take over
                     attempt.throw()
+        return self._ended
 
-    def _waiting(self, first: Claim) -> deque[str]:
-        """Return the ids of the study's other blocks that nobody has."""
-        try:
-            blocks = self._catalogue.blocks(first.job.id)
-        except Unavailable as fault:
-            _log.warning("block %s is computed alone: %s", first.block.id, fault)
-            return deque()
-        return deque(one.id for one in blocks if one.state is BlockState.queued and one.count)
-
-    def _has_room(self) -> bool:
-        most = self._settings.most_running or MOST_BLOCKS
-        full = len(self._attempts) >= min(most, MOST_BLOCKS)
-        return self._pool.room > 0 and not full and not self._draining.is_set()
-
-    def _claim(self, block: str) -> None:
-        try:
-            claim = self._catalogue.claim_block(
-                block, own_name(), self._settings.lease, own_solver()
-            )
-        except Unavailable as fault:
-            _log.warning("block %s is not claimed: %s", block, fault)
-            return
-        if claim is not None:
-            self._begin(claim)
+    def _room(self, points: int) -> int:
+        """Return for how many blocks of so many points there is room; 0: this process shall end."""
+        if self._draining.is_set():
+            return 0
+        of_lanes = -(-self._pool.room // points)
+        return max(min(of_lanes, AT_ONCE, MOST_BLOCKS - len(self._attempts)), 0)
 
     def _begin(self, claim: Claim) -> None:
         """Begin an attempt, up to its first slice."""
 
         def attempt() -> None:
             with computed_by(partial(self._computation, getcurrent().parent)):
-                compute(self._catalogue, self._settings, claim, self._draining)
+                try:
+                    self._blocks.compute(claim)
+                    self._ended += 1
+                except (Fenced, Unavailable) as fault:
+                    _log.warning("%s; leaving it", fault)
 
         self._attempts[claim.block.index] = greenlet(attempt)
+        self._claims[claim.block.index] = claim
         self._go_on(claim.block.index)
 
     def _go_on(self, index: int, *piece: StudySlice) -> None:
@@ -143,7 +144,7 @@ class _DeviceRun:
         attempt = self._attempts[index]
         attempt.switch(*piece)
         if attempt.dead:
-            del self._attempts[index]
+            del self._attempts[index], self._claims[index]
             self._pool.drop(index)
 
     def _computation(

@@ -29,8 +29,10 @@ class OwnDevice:
     told: WorkerDevice
 
 
-def tried_device(name: str) -> OwnDevice | None:
+def tried_device(name: str, processes: int = 1) -> OwnDevice | None:
     """Return the device of a name, once it was tried for some seconds; None: the processor serves.
+
+    Each of so many `processes`, which share it, tells of its part.
 
     Raises
     ------
@@ -41,18 +43,18 @@ def tried_device(name: str) -> OwnDevice | None:
     if name == PROCESSOR:
         return None
     if name != FIRST:
-        return _tried(name)
+        return _tried(name, processes)
     from jointplay.solver.runs.found_device import found_device
 
     found = found_device()
     try:
-        return None if found is None else _tried(found)
+        return None if found is None else _tried(found, processes)
     except InvalidInput as error:
         _log.warning("the processor computes: %s", error)
         return None
 
 
-def _tried(name: str) -> OwnDevice:
+def _tried(name: str, processes: int) -> OwnDevice:
     from jointplay.solver.kernels.device.driver import DeviceError
     from jointplay.solver.kernels.device.lanes import BLOCK
     from jointplay.solver.kernels.device.named import device_named, written_for
@@ -63,16 +65,17 @@ def _tried(name: str) -> OwnDevice:
         trial = try_device(device, [*trial_scenes()], write=written_for(name))
     except DeviceError as error:
         raise InvalidInput.at("/device", f"{name!r} does not go on: {error}.") from error
-    return of_trial(name, trial, BLOCK * device.processors)
+    return of_trial(name, trial, BLOCK * device.processors, processes)
 
 
-def of_trial(name: str, trial: "Trial", lanes: int) -> OwnDevice:
+def of_trial(name: str, trial: "Trial", lanes: int, processes: int = 1) -> OwnDevice:
     """Return a device that was tried, and has so many lanes; InvalidInput if it has other bits."""
     if not trial.same_bits:
         detail = f"{name!r}, {trial.name}, has other bits than this processor."
         raise InvalidInput.at("/device", detail)
     _log.info("%s, %s, makes %.3g steps a second", name, trial.name, trial.steps)
-    return OwnDevice(name, WorkerDevice(trial.name[:_NAME], trial.steps, lanes))
+    told = WorkerDevice(trial.name[:_NAME], trial.steps / processes, max(lanes // processes, 1))
+    return OwnDevice(name, told)
 
 
 def trial_scenes() -> "Iterator[Scene]":

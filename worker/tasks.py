@@ -5,6 +5,7 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Mapping
 from contextlib import closing, suppress
 from functools import lru_cache
 from multiprocessing import Pipe, get_context
@@ -80,11 +81,12 @@ def _compute_on(device: Lanes, claim: Claim) -> None:
     """Compute a block, and others beside it, on this process's device."""
     from jointplay.solver.kernels.device.driver import DeviceError
     from jointplay.worker.device_run import compute_on_device
+    from jointplay.worker.own_blocks import OwnBlocks
 
     global _device
     settings, catalogue = _platform()
     try:
-        compute_on_device(catalogue, settings, claim, _draining, device)
+        compute_on_device(OwnBlocks(catalogue, settings, _draining), claim, _draining, device)
     except DeviceError as error:
         _device = None
         _log.error("from now on the processor computes, for the device does not go on: %s", error)
@@ -96,7 +98,7 @@ def _set_up_no_other_logs(**_: Any) -> None:
 
 
 @worker_init.connect  # type: ignore[untyped-decorator]
-def _prepare(**_: Any) -> None:
+def _prepare(options: Mapping[str, Any] | None = None, **_: Any) -> None:
     """Before the fork: wait until an API or a relay has brought the schema up to date.
 
     Another process looks at files and device: what has asked a bucket has threads that no fork
@@ -108,7 +110,8 @@ def _prepare(**_: Any) -> None:
         while not _is_migrated(catalogue):
             time.sleep(_LOOK_AGAIN)
     found, finds = Pipe(duplex=False)
-    looking = get_context("fork").Process(target=_look, args=(settings, finds))
+    processes = (options or {}).get("concurrency") or 1
+    looking = get_context("fork").Process(target=_look, args=(settings, processes, finds))
     looking.start()
     finds.close()
     with suppress(EOFError):  # it says why
@@ -118,9 +121,9 @@ def _prepare(**_: Any) -> None:
         raise SystemExit(1)
 
 
-def _look(settings: Settings, finds: Connection) -> None:
+def _look(settings: Settings, processes: int, finds: Connection) -> None:
     try:
-        finds.send(tried_device(settings.device))
+        finds.send(tried_device(settings.device, processes))
     except InvalidInput as error:
         detail = error.problems[0].detail
         raise SystemExit(f"the worker does not start: JOINTPLAY_DEVICE {detail}") from None

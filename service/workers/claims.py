@@ -12,9 +12,17 @@ from jointplay.service.access import CallerDependency
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.bell import BellDependency
-from jointplay.service.workers.words import Attempt, BlockId, own_name, said
+from jointplay.service.workers.words import Attempt, BlockId, HeldBlock, own_name, said
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Customs
+from jointplay.storage.catalogue.records import Claim, WorkerDevice
+from jointplay.worker.beside import claim_beside
+from jointplay.worker.joined.protocol import (
+    ClaimBeside,
+    Claimed,
+    ClaimedBeside,
+    ClaimRequest,
+    Customs,
+)
 
 router = APIRouter(prefix="/v1/worker", include_in_schema=False)
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.02, 0.5
@@ -48,13 +56,24 @@ async def claim_block(
             most_running=settings.most_running,
         )
         if claim is not None:
-            shown = replace(claim, job=replace(claim.job, owner="", label=None))
-            return Claimed(claim=shown, customs=Customs.of(settings))
+            return Claimed(claim=_shown(claim), customs=Customs.of(settings))
         if time.monotonic() + pause > deadline:
             break
         rung = await bell.wait(pause)
         pause = _FIRST_PAUSE if rung else min(1.5 * pause, _LONGEST_PAUSE)
     return Response(status_code=204)
+
+
+@router.post("/blocks/{block}/{attempt}/beside")
+def claim_blocks_beside(
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    held: HeldBlock,
+    asked: Annotated[ClaimBeside, said(ClaimBeside)],
+) -> ClaimedBeside:
+    """Answer with blocks that wait of the study of one that is held, for a device."""
+    found = claim_beside(catalogue, settings, held, asked.solver, asked.most)
+    return ClaimedBeside(claims=tuple(map(_shown, found)))
 
 
 @router.post("/blocks/{block}/{attempt}/cut-off", status_code=204)
@@ -65,9 +84,15 @@ def note_cut_off(
     catalogue.note_cut_off(block, attempt, own_name(caller, ""))
 
 
+def _shown(claim: Claim) -> Claim:
+    """Return a claim without what is its owner's alone."""
+    return replace(claim, job=replace(claim.job, owner="", label=None))
+
+
 def _begin(catalogue: Catalogue, worker: str, asked: ClaimRequest) -> None:
     """Note that the worker is there, and take back what it was given without hearing of it."""
-    catalogue.note_worker(worker, asked.solver)
+    device = None if asked.device is None else WorkerDevice(**dict(asked.device))
+    catalogue.note_worker(worker, asked.solver, device)
     if asked.spent:
         catalogue.note_spent(worker, asked.spent)
     for block in catalogue.held_by(worker):

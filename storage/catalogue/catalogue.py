@@ -246,6 +246,7 @@ class Catalogue:
     claim_next = claiming(claims.claim_next)
     wake_again = writing(solvers.wake_again)
     held_by = reading(listing.held_by)
+    queued_of = reading(listing.queued_of)
     note_worker = writing(solvers.note_worker)
     note_spent = writing(tally.note_spent)
     held = reading(holding.held)

@@ -79,6 +79,14 @@ def blocks_of(unit: Unit, job_id: str) -> tuple[Block, ...]:
     return tuple(Block(**row._mapping) for row in rows)
 
 
+def queued_of(unit: Unit, job_id: str, most: int) -> tuple[str, ...]:
+    """Return at most so many of a study's queued blocks of points, by index."""
+    table = tables.block
+    waits = (table.c.job == job_id) & (table.c.state == BlockState.queued) & (table.c.count > 0)
+    found = select(table.c.id).where(waits).order_by(table.c.index).limit(most)
+    return tuple(unit.execute(found).scalars())
+
+
 def held_by(unit: Unit, worker: str) -> tuple[Block, ...]:
     """Return the blocks that a worker holds."""
     table = tables.block

@@ -9,9 +9,17 @@ from urllib.parse import quote
 import httpx
 
 from jointplay.storage.catalogue.errors import CatalogueError, Fenced, Unavailable
-from jointplay.storage.catalogue.records import Block
+from jointplay.storage.catalogue.records import Block, Claim, Solver
 from jointplay.worker.holding import Refused
-from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Document, Drop, DropAt
+from jointplay.worker.joined.protocol import (
+    ClaimBeside,
+    Claimed,
+    ClaimedBeside,
+    ClaimRequest,
+    Document,
+    Drop,
+    DropAt,
+)
 
 Answer = TypeVar("Answer", bound=Document)
 _LOOPBACK: Final = frozenset({"127.0.0.1", "localhost", "::1"})
@@ -73,6 +81,11 @@ class Connection:
         if response.status_code == httpx.codes.NO_CONTENT:
             return None
         return Claimed.model_validate_json(response.content)
+
+    def claim_beside(self, block: Block, solver: Solver, most: int) -> tuple[Claim, ...]:
+        """Claim at most so many further blocks of the study of one that is held."""
+        asked = ClaimBeside(**vars(solver), most=most)
+        return ClaimedBeside.model_validate_json(self.tell(block, "beside", asked)).claims
 
     def tell(
         self,
@@ -189,7 +202,7 @@ def _path(block: Block) -> str:
 
 
 def _json(document: Document) -> dict[str, Any]:
-    content = document.model_dump_json().encode()
+    content = document.model_dump_json(exclude_none=True).encode()  # none: as if it was not there
     return {"content": content, "headers": {"Content-Type": "application/json"}}
 
 

@@ -2,26 +2,21 @@
 
 import logging
 import random
-import tempfile
-import threading
 import time
 from importlib.metadata import version
-from pathlib import Path
+from threading import Event
 from typing import Final
 
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
-from jointplay.storage.settings import Settings
-from jointplay.worker.block_run import BlockRun
-from jointplay.worker.joined.attempt import JoinedAttempt
+from jointplay.storage.catalogue.records import Claim
 from jointplay.worker.joined.bucket import BucketOfService
+from jointplay.worker.joined.computing import JoinedBlocks
 from jointplay.worker.joined.connection import Connection
-from jointplay.worker.joined.files import FilesOfService
-from jointplay.worker.joined.protocol import Activity, Claimed, ClaimRequest
+from jointplay.worker.joined.protocol import ClaimRequest, Device
+from jointplay.worker.local.devices import Lanes, opener
+from jointplay.worker.own_device import OwnDevice
 from jointplay.worker.own_solver import own_solver
-from jointplay.worker.passing import waits_for
 from jointplay.worker.presence import own_name
-from jointplay.worker.scratch.attempt import SentAttempt
-from jointplay.worker.scratch.files import Scratch
 from jointplay.worker.spent import Telling
 
 _WAIT: Final = 5.0  # s, for a block, until it is looked whether to go on
@@ -30,8 +25,12 @@ _FIRST_PAUSE, _LONGEST_PAUSE = 0.5, _WAIT
 _log = logging.getLogger(__name__)
 
 
-def work(connection: Connection, draining: threading.Event, idle: float | None) -> int:
+def work(
+    connection: Connection, draining: Event, idle: float | None, device: OwnDevice | None = None
+) -> int:
     """Compute blocks until `draining` is set, or there was none for `idle` seconds; count them.
+
+    Points of studies are computed by the device, if there is one, until that does not go on.
 
     Raises
     ------
@@ -54,13 +53,19 @@ def work(connection: Connection, draining: threading.Event, idle: float | None) 
     while not draining.is_set() and (idle is None or time.monotonic() - last <= idle):
         try:
             spent = telling.untold()
-            claimed = connection.claim(request.model_copy(update={"spent": spent}))
+            told = None if device is None else Device(**vars(device.told))
+            asked = request.model_copy(update={"spent": spent, "device": told})
+            claimed = connection.claim(asked)
             telling.told(spent)
             if claimed is not None:
-                _compute(connection, bucket, claimed, draining)
-                blocks += 1
+                source = JoinedBlocks(connection, bucket, claimed.customs, draining)
+                lanes = None if device is None else opener(device.name)
+                blocks += _computed(source, claimed.claim, lanes, draining)
                 last = time.monotonic()
             pause = _FIRST_PAUSE
+        except OSError as error:  # the device's: for faults of files a block is put off
+            device, last = None, time.monotonic()
+            _log.error("from now on the processor computes, for the device fails: %s", error)
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)
         except Unavailable as fault:
@@ -70,46 +75,14 @@ def work(connection: Connection, draining: threading.Event, idle: float | None) 
     return blocks
 
 
-def _compute(
-    connection: Connection, bucket: BucketOfService, claimed: Claimed, draining: threading.Event
-) -> None:
-    """Compute a block; where this machine has no room for its files, put it off."""
-    try:
-        _compute_here(connection, bucket, claimed, draining)
-    except OSError as fault:
-        block = claimed.claim.block
-        _log.warning("block %s is put off: %s", block.id, fault)
-        connection.tell(block, "put-off", Activity(activity=waits_for(fault)))
+def _computed(blocks: JoinedBlocks, claim: Claim, device: Lanes | None, draining: Event) -> int:
+    """Compute a block, with a device maybe others beside it.
 
+    Returns how many it computed.
+    """
+    if device is None:
+        blocks.compute(claim)
+        return 1
+    from jointplay.worker.device_run import compute_on_device
 
-def _compute_here(
-    connection: Connection, bucket: BucketOfService, claimed: Claimed, draining: threading.Event
-) -> None:
-    claim = claimed.claim
-    with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
-        settings = Settings(
-            data=Path(folder),
-            catalogue_url="",
-            results_url="",
-            running="data",
-            redis_url=None,
-            **claimed.customs.model_dump(),
-        )
-        scratch = Scratch(FilesOfService(connection, bucket, claim.block), settings, claim.block)
-        attempt = JoinedAttempt(connection, claim, scratch)
-        next_beat = time.monotonic() + settings.heartbeat
-
-        def beat() -> None:
-            nonlocal next_beat
-            if time.monotonic() > next_beat:
-                attempt.heartbeat(claim.block.id, claim.block.attempt, settings.lease)
-                next_beat = time.monotonic() + settings.heartbeat
-
-        try:
-            scratch.fetch(beat)
-        except Fenced:  # lost before it began: the claim was answered late
-            attempt.tell_if_cut_off()
-            raise
-        sent = SentAttempt(attempt, scratch)
-        with scratch.sending_rows(), sent.sending():
-            BlockRun(sent, settings, claim, draining).run()
+    return compute_on_device(blocks, claim, draining, device)

@@ -11,9 +11,12 @@ from collections.abc import Sequence
 from multiprocessing.connection import wait
 from typing import Any, Final
 
+from jointplay.records.failure import InvalidInput
 from jointplay.worker.holding import Refused
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.loop import work
+from jointplay.worker.local.devices import PROCESSOR
+from jointplay.worker.own_device import OwnDevice, tried_device
 from jointplay.worker.presence import has_ended, own_name
 
 _SIGNALS: Final = (signal.SIGTERM, signal.SIGINT)
@@ -30,16 +33,23 @@ class _Answer(ctypes.Structure):
 
 
 def work_here(
-    url: str, key: str | None, idle: float | None, until: float | None, parent: str | None = None
+    url: str,
+    key: str | None,
+    idle: float | None,
+    until: float | None,
+    device: str = PROCESSOR,
+    processes: int = 1,
+    parent: str | None = None,
 ) -> int:
     """Compute blocks in this process, until a signal, a time [epoch s], or idleness; count them.
 
-    With the name of a `parent` also until that process has ended.
+    With the name of a `parent` also until that process has ended. `device` : what computes points
+    of studies, for so many `processes` at a time; see `Settings.device`.
 
     Raises
     ------
     Refused
-        The service does not take this worker.
+        The service does not take this worker, or there is no such device.
     """
     draining = threading.Event()
     for number in _SIGNALS:
@@ -53,9 +63,16 @@ def work_here(
         threading.Thread(target=_drain_without, args=(parent, draining), daemon=True).start()
     connection = Connection(url, key)
     try:
-        return work(connection, draining, idle)
+        return work(connection, draining, idle, _tried(device, processes))
     finally:
         connection.close()
+
+
+def _tried(device: str, processes: int) -> OwnDevice | None:
+    try:
+        return tried_device(device, processes)
+    except InvalidInput as error:
+        raise Refused(error.problems[0].detail.rstrip(".")) from error
 
 
 def _drain_without(parent: str, draining: threading.Event) -> None:
@@ -68,16 +85,21 @@ def _drain_without(parent: str, draining: threading.Event) -> None:
 
 
 def work_in(
-    processes: int, url: str, key: str | None, idle: float | None, until: float | None
+    processes: int,
+    url: str,
+    key: str | None,
+    idle: float | None,
+    until: float | None,
+    device: str = PROCESSOR,
 ) -> int:
     """Do the same in several processes, to which signals are passed on.
 
     One that is lost, which a log tells, leaves its block to others; all end with this one.
     """
     if processes == 1:
-        return work_here(url, key, idle, until)
+        return work_here(url, key, idle, until, device)
     answers = multiprocessing.RawArray(_Answer, processes)
-    asked = (url, key, idle, until, own_name())
+    asked = (url, key, idle, until, device, processes, own_name())
     children = [
         multiprocessing.Process(target=_answer, args=(answers, number, *asked))
         for number in range(processes)

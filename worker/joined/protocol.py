@@ -44,6 +44,14 @@ class Document(BaseModel):
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
 
 
+class Device(Document):
+    """A device of a worker; see `storage.catalogue.records.WorkerDevice`."""
+
+    device: Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[ -~]+$")]
+    rate: Annotated[float, Field(gt=0.0, le=1e15)]
+    lanes: Annotated[int, Field(ge=1, le=10**8)]
+
+
 class ClaimRequest(Document):
     """A worker that has nothing to do."""
 
@@ -54,11 +62,31 @@ class ClaimRequest(Document):
     wait: Annotated[float, Field(ge=0.0, le=LONGEST_WAIT)] = LONGEST_WAIT
     spent: Annotated[dict[str, _Time], AfterValidator(_of_a_worker)] = {}
     """Seconds, and results, since it asked last; by the names of `storage.catalogue.counters`."""
+    device: Device | None = None
 
     @property
     def solver(self) -> Solver:
         """The worker's."""
         return Solver(self.version, self.processor)
+
+
+class ClaimBeside(Document):
+    """A worker that computes many blocks of a study at once, and holds one of them."""
+
+    version: _Word
+    processor: _Word
+    most: Annotated[int, Field(ge=1, le=64)]
+
+    @property
+    def solver(self) -> Solver:
+        """The worker's."""
+        return Solver(self.version, self.processor)
+
+
+class ClaimedBeside(Document):
+    """Further blocks of the study, which the worker holds now."""
+
+    claims: tuple[Claim, ...]
 
 
 class Customs(Document):

@@ -83,8 +83,6 @@ def worker(
     if settings is not None:
         os.environ["JOINTPLAY_SETTINGS"] = str(settings.absolute())
     if device is not None:
-        if join is not None:
-            raise Stopped("--device is for a worker without --join.")
         os.environ["JOINTPLAY_DEVICE"] = device
     found = settings_of()
     if join is None:
@@ -98,7 +96,7 @@ def worker(
     end = None if until is None else _moment(until) - _MARGIN
     try:
         key = os.environ.get("JOINTPLAY_KEY") if key_file is None else key_in(key_file)
-        blocks = work_in(processes, join, key, idle, end)
+        blocks = work_in(processes, join, key, idle, end, found.device)
     except Refused as refused:
         raise Stopped(f"{refused}.") from refused
     tell({"url": join, "blocks": blocks}, [f"computed {blocks} blocks"], as_json=as_json)

@@ -23,6 +23,7 @@ from jointplay.worker import tasks
 from jointplay.worker.device_run import compute_on_device
 from jointplay.worker.local.devices import opener
 from jointplay.worker.local.folder import STORE
+from jointplay.worker.own_blocks import OwnBlocks
 from jointplay.worker.own_device import OwnDevice
 from jointplay.worker.spent import Telling
 from tests.solver.kernels.device.driver_by_host import DriverByHost
@@ -79,7 +80,8 @@ def compute(
     assert claim is not None
     event = draining or threading.Event()
     try:
-        compute_on_device(catalogue, settings, claim, event, partial(by_host, driver))
+        blocks = OwnBlocks(catalogue, settings, event)
+        compute_on_device(blocks, claim, event, partial(by_host, driver))
     finally:
         assert not driver.held
 
@@ -158,8 +160,10 @@ def test_where_no_device_can_be_opened_the_processor_computes(
 ) -> None:
     claim = catalogue.claim_block(f"{study}-0", "this process", settings.lease)
     assert claim is not None
+    event = threading.Event()
+    blocks = OwnBlocks(catalogue, settings, event)
     with pytest.raises(DeviceError, match="cannot be opened"):
-        compute_on_device(catalogue, settings, claim, threading.Event(), opener("cuda:9999"))
+        compute_on_device(blocks, claim, event, opener("cuda:9999"))
     assert catalogue.blocks(study)[0].state is BlockState.done
 
 

@@ -1,0 +1,97 @@
+"""Blocks of a service that this worker joined: each in a folder of its own, sent as it grows."""
+
+import logging
+import tempfile
+import threading
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from jointplay.storage.catalogue.errors import Fenced, Unavailable
+from jointplay.storage.catalogue.records import Claim
+from jointplay.storage.settings import Settings
+from jointplay.worker.block_run import BlockRun
+from jointplay.worker.joined.attempt import JoinedAttempt
+from jointplay.worker.joined.bucket import BucketOfService
+from jointplay.worker.joined.connection import Connection
+from jointplay.worker.joined.files import FilesOfService
+from jointplay.worker.joined.protocol import Activity, Customs
+from jointplay.worker.own_solver import own_solver
+from jointplay.worker.passing import waits_for
+from jointplay.worker.scratch.attempt import SentAttempt
+from jointplay.worker.scratch.files import Scratch
+
+_log = logging.getLogger(__name__)
+
+
+class JoinedBlocks:
+    """Claims and computes them by questions to the service; see `device_run.Blocks`."""
+
+    def __init__(
+        self,
+        connection: Connection,
+        bucket: BucketOfService,
+        customs: Customs,
+        draining: threading.Event,
+    ) -> None:
+        self._connection, self._bucket = connection, bucket
+        self._customs, self._draining = customs, draining
+
+    def beside(self, claim: Claim, most: int) -> Sequence[Claim]:
+        """Claim further blocks of a claim's study."""
+        try:
+            return self._connection.claim_beside(claim.block, own_solver(), most)
+        except (Fenced, Unavailable) as fault:
+            _log.warning("none is claimed beside block %s: %s", claim.block.id, fault)
+            return ()
+
+    def compute(self, claim: Claim) -> None:
+        """Compute a block; where this machine has no room for its files, put it off.
+
+        Raises
+        ------
+        CatalogueError
+            The block is another worker's, or the service is out of reach or refuses this worker.
+        """
+        try:
+            self._compute(claim)
+        except OSError as fault:
+            block = claim.block
+            _log.warning("block %s is put off: %s", block.id, fault)
+            self._connection.tell(block, "put-off", Activity(activity=waits_for(fault)))
+
+    def _compute(self, claim: Claim) -> None:
+        with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
+            settings = Settings(
+                data=Path(folder),
+                catalogue_url="",
+                results_url="",
+                running="data",
+                redis_url=None,
+                **self._customs.model_dump(),
+            )
+            files = FilesOfService(self._connection, self._bucket, claim.block)
+            scratch = Scratch(files, settings, claim.block)
+            attempt = JoinedAttempt(self._connection, claim, scratch)
+            self._fetch(scratch, attempt, claim, settings)
+            sent = SentAttempt(attempt, scratch)
+            with scratch.sending_rows(), sent.sending():
+                BlockRun(sent, settings, claim, self._draining).run()
+
+    def _fetch(
+        self, scratch: Scratch, attempt: JoinedAttempt, claim: Claim, settings: Settings
+    ) -> None:
+        """Get what the attempt builds on, and hold the block meanwhile."""
+        next_beat = time.monotonic() + settings.heartbeat
+
+        def beat() -> None:
+            nonlocal next_beat
+            if time.monotonic() > next_beat:
+                attempt.heartbeat(claim.block.id, claim.block.attempt, settings.lease)
+                next_beat = time.monotonic() + settings.heartbeat
+
+        try:
+            scratch.fetch(beat)
+        except Fenced:  # lost before it began: the claim was answered late
+            attempt.tell_if_cut_off()
+            raise
