@@ -58,7 +58,8 @@ def campaign(
     """
     mix = jobs_of(seed)
     report = Report(seed, duration)
-    installation = Installation(folder, workers, *places)
+    device = any(name.startswith("device-") for name in faults)
+    installation = Installation(folder, workers, *places, device=device)
     for name in faults:
         if (hindrance := FAULTS[name].hindrance(installation)) is not None:
             report.left_out[name] = hindrance

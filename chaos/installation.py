@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from jointplay.chaos import inside
+from jointplay.chaos.device_worker import DeviceWorker
 from jointplay.chaos.gate import Gate
 from jointplay.chaos.places import database_behind_gate, store_behind_gate
 from jointplay.chaos.processes import Process, kill, running
@@ -42,10 +43,18 @@ class Installation:
         How many blocks are computed at a time.
     catalogue_url, results_url
         An empty database and an empty place; by default a file and a folder of its own.
+    device
+        Whether there is a further worker, whose device the processor stands for.
     """
 
     def __init__(
-        self, folder: Path, workers: int, catalogue_url: str = "", results_url: str = ""
+        self,
+        folder: Path,
+        workers: int,
+        catalogue_url: str = "",
+        results_url: str = "",
+        *,
+        device: bool = False,
     ) -> None:
         self.folder = folder
         self.data = folder / "data"
@@ -68,6 +77,7 @@ class Installation:
         self.broker_url = f"unix://{self.data / 'broker' / 'redis.sock'}"
         self.url = ""
         self._workers = workers
+        self.device = DeviceWorker(self) if device else None
         self._service: subprocess.Popen[bytes] | None = None
         self.set_clock(0.0)
         for notes in (inside.SYNCED, inside.COMMITTED):
@@ -78,7 +88,13 @@ class Installation:
         shutil.copy(inside.__file__, modules / "sitecustomize.py")
 
     def start(self) -> None:
-        """Start the service, on what an earlier one left; StartFailed if it does not answer."""
+        """Start what does not run, on what an earlier one left; StartFailed without an answer."""
+        if self._service is None or self._service.poll() is not None:
+            self._start_service()
+        if self.device is not None and not self.device.alive:
+            self.device.start()
+
+    def _start_service(self) -> None:
         log = self.folder / "supervisor.log"
         command = [sys.executable, "-P", "-m", "jointplay.service.processes"]
         command += ["--data", str(self.data), "--workers", str(self._workers)]
@@ -110,6 +126,8 @@ class Installation:
 
     def stop(self) -> None:
         """Stop the service as its user would; what is still there a minute later is killed."""
+        if self.device is not None:
+            self.device.stop()
         if self._service is None:
             return
         self._service.send_signal(signal.SIGTERM)
@@ -121,6 +139,8 @@ class Installation:
     def kill(self, *roles: str) -> None:
         """Kill the processes of some roles, or all."""
         kill(self.folder, *roles)
+        if self.device is not None and not roles:
+            self.device.stop()  # waits
         if self._service is not None and (not roles or "supervisor" in roles):
             with self._service:  # waits, and closes its pipes
                 pass
@@ -131,8 +151,9 @@ class Installation:
 
     @property
     def alive(self) -> bool:
-        """Whether its supervisor runs."""
-        return self._service is not None and self._service.poll() is None
+        """Whether its supervisor runs, and the worker with a device if there is one."""
+        served = self._service is not None and self._service.poll() is None
+        return served and (self.device is None or self.device.alive)
 
     def set_clock(self, ahead: float) -> None:
         """Have the clock of its processes be ahead of the true time [s], at once."""

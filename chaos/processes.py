@@ -14,11 +14,15 @@ from typing import Final
 
 from jointplay.chaos.inside import FOLDER_VARIABLE
 
-ROLES: Final = ("computing", "worker", "api", "relay", "broker", "supervisor")
-"""Roles of processes that faults choose from; "computing" are the children of the worker.
+DEVICE: Final = "device"
+ROLES: Final = ("computing", "worker", DEVICE, "api", "relay", "broker", "supervisor")
+"""Roles of processes that faults choose from; "computing" are the children of the worker, "device"
+are the worker that has one, and its child.
 
 Beside them there are those that compile or check documents, which end with those who wait for them.
 """
+WITH_DEVICE: Final = "JOINTPLAY_DEVICE=host"
+"""Variable of the worker that has a device."""
 _MODULES: Final = {
     "jointplay.service.processes.api": "api",
     "jointplay.worker.relay": "relay",
@@ -55,9 +59,11 @@ def running(folder: Path, *roles: str) -> list[Process]:
             parent = int((entry / "stat").read_text().rsplit(")", 1)[1].split()[1])
             if (entry / "cwd").readlink() == folder / "data" / "broker":
                 found[int(entry.name)] = parent, "broker"
-            elif mark in (entry / "environ").read_bytes().split(b"\0"):
-                command = (entry / "cmdline").read_bytes().decode().split("\0")
-                found[int(entry.name)] = parent, _role(command)
+            elif mark in (variables := (entry / "environ").read_bytes().split(b"\0")):
+                role = _role((entry / "cmdline").read_bytes().decode().split("\0"))
+                if role == "worker" and WITH_DEVICE.encode() in variables:
+                    role = DEVICE
+                found[int(entry.name)] = parent, role
     found.pop(os.getpid(), None)
     workers = {pid for pid, (_, role) in found.items() if role == "worker"}
     processes = []

@@ -9,6 +9,7 @@ from jointplay.chaos.faults.clock_set import ClockSet
 from jointplay.chaos.faults.connections_held import ConnectionsHeld
 from jointplay.chaos.faults.cut_off import CutOff
 from jointplay.chaos.faults.damaged import Damaged
+from jointplay.chaos.faults.device_fails import DeviceFails
 from jointplay.chaos.faults.disk_full import DiskFull
 from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.faults.garbage_handed_in import GarbageHandedIn
@@ -17,12 +18,14 @@ from jointplay.chaos.faults.power_lost import PowerLost
 from jointplay.chaos.faults.stopped import Stopped
 from jointplay.chaos.faults.wake_ups import WakeUps
 from jointplay.chaos.processes import ROLES
+from jointplay.solver.kernels.device.host_driver import FAILURES
 
 FAULTS: Final[dict[str, Fault]] = {
     **{f"{role}-killed": Killed(role) for role in ROLES},
     "all-killed": Killed(),
     **{f"{role}-stopped": Stopped(role) for role in ROLES},
     "all-stopped": Stopped(),
+    **{f"device-{how}": DeviceFails(how) for how in FAILURES},
     "power-lost": PowerLost(),
     "broker-wiped": BrokerWiped(),
     "catalogue-locked": CatalogueLocked(),

@@ -8,7 +8,7 @@ from tests.waiting import until
 
 
 def test_every_role_has_a_process_and_none_is_left_after_all_were_killed(tmp_path: Path) -> None:
-    installation = Installation(tmp_path, workers=1)
+    installation = Installation(tmp_path, workers=1, device=True)
     installation.start()
     try:
         # the children of the worker are the last to be there

@@ -35,6 +35,17 @@ def test_a_service_keeps_its_word_under_faults(tmp_path: Path) -> None:
 
 
 @pytest.mark.long
+@pytest.mark.timeout(1800)
+def test_a_service_keeps_its_word_whatever_becomes_of_a_device(tmp_path: Path) -> None:
+    options = ["--seed", "4", "--duration", "60", "--workers", "2"]
+    for name in ("device-killed", "device-lost", "device-memory"):
+        options += ["--fault", name]
+    report = campaign(tmp_path / "chaos", *options)
+    assert {one["fault"] for one in report["struck"]} >= {"device-lost", "device-memory"}
+    assert all(one["recovery"] is not None for one in report["struck"])
+
+
+@pytest.mark.long
 @pytest.mark.timeout(7200)
 @pytest.mark.parametrize("seed", [1, 2])
 def test_a_service_keeps_its_word_under_all_faults_at_length(tmp_path: Path, seed: int) -> None:
