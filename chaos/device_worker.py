@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from jointplay.chaos.installation import Installation
 
 _STOP_PATIENCE = 30.0  # s
-_TRIAL_PATIENCE = 120.0  # s; some seconds of processor
+_WORK_PATIENCE = 120.0  # s; a trial takes some seconds of processor
 _LOOK = 0.5  # s
 
 
@@ -66,13 +66,13 @@ class DeviceWorker:
             kill(self._installation.folder, DEVICE)
             self._process.wait()
 
-    def await_device(self) -> None:
-        """Wait until it has tried its device, and tells of it, but not for ever."""
-        waited_until = time.monotonic() + _TRIAL_PATIENCE
+    def await_work(self) -> None:
+        """Wait until it has tried its device and computes something, but not for ever."""
+        waited_until = time.monotonic() + _WORK_PATIENCE
         with closing(Catalogue(self._installation.settings.catalogue_url)) as catalogue:
             while time.monotonic() < waited_until:
                 with suppress(Unavailable):
-                    if catalogue.devices():
+                    if any(one.device and one.blocks for one in catalogue.workers_at_work()):
                         return
                 time.sleep(_LOOK)
 

@@ -10,6 +10,7 @@ from random import Random
 
 from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
+from jointplay.chaos.processes import DEVICE
 from jointplay.storage.places import StoredObject
 
 _SHARE = 0.5  # of the files
@@ -25,7 +26,7 @@ class Damaged(Fault):
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:
         """Kill the computing processes and damage half of what they have written."""
-        installation.kill("computing")
+        installation.kill("computing", DEVICE)
         if installation.settings.sends:
             place = installation.settings.place
             for key in sorted(place.list("running/")):
@@ -34,6 +35,8 @@ class Damaged(Fault):
         for path in sorted((installation.data / "running").rglob("*")):
             if path.is_file() and drawn.random() < _SHARE:
                 drawn.choice((_flip, _cut, _remove))(path, drawn)
+        if not installation.alive:  # the worker with a device is started by nobody else
+            installation.start()
         yield
 
 

@@ -17,7 +17,7 @@ class DeviceFails(Fault):
     """
 
     how: str
-    lasts = (5.0, 20.0)
+    lasts = (15.0, 30.0)  # code for a device takes some seconds to make
 
     def hindrance(self, installation: Installation) -> str | None:
         """Return why, unless a worker has a device."""
@@ -25,10 +25,10 @@ class DeviceFails(Fault):
 
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:
-        """Let the device fail once it serves, and start its worker again."""
+        """Let the device fail once its worker has work, and start that again."""
         device = installation.device
         assert device is not None  # noqa: S101  (no hindrance)
-        device.await_device()
+        device.await_work()
         device.fail(self.how)
         try:
             yield
