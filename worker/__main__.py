@@ -33,9 +33,9 @@ def main() -> None:
     begin(Settings().log_format)
 
     # without Celery's command line, whose libraries would be a tenth of the worker's start
+    app.conf.worker_concurrency = arguments.processes  # known before the fork, too
     worker = app.Worker(
         pool_cls="prefork",
-        concurrency=arguments.processes,
         queues=list(QUEUES),
         without_gossip=True,
         without_mingle=True,

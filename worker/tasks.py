@@ -5,7 +5,6 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Mapping
 from contextlib import closing, suppress
 from functools import lru_cache
 from multiprocessing import Pipe, get_context
@@ -98,7 +97,7 @@ def _set_up_no_other_logs(**_: Any) -> None:
 
 
 @worker_init.connect  # type: ignore[untyped-decorator]
-def _prepare(options: Mapping[str, Any] | None = None, **_: Any) -> None:
+def _prepare(**_: Any) -> None:
     """Before the fork: wait until an API or a relay has brought the schema up to date.
 
     Another process looks at files and device: what has asked a bucket has threads that no fork
@@ -110,7 +109,7 @@ def _prepare(options: Mapping[str, Any] | None = None, **_: Any) -> None:
         while not _is_migrated(catalogue):
             time.sleep(_LOOK_AGAIN)
     found, finds = Pipe(duplex=False)
-    processes = (options or {}).get("concurrency") or 1
+    processes = app.conf.worker_concurrency or 1
     looking = get_context("fork").Process(target=_look, args=(settings, processes, finds))
     looking.start()
     finds.close()
