@@ -75,3 +75,24 @@ def test_the_picture_of_a_branch_grows_with_it(browsing, url):
         assert first
         expect(image).not_to_have_attribute("src", first)
     httpx.post(f"{url}/v1/jobs/{job}/cancel").raise_for_status()
+
+
+def test_a_branch_is_drawn_over_a_finished_diagram_of_its_parameter(browsing, url):
+    fields = {"parameter": "speed", "values": {"from": 25.0, "to": 33.0, "count": 5}}
+    diagram = submitted(
+        url, {"kind": "bifurcation", "scene": BRANCH["scene"], "settle": 20, "record": 4} | fields
+    )
+    other = fields | {"parameter": "amplitude", "values": {"from": 4e-3, "to": 6e-3, "count": 3}}
+    submitted(url, {"kind": "bifurcation", "scene": BRANCH["scene"], "settle": 20} | other)
+    job = submitted(url, BRANCH)
+    with browsing.page(f"{url}/#/job/{job}") as page:
+        image = page.get_by_role("img", name="Branches of periodic orbits over speed")
+        expect(image).not_to_have_js_property("naturalWidth", 0)
+        choice = page.get_by_label("Draw over")
+        expect(choice.locator("option")).to_have_count(2)
+        with page.expect_response(lambda one: f"branch.svg?over={diagram}" in one.url) as answer:
+            choice.select_option(diagram)
+        assert answer.value.ok
+        expect(image).to_have_js_property("complete", True)
+        expect(image).not_to_have_js_property("naturalWidth", 0)
+        assert barriers(page) == []
