@@ -3,7 +3,7 @@
 One and a hundred revolutions of the press as it is shipped, with the friction of the publication's
 second part, and at 2.5 pi rad/s, where it impacts all the time. Runs with and without take turns;
 the ratio is that of their medians, for what is computed in slices and for whole jobs: with the
-kernel's equations recorded, extremes and the certificate put together.
+kernel's equations traced, extremes and the certificate put together.
 """
 
 import statistics

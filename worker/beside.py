@@ -1,8 +1,12 @@
 """Further blocks of a study for a worker that has one: a device computes many at a time."""
 
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import Block, Claim, Solver
 from jointplay.storage.settings import Settings
+
+MOST_BLOCKS = 256
+"""That a worker holds at a time: each has a thread for its lease, and restart points."""
 
 
 def claim_beside(
@@ -10,11 +14,22 @@ def claim_beside(
 ) -> list[Claim]:
     """Claim queued blocks of a held block's study for its worker, by index, and at most so many.
 
-    With `most_running` the worker has no more of them than an owner may have computed.
+    With them it holds no more than `MOST_BLOCKS`, and `most_running` of the job's owner are
+    computed, but for those that others claim at the same moment.
+
+    Raises
+    ------
+    Unavailable
+        The catalogue is out of reach, and nothing was claimed.
     """
     worker = held.worker or ""
-    if settings.most_running:
-        most = min(most, settings.most_running - len(catalogue.held_by(worker)))
-    wanted = catalogue.queued_of(held.job, max(most, 0))
-    claims = (catalogue.claim_block(one, worker, settings.lease, solver) for one in wanted)
-    return [claim for claim in claims if claim is not None]
+    most = min(most, MOST_BLOCKS - len(catalogue.held_by(worker)))
+    claims = list[Claim]()
+    try:
+        for one in catalogue.queued_of(held.job, most, settings.most_running):
+            claim = catalogue.claim_block(one, worker, settings.lease, solver)
+            claims += [] if claim is None else [claim]
+    except Unavailable:
+        if not claims:  # those that were claimed are not left to end with their leases
+            raise
+    return claims

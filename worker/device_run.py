@@ -24,13 +24,12 @@ from jointplay.solver.runs.study.required_study import required_study
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import Claim
+from jointplay.worker.beside import MOST_BLOCKS
 from jointplay.worker.local.devices import Lanes
 from jointplay.worker.local.pooled import LAUNCH
 from jointplay.worker.spent import computed_on_device
 from jointplay.worker.study_block import computed_by
 
-MOST_BLOCKS = 256
-"""That a worker holds at a time: each has a thread for its lease, and restart points."""
 AT_ONCE = 16
 """That are claimed with one question."""
 _log = logging.getLogger(__name__)
@@ -103,9 +102,11 @@ class _DeviceRun:
                     for claim in claims:
                         self._begin(claim)
                     more = bool(claims)
+                under_way = len(self._attempts)
                 for run, piece in self._pool.advance():
                     computed_on_device(len(piece.ended))
                     self._go_on(run.block, piece)
+                more = more or len(self._attempts) < under_way  # there may be others by now
         except DeviceError as error:
             for attempt in list(self._attempts.values()):
                 attempt.throw(error)

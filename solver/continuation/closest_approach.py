@@ -97,7 +97,9 @@ class Approaches:
         for pair, depth in enumerate(np.concatenate(self._depths[lane]).T):
             apart = self._apart(lane, pair, depth, interval)
             pressed = self._pressed(lane, pair, depth, interval)
-            again = np.arange(-2, len(depth) + 1) % (len(depth) - 1)  # its end is its start
+            for mask in (apart, pressed):  # its end is its start
+                mask[0] &= mask[-1]
+            again = np.arange(-2, len(depth) + 1) % (len(depth) - 1)
             gaps += [-top for top in _tops(depth[again], apart[again])]
             depths += [-top for top in _tops(-depth[again], pressed[again])]
         speeds = [rate for _, onset, _, rate in self._contacts[lane] if onset > 0.0]

@@ -15,6 +15,8 @@ from jointplay.records.arrays import Floats
 
 SLOW = 2.0 / 3.0
 """Power of the time in which the ramp is passed."""
+TINY = 1e-300
+"""Change of a slip between two rows at least: of one that rests there it is 0."""
 
 
 def phases(slip: Floats, low: float, high: float) -> tuple[int, int]:
@@ -43,7 +45,7 @@ def _stays(around: Floats, low: float, high: float, before: int, behind: int) ->
     leave, late = float(around[behind]), float(around[(behind + 1) % rows])
     begin = before + _passes(entry, float(around[(before + 1) % rows]), low, high)
     end = behind - 1 + _passes(float(around[behind - 1]), leave, low, high)
-    fastest = max(abs(entry - early), abs(late - leave)) * rows
+    fastest = max(abs(entry - early), abs(late - leave), TINY) * rows
     return bool((end - begin) % rows > ((high - low) / fastest) ** SLOW * rows)
 
 

@@ -13,12 +13,15 @@ from jointplay.solver.laws.force import Ends, ForceElement
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.laws.function.table import Table
 from jointplay.solver.mechanics.courses import acting_between
+from jointplay.solver.quantities.elementary import sine_cosine
 from jointplay.solver.quantities.frames import WORLD
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
 
 MOTION = "x", "y", "theta", "vx", "vy", "omega"
 """Channels of a body that tell how its points move."""
+FEWEST_ROWS = 3
+"""Of a run, by which phases are told."""
 
 
 class Rubbing(NamedTuple):
@@ -81,7 +84,12 @@ class Slips:
             self._touching.append(rows[:, at.mode : at.impact_rate].copy())
 
     def phases(self) -> list[int]:
-        """Return how often each slip sticks and slides, in turn; 0 where a pair is apart once."""
+        """Return how often each slip sticks and slides, in turn; 0 where a pair is apart once.
+
+        Of a run that failed before it had three rows all are 0.
+        """
+        if sum(map(len, self._values)) < FEWEST_ROWS:
+            return [0] * (2 * len(self._rubbed))
         values = dict(zip(self._names, np.concatenate(self._values).T, strict=True))
         touching, found = np.concatenate(self._touching), list[int]()
         for one in self._rubbed:
@@ -107,13 +115,13 @@ def _argument(scene: Scene, name: str, values: Mapping[str, Floats]) -> Floats:
 
 
 def _point(scene: Scene, reference: str, values: Mapping[str, Floats]) -> list[Floats]:
-    """Return place, velocity, angle and angular velocity of a named point."""
+    """Return position, velocity, angle and angular velocity of a named point."""
     body, point = reference.split(".")
     if body == WORLD:
-        place = scene.ground.points[point]
-        return [np.array(one) for one in (*place, 0.0, 0.0, 0.0, 0.0)]
+        position = scene.ground.points[point]
+        return [np.array(one) for one in (*position, 0.0, 0.0, 0.0, 0.0)]
     across, up = scene.bodies[body].points[point]
     x, y, angle, vx, vy, spin = (values[f"{body}.{one}"] for one in MOTION)
-    dx = across * np.cos(angle) - up * np.sin(angle)
-    dy = across * np.sin(angle) + up * np.cos(angle)
+    sine, cosine = sine_cosine(angle)
+    dx, dy = across * cosine - up * sine, across * sine + up * cosine
     return [x + dx, y + dy, vx - spin * dy, vy + spin * dx, angle, spin]

@@ -159,6 +159,8 @@ def _sticking(piece: Piece) -> Iterator[Special]:
             behind = piece.last if at == piece.length else piece.orbit(at)
         except NotLocated:
             return
+        if behind.phases == before:  # they have come back
+            continue
         values = zip(found.orbit.values, behind.values, strict=True)
         found = replace(found, bounds=tuple(abs(b - a) for a, b in values))
         note = f"friction {_told(before)} before, {_told(behind.phases)} behind"

@@ -57,7 +57,7 @@ class Joint(Strict):
     """Two points of two bodies, and what the second may do against the first.
 
     A member of the family is one class, and an entry of `JOINTS`. It takes its numbers from its
-    fields, which may be floats, columns or recorded expressions. A joint with play has a
+    fields, which may be floats, columns or traced expressions. A joint with play has a
     field `clearance`; where that is above zero, contact acts in place of constraints.
     """
 

@@ -78,7 +78,7 @@ def watched(ask: Callable[[], object | None], seconds: float) -> Iterator[None]:
 def require_wanted() -> None:
     """Raise CompilationUnwanted where somebody watches who wants the code no more.
 
-    Recording and emitting ask this now and then: of the largest scene they take seconds.
+    Tracing and emitting ask this now and then: of the largest scene they take seconds.
     """
     watch = _watch.get()
     answer = None if watch is None else watch.ask()

@@ -14,7 +14,7 @@ lines, tangents a third."""
 SECONDS_PER_LINE = 1.5e-4
 """Seconds of one core; measured: 0.08 to 0.11 ms (`python -m benchmarks compilation`)."""
 SURELY_ENOUGH = 60.0
-"""Seconds within which every scene of few bodies is compiled: recording it would only cost time."""
+"""Seconds within which every scene of few bodies is compiled: tracing it would only cost time."""
 
 
 def compile_seconds(admitted: Admission | Study) -> float:

@@ -31,6 +31,7 @@ _LOST: Final = "lost"
 _REFUSED: Final = "refused"
 _CUT_OFF: Final = "cut-off"
 _LONGEST_RETREAT: Final = 60.0  # s
+_DOUBLINGS: Final = 16  # of a pause, which is longer than the longest then
 MOST_CUT_OFF: Final = 100
 """Attempts at a block that may be cut off: the service was away as often, or a worker lies."""
 _FIRST_PAUSE = 2.0  # s
@@ -122,7 +123,9 @@ def put_off(unit: Unit, block_id: str, attempt: int, activity: str) -> None:
     in_vain = attempt - 1 - unit.execute(worked).scalar_one()
     job = _take_back(unit, block_id, attempt, _PUT_OFF)
     unit.execute(update(tables.job).where(tables.job.c.id == job.id).values(activity=activity))
-    _requeue(unit, block_id, job, min(_FIRST_PAUSE * 2.0**in_vain, LONGEST_PAUSE))
+    _requeue(
+        unit, block_id, job, min(_FIRST_PAUSE * 2.0 ** min(in_vain, _DOUBLINGS), LONGEST_PAUSE)
+    )
 
 
 def _requeue(unit: Unit, block_id: str, job: HeldJob, pause: float = 0.0) -> None:
@@ -199,7 +202,11 @@ def _again(
     present = {machine_of(name) for name in workers(unit)} or lost.keys()
     hopeless = len(lost) >= max_attempts or all(lost[one] >= max_attempts for one in present)
     if not hopeless and not job.state.terminal:
-        queue_again(unit, block_id, min(2.0**in_vain, _LONGEST_RETREAT) if in_vain else 0.0)
+        queue_again(
+            unit,
+            block_id,
+            min(2.0 ** min(in_vain, _DOUBLINGS), _LONGEST_RETREAT) if in_vain else 0.0,
+        )
         return BlockState.queued
     given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
     unit.execute(update(_block).where(_block.c.id == block_id).values(state=given_up))

@@ -4,12 +4,13 @@ from collections.abc import Sequence
 from dataclasses import fields
 from typing import Any
 
-from sqlalchemy import and_, func, not_, select
+from sqlalchemy import and_, func, not_, or_, select
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.identifiers import earliest
 from jointplay.storage.catalogue.labels import is_label, labelled
+from jointplay.storage.catalogue.quotas import running_of
 from jointplay.storage.catalogue.records import (
     TERMINAL,
     Attempt,
@@ -79,12 +80,19 @@ def blocks_of(unit: Unit, job_id: str) -> tuple[Block, ...]:
     return tuple(Block(**row._mapping) for row in rows)
 
 
-def queued_of(unit: Unit, job_id: str, most: int) -> tuple[str, ...]:
-    """Return at most so many of a study's queued blocks of points, by index."""
-    table = tables.block
+def queued_of(unit: Unit, job_id: str, most: int, most_running: int = 0) -> tuple[str, ...]:
+    """Return at most so many of a study's queued blocks of points that may be claimed, by index.
+
+    With them no more than `most_running` blocks of the job's owner are computed; 0: any number.
+    """
+    table, outbox = tables.block, tables.outbox
+    owner = unit.execute(select(tables.job.c.owner).where(tables.job.c.id == job_id)).scalar()
+    if most_running and owner:
+        most = min(most, most_running - running_of(unit, owner))
     waits = (table.c.job == job_id) & (table.c.state == BlockState.queued) & (table.c.count > 0)
-    found = select(table.c.id).where(waits).order_by(table.c.index).limit(most)
-    return tuple(unit.execute(found).scalars())
+    due = or_(outbox.c.due <= unit.now, outbox.c.tries > 0)  # otherwise it was put off
+    found = select(table.c.id).join(outbox, outbox.c.block == table.c.id).where(waits, due)
+    return tuple(unit.execute(found.order_by(table.c.index).limit(max(most, 0))).scalars())
 
 
 def held_by(unit: Unit, worker: str) -> tuple[Block, ...]:

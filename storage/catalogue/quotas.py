@@ -51,9 +51,14 @@ def use_of(unit: Unit, owner: str) -> Use:
     columns = tables.job.c
     of_owner = columns.state.in_(LIVE) & (columns.owner == owner)
     live = unit.execute(select(func.count()).select_from(tables.job).where(of_owner)).scalar_one()
-    computed = _running().where(tables.job.c.owner == owner)
-    running = unit.execute(select(func.count()).select_from(computed.subquery())).scalar_one()
+    running = running_of(unit, owner)
     return Use(live, running, stored.bytes_of(unit, owner), usage.core_seconds_of(unit, owner))
+
+
+def running_of(unit: Unit, owner: str) -> int:
+    """Return how many blocks of an owner are computed."""
+    computed = _running().where(tables.job.c.owner == owner).subquery()
+    return unit.execute(select(func.count()).select_from(computed)).scalar_one()
 
 
 def busy_owners(unit: Unit, most: int) -> tuple[str, ...]:

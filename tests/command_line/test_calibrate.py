@@ -58,8 +58,8 @@ def document(tmp_path: Path) -> Path:
 @pytest.mark.long
 def test_the_time_that_is_left_is_told_from_when_the_kernels_are_prepared(document, monkeypatch):
     told = []
-    tracer = contextmanager(lambda title: iter([lambda share, note: told.append((share, note))]))
-    monkeypatch.setattr(progress, "progress", tracer)
+    recorder = contextmanager(lambda title: iter([lambda share, note: told.append((share, note))]))
+    monkeypatch.setattr(progress, "progress", recorder)
     computed(admit_calibration(json.loads(document.read_text())), processes=1)
     assert told[:2] == [(0.0, "preparing the kernels"), (0.0, "searching")]
     assert told[2][0] > 0.0

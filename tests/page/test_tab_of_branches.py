@@ -83,13 +83,14 @@ def test_a_branch_is_drawn_over_a_finished_diagram_of_its_parameter(browsing, ur
         url, {"kind": "bifurcation", "scene": BRANCH["scene"], "settle": 20, "record": 4} | fields
     )
     other = fields | {"parameter": "amplitude", "values": {"from": 4e-3, "to": 6e-3, "count": 3}}
-    submitted(url, {"kind": "bifurcation", "scene": BRANCH["scene"], "settle": 20} | other)
+    unfit = submitted(url, {"kind": "bifurcation", "scene": BRANCH["scene"], "settle": 20} | other)
     job = submitted(url, BRANCH)
     with browsing.page(f"{url}/#/job/{job}") as page:
         image = page.get_by_role("img", name="Branches of periodic orbits over speed")
         expect(image).not_to_have_js_property("naturalWidth", 0)
         choice = page.get_by_label("Draw over")
-        expect(choice.locator("option")).to_have_count(2)
+        expect(choice.locator(f"option[value='{diagram}']")).to_have_count(1)
+        expect(choice.locator(f"option[value='{unfit}']")).to_have_count(0)
         with page.expect_response(lambda one: f"branch.svg?over={diagram}" in one.url) as answer:
             choice.select_option(diagram)
         assert answer.value.ok

@@ -25,6 +25,10 @@ _FIRST_PAUSE, _LONGEST_PAUSE = 0.5, _WAIT
 _log = logging.getLogger(__name__)
 
 
+class _DeviceFailed(Exception):
+    """The device cannot be opened, or does not go on."""
+
+
 def work(
     connection: Connection, draining: Event, idle: float | None, device: OwnDevice | None = None
 ) -> int:
@@ -63,7 +67,7 @@ def work(
                 blocks += _computed(source, claimed.claim, lanes, draining)
                 last = time.monotonic()
             pause = _FIRST_PAUSE
-        except OSError as error:  # the device's: for faults of files a block is put off
+        except _DeviceFailed as error:
             device, last = None, time.monotonic()
             _log.error("from now on the processor computes, for the device fails: %s", error)
         except Fenced as fenced:
@@ -78,11 +82,15 @@ def work(
 def _computed(blocks: JoinedBlocks, claim: Claim, device: Lanes | None, draining: Event) -> int:
     """Compute a block, with a device maybe others beside it.
 
-    Returns how many it computed.
+    Returns how many it computed. Raises `_DeviceFailed`.
     """
     if device is None:
         blocks.compute(claim)
         return 1
+    from jointplay.solver.kernels.device.driver import DeviceError
     from jointplay.worker.device_run import compute_on_device
 
-    return compute_on_device(blocks, claim, draining, device)
+    try:
+        return compute_on_device(blocks, claim, draining, device)
+    except DeviceError as error:
+        raise _DeviceFailed(str(error)) from error

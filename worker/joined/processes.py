@@ -8,6 +8,7 @@ import signal
 import threading
 import time
 from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
 from multiprocessing.connection import wait
 from typing import Any, Final
 
@@ -37,19 +38,18 @@ def work_here(
     key: str | None,
     idle: float | None,
     until: float | None,
-    device: str = PROCESSOR,
-    processes: int = 1,
+    device: OwnDevice | None = None,
     parent: str | None = None,
 ) -> int:
     """Compute blocks in this process, until a signal, a time [epoch s], or idleness; count them.
 
     With the name of a `parent` also until that process has ended. `device` : what computes points
-    of studies, for so many `processes` at a time; see `Settings.device`.
+    of studies, if that is not the processor.
 
     Raises
     ------
     Refused
-        The service does not take this worker, or there is no such device.
+        The service does not take this worker.
     """
     draining = threading.Event()
     for number in _SIGNALS:
@@ -63,7 +63,7 @@ def work_here(
         threading.Thread(target=_drain_without, args=(parent, draining), daemon=True).start()
     connection = Connection(url, key)
     try:
-        return work(connection, draining, idle, _tried(device, processes))
+        return work(connection, draining, idle, device)
     finally:
         connection.close()
 
@@ -73,6 +73,14 @@ def _tried(device: str, processes: int) -> OwnDevice | None:
         return tried_device(device, processes)
     except InvalidInput as error:
         raise Refused(error.problems[0].detail.rstrip(".")) from error
+
+
+def _tried_apart(device: str, processes: int) -> OwnDevice | None:
+    """Return the same, tried by a process of its own: a fork does not take an open device along."""
+    if device == PROCESSOR:
+        return None
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+        return pool.submit(_tried, device, processes).result()
 
 
 def _drain_without(parent: str, draining: threading.Event) -> None:
@@ -94,12 +102,18 @@ def work_in(
 ) -> int:
     """Do the same in several processes, to which signals are passed on.
 
-    One that is lost, which a log tells, leaves its block to others; all end with this one.
+    One that is lost, which a log tells, leaves its block to others; all end with this one. They
+    share a `device`, see `Settings.device`, which is tried once.
+
+    Raises
+    ------
+    Refused
+        The service does not take this worker, or there is no such device.
     """
     if processes == 1:
-        return work_here(url, key, idle, until, device)
+        return work_here(url, key, idle, until, _tried(device, 1))
     answers = multiprocessing.RawArray(_Answer, processes)
-    asked = (url, key, idle, until, device, processes, own_name())
+    asked = (url, key, idle, until, _tried_apart(device, processes), own_name())
     children = [
         multiprocessing.Process(target=_answer, args=(answers, number, *asked))
         for number in range(processes)

@@ -48,7 +48,7 @@ class Device(Document):
     """A device of a worker; see `storage.catalogue.records.WorkerDevice`."""
 
     device: Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[ -~]+$")]
-    rate: Annotated[float, Field(gt=0.0, le=1e15)]
+    rate: Annotated[float, Field(ge=1.0, le=1e15)]
     lanes: Annotated[int, Field(ge=1, le=10**8)]
 
 

@@ -42,6 +42,7 @@ class Beneath {
   constructor({ job, signal }) {
     Object.assign(this, { job, signal, chosen: null });
     this.element = element("div", { class: "filters" });
+    this.said = element("p", { role: "status" });
   }
 
   /** Offers what fits, once: it stays as the branch grows. */
@@ -55,12 +56,13 @@ class Beneath {
       && sceneName(job) === sceneName(this.job.job));
     this.select = element("select", { id: "beneath", onchange: () => {
       this.chosen = others.find(({ id }) => id === this.select.value) ?? null;
-      this.draw();
+      fill(this.said);
+      this.draw().catch((error) => fill(this.said, error.message));
     } }, element("option", { value: "" }, "nothing"), others.map(({ id, kind, label, created }) =>
       element("option", { value: id }, `${label || kind} · ${new Date(created).toLocaleString()}`)));
     if (!others.length) return;
     fill(this.element, element("div", { class: "field" },
-      element("label", { for: "beneath" }, "Draw over"), this.select));
+      element("label", { for: "beneath" }, "Draw over"), this.select), this.said);
   }
 
   /** Returns the query of a figure; curves are drawn over charts alone. */

@@ -27,7 +27,9 @@ def device_named(name: str) -> Device:
         return Device(library=HostDriver())
     named = NAMES.fullmatch(name)
     if named is None:
-        detail = f"{name!r} is no device; give 'cpu', 'auto', or 'cuda:0', 'cuda:1' and so on."
+        detail = (
+            f"{name!r} is no device; give 'cpu', 'auto', 'cuda:0', 'cuda:1' and so on, or 'host'."
+        )
         raise InvalidInput.at("/device", detail)
     try:
         return Device(int(named[1]))

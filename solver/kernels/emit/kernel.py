@@ -52,7 +52,7 @@ class Kernel:
     row: DenseRow
     step_row: StepRow
     slots: NDArray[np.void]
-    """Record that compiled loops take as `at`; see `solver.kernels.emit.slots`."""
+    """Structure that compiled loops take as `at`; see `solver.kernels.emit.slots`."""
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
     clocks: tuple[str, ...]

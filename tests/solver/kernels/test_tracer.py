@@ -63,7 +63,7 @@ OPERATIONS = {
 @pytest.mark.parametrize("operation", OPERATIONS)
 @pytest.mark.parametrize("kind", ["variable", "number"])
 @given(x=values, y=values)
-def test_recorded_arithmetic_equals_arithmetic_on_floats(
+def test_traced_arithmetic_equals_arithmetic_on_floats(
     operation: str, kind: str, x: float, y: float
 ) -> None:
     tracer = Tracer()
@@ -78,7 +78,7 @@ def test_recorded_arithmetic_equals_arithmetic_on_floats(
     assert evaluate(traced, {"x": x, "y": y}, {}) == pytest.approx(exact, abs=tolerance)
 
 
-def test_the_same_expression_is_recorded_once() -> None:
+def test_the_same_expression_is_traced_once() -> None:
     tracer = Tracer()
     x, y = tracer.variable("x"), tracer.variable("y")
     assert x * y is y * x
@@ -121,9 +121,7 @@ def variables(instant: Instant, formulation: str) -> dict[str, float]:
 @pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
 @settings(max_examples=30)
 @given(instant=scenes_near_start)
-def test_recorded_mechanics_equal_the_mechanics_on_floats(
-    formulation: str, instant: Instant
-) -> None:
+def test_traced_mechanics_equal_the_mechanics_on_floats(formulation: str, instant: Instant) -> None:
     scene = instant.scene
     equations = trace(scene, spanning_tree(scene), formulation)
     given_values = {**equations.tracer.numbers, **variables(instant, formulation)}

@@ -57,7 +57,7 @@ def test_code_that_is_unwanted_is_compiled_no_further(file: str) -> None:
     assert not marked(source)
 
 
-def test_equations_that_are_unwanted_are_recorded_no_further() -> None:
+def test_equations_that_are_unwanted_are_traced_no_further() -> None:
     scene = chain(12)
     with (
         pytest.raises(CompilationUnwanted) as ended,

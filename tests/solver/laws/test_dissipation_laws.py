@@ -94,7 +94,7 @@ def test_it_is_dimensionally_homogeneous(
 
 
 @each
-def test_it_is_recorded_as_it_is_written(law: Dissipation) -> None:
+def test_it_is_traced_as_it_is_written(law: Dissipation) -> None:
     tracer = Tracer()
     numbers = {
         name: tracer.number(name, value)

@@ -142,11 +142,11 @@ def test_in_a_long_bearing_it_has_those_of_sommerfeld() -> None:
 
 @some
 @given(st.floats(-1e3, 1e3), st.floats(-1e3, 1e3))
-def test_a_recorded_angle_of_a_direction_is_the_librarys(x: float, y: float) -> None:
+def test_a_traced_angle_of_a_direction_is_the_librarys(x: float, y: float) -> None:
     assume(math.hypot(x, y) > 1e-9)
     tracer = Tracer()
-    recorded = direction_angle(tracer.variable("x"), tracer.variable("y"))
-    found = evaluate(recorded, {"x": x, "y": y}, {})
+    traced = direction_angle(tracer.variable("x"), tracer.variable("y"))
+    found = evaluate(traced, {"x": x, "y": y}, {})
     apart = math.remainder(found - math.atan2(y, x), 2.0 * math.pi)
     assert apart == pytest.approx(0.0, abs=1e-15 * math.pi)
 

@@ -1,4 +1,4 @@
-"""Functions of one argument: derivatives, bounds, periods, tables against SciPy, recorded ones."""
+"""Functions of one argument: derivatives, bounds, periods, tables against SciPy, traced ones."""
 
 import math
 import re
@@ -47,7 +47,7 @@ class FunctionSpecification:
     @some
     @given(data=st.data(), x=arguments)
     def test_slope_and_curvature_are_its_derivatives(self, data: st.DataObject, x: float) -> None:
-        """A recorded derivative is exact, and follows the branch that is in force."""
+        """A traced derivative is exact, and follows the branch that is in force."""
         function = data.draw(self.functions)
         assume(not self.bends_at(function, x))
         tracer = Tracer()
@@ -230,9 +230,9 @@ def test_a_refused_argument_is_not_a_number(model: str) -> None:
     assert math.isfinite(function.at(2.0 + 1e-10).value)
     assert math.isnan(function.at(2.0 + 1e-8).value)
     tracer = Tracer()
-    recorded = tracer.lift(function.at(tracer.variable("x")).value)
-    assert math.isnan(evaluate(recorded, {"x": -1.0}, {}))
-    assert evaluate(recorded, {"x": 1.0}, {}) == pytest.approx(function.at(1.0).value)
+    traced = tracer.lift(function.at(tracer.variable("x")).value)
+    assert math.isnan(evaluate(traced, {"x": -1.0}, {}))
+    assert evaluate(traced, {"x": 1.0}, {}) == pytest.approx(function.at(1.0).value)
 
 
 def test_every_function_in_the_roster_is_specified() -> None:

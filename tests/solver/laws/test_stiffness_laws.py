@@ -77,7 +77,7 @@ def test_it_is_dimensionally_homogeneous(law: Stiffness, units: Units, share: fl
 
 
 @each
-def test_it_is_recorded_as_it_is_written(law: Stiffness) -> None:
+def test_it_is_traced_as_it_is_written(law: Stiffness) -> None:
     tracer = Tracer()
     numbers = {
         name: tracer.number(name, value)
