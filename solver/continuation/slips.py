@@ -21,7 +21,7 @@ from jointplay.solver.scene.pairs import contact_pairs
 MOTION = "x", "y", "theta", "vx", "vy", "omega"
 """Channels of a body that tell how its points move."""
 FEWEST_ROWS = 3
-"""Of a run, by which phases are told."""
+"""Rows of a run by which its phases are told, at least."""
 
 
 class Rubbing(NamedTuple):

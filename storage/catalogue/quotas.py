@@ -58,7 +58,8 @@ def use_of(unit: Unit, owner: str) -> Use:
 def running_of(unit: Unit, owner: str) -> int:
     """Return how many blocks of an owner are computed."""
     computed = _running().where(tables.job.c.owner == owner).subquery()
-    return unit.execute(select(func.count()).select_from(computed)).scalar_one()
+    found: int = unit.execute(select(func.count()).select_from(computed)).scalar_one()
+    return found
 
 
 def busy_owners(unit: Unit, most: int) -> tuple[str, ...]:
