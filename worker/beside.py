@@ -6,7 +6,7 @@ from jointplay.storage.catalogue.records import Block, Claim, Solver
 from jointplay.storage.settings import Settings
 
 MOST_BLOCKS = 256
-"""That a worker holds at a time: each has a thread for its lease, and restart points."""
+"""Blocks that a worker holds at a time: each has a thread for its lease, and restart points."""
 
 
 def claim_beside(

@@ -31,7 +31,7 @@ from jointplay.worker.spent import computed_on_device
 from jointplay.worker.study_block import computed_by
 
 AT_ONCE = 16
-"""That are claimed with one question."""
+"""Blocks that are claimed with one question."""
 _log = logging.getLogger(__name__)
 
 

@@ -117,7 +117,7 @@ def _keys(location: list[str]) -> list[str]:
 
 
 def _unit(keys: Sequence[str], root: type[BaseModel], document: object) -> str:
-    """Return the unit of the field at a keys, with a space before; empty where there is none."""
+    """Return the unit of a field by its keys, with a space before; empty where there is none."""
     fields, _ = _reached(keys, root, document)
     extras = [extra for f in fields if isinstance(extra := f.json_schema_extra, dict)]
     units = {str(extra.get("unit", "1")) for extra in extras}
@@ -128,7 +128,7 @@ def _unit(keys: Sequence[str], root: type[BaseModel], document: object) -> str:
 def _reached(
     keys: Sequence[str], root: type[BaseModel], document: object
 ) -> tuple[list[FieldInfo], list[type[BaseModel]]]:
-    """Return the last fields on the way to a keys, and the models that a document means there."""
+    """Return the last fields on the way along keys, and the models that a document means there."""
     models, value, is_key = [root], document, False
     fields: list[FieldInfo] = []
     for part in keys:

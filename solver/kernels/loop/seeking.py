@@ -51,7 +51,7 @@ SAME = 1e-9
 def is_done(w: int, sharp: float, s: Step) -> bool:
     """Look where a bracket's extreme is, and let it count if it is beyond that so far and sharp.
 
-    Whether that is all there is to do: otherwise it may be beyond, and is not sharp. `sharp` :
+    Returns whether nothing is left to do: otherwise it may be beyond, and is not sharp. `sharp` :
     share of the channel's range up to now by which it may be off.
     """
     table = s.table
