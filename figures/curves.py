@@ -1,4 +1,4 @@
-"""Curves of special orbits over two parameters: folds, doublings, grazing, a line a label."""
+"""Curves of special orbits over two parameters: a line each, whose label has its colour."""
 
 from dataclasses import replace
 from typing import Final
@@ -15,7 +15,12 @@ from jointplay.records.study import StudySource
 
 _HEIGHT = 65.0  # mm
 _LOOKS: Final = dict(zip(CURVES, colours.COMPARED, strict=False))
-_NAMES: Final = {"LP": "LP fold", "PD": "PD period doubling", "GR": "GR grazing"}
+_NAMES: Final = {
+    "LP": "LP fold",
+    "PD": "PD period doubling",
+    "GR": "GR grazing",
+    "NS": "NS Neimark-Sacker",
+}
 
 
 def _curves(source: StudySource, selection: Selection) -> list[Branch]:
@@ -73,7 +78,7 @@ def _draw_over(chart: OverChart, curves: list[Branch]) -> page.Figure:
 
 CURVES_FIGURE = StudyFigure(
     name="curves",
-    title="Folds, period doublings and grazing over two parameters",
+    title="Folds, period doublings, Neimark-Sacker and grazing over two parameters",
     uses=("start", "stop", "over"),
     channels=_chosen,
     draw=_draw,

@@ -16,7 +16,7 @@ VALUE, LABEL, BOUND, LENGTH, UNSTABLE = "value", "label", "bound", "length", "un
 """Columns that every branch has."""
 SECOND, SECOND_BOUND = "second", "second_bound"
 """Columns where special orbits are followed over a second parameter."""
-CURVES = ("LP", "PD", "GR")
+CURVES = ("LP", "PD", "GR", "NS")
 """Labels of special orbits that are followed so."""
 
 

@@ -11,7 +11,8 @@ from jointplay.solver.continuation.location import NotLocated, Piece
 from jointplay.solver.continuation.multipliers import largest
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit
 from jointplay.solver.continuation.plan import Reach
-from jointplay.solver.continuation.special import Special, explained, special_orbits
+from jointplay.solver.continuation.sign_changes import Special
+from jointplay.solver.continuation.special import explained, special_orbits
 
 SMALLEST = 1e-7
 """Step, as a length along the branch, below which the branch is lost."""
@@ -83,6 +84,8 @@ def follow(
             found = one.found
             at = sense * (length + found.at)
             yield Row(found.orbit, at, one.label, found.bounds, one.note)
+            if one.last:
+                return
         before, orbit, tangent = orbit, piece.last, piece.last_tangent
         length += curve.scales.length(orbit.vector - before.vector)
         if not reach.inside(orbit.values):

@@ -20,6 +20,8 @@ LABELS = {
     "R1": "resonance 1:1: a second multiplier passes 1",
     "R2": "resonance 1:2: a second multiplier passes -1",
     "ST": "sticking: a phase in which friction holds, or slides, begins or ends",
+    "R3": "resonance 1:3: a pair of multipliers passes a third of a turn",
+    "R4": "resonance 1:4: a pair of multipliers passes a quarter of a turn",
 }
 """Labels as AUTO and COCO print them; stores keep their positions."""
 

@@ -37,10 +37,12 @@ def largest(multipliers: Complexes) -> float:
 def unstable(multipliers: Complexes, label: str = "") -> int:
     """Return how many multipliers lie outside of the unit circle.
 
-    `label` : of a special orbit; the multiplier that makes it one is not counted.
+    `label` : of a special orbit; the multiplier or the pair that makes it one is not counted.
     """
     left = multipliers.tolist()
-    if label in CRITICAL:
+    if label == "NS":
+        left = neutral_pair(multipliers)[1].tolist()
+    elif label in CRITICAL:
         left.remove(min(left, key=lambda one: size(one - CRITICAL[label])))
     return sum(size(one) > 1.0 for one in left)
 
@@ -76,9 +78,24 @@ def _product(factors: Iterable[tuple[float, float]]) -> float:
 
 def is_torus(multipliers: Complexes) -> bool:
     """Return whether the pair whose product is nearest to 1 is complex: else they are real."""
-    pairs = combinations(multipliers.tolist(), 2)
-    one, _ = min(pairs, key=lambda pair: size(complex(*_less_one(*pair))))
-    return bool(one.imag != 0.0)
+    return bool(multipliers[_neutral(multipliers)[0]].imag != 0.0)
+
+
+def neutral_pair(multipliers: Complexes) -> tuple[float, Complexes]:
+    """Return half the sum of the two whose product is nearest to 1, and the other multipliers.
+
+    Of a pair on the unit circle that is the cosine of its angle.
+    """
+    pair = list(_neutral(multipliers))
+    first, second = multipliers[pair].tolist()
+    return 0.5 * (first.real + second.real), np.delete(multipliers, pair)
+
+
+def _neutral(multipliers: Complexes) -> tuple[int, int]:
+    """Return the places of the two multipliers whose product is nearest to 1."""
+    left = multipliers.tolist()
+    pairs = combinations(range(len(left)), 2)
+    return min(pairs, key=lambda pair: size(complex(*_less_one(left[pair[0]], left[pair[1]]))))
 
 
 def spread(one: Complexes, other: Complexes) -> float:

@@ -1,25 +1,19 @@
 """Special orbits of a branch between two that are near each other: what bifurcates or grazes."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Iterator
+from dataclasses import replace
 
-import numpy as np
-
-from jointplay.records.arrays import Floats
-from jointplay.solver.continuation.location import Found, NotLocated, Piece, change, root
+from jointplay.solver.continuation.codimension_two import beside
+from jointplay.solver.continuation.location import NotLocated, Piece, change, root
 from jointplay.solver.continuation.multipliers import (
-    Complexes,
     doubling,
     is_torus,
-    multipliers_of,
     passing_one,
     torus,
     unstable,
 )
 from jointplay.solver.continuation.orbit import Orbit
-
-Test = Callable[[Complexes], float]
+from jointplay.solver.continuation.sign_changes import Special, changes, zero
 
 MOST_GRAZINGS = 8
 """Impacts that may begin or end between two orbits; where more do, steps are shorter."""
@@ -30,19 +24,6 @@ SHAKEN = 1e-6
 steps of runs leave."""
 CHANGES = {"LP": 1, "BP": 1, "PD": 1, "NS": 2, "GR": 0, "ST": 0}
 """By how many the unstable multipliers may change."""
-RESONANCES = {"LP": "R1", "PD": "R2"}
-"""Where a second multiplier comes to that of a fold, or of a doubling."""
-RESTING = 1e-2
-"""Share of the tangent that both parameters may have left where they turn at once."""
-
-
-@dataclass(frozen=True)
-class Special:
-    """A special orbit between two of a branch."""
-
-    label: str
-    found: Found
-    note: str = ""
 
 
 def special_orbits(piece: Piece) -> list[Special]:
@@ -52,6 +33,12 @@ def special_orbits(piece: Piece) -> list[Special]:
     """
     found = _beside(piece) if piece.curve.of else _every(piece)
     return sorted(found, key=lambda one: one.found.at)
+
+
+def _beside(piece: Piece) -> Iterator[Special]:
+    yield from beside(piece)
+    if piece.curve.of != "GR":
+        yield from _grazing(piece)
 
 
 def explained(piece: Piece, specials: list[Special]) -> bool:
@@ -73,61 +60,13 @@ def _every(piece: Piece) -> Iterator[Special]:
         found = root(piece, piece.direction, lambda one: piece.direction(one, coarser=True))
         yield Special("LP", found)
     for label, test in (("BP", passing_one), ("PD", doubling), ("NS", torus)):
-        if (label == "BP" and turned) or not _changes(piece, test):
+        if (label == "BP" and turned) or not changes(piece, test):
             continue
-        found = _root(piece, test)
+        found = zero(piece, test)
         if label != "NS" or is_torus(found.orbit.multipliers):
             yield Special(label, found)
     yield from _grazing(piece)
     yield from _sticking(piece)
-
-
-def _beside(piece: Piece) -> Iterator[Special]:
-    """Yield what happens on a curve of special orbits besides: orbits of codimension two.
-
-    Where the curve of folds has a cusp, both parameters turn at once, and come to rest.
-    """
-    of, (first, last) = piece.curve.of, map(piece.directions, (piece.first, piece.last))
-    if of == "LP" and float(np.sum(first * last)) < 0.0:
-        found = root(piece, *_along(piece, last - first))
-        rest = np.abs(piece.directions(found.orbit)).max()
-        if rest < RESTING * np.abs(last - first).max():
-            yield Special("CP", found)
-    others = {"PD": doubling, "LP": passing_one, "NS": torus}
-    for label, test in others.items():
-        if label == of or not _changes(piece, test):
-            continue
-        # at a resonance the two multipliers are one but for rounding, a complex pair perhaps
-        turning = is_torus(piece.first.multipliers) and is_torus(piece.last.multipliers)
-        named = label if label != "NS" or turning else RESONANCES.get(of)
-        if named is not None:
-            yield Special(named, _root(piece, test))
-    if of != "GR":
-        yield from _grazing(piece)
-
-
-def _along(piece: Piece, way: Floats) -> tuple[Callable[[Orbit], float], Callable[[Orbit], float]]:
-    """Return the parameters' share of the tangent along a way, by both differences."""
-    return (
-        lambda orbit: float(np.sum(way * piece.directions(orbit))),
-        lambda orbit: float(np.sum(way * piece.directions(orbit, coarser=True))),
-    )
-
-
-def _changes(piece: Piece, test: Test) -> bool:
-    return (test(piece.first.multipliers) > 0.0) != (test(piece.last.multipliers) > 0.0)
-
-
-def _root(piece: Piece, test: Test) -> Found:
-    return root(piece, partial(_tested, test), partial(_tested_coarser, test))
-
-
-def _tested(test: Test, orbit: Orbit) -> float:
-    return test(orbit.multipliers)
-
-
-def _tested_coarser(test: Test, orbit: Orbit) -> float:
-    return test(multipliers_of(orbit.coarser.monodromy))
 
 
 def _grazing(piece: Piece) -> Iterator[Special]:

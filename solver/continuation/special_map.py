@@ -3,11 +3,12 @@
 State and parameter (x, p) go to (P(x, p, q), p + g): a fixed point of that is an orbit at which the
 test function g is 0, and its curve over the second parameter q is found as any branch is.
 
-For a fold g is det(DP - 1), for a period doubling det(DP + 1): the minimally augmented systems of
+For a fold g is det(DP - 1), for a period doubling det(DP + 1), for a Neimark-Sacker bifurcation
+that of the bialternate product of DP with itself, less 1: the minimally augmented systems of
 Kuznetsov 2004, Elements of Applied Bifurcation Theory, 3rd ed., chapter 10. The tests of
-`multipliers` are these polynomials of DP, products over all multipliers: as smooth as DP, also
-where multipliers meet; one multiplier alone is not. Sections have few states, so that no bordering
-is needed to keep a determinant in range.
+`multipliers` are these polynomials of DP, products over all multipliers or pairs of them: as smooth
+as DP, also where multipliers meet; one multiplier alone is not. Sections have few states, so that
+no bordering is needed to keep a determinant in range.
 
 For grazing g is how near the orbit comes to the impact that it does not have. On the other side of
 grazing P has a square root, and Newton's method fails (Ghosh and Simpson 2025, arXiv 2510.16218);
@@ -26,6 +27,7 @@ from jointplay.solver.continuation.multipliers import (
     doubling,
     multipliers_of,
     passing_one,
+    torus,
 )
 from jointplay.solver.continuation.passage import Linear, Section
 from jointplay.solver.continuation.section_map import SectionMap
@@ -35,6 +37,7 @@ from jointplay.solver.linear_algebra.orthogonal import Decomposition
 TESTS: dict[str, Callable[[Complexes], float]] = {
     "LP": passing_one,
     "PD": doubling,
+    "NS": torus,
 }
 """Test functions of multipliers, by the label of the special orbits at which they are 0."""
 NEAR = 1e-3

@@ -27,9 +27,9 @@ class AlongSecond(Strict):
         ),
     ]
     labels: Annotated[
-        list[Literal["LP", "PD", "GR"]],
-        Field(min_length=1, max_length=3, description="special orbits that are followed"),
-    ] = ["LP", "PD", "GR"]
+        list[Literal["LP", "PD", "NS", "GR"]],
+        Field(min_length=1, max_length=4, description="special orbits that are followed"),
+    ] = ["LP", "PD", "NS", "GR"]
     curves: Annotated[
         int,
         quantity(

@@ -27,6 +27,16 @@ def bogdanov(state: Floats, p: float, q: float) -> list[float]:
     return [x + y, y]
 
 
+def delayed_logistic(state: Floats, a: float, b: float) -> list[float]:
+    x, y = state.tolist()
+    return [a * x * (1.0 - b * x - (1.0 - b) * y), x]
+
+
+def turning_beside_one(state: Floats, p: float, q: float) -> list[float]:
+    x, y, z = state.tolist()
+    return [*bogdanov(np.array([x, y]), q, p), (q + 2.5) * z]
+
+
 def of_trace_and_determinant(state: Floats, trace: float, determinant: float) -> list[float]:
     x, y = state.tolist()
     return [y, trace * y - determinant * x]
@@ -96,6 +106,44 @@ def test_resonances_are_named_where_a_second_multiplier_comes_to_the_same_place(
         "PD", of_trace_and_determinant, [0.0, 0.0], (-1.5, 0.5), ((-3.0, 0.0), (0.2, 1.4))
     )
     assert special(doublings, "PD") == [("R2", pytest.approx((-2.0, 1.0), abs=1e-7))]
+
+
+def test_pairs_on_the_unit_circle_are_followed_through_their_strong_resonances() -> None:
+    b = 0.3
+    a, x = 1.0 + 1.0 / (1.0 - b), 1.0 / (2.0 - b)
+    rows = curve_of("NS", delayed_logistic, [x, x], (a, b), ((1.5, 6.0), (0.1, 0.9)))
+    known_within_errors(rows, lambda b: 1.0 + 1.0 / (1.0 - b))
+    # the sum of the pair is (1 - 2 b) / (1 - b)
+    places = {"R4": (3.0, 1.0 / 2.0), "R3": (4.0, 2.0 / 3.0), "R2": (5.0, 3.0 / 4.0)}
+    found = [row for row in rows if row.label in places]
+    assert [row.label for row in found] == list(places)
+    for row in found:
+        away = np.abs(np.subtract(row.orbit.values, places[row.label]))
+        assert (away <= np.array(row.bounds) + errors(row.orbit)).all()
+        assert max(row.bounds) < 1e-6
+    assert rows[-1].label == "R2"
+    assert rows[-1].note == "both multipliers meet at -1, and are real beyond: end of the curve"
+    assert rows[0].note == "end of the range"
+
+
+def test_a_pair_that_meets_at_one_ends_its_curve_and_other_multipliers_are_told_on_the_way() -> (
+    None
+):
+    # multipliers are those of trace 2 + 2 x and determinant 1, where x^2 = -q, and 2.5 + q
+    rows = curve_of(
+        "NS", turning_beside_one, [-1.1, 0.0, 0.0], (0.0, -1.21), ((-1.0, 1.0), (-9.0, 1.0))
+    )
+    assert special(rows, "NS") == [
+        (label, pytest.approx((0.0, q), abs=1e-6))
+        for label, q in (
+            ("R2", -4.0),
+            ("PD", -3.5),
+            ("R3", -2.25),
+            ("LP", -1.5),
+            ("R4", -1.0),
+            ("R1", 0.0),
+        )
+    ]
 
 
 def test_a_curve_ends_where_its_first_parameter_leaves_its_range() -> None:

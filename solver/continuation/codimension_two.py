@@ -1,0 +1,97 @@
+"""Special orbits on a curve of special orbits: those of codimension two.
+
+Kuznetsov 2004, Elements of Applied Bifurcation Theory, 3rd ed., chapter 9.
+"""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.location import Piece, root
+from jointplay.solver.continuation.multipliers import (
+    doubling,
+    is_torus,
+    neutral_pair,
+    passing_one,
+    torus,
+)
+from jointplay.solver.continuation.orbit import Orbit
+from jointplay.solver.continuation.sign_changes import Special, Test, changes, zero
+
+RESONANCES = {"LP": "R1", "PD": "R2"}
+"""Where a second multiplier comes to that of a fold, or of a doubling."""
+COSINES = {"R1": 1.0, "R2": -1.0, "R3": -0.5, "R4": 0.0}
+"""Cosine of the angle of a pair on the unit circle at its strong resonances."""
+ENDS = {"R1": "1", "R2": "-1"}
+"""Where pairs on the unit circle meet; beyond, both multipliers are real."""
+RESTING = 1e-2
+"""Share of the tangent that both parameters may have left where they turn at once."""
+OTHERS: dict[str, Test] = {"PD": doubling, "LP": passing_one, "NS": torus}
+
+
+def beside(piece: Piece) -> Iterator[Special]:
+    """Yield what happens between two orbits of a curve, besides what the curve is of."""
+    if piece.curve.of == "NS":
+        yield from _of_pairs(piece)
+        return
+    if piece.curve.of == "LP":
+        yield from _cusps(piece)
+    yield from _of_one(piece)
+
+
+def _cusps(piece: Piece) -> Iterator[Special]:
+    """Yield where both parameters turn at once, and come to rest."""
+    first, last = map(piece.directions, (piece.first, piece.last))
+    if float(np.sum(first * last)) < 0.0:
+        found = root(piece, *_along(piece, last - first))
+        rest = np.abs(piece.directions(found.orbit)).max()
+        if rest < RESTING * np.abs(last - first).max():
+            yield Special("CP", found)
+
+
+def _along(piece: Piece, way: Floats) -> tuple[Callable[[Orbit], float], Callable[[Orbit], float]]:
+    """Return the parameters' share of the tangent along a way, by both differences."""
+    return (
+        lambda orbit: float(np.sum(way * piece.directions(orbit))),
+        lambda orbit: float(np.sum(way * piece.directions(orbit, coarser=True))),
+    )
+
+
+def _of_one(piece: Piece) -> Iterator[Special]:
+    """Yield what other multipliers do while one is 1 or -1."""
+    of = piece.curve.of
+    for label, test in OTHERS.items():
+        if label == of or not changes(piece, test):
+            continue
+        # at a resonance the two multipliers are one but for rounding, a complex pair perhaps
+        turning = is_torus(piece.first.multipliers) and is_torus(piece.last.multipliers)
+        named = label if label != "NS" or turning else RESONANCES.get(of)
+        if named is not None:
+            yield Special(named, zero(piece, test))
+
+
+def _of_pairs(piece: Piece) -> Iterator[Special]:
+    """Yield strong resonances of a pair on the unit circle, and what other multipliers do.
+
+    Where the pair meets, the curve ends: beyond, the product of two real multipliers is 1.
+    """
+    for label, cosine in COSINES.items():
+        test = _turned(cosine)
+        if changes(piece, test):
+            at = ENDS.get(label)
+            note = f"both multipliers meet at {at}, and are real beyond: end of the curve"
+            yield Special(label, zero(piece, test), note if at else "", last=at is not None)
+    for label, test in OTHERS.items():
+        if changes(piece, _of_others(test)):
+            yield Special(label, zero(piece, _of_others(test)))
+
+
+def _turned(cosine: float) -> Test:
+    """Return how far the cosine of a pair's angle is from another."""
+    return lambda multipliers: neutral_pair(multipliers)[0] - cosine
+
+
+def _of_others(test: Test) -> Test:
+    """Return a test of all multipliers but the pair."""
+    return lambda multipliers: test(neutral_pair(multipliers)[1])
