@@ -57,6 +57,13 @@ def doubling(speed: Floats) -> Curve:
 
 
 def _with_multiplier(speed: Floats, multiplier: float) -> Curve:
+    steady, impact = one_impact(speed, multiplier)
+    reach = np.hypot(steady[0], steady[1] / speed)
+    return Curve(reach / (STIFFNESS * response(speed)), _stays(speed, steady, impact))
+
+
+def one_impact(speed: Floats, multiplier: float) -> tuple[Floats, Floats]:
+    """Return displacement and rate of the steady motion at the impact, and that one's speed."""
     period, e = 2.0 * np.pi / speed, RESTITUTION
     f = flow(period)
     f11, f12, f21, f22 = f[:, 0, 0], f[:, 0, 1], f[:, 1, 0], f[:, 1, 1]
@@ -68,10 +75,7 @@ def _with_multiplier(speed: Floats, multiplier: float) -> Curve:
     constant = (f11 + f22) * e - f12 * (1.0 + e) * rate
     impact = -f12 * (1.0 + e) * speed**2 * GAP / (multiplier * (1.0 + product) + constant)
     impact = np.where(impact > 0.0, impact, np.nan)
-    start, begins = GAP - impact * u1, impact * u2  # of the steady motion at the impact
-    reach = np.hypot(start, begins / speed)
-    stays = _stays(speed, np.stack([start, begins]), impact)
-    return Curve(reach / (STIFFNESS * response(speed)), stays)
+    return np.stack([GAP - impact * u1, impact * u2]), impact
 
 
 def _stays(speed: Floats, steady: Floats, impact: Floats) -> Flags:

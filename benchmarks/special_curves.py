@@ -3,7 +3,7 @@
 `python -m benchmarks special_curves`. Curves of special orbits of the impact oscillator at two
 stiffnesses of its stop, which leaves the share 0.8 of the speed, beside the closed forms of a rigid
 one. Contact takes a time that falls as K^-0.4, by which fold and doubling are off; grazing does not
-depend on the stop.
+depend on the stop. Where doubling turns from hard to soft is extrapolated to a rigid stop.
 """
 
 import time
@@ -13,6 +13,7 @@ import numpy as np
 
 from benchmarks import rigid_stop
 from benchmarks.continuation import branch_job
+from benchmarks.rigid_doublings import generalised_doubling
 from jointplay.local import run
 from jointplay.records.arrays import Floats
 from jointplay.records.branch import LENGTH, SECOND, SECOND_BOUND, VALUE, Branch, branches
@@ -48,6 +49,19 @@ def apart(found: Branch) -> tuple[Floats, Floats]:
     return found.column(SECOND) / known - 1.0, found.column(SECOND_BOUND) / known
 
 
+def print_generalised(curves: list[Branch]) -> None:
+    """Print where doubling turns from hard to soft, of each stiffness, and of a rigid stop."""
+    places = []
+    for one in (one for found in curves for one in found.special if one.label == "GPD"):
+        places.append(np.array([one.value, 1e3 * (one.second or 0.0)]))
+        print(f"      GPD {one.value:.5f} +- {one.bound:.0e} rad/s, {places[-1][1]:.5f} mm", end="")
+        print(f": {one.note}")
+    soft, hard = places
+    limit, known = hard + (hard - soft) / (10.0**0.4 - 1.0), generalised_doubling()
+    print(f"      in the limit {limit[0]:.5f} rad/s, {limit[1]:.5f} mm; ", end="")
+    print(f"of impacts on a rigid stop {known[0]:.5f} rad/s, {1e3 * known[1]:.5f} mm")
+
+
 def main() -> None:
     """Print how far each curve is from the closed form, and how that falls with the stiffness."""
     print(
@@ -56,7 +70,7 @@ def main() -> None:
     )
     print(f"{'largest distance':>18}{'bound':>10}{'seconds':>9}")
     for label in BRANCHES:
-        away = []
+        away, curves = [], []
         for stop in STOPS:
             begun = time.process_time()
             found = curve(stop, label)
@@ -69,12 +83,15 @@ def main() -> None:
             print(f"{time.process_time() - begun:9.1f}", flush=True)
             order = np.argsort(amplitudes)
             away.append((amplitudes[order], distance[order]))
+            curves.append(found)
         shared = np.linspace(*(1e3 * np.array([5e-3, 5.5e-3])), 5)
         first, second = (np.interp(shared, *one) for one in away)
         print(
             f"      ratio of distances at 5 to 5.5 mm: {(first / second).round(3).tolist()}", end=""
         )
         print(f"; 10^0.4 is {10.0**0.4:.3f}")
+        if label == "PD":
+            print_generalised(curves)
 
 
 if __name__ == "__main__":

@@ -128,7 +128,8 @@ class SpecialOrbit(BaseModel):
     label: str = Field(
         description="EP end, LP fold, PD period doubling, NS Neimark-Sacker, BP branch point, GR"
         " grazing: an impact begins or ends, MX the branch was lost; on curves of special orbits"
-        " CP cusp, R1 to R4 resonances 1:1 to 1:4, and what happens there besides."
+        " CP cusp, R1 to R4 resonances 1:1 to 1:4, GPD generalised doubling, and what happens"
+        " there besides."
     )
     value: float = in_unit("the parameter's unit")
     bound: float = in_unit(

@@ -3,12 +3,14 @@
 Kuznetsov 2004, Elements of Applied Bifurcation Theory, 3rd ed., chapter 9.
 """
 
+import math
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.continuation.location import Piece, root
+from jointplay.solver.continuation.location import NotLocated, Piece, root
 from jointplay.solver.continuation.multipliers import (
     doubling,
     is_torus,
@@ -27,6 +29,12 @@ ENDS = {"R1": "1", "R2": "-1"}
 """Where pairs on the unit circle meet; beyond, both multipliers are real."""
 RESTING = 1e-2
 """Share of the tangent that both parameters may have left where they turn at once."""
+AROUND = 0.015
+"""Length along a curve on both sides of a generalised doubling by which it is told from noise."""
+KNOWN = 0.3
+"""Error of its coefficient there, in how much that changes: of noise it is a third or more."""
+ROUND = 0.1
+"""Share of that error below which it is not sought more closely."""
 OTHERS: dict[str, Test] = {"PD": doubling, "LP": passing_one, "NS": torus}
 
 
@@ -37,6 +45,8 @@ def beside(piece: Piece) -> Iterator[Special]:
         return
     if piece.curve.of == "LP":
         yield from _cusps(piece)
+    if piece.curve.of == "PD":
+        yield from _generalised_doublings(piece)
     yield from _of_one(piece)
 
 
@@ -56,6 +66,43 @@ def _along(piece: Piece, way: Floats) -> tuple[Callable[[Orbit], float], Callabl
         lambda orbit: float(np.sum(way * piece.directions(orbit))),
         lambda orbit: float(np.sum(way * piece.directions(orbit, coarser=True))),
     )
+
+
+def _generalised_doublings(piece: Piece) -> Iterator[Special]:
+    """Yield where orbits of twice the period change from stable ones to unstable ones, or back.
+
+    Not where their coefficient has a pole, as where another multiplier is 1, and only where it is
+    known beside how it changes: noise could change its sign anywhere. A curve does not depend on
+    it, and so goes on where it cannot be told.
+    """
+    first, last = piece.first.criticality[0], piece.last.criticality[0]
+    if not first * last < 0.0:
+        return
+    middle = piece.length * first / (first - last)
+    try:
+        around = [piece.orbit(middle + way * AROUND).criticality for way in (-1.0, 1.0)]
+        change = abs(around[1][0] - around[0][0])
+        if not max(error for _, error in around) < KNOWN * change:
+            return
+        found = root(piece, partial(_rounded, piece), lambda orbit: orbit.criticality[1])
+    except NotLocated:
+        return
+    if abs(found.orbit.criticality[0]) < KNOWN * change:
+        one, other = ("soft", "hard") if first > last else ("hard", "soft")
+        note = f"period doubling is {one} on the side of the start, {other} beyond"
+        yield Special("GPD", found, note)
+
+
+def _rounded(piece: Piece, orbit: Orbit) -> float:
+    """Return the cubic coefficient of a doubling; between two orbits 0 where noise begins to rule.
+
+    NotLocated: it is not known.
+    """
+    cubic, error = orbit.criticality
+    if math.isnan(cubic):
+        raise NotLocated("a run beside the orbit fails")
+    inside = orbit is not piece.first and orbit is not piece.last
+    return 0.0 if inside and abs(cubic) < ROUND * error else cubic
 
 
 def _of_one(piece: Piece) -> Iterator[Special]:

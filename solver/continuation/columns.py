@@ -22,6 +22,7 @@ LABELS = {
     "ST": "sticking: a phase in which friction holds, or slides, begins or ends",
     "R3": "resonance 1:3: a pair of multipliers passes a third of a turn",
     "R4": "resonance 1:4: a pair of multipliers passes a quarter of a turn",
+    "GPD": "generalised doubling: period doubling is soft on one side, hard on the other",
 }
 """Labels as AUTO and COCO print them; stores keep their positions."""
 

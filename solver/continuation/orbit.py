@@ -13,6 +13,7 @@ import numpy as np
 from numpy.linalg import LinAlgError
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.continuation.criticality import Surroundings, cubic_coefficient
 from jointplay.solver.continuation.multipliers import (
     Complexes,
     largest,
@@ -147,6 +148,16 @@ class Orbit:
             return math.inf
         apart = spread(self.multipliers, multipliers_of(self.looser.monodromy))
         return BAR * self.error + apart
+
+    @cached_property
+    def criticality(self) -> tuple[float, float]:
+        """Cubic coefficient of a period doubling, and its error; see `cubic_coefficient`.
+
+        Positive if orbits of twice the period are born stable.
+        """
+        map_ = self.curve.sections
+        extents = self.curve.scales.extents[: map_.size]
+        return cubic_coefficient(Surroundings(map_, self.section, self.linear, extents))
 
     @property
     def phases(self) -> tuple[int, ...]:

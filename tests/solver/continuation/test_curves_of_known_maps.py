@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.branch import Row
@@ -35,6 +36,21 @@ def delayed_logistic(state: Floats, a: float, b: float) -> list[float]:
 def turning_beside_one(state: Floats, p: float, q: float) -> list[float]:
     x, y, z = state.tolist()
     return [*bogdanov(np.array([x, y]), q, p), (q + 2.5) * z]
+
+
+def doubling_beside_two(state: Floats, p: float, q: float) -> list[float]:
+    x, y, z = state.tolist()
+    return [
+        -(1.0 + p) * x + 0.6 * x * x + q * x**3 + 0.7 * x * y + x * z - x**5,
+        0.3 * y + x * x,
+        (q + 0.4) * z + x * x,
+    ]
+
+
+def linear_but_for_noise(state: Floats, p: float, q: float) -> list[float]:
+    x, y = state.tolist()
+    noise = 1e-12 * math.sin(1e9 * (x + 0.3 * y + 0.1 * q))
+    return [-(1.0 + p + q) * x + noise, 0.3 * y]
 
 
 def of_trace_and_determinant(state: Floats, trace: float, determinant: float) -> list[float]:
@@ -144,6 +160,32 @@ def test_a_pair_that_meets_at_one_ends_its_curve_and_other_multipliers_are_told_
             ("R1", 0.0),
         )
     ]
+
+
+def test_a_doubling_turns_from_soft_to_hard_where_its_cubic_coefficient_vanishes() -> None:
+    ranges = ((-0.5, 0.5), (-2.0, 1.0))
+    rows = curve_of("PD", doubling_beside_two, [0.0] * 3, (0.0, -1.0), ranges)
+
+    def cubic(q: float) -> float:
+        return q + 0.6**2 + 0.7 / (1.0 - 0.3) + 1.0 / (1.0 - (q + 0.4))
+
+    found = [row for row in rows if row.label not in ("", "EP", "PD")]
+    # its pole at the fold, where it changes its sign, too, is none
+    assert [row.label for row in found] == ["GPD", "R2", "LP"]
+    known, row = brentq(cubic, -2.0, -1.0), found[0]
+    assert row.note == "period doubling is soft on the side of the start, hard beyond"
+    assert np.abs(np.subtract(row.orbit.values, (0.0, known))).max() <= max(row.bounds) < 1e-3
+    # distances of a hundredth leave errors of their square
+    for row in [row for row in rows if not row.label][::9]:
+        assert row.orbit.criticality[0] == pytest.approx(cubic(row.orbit.values[1]), rel=1e-4)
+
+
+def test_no_doubling_is_generalised_where_noise_alone_has_a_cubic_coefficient() -> None:
+    ranges = ((-0.15, 0.5), (0.0999, 0.3))
+    rows = curve_of("PD", linear_but_for_noise, [0.0, 0.0], (-0.1, 0.1), ranges)
+    signs = {row.orbit.criticality[0] > 0.0 for row in rows}
+    assert signs == {True, False}
+    assert not special(rows, "PD")
 
 
 def test_a_curve_ends_where_its_first_parameter_leaves_its_range() -> None:
