@@ -1,5 +1,7 @@
 """Figures of branches: stable orbits are full lines, unstable ones dashed, special ones named."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from branches import HEIGHTS, NOTE, folded, over_two_parameters
@@ -7,7 +9,7 @@ from drawn import drawn_with
 
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection
-from jointplay.records.branch import branches
+from jointplay.records.branch import CURVES, branches
 
 
 def test_stable_orbits_are_full_and_unstable_ones_dashed():
@@ -60,6 +62,17 @@ def test_curves_are_drawn_over_both_parameters_in_their_order_with_their_cusps()
     assert [one.get_text() for one in axes.texts] == ["CP"]
     assert axes.get_ylabel() == "width [m]"
     assert [one.of for one in branches(over_two_parameters())] == ["", "LP"]
+
+
+@pytest.mark.parametrize("label", CURVES)
+def test_curves_of_every_label_are_drawn_and_named(label: str):
+    found = over_two_parameters()
+    labels = {
+        label if one == "LP" else one: told for one, told in found.attributes["labels"].items()
+    }
+    renamed = replace(found, attributes=found.attributes | {"labels": labels})
+    (axes,) = drawn_with(renamed, "curves", None).axes
+    assert axes.lines[0].get_label().startswith(f"{label} ")
 
 
 def test_the_figure_of_branches_leaves_curves_out_and_without_curves_there_is_no_figure():
