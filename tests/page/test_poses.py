@@ -130,7 +130,8 @@ def test_a_driven_slider_shows_its_stroke_and_where_it_stops(page) -> None:
     expect(page.locator("#duration")).to_have_value("1")
     last = slide(page, 120, found["poses"][0])["slider"][0]
     assert start < last < crank + rod + 1e-9
-    page.get_by_text("The ideal mechanism comes to a dead point at t = 0.2 s").wait_for()
+    dead_point = "The ideal mechanism comes to a dead point at t = 0.2 s"
+    page.get_by_role("status").filter(has_text=dead_point).wait_for()
 
 
 def test_drivers_are_moved_again_after_their_motion_could_not_be_had(
