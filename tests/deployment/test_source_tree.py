@@ -1,5 +1,6 @@
 """The tree of the sources as editors and package builders read it."""
 
+import os
 import re
 import subprocess
 import sys
@@ -52,9 +53,12 @@ def test_a_copy_without_symbolic_links_says_what_is_missing(tmp_path: Path) -> N
 def test_a_wheel_of_the_source_distribution_is_that_of_the_tree(tmp_path: Path) -> None:
     build = "from setuptools import build_meta as b; print(b.build_{}({!r}))"
     script = [sys.executable, "-c"]
-    made = tmp_path / "made"
-    subprocess.run([*script, build.format("sdist", str(made))], cwd=ROOT, check=True)
-    subprocess.run([*script, build.format("wheel", str(made))], cwd=ROOT, check=True)
+    made, options = tmp_path / "made", tmp_path / "options.cfg"
+    options.write_text(f"[build]\nbuild_base = {tmp_path / 'build'}\n")  # the tree's has old files
+    environment = os.environ | {"DIST_EXTRA_CONFIG": str(options)}
+    for what in ("sdist", "wheel"):
+        command = [*script, build.format(what, str(made))]
+        subprocess.run(command, cwd=ROOT, env=environment, check=True)
     (archive,), (wheel,) = made.glob("*.tar.gz"), made.glob("*.whl")
     with tarfile.open(archive) as packed:
         packed.extractall(tmp_path, filter="data")
