@@ -1,7 +1,7 @@
 """The scan for extremes: which channels of which lanes just passed one that may be a new extreme.
 
 It looks at the values at step ends only to find candidates; the extremes themselves are then
-sought inside the steps on the dense output (`solver.kernels.loop.peaks`).
+sought inside the steps on the dense output (`solver.kernels.loop.extremes.peaks`).
 Before the second step there is no change before: it is NaN, and no candidate.
 """
 

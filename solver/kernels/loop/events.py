@@ -14,7 +14,7 @@ from jointplay.solver.kernels.emit.judging import PASSING
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.dense_rows import write_row
-from jointplay.solver.kernels.loop.passages import closest_approach, passes, place_about
+from jointplay.solver.kernels.loop.extremes.passages import closest_approach, passes, place_about
 from jointplay.solver.kernels.loop.runs import SECTIONS, Run, SectionKind
 from jointplay.solver.kernels.loop.step import Step, channels_within
 

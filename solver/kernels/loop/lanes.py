@@ -7,9 +7,9 @@ from jointplay.solver.kernels.emit.slots import Slots
 from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.loop.accepted_steps import write_step
 from jointplay.solver.kernels.loop.attention import attend, settle
-from jointplay.solver.kernels.loop.closer_look import look_closer
 from jointplay.solver.kernels.loop.events import has_all_events, may_cross, record_crossings
-from jointplay.solver.kernels.loop.peaks import refine_peaks
+from jointplay.solver.kernels.loop.extremes.closer_look import look_closer
+from jointplay.solver.kernels.loop.extremes.peaks import refine_peaks
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers
 from jointplay.solver.kernels.loop.step import Group, step_of
 

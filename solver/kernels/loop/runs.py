@@ -12,7 +12,7 @@ from numba import float64, from_dtype, types
 from numpy.typing import NDArray
 
 from jointplay.records.impact import IMPACT
-from jointplay.solver.kernels.loop.brackets import size_of_table
+from jointplay.solver.kernels.loop.extremes.brackets import size_of_table
 
 
 class Status(IntEnum):
@@ -68,7 +68,7 @@ class Run:
     slow: int
     """Onsets slower than the floor of their impact rate."""
     rough: int
-    """Steps that were found to be rough inside; see `solver.kernels.loop.roughness`."""
+    """Steps that were found to be rough inside; see `solver.kernels.loop.extremes.roughness`."""
     landing: int
     """Joint on whose onset the step is to end; `NO_PAIR`: none."""
     landings: int
@@ -132,7 +132,7 @@ class Buffers(NamedTuple):
     steps: NDArray[np.float64]
     """Accepted steps of the lanes that keep them, the first ones, (lanes, capacity, width)."""
     table: NDArray[np.float64]
-    """See `solver.kernels.loop.brackets`."""
+    """See `solver.kernels.loop.extremes.brackets`."""
 
     @classmethod
     def of(

@@ -25,7 +25,7 @@ class Step(NamedTuple):
     spare: np.ndarray
     """Room for instants inside this step, (slots, INSTANTS)."""
     table: np.ndarray
-    """See `solver.kernels.loop.brackets`."""
+    """See `solver.kernels.loop.extremes.brackets`."""
     call: Addresses
 
 

@@ -10,10 +10,11 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.slots import LENGTH
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.book import blank_book
-from jointplay.solver.kernels.loop.brackets import size_of_table
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
+from jointplay.solver.kernels.loop.extremes.book import blank_book
+from jointplay.solver.kernels.loop.extremes.brackets import size_of_table
+from jointplay.solver.kernels.loop.extremes.extremes_in_steps import extremes_in_steps
+from jointplay.solver.kernels.loop.extremes.seeking import SHARP
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.replay import (
     find_steps,
@@ -21,7 +22,6 @@ from jointplay.solver.kernels.loop.replay import (
     step_ends,
     works_in_steps,
 )
-from jointplay.solver.kernels.loop.seeking import SHARP
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
 

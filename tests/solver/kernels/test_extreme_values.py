@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.loop.extreme import NODES, slope_left_out
-from jointplay.solver.kernels.loop.extreme import extreme as extreme_of
+from jointplay.solver.kernels.loop.extremes.extreme import NODES, STEEPER, slope_left_out
+from jointplay.solver.kernels.loop.extremes.extreme import extreme as extreme_of
 
 SENSES = pytest.mark.parametrize("sense", [1.0, -1.0])
 ABSCISSA = np.arange(float(NODES))
@@ -16,7 +16,7 @@ ABSCISSA = np.arange(float(NODES))
 def extreme(values: NDArray[np.float64], sense: float) -> tuple[float, float, float]:
     """Return the abscissa of an extreme, its value, and the bound on what that is off."""
     so_far, best = -sense * np.inf, int(np.argmax(sense * values))
-    abscissa, value, error, _ = extreme_of(values, 0, best, sense, so_far)
+    abscissa, value, error, _ = extreme_of(values, 0, best, sense, so_far, 1.0)
     return abscissa, value, error
 
 
@@ -52,6 +52,42 @@ def test_a_corner_is_not_taken_for_sharp(
     # the corner is no farther from the best sample than its neighbours are
     missing = -sense * value
     assert missing <= max(error, 1e-12)
+
+
+@SENSES
+@given(
+    top=st.floats(1.6, 2.4),
+    ratio=st.floats(0.7, 1.4),
+    bends=st.tuples(st.floats(-0.9, 0.9), st.floats(-0.9, 0.9)),
+    spacing=st.floats(1e-6, 1e-2),
+)
+def test_a_corner_is_within_the_bound_that_shrinks_with_the_nodes(
+    sense: float, top: float, ratio: float, bends: tuple[float, float], spacing: float
+) -> None:
+    late = ABSCISSA - top
+    # slopes of 1 and the ratio, which change by as much in a fourth of the step
+    before = late + 0.5 * STEEPER * spacing * bends[0] * late**2
+    behind = -ratio * (late + 0.5 * STEEPER * spacing * bends[1] * late**2)
+    values = sense * np.where(late < 0.0, before, behind)
+    assume(np.argmax(sense * values) == 2)
+    _, value, error, _ = extreme_of(values, 0, 2, sense, -sense * np.inf, spacing)
+    assert -sense * value <= error + 1e-15
+    # the middle node is below the corner by a slope, and what lines bend by is of the second order
+    assert error <= max(1.0, ratio) * abs(top - 2.0) + 40.0 * spacing + 1e-15
+
+
+@SENSES
+@given(top=st.floats(3.05, 3.9), fall=st.floats(0.2, 5.0))
+def test_a_corner_next_to_the_last_node_is_not_taken_for_sharp(
+    sense: float, top: float, fall: float
+) -> None:
+    # lines through both pairs of nodes cross in the third node, whatever is behind it
+    late = ABSCISSA - top
+    values = sense * np.where(late < 0.0, late, -fall * late)
+    _, value, error, _ = extreme_of(
+        values, 0, int(np.argmax(sense * values)), sense, -sense * np.inf, 1e-9
+    )
+    assert -sense * value <= max(error, 1e-12)
 
 
 @SENSES

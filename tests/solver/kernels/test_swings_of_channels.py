@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.swinging import (
+from jointplay.solver.kernels.loop.extremes.swinging import (
     MUCH,
     NEARBY,
     REACH,

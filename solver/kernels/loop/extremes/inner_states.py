@@ -9,11 +9,10 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.inner_peaks import place_evenly
-from jointplay.solver.kernels.loop.looks_into_steps import look_at_suspects
-from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
+from jointplay.solver.kernels.loop.extremes.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.tops import CORNER
 from jointplay.solver.kernels.loop.step import Step, channels_within, states_within
-from jointplay.solver.kernels.loop.tops import CORNER
 from jointplay.solver.kernels.trace.rows import NO_ROW
 
 
@@ -65,4 +64,4 @@ def look_at_inner_states(s: Step) -> None:
             count += 1
     if count > 0:
         channels_within(s)
-        look_at_suspects(rows[:count], 0.0, 1.0, s)
+        seek_between(rows[:count], 0.0, 1.0, s)

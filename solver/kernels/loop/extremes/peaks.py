@@ -4,24 +4,24 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.brackets import (
-    ABSCISSA,
+from jointplay.solver.kernels.loop.extremes.brackets import (
     BRACKETS,
     CLOSER,
-    COLUMN,
-    FOUND,
-    IN_THIS,
+    MOST_ROUNDS,
     ROUNDS,
     ROW,
-    SPACING,
-    START,
     STRIDE,
+    VALUE,
+    VALUES,
 )
-from jointplay.solver.kernels.loop.extreme import NODES
-from jointplay.solver.kernels.loop.kinks_beside import look_at_kinks_beside
-from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, MOST_ROUNDS, is_done_by, seek
+from jointplay.solver.kernels.loop.extremes.extreme import NODES
+from jointplay.solver.kernels.loop.extremes.extreme_so_far import count_best, spread
+from jointplay.solver.kernels.loop.extremes.kinks_beside import look_at_kinks_beside
+from jointplay.solver.kernels.loop.extremes.narrowing import HALF
+from jointplay.solver.kernels.loop.extremes.rounding import ROUNDING, widest_range, zigzags
+from jointplay.solver.kernels.loop.extremes.seeking import FORETOLD, seek
+from jointplay.solver.kernels.loop.extremes.tops import open_brackets
 from jointplay.solver.kernels.loop.step import Step, channels_around
-from jointplay.solver.kernels.loop.tops import open_brackets
 
 ONE_OF_EIGHT = 0x0101010101010101
 BYTES = 8
@@ -33,7 +33,7 @@ def refine_peaks(s: Step, marked: np.ndarray) -> None:
     """Seek the extremes that the scan suspects around the start of this step.
 
     Candidate channels are evaluated at quarters of the step before and of this one. `marked` :
-    `work`, seen as bytes of the scan. `table` : see `solver.kernels.loop.brackets`.
+    `work`, seen as bytes of the scan. `table` : see `solver.kernels.loop.extremes.brackets`.
     """
     for i in range(INSTANTS):
         s.spare[s.at.theta, i] = (i % HALF) / HALF
@@ -43,7 +43,8 @@ def refine_peaks(s: Step, marked: np.ndarray) -> None:
     for r in rows:
         waiting = look_at_quarters(r, waiting, s)
     waiting = look_at_kinks_beside(rows, waiting, s)
-    look_at_extremes(waiting, s)
+    leave_rounding(waiting, s)
+    seek(waiting, s)
 
 
 @inner_kernel(borrows=True)
@@ -82,48 +83,15 @@ def look_at_quarters(r: int, waiting: int, s: Step) -> int:
 
 
 @inner_kernel(borrows=True)
-def look_at_extremes(waiting: int, s: Step) -> None:
-    """Evaluate the channels of brackets where their extremes seem to be, many at once.
-
-    Mostly that makes them sharp; the others are sought one after the other.
-    """
-    if look_where_foretold(waiting, s) > 0:
-        seek(waiting, s)
-
-
-@inner_kernel(borrows=True)
-def look_where_foretold(waiting: int, s: Step) -> int:
-    """Evaluate the channels of brackets where their extremes seem to be.
-
-    Returns how many are not sharp.
-    """
-    table = s.table
-    done = 0
-    while done < waiting:
-        early, late = 0, HALF
-        behind = done
-        while behind < waiting and early < HALF and late < INSTANTS:
-            w = BRACKETS + STRIDE * behind
-            column = late if table[w + IN_THIS] else early
-            early, late = (early, late + 1) if table[w + IN_THIS] else (early + 1, late)
-            share = table[w + START] + table[w + ABSCISSA] * table[w + SPACING]
-            s.spare[s.at.theta, column] = share
-            table[w + COLUMN] = column
-            behind += 1
-        channels_around(s)
-        for k in range(done, behind):
-            w = BRACKETS + STRIDE * k
-            table[w + FOUND] = s.spare[s.at.channel + int(table[w + ROW]), int(table[w + COLUMN])]
-        done = behind
-    unsharp = 0
-    for k in range(waiting):
-        w = BRACKETS + STRIDE * k
-        table[w + ROUNDS] = 0.0
-        if is_done_by(table[w + FOUND], w, s):
-            table[w + ROUNDS] = MOST_ROUNDS
-        else:
-            unsharp += 1
-    return unsharp
+def leave_rounding(waiting: int, s: Step) -> None:
+    """Let the values of brackets count as they are where a channel is nothing but rounding."""
+    table, widest = s.table, -1.0
+    for w in range(BRACKETS, BRACKETS + STRIDE * waiting, STRIDE):
+        if zigzags(table, w + VALUES, w + VALUES + NODES):
+            widest = widest_range(s) if widest < 0.0 else widest
+            if spread(int(table[w + ROW]), table[w + VALUE], s) <= ROUNDING * widest:
+                count_best(w, s)
+                table[w + ROUNDS] = MOST_ROUNDS
 
 
 @inner_kernel()

@@ -10,8 +10,9 @@ from jointplay.solver.kernels.emit.slots import AT
 from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
-from jointplay.solver.kernels.loop.bends import look_between_bends
-from jointplay.solver.kernels.loop.book import (
+from jointplay.solver.kernels.loop.extremes.bends import look_between_bends
+from jointplay.solver.kernels.loop.extremes.beside_ends import find_cornered, look_beside_ends
+from jointplay.solver.kernels.loop.extremes.book import (
     HIGHEST,
     HIGHEST_TIME,
     LOWEST,
@@ -20,17 +21,12 @@ from jointplay.solver.kernels.loop.book import (
     close_bin,
     write_bin,
 )
-from jointplay.solver.kernels.loop.inner_peaks import place_evenly
-from jointplay.solver.kernels.loop.looks_into_steps import (
-    find_cornered,
-    look_about_passages,
-    look_at_suspects,
-    look_beside_ends,
-)
-from jointplay.solver.kernels.loop.passages import passes
+from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
+from jointplay.solver.kernels.loop.extremes.look_about_passages import look_about_passages
+from jointplay.solver.kernels.loop.extremes.passages import passes
+from jointplay.solver.kernels.loop.extremes.suspects import Part, find_suspects
 from jointplay.solver.kernels.loop.runs import RUNS
 from jointplay.solver.kernels.loop.step import Group, Step, channels_within, step_of
-from jointplay.solver.kernels.loop.suspects import Part, find_suspects
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
 MOTION = 6
@@ -130,7 +126,7 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
         return
     load_extremes(chosen, book, s)
     behind = find_cornered(chosen, s, book, wanted.cornered)
-    look_at_suspects(chosen, low, high, s)
+    seek_between(chosen, low, high, s)
     if behind > 0 and high > low:
         look_beside_ends(wanted.cornered[:behind], low, high, s)
     if passing:
@@ -168,7 +164,7 @@ def extremes_in_steps(
     work, spare, runs
         As `states_in_steps` takes them.
     table
-        See `solver.kernels.loop.brackets`.
+        See `solver.kernels.loop.extremes.brackets`.
     steps : (n, width)
         Consecutive steps, as `write_step` wrote them.
     parts : (k, 2)
@@ -180,7 +176,7 @@ def extremes_in_steps(
     sharp
         Share of its range by which an extreme may be off unseen; 0: it is evaluated where it is.
     book
-        See `solver.kernels.loop.book`: of bin 0 so far, then of the last one.
+        See `solver.kernels.loop.extremes.book`: of bin 0 so far, then of the last one.
     extremes : (bins, channels, 4)
         Lowest value, its time, highest value, its time; left as it is where a bin has no part.
     """

@@ -9,12 +9,13 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS
-from jointplay.solver.kernels.loop.brackets import CLOSER
-from jointplay.solver.kernels.loop.cuts_at_bends import has_bend
-from jointplay.solver.kernels.loop.extreme import NODES
-from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, SHARP
+from jointplay.solver.kernels.loop.extremes.brackets import CLOSER
+from jointplay.solver.kernels.loop.extremes.cuts_at_bends import has_bend
+from jointplay.solver.kernels.loop.extremes.extreme import NODES
+from jointplay.solver.kernels.loop.extremes.narrowing import HALF
+from jointplay.solver.kernels.loop.extremes.seeking import FORETOLD, SHARP
+from jointplay.solver.kernels.loop.extremes.tops import open_brackets
 from jointplay.solver.kernels.loop.step import Step, channels_around
-from jointplay.solver.kernels.loop.tops import open_brackets
 
 FARTHEST = 0.25
 """Share of a step from its end beyond which quarters of the step tell of a kink."""

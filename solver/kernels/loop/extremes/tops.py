@@ -3,11 +3,13 @@
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.brackets import (
+from jointplay.solver.kernels.loop.extremes.brackets import (
     BEST,
     BRACKETS,
     CLOSER,
     IN_THIS,
+    NARROWING,
+    ROUNDS,
     ROW,
     SENSE,
     SPACING,
@@ -15,8 +17,9 @@ from jointplay.solver.kernels.loop.brackets import (
     STRIDE,
     VALUES,
 )
-from jointplay.solver.kernels.loop.extreme import NODES
-from jointplay.solver.kernels.loop.seeking import is_done
+from jointplay.solver.kernels.loop.extremes.extreme import NODES
+from jointplay.solver.kernels.loop.extremes.narrowing import FIRST
+from jointplay.solver.kernels.loop.extremes.seeking import is_done
 from jointplay.solver.kernels.loop.step import Step
 
 CORNER = 0.5
@@ -51,6 +54,7 @@ def open_brackets(
             table[w + ROW], table[w + SENSE], table[w + IN_THIS] = r, sense, step
             table[w + START], table[w + SPACING] = start + kept * spacing, spacing
             table[w + BEST] = best - kept
+            table[w + ROUNDS], table[w + NARROWING] = 0.0, FIRST
             for i in range(NODES):
                 table[w + VALUES + i] = values[kept + i]
             if not is_done(w, sharp, s):

@@ -7,16 +7,12 @@ import numpy as np
 from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.book import ROUNDING, count_value
-from jointplay.solver.kernels.loop.brackets import CLOSER
-from jointplay.solver.kernels.loop.polynomial_extreme import count_if_polynomial
-from jointplay.solver.kernels.loop.screening import JAGGED, ONE_BY_ONE, screen
+from jointplay.solver.kernels.loop.extremes.book import ROUNDING, count_value
+from jointplay.solver.kernels.loop.extremes.brackets import CLOSER
+from jointplay.solver.kernels.loop.extremes.polynomial_extreme import count_if_polynomial
+from jointplay.solver.kernels.loop.extremes.rounding import place_closely, scatter
+from jointplay.solver.kernels.loop.extremes.screening import JAGGED, ONE_BY_ONE, screen
 from jointplay.solver.kernels.loop.step import Step
-
-SHORT = 2.0**-30
-"""Share of a step in which a channel that is more than rounding hardly moves."""
-SCATTER = 8.0
-"""Times the median change of slope in such a time that rounding amounts to in a step."""
 
 
 class Part(NamedTuple):
@@ -52,22 +48,6 @@ def count_smooth(r: int, part: Part, s: Step, book: np.ndarray) -> None:
             value += 0.25 * (rise - fall) * abscissa
             time += part.spacing * abscissa
         count_value(book, r, value, time)
-
-
-@inner_kernel()
-def scatter(values: np.ndarray) -> float:
-    """Return what a channel is rounded by, from its values at instants with hardly a distance.
-
-    From the median of how much its slope changes: a jump among them is no rounding.
-    """
-    bends = np.empty(INSTANTS - 2)
-    for i in range(len(bends)):
-        bend, k = abs(values[i] - 2.0 * values[i + 1] + values[i + 2]), i
-        while k > 0 and bends[k - 1] > bend:
-            bends[k] = bends[k - 1]
-            k -= 1
-        bends[k] = bend
-    return SCATTER * bends[(len(bends) - 1) // 2]
 
 
 @inner_kernel()
@@ -113,8 +93,7 @@ def find_suspects(
             mark, r = marks >> k, first + k
             if mark >> JAGGED & 1:
                 if not looked:
-                    for i in range(INSTANTS):
-                        close[at.theta, i] = 0.5 * (part.low + part.high) + SHORT * i
+                    place_closely(0.5 * (part.low + part.high), close[at.theta])
                     functions_at(s.call).channels_within(s.work, close, s.lane)
                     looked = True
                 if is_rounding(r, s, close, book):

@@ -8,9 +8,8 @@ is smooth.
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.cuts_at_bends import MOST_INSTANTS, find_cuts, has_bend
-from jointplay.solver.kernels.loop.inner_peaks import place_evenly
-from jointplay.solver.kernels.loop.looks_into_steps import look_at_suspects
+from jointplay.solver.kernels.loop.extremes.cuts_at_bends import MOST_INSTANTS, find_cuts, has_bend
+from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
 from jointplay.solver.kernels.loop.step import Step, channels_within
 
 SWAY = 2.0
@@ -52,5 +51,5 @@ def look_between_bends(chosen: np.ndarray, low: float, high: float, s: Step) -> 
         if begin < end:
             place_evenly(begin, end, s)
             channels_within(s)
-            look_at_suspects(chosen, begin, end, s)
+            seek_between(chosen, begin, end, s)
         begin = max(begin, behind)

@@ -9,7 +9,7 @@ from numba import int64
 from numba.extending import intrinsic
 
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.book import (
+from jointplay.solver.kernels.loop.extremes.book import (
     HIGHEST,
     HIGHEST_TIME,
     LOWEST,
@@ -17,9 +17,9 @@ from jointplay.solver.kernels.loop.book import (
     RANGE,
     ROUNDING,
 )
-from jointplay.solver.kernels.loop.eights import WORD, Eights
-from jointplay.solver.kernels.loop.seeking import SHARP
-from jointplay.solver.kernels.loop.tops import CORNER
+from jointplay.solver.kernels.loop.extremes.eights import WORD, Eights
+from jointplay.solver.kernels.loop.extremes.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.tops import CORNER
 
 ULPS = 1e-15
 """Share of a value that is its own rounding."""
@@ -41,7 +41,7 @@ def _screen(
     row
         Slot of the first of eight channels.
     book : (rows, channels)
-        See `solver.kernels.loop.book`.
+        See `solver.kernels.loop.extremes.book`.
     first
         Column of the first of the eight channels there.
     begin, end

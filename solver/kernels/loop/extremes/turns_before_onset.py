@@ -5,7 +5,7 @@ channel that turns in the first, and once more where the contact begins, changes
 """
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.seeking import SHARP
 from jointplay.solver.kernels.loop.step import Step
 
 REACH = 3.0

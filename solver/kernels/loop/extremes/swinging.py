@@ -14,8 +14,8 @@ from numba.extending import intrinsic
 
 from jointplay.solver.kernels.emit.scanning import BARELY
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.eights import WORD, Eights
-from jointplay.solver.kernels.loop.seeking import HALF
+from jointplay.solver.kernels.loop.extremes.eights import WORD, Eights
+from jointplay.solver.kernels.loop.extremes.narrowing import HALF
 
 ROUGH = 0.003
 """Share of a channel's range by which it leaves its values at the ends of a rough step."""

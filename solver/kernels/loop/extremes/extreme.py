@@ -15,25 +15,31 @@ ROUGH = 0.25
 """Ratio of differences, from one order to the next but one, beyond which no quartic is trusted."""
 STEEP = 10.0
 """A slope at the end by more errors than that is no error: the function has no extreme inside."""
+BENDING = 4.0
+"""Times that a channel may leave the straight lines of a corner farther there than at a node."""
+STEEPER = 4.0
+"""Times its slope by which that may change in a step, where nodes do not tell."""
 LEFT_OUT = 4.0
 """Slope of what a quartic leaves out, by its value, if not larger."""
 BESIDE = 1e-6
 """Distance from one of the nodes at which what is left out there is nothing but rounding."""
 TINY = 1e-300
+ROUNDED = 1.5e-14
+"""Share of a value that its fourth difference is rounded by, by `ROUGH`."""
 TWELFTH = 1.0 / 12.0
 
 
 @kernel()
 def extreme(
-    table: np.ndarray, first: int, best: int, sense: float, so_far: float
+    table: np.ndarray, first: int, best: int, sense: float, so_far: float, spacing: float
 ) -> tuple[float, float, float, float]:
     """Return the extreme (sense 1: maximum, -1: minimum) of a function about one of five nodes.
 
     The values are at `first` of the table; none beside that at the node `best` is beyond it.
     Where the extreme is, in spacings from the first node; its value; a bound on the value's error;
     and the second difference there. A sample that nothing surpasses is as it is, and the bound then
-    tells how far the function may go beyond it. What does not come near that `so_far` is not
-    looked for.
+    tells how far the function may go beyond it; so it is of a `corner`. What does not come near
+    that `so_far` is not looked for. `spacing` : of the nodes, as a share of the step.
     """
     middle = table[first + MIDDLE]
     odd = table[first + 3] - table[first + 1]
@@ -45,7 +51,8 @@ def extreme(
     twist, curl = (far_odd - 2.0 * odd) * TWELFTH, (0.5 * far_even - 2.0 * even) * TWELFTH
     # the ratio of a difference to the next but one, from whichever two are not small by chance
     second, third, fourth = 2.0 * abs(bend) + TINY, abs(6.0 * twist), abs(24.0 * curl)
-    shrinking = max(fourth / (second + third), third / (second + abs(slope)))
+    rounded = ROUNDED * abs(middle)
+    shrinking = max(fourth / (second + third + rounded), third / (second + abs(slope) + rounded))
     error = DOUBT * (second + third) * shrinking * np.sqrt(shrinking)
     sample, abscissa = table[first + best], float(best - MIDDLE)
     if shrinking > ROUGH:  # maybe a corner: it goes on as steeply as to either side at most
@@ -62,6 +69,11 @@ def extreme(
     if not sense * sample + second + error > sense * so_far:
         return float(best), sample, error, second
     low, high = max(best - 1, 0) - MIDDLE, min(best + 1, LAST) - MIDDLE
+    if shrinking > ROUGH:
+        if best == MIDDLE:
+            abscissa, off = corner(table, first, spacing)
+            error, abscissa = min(error, off), min(max(abscissa, low), high)
+        return abscissa + MIDDLE, sample, error, second
     for _ in range(MOST_ITERATIONS):
         rate = slope + abscissa * (2.0 * bend + abscissa * (3.0 * twist + abscissa * 4.0 * curl))
         bent = 2.0 * bend + abscissa * (6.0 * twist + abscissa * 12.0 * curl)
@@ -75,6 +87,25 @@ def extreme(
     if abs(abscissa) == MIDDLE:
         value = sample
     return abscissa + MIDDLE, value, error, abs(bent)
+
+
+@inner_kernel()
+def corner(table: np.ndarray, first: int, spacing: float) -> tuple[float, float]:
+    """Return where a function of five nodes has a corner next to the middle one, from there on.
+
+    That is where straight lines through the two nodes at either end cross. Also how far it may be
+    beyond the value in the middle: what it bends by shows there on one side, and on the other it is
+    taken to bend by its slope in a part of a step.
+    """
+    middle, last = table[first + MIDDLE], table[first + LAST]
+    rise, fall = table[first + 1] - table[first], table[first + 3] - last
+    if not rise * fall > 0.0:
+        return 0.0, np.inf
+    crossing = (last - table[first] + LAST * fall) / (rise + fall)
+    beyond = abs(table[first] + crossing * rise - middle)
+    off = min(abs(middle - rise - table[first + 1]), abs(middle - fall - table[first + 3]))
+    steeper = STEEPER * spacing * max(abs(rise), abs(fall))
+    return crossing - MIDDLE, beyond + BENDING * off + steeper
 
 
 @kernel()

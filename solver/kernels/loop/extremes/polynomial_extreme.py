@@ -6,10 +6,10 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.book import HIGHEST, LOWEST, RANGE, count_value
-from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.book import HIGHEST, LOWEST, RANGE, count_value
+from jointplay.solver.kernels.loop.extremes.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.tops import CORNER
 from jointplay.solver.kernels.loop.step import Step
-from jointplay.solver.kernels.loop.tops import CORNER
 
 LAST = INSTANTS - 1
 MIDDLE = 0.5 * LAST

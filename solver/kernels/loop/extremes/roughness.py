@@ -12,8 +12,8 @@ import numpy as np
 from jointplay.solver.kernels.emit.closer_looks import EVERY
 from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.step import Step
-from jointplay.solver.kernels.loop.swinging import (
+from jointplay.solver.kernels.loop.extremes.rounding import ROUNDING
+from jointplay.solver.kernels.loop.extremes.swinging import (
     GROWTH,
     NEARBY,
     SEEN,
@@ -21,9 +21,7 @@ from jointplay.solver.kernels.loop.swinging import (
     WIDELY,
     weigh_swings,
 )
-
-ROUNDING = 1e-13
-"""Share of the largest range of all channels that a range of nothing but rounding is below."""
+from jointplay.solver.kernels.loop.step import Step
 
 
 @inner_kernel(borrows=True)

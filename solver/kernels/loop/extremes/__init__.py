@@ -1,0 +1,1 @@
+"""Extremes of channels, sought inside the steps: see README.md."""

@@ -1,0 +1,69 @@
+"""What channels are rounded by: how they scatter from one instant to the next, hardly later.
+
+A force that nothing carries is a difference of large numbers: it turns at every instant, and looks
+inside a step find another extreme wherever they look.
+"""
+
+import numpy as np
+
+from jointplay.solver.kernels.jit import inner_kernel
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.step import Step
+
+SHORT = 2.0**-30
+"""Share of a step in which a channel that is more than rounding hardly moves."""
+SCATTER = 8.0
+"""Times the median change of slope in such a time that rounding amounts to in a step."""
+ROUNDING = 1e-13
+"""Share of the largest range of all channels that a range of nothing but rounding is below."""
+
+
+@inner_kernel()
+def scatter(values: np.ndarray) -> float:
+    """Return what a channel is rounded by, from its values at instants with hardly a distance.
+
+    From the median of how much its slope changes: a jump among them is no rounding.
+    """
+    bends = np.empty(INSTANTS - 2)
+    for i in range(len(bends)):
+        bend, k = abs(values[i] - 2.0 * values[i + 1] + values[i + 2]), i
+        while k > 0 and bends[k - 1] > bend:
+            bends[k] = bends[k - 1]
+            k -= 1
+        bends[k] = bend
+    return SCATTER * bends[(len(bends) - 1) // 2]
+
+
+@inner_kernel()
+def place_closely(share: float, theta: np.ndarray) -> None:
+    """Place eight instants with hardly a distance from a share of a step on."""
+    for i in range(INSTANTS):
+        theta[i] = share + SHORT * i
+
+
+@inner_kernel()
+def spread_of(values: np.ndarray, first: int, behind: int) -> float:
+    """Return by how much the values from `first` on differ."""
+    least = most = values[first]
+    for i in range(first + 1, behind):
+        least, most = min(least, values[i]), max(most, values[i])
+    return float(most - least)
+
+
+@inner_kernel()
+def zigzags(values: np.ndarray, first: int, behind: int) -> bool:
+    """Whether values turn by more than they differ: a corner does not, nor does a jump."""
+    bend = 0.0
+    for i in range(first + 2, behind):
+        bend = max(bend, abs(values[i - 2] - 2.0 * values[i - 1] + values[i]))
+    return bool(bend > spread_of(values, first, behind))
+
+
+@inner_kernel()
+def widest_range(s: Step) -> float:
+    """Return the largest range up to now of all channels, each in its unit."""
+    lane, at, work = s.lane, s.at, s.work
+    widest = 0.0
+    for r in range(at.rows):
+        widest = max(widest, work[at.highest + r, lane] - work[at.lowest + r, lane])
+    return widest
