@@ -26,6 +26,7 @@ ALL = (
     "special_curves",
     "branches",
     "known_orbits",
+    "microactuator",
     "limit_cycles",
     "pitchfork",
     "random_orbits",

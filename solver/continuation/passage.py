@@ -58,9 +58,10 @@ class Linear:
 
     passage: Passage
     residual: Floats
-    """(size,) the end less the start; 0 for a pair whose contact lasts throughout."""
+    """(size,) the end less the start; 0 for a pair whose contact lasts throughout, and along cyclic
+    coordinates."""
     jacobian: Floats
-    """(size, size) of the end by the start; no row for a pair whose contact lasts throughout."""
+    """(size, size) of the end by the start; no row for these."""
     sensitivity: Floats
     """(size, 1) of the end by the parameter; of a second one there is another column."""
     alike: bool

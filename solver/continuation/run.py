@@ -12,6 +12,7 @@ from jointplay.records.checkpoint import decode, encode
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.solver.continuation.branch import Row, Way, follow
 from jointplay.solver.continuation.crossing import Crossing
+from jointplay.solver.continuation.cyclic import with_cyclic
 from jointplay.solver.continuation.doubling import behind_doubling
 from jointplay.solver.continuation.orbit import Orbit
 from jointplay.solver.continuation.passage import Section
@@ -182,8 +183,10 @@ class ContinuationRun:
         state = study.job["state"]
         given = None if state is None else np.array(state, np.float64)
         settled = settle(map_, study.start, given, study.job["settle"])
+        section = Section(study.start, settled.state)
         curve = scaled(map_, study.start, settled)
-        orbit = first_orbit(curve, Section(study.start, settled.state))
+        curve = replace(curve, map=with_cyclic(curve.sections, section))
+        orbit = first_orbit(curve, section)
         ways = _ways(orbit, study.start, reach)
         return ways if study.job["values"]["from"] == reach.low else ways[::-1]
 

@@ -84,6 +84,8 @@ class SectionMap:
     """Makes sections; none: they are at crank angle 0."""
     angles: tuple[int, ...] = ()
     """States that are back after a whole turn."""
+    cyclic: tuple[int, ...] = ()
+    """States, coordinates, on which nothing depends: they are back wherever they are."""
 
     @property
     def size(self) -> int:
@@ -111,9 +113,13 @@ class SectionMap:
         return common_period(scene).seconds or math.nan
 
     def away(self, passage: Passage, section: Section) -> Floats:
-        """Return (size,) how far the end of a run is from its start, without whole turns."""
+        """Return (size,) how far the end of a run is from its start.
+
+        Without whole turns, and along cyclic coordinates not at all.
+        """
         found, angles = passage.end - section.state, list(self.angles)
         found[angles] -= TURN * np.round(found[angles] / TURN)
+        found[list(self.cyclic)] = 0.0
         return found
 
     def numbers_at(self, row: Floats) -> Floats:
@@ -186,8 +192,9 @@ class SectionMap:
         residual, states = self.away(base, section), self.kernel.states
         touching = section.state[states:] > 0.0
         lasting = states + np.flatnonzero(touching & (residual[states:] == 0.0))
-        jacobian[lasting] = 0.0
-        sensitivity[lasting] = 0.0
+        kept = [*lasting.tolist(), *self.cyclic]
+        jacobian[kept] = 0.0
+        sensitivity[kept] = 0.0
         alike = all(one.onsets == base.onsets for one in others)
         return Linear(base, residual, jacobian, sensitivity, alike, jacobian, nearing)
 

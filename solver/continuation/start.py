@@ -85,6 +85,7 @@ def _within_a_turn(orbit: Orbit) -> Orbit:
     curve, map_, section = orbit.curve, orbit.curve.sections, orbit.section
     passage = orbit.linear.passage
     ahead = passage.end - section.state - map_.away(passage, section)
+    ahead[list(map_.cyclic)] = 0.0
     if not ahead.any():
         return orbit
     back = np.where(ahead == 0.0, 0.0, TURN * np.round(section.state / TURN))
