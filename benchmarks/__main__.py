@@ -30,6 +30,7 @@ ALL = (
     "limit_cycles",
     "pitchfork",
     "random_orbits",
+    "continuation_cost",
     "device",
     "joined",
     "bucket",
