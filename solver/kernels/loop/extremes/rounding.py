@@ -1,4 +1,4 @@
-"""What channels are rounded by: how they scatter from one instant to the next, hardly later.
+"""Rounding of channels: they scatter from one instant to the next, hardly later.
 
 A force that nothing carries is a difference of large numbers: it turns at every instant, and looks
 inside a step find another extreme wherever they look.
