@@ -37,7 +37,7 @@ def extreme(
 
     The values are at `first` of the table; none beside that at the node `best` is beyond it.
     Where the extreme is, in spacings from the first node; its value; a bound on the value's error;
-    and the second difference there. A sample that nothing surpasses is as it is, and the bound then
+    and the second difference there, 0 at what may be a corner. A sample that nothing surpasses is as it is, and the bound then
     tells how far the function may go beyond it; so it is of a `corner`. What does not come near
     that `so_far` is not looked for. `spacing` : of the nodes, as a share of the step.
     """
@@ -73,7 +73,7 @@ def extreme(
         if best == MIDDLE:
             abscissa, off = corner(table, first, spacing)
             error, abscissa = min(error, off), min(max(abscissa, low), high)
-        return abscissa + MIDDLE, sample, error, second
+        return abscissa + MIDDLE, sample, error, 0.0  # a value there tells no slope
     for _ in range(MOST_ITERATIONS):
         rate = slope + abscissa * (2.0 * bend + abscissa * (3.0 * twist + abscissa * 4.0 * curl))
         bent = 2.0 * bend + abscissa * (6.0 * twist + abscissa * 12.0 * curl)
