@@ -64,6 +64,6 @@ def widest_range(s: Step) -> float:
     """Return the largest range up to now of all channels, each in its unit."""
     lane, at, work = s.lane, s.at, s.work
     widest = 0.0
-    for r in range(at.rows):
+    for r in range(at.contact_row):  # behind are those of single contacts
         widest = max(widest, work[at.highest + r, lane] - work[at.lowest + r, lane])
     return widest
