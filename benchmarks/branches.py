@@ -146,7 +146,7 @@ def report(name: str) -> None:
     assert isinstance(study, ContinuationStudy)
     bare = section_map(study)
     value, unstable = branch.column("value"), branch.column("unstable")
-    settled = Settled(np.zeros(0), np.full(bare.kernel.states, np.inf), np.inf)
+    settled = Settled(np.zeros(0), np.full(bare.kernel.states, np.inf), np.inf, np.inf)
     map_ = scaled(bare, float(value[0]), settled).map
     count = len(value)
     ordinary = count - sum(one.label in ("LP", "PD", "NS", "BP", "GR") for one in branch.special)

@@ -13,6 +13,7 @@ import numpy as np
 from jointplay.records import pyramid
 from jointplay.records.coarse_to_fine import TILE, coarse_to_fine, over_axes
 from jointplay.service.charts import colouring
+from jointplay.service.charts.grids import colours_of
 from jointplay.solver.kinds import Study, admit, parse
 from jointplay.solver.runs.study.run import StudyRun
 
@@ -87,7 +88,7 @@ def tiles(side: int) -> None:
     made = time.process_time() - begun
     begun = time.process_time()
     for _ in range(TILES):
-        colouring.picture_of_labels(level[:TILE, :TILE])
+        colouring.picture_of_labels(level[:TILE, :TILE], colours_of("attractor"))
     one = (time.process_time() - begun) / TILES
     print(
         f"{side}^2 points: a level of labels {1e3 * made:6.0f} ms, a tile of it {1e3 * one:5.1f} ms"

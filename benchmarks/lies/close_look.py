@@ -7,7 +7,6 @@ from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES
-from jointplay.solver.runs import stiff_method
 from jointplay.solver.runs.admission import Admission
 
 PIECE = 1000
@@ -19,7 +18,7 @@ def close_look(
 ) -> NDArray[np.float64]:
     """Compute a run again and return channels at instants from `first` on, (count, channels).
 
-    method : what the run was computed with; which instants are handed out changes nothing else.
+    method : what the whole run was computed with; which instants are handed out changes nothing.
     """
     job, index = admission.job, int(first / spacing)
     problem = LaneProblem(
@@ -33,8 +32,6 @@ def close_look(
         step=job["step"],
         first_sample=index,
     )
-    if method != admission.method:
-        problem = stiff_method.tightened(problem)
     kernel = ready_kernel(problem.scene, job["formulation"], method)
     bundle = Bundle(kernel, [problem], watch=False)
     columns = np.array([kernel.rows.index(c.name) for c in admission.channels], dtype=np.int64)
