@@ -37,9 +37,10 @@ def extreme(
 
     The values are at `first` of the table; none beside that at the node `best` is beyond it.
     Where the extreme is, in spacings from the first node; its value; a bound on the value's error;
-    and the second difference there, 0 at what may be a corner. A sample that nothing surpasses is as it is, and the bound then
-    tells how far the function may go beyond it; so it is of a `corner`. What does not come near
-    that `so_far` is not looked for. `spacing` : of the nodes, as a share of the step.
+    and the second difference there, 0 at what may be a corner. A sample that nothing surpasses is
+    as it is, and the bound then tells how far the function may go beyond it; so it is of a
+    `corner`. What does not come near that `so_far` is not looked for. `spacing` : of the nodes, as
+    a share of the step.
     """
     middle = table[first + MIDDLE]
     odd = table[first + 3] - table[first + 1]
