@@ -44,7 +44,7 @@ CALLS = {
             "scan_some": 0.643,
             "foresee_bends": 0.809,
             "channels_within": 0.518,
-            "channels_around": 3.14,  # rounding of forces that nothing carries is not followed
+            "channels_around": 3.344,  # rounding of forces that nothing carries is not followed
         },
         "crossings": {"scan_some": 0.646, "channels_within": 0.24},
     },

@@ -4,7 +4,7 @@ A bracket is a channel, a sense, five equally spaced nodes of the step before or
 values there, and where the extreme is by them (`solver.kernels.loop.extremes.extreme`).
 """
 
-STRIDE = 22
+STRIDE = 20
 """From a bracket of a table to the next."""
 ROW, SENSE, IN_THIS, START, SPACING, VALUES = 0, 1, 2, 3, 4, 5
 """Columns of a bracket: channel, sense, 1 in this step and 0 in the one before, first node and
@@ -16,14 +16,14 @@ COLUMN, FOUND = 14, 15
 ROUNDS = 16
 """Number of looks at a bracket; `MOST_ROUNDS`: nothing is left to do."""
 MOST_ROUNDS = 18
-"""Two of three narrow a bracket to a third at least."""
+"""Two looks of three narrow a bracket to a third at least."""
 BEST = 17
 """Node about which the extreme is sought: no value beside it is beyond its own."""
 AT_END = 18
 """1 while nobody looked next to a best value at an end of the step."""
 NARROWING = 19
-"""Share of a bracket's spacing to which a look where the extreme is foretold narrows it next; 0: it
-was not there."""
+"""Share of a bracket's spacing to which a look where the extreme is foretold narrows it next; 0
+after such a look missed it."""
 CLOSER, BRACKETS = 0, STRIDE
 """Where a table has the values of a closer look, and its brackets from."""
 MOST = 20

@@ -3,7 +3,7 @@
 A look has four instants that are not known yet. Where the extreme is foretold between two nodes,
 they are close to there: if it is among them, the bracket is narrowed to a twelfth, and to the
 square of that share by the next look, for what a foretelling errs by falls so. If it is not, they
-divide the nodes beside the best one evenly.
+divide the part between the nodes beside the best one evenly.
 """
 
 import numpy as np
@@ -14,6 +14,7 @@ from jointplay.solver.kernels.loop.extremes.brackets import (
     BEST,
     CLOSER,
     IN_THIS,
+    MOST_ROUNDS,
     NARROWING,
     ROUNDS,
     ROW,
@@ -29,17 +30,18 @@ from jointplay.solver.kernels.loop.step import Step
 
 HALF = 4
 """Instants of a look: as many as `channels_around` takes in each of two steps."""
-FORETOLD, FIFTHS, THIRDS = 4, 5, 6
+AROUND, FIFTHS, THIRDS = 4, 5, 6
 """Parts of a look: about where the extreme is foretold; between the best node, an end of the
 bracket, and the one beside it; between the two beside it."""
 FIRST = 1.0 / 12.0
 """Share of the spacing to which the first look where it is foretold narrows a bracket."""
 WIDEST = 0.25
-"""The most of the spacing: four of it reach the next node."""
+"""Largest such share: the last of its nodes is the next one of the bracket."""
 AGAIN = 3
-"""Rounds from one look where it is foretold to the next, where it was not."""
+"""A look where it is foretold is tried again behind rounds that are multiples of this."""
 STILL = 0.5
-"""Share of their spread in the bracket by which rounding differs in a narrow look."""
+"""Values of a narrow look that differ by more than this share of what those of its bracket do are
+rounding, if they zigzag."""
 
 
 @inner_kernel()
@@ -62,13 +64,13 @@ def closer(w: int, table: np.ndarray) -> tuple[float, float, int, int]:
     else:
         known = 0 if ahead > 0.0 else LAST
         share = min(0.5 * abs(ahead), WIDEST)
-    return start + (best - known * share) * spacing, share * spacing, FORETOLD, known
+    return start + (best - known * share) * spacing, share * spacing, AROUND, known
 
 
 @inner_kernel()
 def is_known(k: int, parts: int, known: int) -> bool:
     """Whether a look has the value at a node already."""
-    if parts == FORETOLD:
+    if parts == AROUND:
         return k == known
     return k in (0, parts) or 2 * k == THIRDS == parts
 
@@ -92,7 +94,7 @@ def read_look(w: int, parts: int, known: int, s: Step) -> None:
         if not is_known(k, parts, known):
             table[CLOSER + k] = s.spare[row, column]
             column += 1
-        elif parts == FORETOLD:
+        elif parts == AROUND:
             table[CLOSER + k] = table[w + VALUES + best]
         else:
             behind = k // 3 if parts == THIRDS else k // FIFTHS
@@ -100,8 +102,8 @@ def read_look(w: int, parts: int, known: int, s: Step) -> None:
 
 
 @inner_kernel()
-def is_rounding(w: int, parts: int, table: np.ndarray) -> bool:
-    """Whether a look, of a fourth of a bracket at most, turns at every node and differs as that."""
+def shows_rounding(w: int, parts: int, table: np.ndarray) -> bool:
+    """Whether a look at a part of a bracket turns twice, and differs by as much as the whole."""
     behind = CLOSER + parts + 1
     before = spread_of(table, w + VALUES, w + VALUES + NODES)
     narrow = parts != THIRDS and zigzags(table, CLOSER, behind)
@@ -112,21 +114,24 @@ def is_rounding(w: int, parts: int, table: np.ndarray) -> bool:
 def narrow(w: int, start: float, spacing: float, parts: int, known: int, s: Step) -> bool:
     """Narrow a bracket to five nodes about the best one of a look, or leave it if it is outside.
 
-    Returns whether the values are nothing but rounding.
+    Returns whether there is nothing new to judge: it was left, or is nothing but rounding, and
+    then it is done.
     """
     table = s.table
     read_look(w, parts, known, s)
-    rounding = is_rounding(w, parts, table)
+    rounding = shows_rounding(w, parts, table)
     best = highest(table, CLOSER, CLOSER + parts + 1, table[w + SENSE]) - CLOSER
     table[w + ROUNDS] += 1.0
-    if parts == FORETOLD:
+    if parts == AROUND:
         share = spacing / table[w + SPACING]
         table[w + NARROWING] = share * share
         if best in (0, LAST):
             table[w + NARROWING] = 0.0
             abscissa = (start + best * spacing - table[w + START]) / table[w + SPACING]
             count(w, abscissa, table[CLOSER + best], s)
-            return rounding
+            if rounding:
+                table[w + ROUNDS] = MOST_ROUNDS
+            return True
     elif table[w + NARROWING] == 0.0 and table[w + ROUNDS] % AGAIN == 0.0:
         table[w + NARROWING] = FIRST
     kept = min(max(best - NODES // 2, 0), parts + 1 - NODES)
@@ -134,4 +139,6 @@ def narrow(w: int, start: float, spacing: float, parts: int, known: int, s: Step
         table[w + VALUES + i] = table[CLOSER + kept + i]
     table[w + BEST] = best - kept
     table[w + START], table[w + SPACING] = start + kept * spacing, spacing
+    if rounding:
+        table[w + ROUNDS] = MOST_ROUNDS
     return rounding

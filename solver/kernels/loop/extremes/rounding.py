@@ -14,6 +14,10 @@ SHORT = 2.0**-30
 """Share of a step in which a channel that is more than rounding hardly moves."""
 SCATTER = 8.0
 """Times the median change of slope in such a time that rounding amounts to in a step."""
+LARGE = 0.25
+"""Share of what values differ by from which on a change is one that counts."""
+ENOUGH = 2
+"""Turns between such changes that rounding makes."""
 ROUNDING = 1e-13
 """Share of the largest range of all channels that a range of nothing but rounding is below."""
 
@@ -52,11 +56,17 @@ def spread_of(values: np.ndarray, first: int, behind: int) -> float:
 
 @inner_kernel()
 def zigzags(values: np.ndarray, first: int, behind: int) -> bool:
-    """Whether values turn by more than they differ: a corner does not, nor does a jump."""
-    bend = 0.0
-    for i in range(first + 2, behind):
-        bend = max(bend, abs(values[i - 2] - 2.0 * values[i - 1] + values[i]))
-    return bool(bend > spread_of(values, first, behind))
+    """Whether values turn twice, each time by more than a part of what they differ by.
+
+    A corner or a narrow peak turns once, and a jump does not turn.
+    """
+    least, turns, before = LARGE * spread_of(values, first, behind), 0, 0.0
+    for i in range(first + 1, behind):
+        change = values[i] - values[i - 1]
+        if abs(change) > least:
+            turns += int(change * before < 0.0)
+            before = change
+    return turns >= ENOUGH
 
 
 @inner_kernel()

@@ -65,7 +65,7 @@ def is_done(w: int, sharp: float, s: Step) -> bool:
     table[w + BENT] = bent
     if error > max(sharp * spread(r, value, s), ULP * abs(value)):
         return False
-    count(w, abscissa, value, s)
+    count(w, table[w + BEST] if bent == 0.0 else abscissa, value, s)
     return True
 
 
@@ -138,7 +138,7 @@ def look_where_foretold(waiting: int, s: Step) -> int:
 
 @inner_kernel()
 def narrow_all(waiting: int, s: Step) -> None:
-    """Narrow brackets that are not done, the first ones of either step together with their like.
+    """Narrow brackets that are not done, each together with those of its step that have its nodes.
 
     Many channels have a kink where a law has one: those of the same nodes are narrowed at once.
     """
@@ -156,8 +156,9 @@ def narrow_all(waiting: int, s: Step) -> None:
                 if not has_turn or table[v + ROUNDS] == MOST_ROUNDS or table[v + IN_THIS] != step:
                     continue
                 if v == w or look == closer(v, table):
-                    rounding = narrow(v, *look, s)
-                    if rounding or is_done(v, FORETOLD, s) or rests_at_end(v, table):
+                    if narrow(v, *look, s):
+                        pass  # its nodes were judged before
+                    elif is_done(v, FORETOLD, s) or rests_at_end(v, table):
                         table[v + ROUNDS] = MOST_ROUNDS
                     if table[v + ROUNDS] >= MOST_ROUNDS:
                         count_best(v, s)

@@ -22,6 +22,7 @@ from jointplay.solver.kernels.loop.extremes.brackets import (
     VALUES,
 )
 from jointplay.solver.kernels.loop.extremes.extreme import LAST
+from jointplay.solver.kernels.loop.extremes.extreme_so_far import count
 from jointplay.solver.kernels.loop.extremes.narrowing import HALF
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
@@ -35,8 +36,8 @@ SAME = 1e-9
 def is_at_end(w: int, table: np.ndarray) -> bool:
     """Whether a bracket's best value is at an end of its step."""
     share = table[w + START] + table[w + BEST] * table[w + SPACING]
-    at_end = table[w + BEST] == 0.0 or table[w + BEST] == LAST
-    return bool(at_end and not SAME < share < 1.0 - SAME)
+    at_begin = table[w + BEST] == 0.0 and share <= SAME
+    return bool(at_begin or (table[w + BEST] == LAST and share >= 1.0 - SAME))
 
 
 @inner_kernel()
@@ -91,6 +92,8 @@ def rests(w: int, s: Step) -> bool:
     before = table[w + VALUES + best]
     for i in range(HALF):
         value = s.spare[s.at.channel + r, column + i]
+        away = DISTANCES[i] if best == 0 else -DISTANCES[i]
+        count(w, best + away, value, s)
         if sense * value > sense * before:
             return False
         before = value
