@@ -114,8 +114,7 @@ def shows_rounding(w: int, parts: int, table: np.ndarray) -> bool:
 def narrow(w: int, start: float, spacing: float, parts: int, known: int, s: Step) -> bool:
     """Narrow a bracket to five nodes about the best one of a look, or leave it if it is outside.
 
-    Returns whether there is nothing new to judge: it was left, or is nothing but rounding, and
-    then it is done.
+    Returns whether it has new nodes to be judged. If it is nothing but rounding, it is done.
     """
     table = s.table
     read_look(w, parts, known, s)
@@ -131,7 +130,7 @@ def narrow(w: int, start: float, spacing: float, parts: int, known: int, s: Step
             count(w, abscissa, table[CLOSER + best], s)
             if rounding:
                 table[w + ROUNDS] = MOST_ROUNDS
-            return True
+            return False
     elif table[w + NARROWING] == 0.0 and table[w + ROUNDS] % AGAIN == 0.0:
         table[w + NARROWING] = FIRST
     kept = min(max(best - NODES // 2, 0), parts + 1 - NODES)
@@ -141,4 +140,4 @@ def narrow(w: int, start: float, spacing: float, parts: int, known: int, s: Step
     table[w + START], table[w + SPACING] = start + kept * spacing, spacing
     if rounding:
         table[w + ROUNDS] = MOST_ROUNDS
-    return rounding
+    return not rounding

@@ -156,9 +156,8 @@ def narrow_all(waiting: int, s: Step) -> None:
                 if not has_turn or table[v + ROUNDS] == MOST_ROUNDS or table[v + IN_THIS] != step:
                     continue
                 if v == w or look == closer(v, table):
-                    if narrow(v, *look, s):
-                        pass  # its nodes were judged before
-                    elif is_done(v, FORETOLD, s) or rests_at_end(v, table):
+                    has_new_nodes = narrow(v, *look, s)
+                    if has_new_nodes and (is_done(v, FORETOLD, s) or rests_at_end(v, table)):
                         table[v + ROUNDS] = MOST_ROUNDS
                     if table[v + ROUNDS] >= MOST_ROUNDS:
                         count_best(v, s)
