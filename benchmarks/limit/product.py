@@ -12,12 +12,11 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any
 
-from jointplay.solver.integrators import METHODS
-from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kinds import admit
-from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.version import SOLVER_VERSION
 
 BUNDLE = 8
@@ -59,11 +58,12 @@ class Case:
             LaneProblem(s, duration, self.tolerance, duration, 0, 0, 0.0, **less) for s in scenes
         ]
 
-    def kernel(self) -> Kernel:
-        """Return the compiled kernel of all runs."""
+    def kernel(self, *, alone: bool = False) -> Kernel:
+        """Return the compiled kernel of all runs; `alone`: as for a run that has none beside it."""
         [problem, *_] = self.problems(len(self.parameters))
-        method = METHODS["tsitouras"]
-        return compile_kernel(problem.scene, spanning_tree(problem.scene), "reduced", method)
+        if alone and "alone" in (ready_kernel.__kwdefaults__ or {}):
+            return ready_kernel(problem.scene, "reduced", "tsitouras", alone=True)
+        return ready_kernel(problem.scene, "reduced", "tsitouras")
 
 
 @dataclass(frozen=True)
@@ -129,8 +129,9 @@ def steady(case: Case, kernel: Kernel, *, exponents: bool = False, **options: An
     return measure
 
 
-def alone(case: Case, kernel: Kernel, **options: Any) -> Way:
+def alone(case: Case, _kernel: Kernel, **options: Any) -> Way:
     """Return the first periods of eight runs, one after the other."""
+    kernel = case.kernel(alone=True)
     problems = case.problems(len(case.parameters) // BUNDLE)
 
     def measure() -> Measured:

@@ -3,20 +3,23 @@
 from jointplay.solver.integrators import AUTO, METHODS
 from jointplay.solver.kernels import compile_loop
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
+from jointplay.solver.kernels.target import ALONE, own_target
 from jointplay.solver.kernels.watched import attend
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.mechanics.view import form
 from jointplay.solver.scene.document import Scene
 
-_kernels: dict[tuple[str, Tree, str, str], Kernel] = {}
+_kernels: dict[tuple[str, Tree, str, str, int], Kernel] = {}
 MOST_KEPT = 16
 """Kernels that a process keeps for the next job: tracing the equations takes 20 ms and more."""
 
 
-def ready_kernel(scene: Scene, formulation: str, method: str = AUTO.name) -> Kernel:
+def ready_kernel(
+    scene: Scene, formulation: str, method: str = AUTO.name, *, alone: bool = False
+) -> Kernel:
     """Return the kernel of a scene's structure, the loop ready, too; seconds when not cached.
 
-    `method` : a name of `solver.integrators.METHODS`.
+    `method` : a name of `solver.integrators.METHODS`. `alone` : for a run without others beside it.
 
     Raises
     ------
@@ -26,13 +29,14 @@ def ready_kernel(scene: Scene, formulation: str, method: str = AUTO.name) -> Ker
         Somebody watched the compilation, and it took too long or was not wanted any more.
     """
     tree = spanning_tree(scene)
-    key = (form(scene), tree, formulation, method)
+    lanes = min(own_target().lanes, ALONE) if alone else own_target().lanes
+    key = (form(scene), tree, formulation, method, lanes)
     if key in _kernels:
         return _kernels[key]
     aside = compile_loop.begin(compile_loop.RUNS)
     while len(_kernels) >= MOST_KEPT:
         _kernels.pop(next(iter(_kernels)))
-    kernel = _kernels[key] = compile_kernel(scene, tree, formulation, METHODS[method])
+    kernel = _kernels[key] = compile_kernel(scene, tree, formulation, METHODS[method], lanes)
     if aside is not None:
         attend(aside)
     return kernel

@@ -1,6 +1,7 @@
 """The processor that kernels are compiled for, and the number of lanes that they advance at once.
 
-Neither changes a result, only how fast one comes. Every lane computes what it would compute alone:
+Neither changes a result, only how fast one comes: `own_target` suits runs side by side, and `ALONE`
+lanes are the most for a run by itself. Every lane computes what it would compute alone:
 a bundle has eight lanes at any width, and instants inside a step are looked at by eights. Every
 sum is rounded as it is written; see `solver.kernels.emit.lane_arithmetic`.
 """
@@ -24,6 +25,9 @@ from jointplay.records.failure import InvalidInput
 
 WIDTHS: Final = {"1": 1, "4": 4, "8": 8}
 """For single numbers, and for vectors of 256 and of 512 bits."""
+ALONE = 4
+"""Most lanes of a kernel whose runs have none beside them. Vectors of 512 bits would be 1.5 times
+slower there: a run waits for each result, and divisions of eight numbers take twice as long."""
 CODE_LEVEL = 3
 """Level of optimisation of what generates code: the choice of instructions and registers."""
 PROBE = """

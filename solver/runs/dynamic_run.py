@@ -7,7 +7,6 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.records.checkpoint import decode, encode
-from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.hand_over import handed_over
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
@@ -28,6 +27,7 @@ from jointplay.solver.runs.lane_results import (
     statistics_of,
 )
 from jointplay.solver.runs.results import Slice, Summary
+from jointplay.solver.runs.run_kernel import run_kernel
 from jointplay.solver.runs.sampled_extremes import SampledExtremes
 from jointplay.solver.runs.settled_peaks import SettledPeaks
 from jointplay.solver.version import SOLVER_VERSION
@@ -66,7 +66,7 @@ class DynamicRun:
         """Begin with a method."""
         formulation = self.admission.job["formulation"]
         problem = stiff_method.problem_for(self.problem, method, self.admission)
-        kernel = ready_kernel(problem.scene, formulation, method)
+        kernel = run_kernel(self.admission, method)
         bundle = Bundle(kernel, [problem], keep_steps=1)
         certified = self.admission.job["certificate"]
         survey = Survey(bundle, problem, formulation) if certified else None
@@ -116,7 +116,7 @@ class DynamicRun:
             return
         before = stiff_method.problem_for(self.problem, self.kernel.tableau.name, self.admission)
         problem = stiff_method.problem_for(self.problem, method, self.admission)
-        kernel = ready_kernel(problem.scene, self.admission.job["formulation"], method)
+        kernel = run_kernel(self.admission, method)
         sharper = before.tolerance / problem.tolerance
         bundle = handed_over(self.bundle, kernel, problem, sharper)
         for part in (self.intervals, self.settled):

@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.integrators import AUTO, STIFF
-from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.admission import Admission
+from jointplay.solver.runs.run_kernel import run_kernel
 from jointplay.solver.runs.stiffness import fastest_rate
 
 EXPLICIT, IMPLICIT = AUTO.name, STIFF.name
@@ -124,7 +124,7 @@ class Trial:
         other, attempts = self.other, LOOK[self.method]
         most = attempts // FEWER if other == IMPLICIT else attempts * WORTH
         problem = problem_for(self.problem, other, self.admission)
-        kernel = ready_kernel(problem.scene, self.admission.job["formulation"], other)
+        kernel = run_kernel(self.admission, other)
         start = LaneStart.at_row(self.row[0], self.bundle.kernel.row)
         reached = self.bundle.lane(LANE).time
         bare = replace(

@@ -22,7 +22,7 @@ from jointplay.solver.kernels.emit.tapes import Tapes
 
 tapes = Tapes()
 '''
-FOOTER = "globals().update(tapes.compiled(__file__))\n"
+FOOTER = "globals().update(tapes.compiled(__file__, {lanes}))\n"
 
 LONGEST = 3 * MOST_STATEMENTS
 """Lines of a tape: dense output, equations and channels, each within the limit, are on some."""
@@ -191,9 +191,9 @@ def nothing(name: str) -> str:
     return statements(name, [])
 
 
-def module_source(parts: Iterable[str]) -> str:
-    """Return the source of a module of these functions' sources."""
-    return "\n\n".join([HEADER, *parts, FOOTER])
+def module_source(parts: Iterable[str], lanes: int) -> str:
+    """Return the source of a module of these functions' sources, for so many lanes at once."""
+    return "\n\n".join([HEADER, *parts, FOOTER.format(lanes=lanes)])
 
 
 def _function(name: str, lines: Iterable[str], over: str, rows: int) -> str:

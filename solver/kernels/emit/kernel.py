@@ -28,6 +28,7 @@ from jointplay.solver.kernels.emit.emit import (
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.slots import DenseRow, StepRow, slots_of
 from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.trace.equations import (
     KEEPS_LEDGER,
     Equations,
@@ -48,6 +49,8 @@ class Kernel:
     """Compiled functions over one work array, and what the slots mean."""
 
     module: ModuleType
+    lanes: int
+    """Advanced at once."""
     layout: Layout
     row: DenseRow
     step_row: StepRow
@@ -80,8 +83,12 @@ class Kernel:
         return addresses_of(self.module)
 
 
-def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) -> Kernel:
+def compile_kernel(
+    scene: Scene, tree: Tree, formulation: str, tableau: Method, lanes: int = 0
+) -> Kernel:
     """Trace, emit and load the kernel of a scene's structure; seconds when it is not cached.
+
+    `lanes` : that it advances at once; 0: as many as suit the processor.
 
     Raises
     ------
@@ -127,6 +134,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     evaluated = right_hand_side(equations) + [(known[node], node) for node in again]
     evaluated += steps.knots.at_end()
     scanned, rest = observed[: rows.scanned], observed[rows.scanned :]
+    lanes = lanes or own_target().lanes
     source = module_source(
         [
             _slope_function(equations, layout, fixed),
@@ -139,7 +147,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
             bends.source(layout, pairs),
             closer_looks.source(layout, pairs, always=tableau.watched_closely or inner > 0),
             inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
-        ]
+        ],
+        lanes,
     )
     row = DenseRow.of(clocks, states, pairs)
     step_row = StepRow.of(len(equations.coordinates), states, pairs)
@@ -154,6 +163,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     }
     return Kernel(
         load(source),
+        lanes,
         layout,
         row,
         step_row,

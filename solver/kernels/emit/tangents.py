@@ -70,7 +70,8 @@ def compile_tangents(kernel: Kernel) -> Tangents:
             *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),
             tangent_step.TangentTracer(equations, len(bends), layout).source(),
             gap_function(equations, layout, fixed),
-        ]
+        ],
+        kernel.lanes,
     )
     slots = kernel.slots.copy()
     for name in OF_TANGENTS:

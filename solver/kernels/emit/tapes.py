@@ -7,7 +7,7 @@ does, and with arrays, as the loops do, which Numba compiles. Calls of loops are
 import hashlib
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from numba.core.datamodel.registry import default_manager
@@ -112,16 +112,19 @@ class Tapes:
         self.sources.append(Source(name, f"\n{tape}", over, rows))
 
     def compiled(
-        self, file: str | None = None, target: Target | None = None
+        self, file: str | None = None, lanes: int | None = None, target: Target | None = None
     ) -> dict[str, Function]:
         """Return all functions by name, compiled or, beside the module's file, found to be.
 
         Parameters
         ----------
+        lanes
+            Advanced at once; by default as many as the target has.
         target
             That they are for; by default that of this process.
         """
         target = target or own_target()
+        target = replace(target, lanes=lanes or target.lanes)
         digest = hashlib.sha256(repr((self.sources, target)).encode()).hexdigest()[:24]
         prefix = f"jointplay.{digest}"
 

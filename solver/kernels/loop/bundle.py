@@ -22,7 +22,6 @@ from jointplay.solver.kernels.loop.periods import look_ahead, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, Buffers, Status
-from jointplay.solver.kernels.target import own_target
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed
 from jointplay.solver.scene.references import tangent_obstacle
@@ -79,7 +78,7 @@ class Bundle:
         self.watch = watch
         self.tangents = tangents
         size = (kernel.layout if tangents is None else tangents.layout).size
-        self.width = width = own_target().lanes
+        self.width = width = kernel.lanes
         self.spare = aligned_zeros(kernel.layout.size, INSTANTS)
         self.runs = np.zeros(BUNDLE, DTYPE)
         self.runs["status"] = Status.IDLE

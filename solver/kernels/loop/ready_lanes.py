@@ -15,7 +15,6 @@ from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
 from jointplay.solver.kernels.loop.periods import set_clocks
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import DTYPE, Status
-from jointplay.solver.kernels.target import own_target
 from jointplay.solver.quantities.varied import REFUSALS, together
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import tangent_obstacle
@@ -83,10 +82,9 @@ def make_ready(
     resting = np.broadcast_to(resting.T, (len(problems), len(kernel.pairs))).T
     energies = np.empty((len(ENERGIES), len(problems)))
     columns = [kernel.rows.index(name) for name in ENERGIES]
-    width = own_target().lanes
-    group = aligned_zeros(size, width)
-    for first in range(0, len(problems), width):
-        own = np.minimum(np.arange(first, first + width), len(problems) - 1)
+    group = aligned_zeros(size, kernel.lanes)
+    for first in range(0, len(problems), kernel.lanes):
+        own = np.minimum(np.arange(first, first + kernel.lanes), len(problems) - 1)
         group[:] = work[:, own]
         lanes = Lane(kernel, tangents, group, slice(None), runs[own])
         begin(lanes, problems[0], resting[:, own], obstructed[own])

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.slots import LENGTH
-from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.extremes.book import blank_book
 from jointplay.solver.kernels.loop.extremes.brackets import size_of_table
@@ -24,6 +23,7 @@ from jointplay.solver.kernels.loop.replay import (
 )
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
+from jointplay.solver.runs.run_kernel import run_kernel
 
 LANE = 0
 BEHIND = 1e-6
@@ -245,7 +245,7 @@ class Replay(ProblemReplay):
             section_offset=0.0,
             step=job["step"],
         )
-        super().__init__(ready_kernel(admission.scene, job["formulation"], method), problem)
+        super().__init__(run_kernel(admission, method), problem)
 
 
 def scaled(records: Floats, wanted: list[str], sources: list[Source]) -> Floats:

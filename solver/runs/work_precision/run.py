@@ -69,7 +69,8 @@ class WorkPrecisionRun:
                 yield self._slice(0.0, ended=(self._end(point, _given_up(run), {}),))
                 continue
             if run.method not in kernels:
-                kernels[run.method] = ready_kernel(scene, study.job["formulation"], run.method)
+                formulation = study.job["formulation"]
+                kernels[run.method] = ready_kernel(scene, formulation, run.method, alone=True)
             timed = TimedRun(scene, kernels[run.method], run, self._until)
             yield self._slice(0.0, started=(point,))
             while True:

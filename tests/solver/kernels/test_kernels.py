@@ -18,6 +18,7 @@ from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.lanes import count_active
 from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.target import ALONE
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
@@ -167,6 +168,9 @@ def test_a_process_keeps_the_kernel_of_a_structure() -> None:
     kept = ready_kernel(preset("bouncing-journal"), "reduced")
     assert ready_kernel(preset("bouncing-journal", clearance=2e-4), "reduced") is kept
     assert ready_kernel(preset("bouncing-journal"), "lagrange") is not kept
+    alone = ready_kernel(preset("bouncing-journal"), "reduced", alone=True)
+    assert alone.lanes == min(kept.lanes, ALONE)
+    assert (alone is kept) == (kept.lanes <= ALONE)
     outputs = preset("bouncing-journal").model_dump(mode="json")
     outputs["outputs"].append(
         {"name": "twice", "channel": "journal.y", "factor": 2.0, "offset": 0.0, "help": "Twice y."}

@@ -37,7 +37,8 @@ def slopes_over_steps(
         [
             kinks.kink_function(bends, layout, fixed),
             lane_function("follow", [("slope", derivative(force))], layout, fixed),
-        ]
+        ],
+        LANES,
     )
     module = load(source)
     found: list[float] = []

@@ -21,7 +21,7 @@ def scans() -> tuple[Layout, ModuleType]:
     layout = Layout()
     layout.add("accept", "lengthening", "reach", "nearness")
     scanning.allocate(layout, ROWS, 0)
-    return layout, load(module_source([scanning.source(layout, ROWS)]))
+    return layout, load(module_source([scanning.source(layout, ROWS)], LANES))
 
 
 def test_all_that_turned_in_reach_of_a_record_is_marked_and_nothing_else() -> None:
