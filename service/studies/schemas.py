@@ -160,7 +160,8 @@ class Branch(BaseModel):
 class Branches(Partial):
     """Branches of a continuation: the first one, then those behind its period doublings.
 
-    Then those through its branch points, then curves of its special orbits over a second parameter.
+    Then those through its branch points, those of other orbits of the motion, and curves of special
+    orbits of the first one over a second parameter.
     """
 
     parameter: str

@@ -50,7 +50,7 @@ class Surroundings:
         found = np.full(away.shape, math.nan)
         for k, passage in enumerate(self.sections.passages(moved)):
             if not passage.failure and passage.onsets == self.linear.passage.onsets:
-                found[k] = away[k] + self.sections.away(passage, moved[k]) / self.extents
+                found[k] = away[k] + self.sections.away(passage.end, moved[k].state) / self.extents
         return found
 
 

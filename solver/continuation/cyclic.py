@@ -28,7 +28,9 @@ def with_cyclic(map_: SectionMap, section: Section) -> SectionMap:
     (passage,) = map_.passages([section])
     if passage.failure:
         return map_
-    away = np.abs(map_.away(passage, section) / map_.scales)[: len(map_.kernel.coordinates)]
+    away = np.abs(map_.away(passage.end, section.state) / map_.scales)[
+        : len(map_.kernel.coordinates)
+    ]
     found = np.flatnonzero(away > SAME).tolist()
     for steps in (DIFFERENCE * map_.scales, np.full(map_.size, FAR)):
         moves = steps * np.eye(map_.size)[found]

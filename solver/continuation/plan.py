@@ -27,6 +27,10 @@ OUTPUTS = {
     "stickings": ("1", "phases of friction that begin or end (ST)"),
 }
 """Unit and long name of what each branch has beside its orbits and accepted steps."""
+SECTIONS = 256
+"""Periods of motion in which several orbits are sought."""
+TRIES = 8
+"""Sections from which Newton's method starts at most, for each orbit that is asked for."""
 
 
 @dataclass(frozen=True)
@@ -73,8 +77,9 @@ class Second:
 class ContinuationStudy(Study):
     """A study of branches, a point each, then of curves.
 
-    The first branch, those behind its doublings, and others through its branch points. Curves are
-    of special orbits of the first branch, over a second parameter.
+    The first branch, those behind its doublings, others through its branch points, and those of
+    other orbits of the motion. Curves are of special orbits of the first branch, over a second
+    parameter.
     """
 
     start: float
@@ -82,6 +87,8 @@ class ContinuationStudy(Study):
     reach: Reach
     doublings: int
     """Points that are branches behind a doubling of the point before."""
+    orbits: int
+    """Points that begin at an orbit of the motion: the first, and the last ones before curves."""
     second: Second | None
 
     @property

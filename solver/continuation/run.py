@@ -12,16 +12,14 @@ from jointplay.records.checkpoint import decode, encode
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.solver.continuation.branch import Row, Way, follow
 from jointplay.solver.continuation.crossing import Crossing
-from jointplay.solver.continuation.cyclic import with_cyclic
 from jointplay.solver.continuation.doubling import behind_doubling
+from jointplay.solver.continuation.first_orbits import first_orbits
 from jointplay.solver.continuation.orbit import Orbit
-from jointplay.solver.continuation.passage import Section
 from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach, Second
 from jointplay.solver.continuation.section_map import Answers, SectionMap
-from jointplay.solver.continuation.settled import NoStart, settle
+from jointplay.solver.continuation.settled import NoStart
 from jointplay.solver.continuation.slips import rubbings
 from jointplay.solver.continuation.special_curve import starts_of_curves
-from jointplay.solver.continuation.start import first_orbit, scaled
 from jointplay.solver.continuation.switching import beside_branch_point
 from jointplay.solver.continuation.table import document_of, row_of
 from jointplay.solver.kernels.kernel_cache import ready_kernel
@@ -73,6 +71,8 @@ class ContinuationRun:
         self._known = iter(list(self._answers))
         self._skipped = self._given
         self._reached = 0.0
+        self._first: list[Orbit | NoStart] = []
+        """Where branches of their own begin that are not followed yet; or why one is none."""
         self._observed = np.zeros(0, np.int64)
         """Observables, by their indices in the kernel's block of channels."""
 
@@ -145,10 +145,18 @@ class ContinuationRun:
 
     def _start(self, map_: SectionMap, branches: list[list[Row]]) -> tuple[Row, list[Way]]:
         """Return the first orbit of the branch behind others, and the ways from there."""
-        point, doublings = len(branches), self.study.doublings
-        if point > doublings:
-            return beside_branch_point(branches[0], point - doublings - 1)
-        ways = [behind_doubling(branches[-1])] if point else self._first(map_)
+        study, point = self.study, len(branches)
+        if point == 0:
+            given = study.job["state"]
+            state = None if given is None else np.array(given, np.float64)
+            settle = study.job["settle"]
+            self._first = first_orbits(map_, study.start, state, settle, study.orbits)
+        if point == 0 or point > study.points - study.curves - study.orbits:
+            ways = self._ways_from(self._first.pop(0))
+        elif point > study.doublings:
+            return beside_branch_point(branches[0], point - study.doublings - 1)
+        else:
+            ways = [behind_doubling(branches[-1])]
         return Row(ways[0][0], 0.0, "EP", note="start of the branch"), ways
 
     def _curves(self, second: Second, branch: list[Row]) -> None:
@@ -177,18 +185,12 @@ class ContinuationRun:
             if last:
                 break
 
-    def _first(self, map_: SectionMap) -> list[Way]:
-        """Return the orbit at which the first branch begins, with the ways from there."""
-        study, reach = self.study, self.study.reach
-        state = study.job["state"]
-        given = None if state is None else np.array(state, np.float64)
-        settled = settle(map_, study.start, given, study.job["settle"])
-        section = Section(study.start, settled.state)
-        curve = scaled(map_, study.start, settled)
-        curve = replace(curve, map=with_cyclic(curve.sections, section))
-        orbit = first_orbit(curve, section)
-        ways = _ways(orbit, study.start, reach)
-        return ways if study.job["values"]["from"] == reach.low else ways[::-1]
+    def _ways_from(self, orbit: Orbit | NoStart) -> list[Way]:
+        """Return an orbit with the ways from there, that towards the range's 'to' first."""
+        if isinstance(orbit, NoStart):
+            raise orbit
+        ways = _ways(orbit, self.study.start, self.study.reach)
+        return ways if self.study.job["values"]["from"] == self.study.reach.low else ways[::-1]
 
     def _take(self, point: int, rows: list[Row], row: Row) -> None:
         """Tell of an orbit that was found."""

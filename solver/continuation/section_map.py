@@ -112,12 +112,12 @@ class SectionMap:
             return self.crossing.interval
         return common_period(scene).seconds or math.nan
 
-    def away(self, passage: Passage, section: Section) -> Floats:
-        """Return (size,) how far the end of a run is from its start.
+    def away(self, end: Floats, start: Floats) -> Floats:
+        """Return (size,) how far the end of a run is from its start, states of sections.
 
         Without whole turns, and along cyclic coordinates not at all.
         """
-        found, angles = passage.end - section.state, list(self.angles)
+        found, angles = end - start, list(self.angles)
         found[angles] -= TURN * np.round(found[angles] / TURN)
         found[list(self.cyclic)] = 0.0
         return found
@@ -189,7 +189,7 @@ class SectionMap:
         for column, rate in zip(columns, rates, strict=True):
             whole[:, column] = rate / (scale * DIFFERENCE * numbers[column])
         jacobian, sensitivity, nearing = whole[:-1, : self.size], whole[:-1, self.size :], whole[-1]
-        residual, states = self.away(base, section), self.kernel.states
+        residual, states = self.away(base.end, section.state), self.kernel.states
         touching = section.state[states:] > 0.0
         lasting = states + np.flatnonzero(touching & (residual[states:] == 0.0))
         kept = [*lasting.tolist(), *self.cyclic]

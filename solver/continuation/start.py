@@ -53,8 +53,8 @@ def first_orbit(curve: Curve, section: Section) -> Orbit:
     if isinstance(found, NoOrbit):
         raise NoStart(
             f"There is no orbit of period {curve.map.periods} near the section that was reached:"
-            f" {found.reason}. Try another 'period', more periods to 'settle', a value of the"
-            " parameter at which the motion is not chaotic, or a 'state' next to the orbit."
+            f" {found.reason}. Try another 'period', more periods to 'settle', more 'orbits' where"
+            " the motion is chaotic, or a 'state' next to the orbit."
         )
     shorter = shorter_period(found)
     if shorter:
@@ -62,7 +62,7 @@ def first_orbit(curve: Curve, section: Section) -> Orbit:
             f"The orbit that was found repeats after {shorter} of the {curve.map.periods} periods;"
             f" ask for 'period' {shorter}."
         )
-    return _within_a_turn(found)
+    return within_a_turn(found)
 
 
 def shorter_period(orbit: Orbit) -> int:
@@ -77,14 +77,14 @@ def shorter_period(orbit: Orbit) -> int:
     return 0
 
 
-def _within_a_turn(orbit: Orbit) -> Orbit:
+def within_a_turn(orbit: Orbit) -> Orbit:
     """Return an orbit whose angles that go round begin within half a turn: they round off less.
 
     NoStart: it is none from there.
     """
     curve, map_, section = orbit.curve, orbit.curve.sections, orbit.section
     passage = orbit.linear.passage
-    ahead = passage.end - section.state - map_.away(passage, section)
+    ahead = passage.end - section.state - map_.away(passage.end, section.state)
     ahead[list(map_.cyclic)] = 0.0
     if not ahead.any():
         return orbit
@@ -101,4 +101,5 @@ def _within_a_turn(orbit: Orbit) -> Orbit:
 
 def _apart(map_: SectionMap, passage: Passage, section: Section) -> float:
     """Return how far a run ends from its start, in the scales of the states."""
-    return float(np.abs(map_.away(passage, section) / map_.scales)[: map_.kernel.states].max())
+    away = map_.away(passage.end, section.state)
+    return float(np.abs(away / map_.scales)[: map_.kernel.states].max())

@@ -8,7 +8,14 @@ import numpy as np
 from jointplay.records.failure import InvalidInput
 from jointplay.records.suggestions import unknown
 from jointplay.solver.continuation.columns import columns_of
-from jointplay.solver.continuation.plan import OUTPUTS, ContinuationStudy, Reach, Second
+from jointplay.solver.continuation.plan import (
+    OUTPUTS,
+    SECTIONS,
+    TRIES,
+    ContinuationStudy,
+    Reach,
+    Second,
+)
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.continuation_checks import check_ranges, check_sections
@@ -60,11 +67,15 @@ class Continuation(Kind[ContinuationJob]):
         check_state(job.state, study.point_scene(0), job.formulation)
         longest = job.period * 2**job.doublings
         states = sum(c.name.startswith(("state.", "rate.")) for c in study.observables)
-        runs = 2 * job.values.count * MAPS * (2 * states + 3)
-        check_size(study, job.settle + runs * longest, "/values/count")
+        each = MAPS * (2 * states + 3)
+        runs = 2 * job.values.count * each
+        settle = job.settle
+        if job.orbits > 1:
+            settle += SECTIONS + TRIES * job.orbits * each * job.period
+        check_size(study, settle + runs * longest, "/values/count")
         if job.second is not None:
             runs += 2 * job.second.values.count * job.second.curves * MAPS * (10 * states + 5)
-            check_size(study, job.settle + runs * longest, "/second/values/count")
+            check_size(study, settle + runs * longest, "/second/values/count")
         return study
 
     def plan(self, job: ContinuationJob, filled: dict[str, Any]) -> ContinuationStudy:
@@ -131,7 +142,8 @@ def _second_start(job: ContinuationJob, second: AlongSecond) -> float:
 def _branches(job: ContinuationJob) -> Points:
     """Return a point for each branch and curve, where the first one begins."""
     at = job.values.start if job.at is None else job.at
-    count = 1 + job.doublings + job.branch_points + (job.second.curves if job.second else 0)
+    count = job.orbits + job.doublings + job.branch_points
+    count += job.second.curves if job.second else 0
     axes = [Axis(job.parameter, "/parameter", np.array([at]), lambda _index: "/at")]
     if job.second is not None:
         values = np.array([_second_start(job, job.second)])
@@ -158,6 +170,7 @@ def _study(
         start=filled["at"],
         reach=_reach(job, job.values),
         doublings=job.doublings,
+        orbits=job.orbits,
         second=None if job.second is None else _second(job, job.second, placed),
     )
 

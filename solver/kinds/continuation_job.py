@@ -84,6 +84,18 @@ class ContinuationJob(Job):
         ),
     ] = 100
     state: StartState = None
+    orbits: Annotated[
+        int,
+        quantity(
+            "1",
+            ge=1,
+            le=16,
+            description=(
+                "orbits at which branches begin, at most; several are sought in the motion that"
+                " follows 'settle', chaotic or not"
+            ),
+        ),
+    ] = 1
     largest_step: Annotated[
         float,
         quantity(

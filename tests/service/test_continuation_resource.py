@@ -145,6 +145,7 @@ def test_a_continuation_is_estimated_before_it_is_queued(client):
         ({"section": {"channel": "mass.x", "value": 0.0}}, "/section"),
         ({"section": {"crank_angle": 1.0}}, "/section/channel"),
         ({"doublings": 7}, "/doublings"),
+        ({"orbits": 17}, "/orbits"),
         ({"formulation": "lagrange"}, "/formulation"),
         ({"method": "rk4", "step": 1e-3}, "/method"),
     ],

@@ -18,7 +18,7 @@ export async function show(room, context) {
   const beneath = new Beneath(context);
   await whenThere(room, context, context.job.links.branch, {}, async (answer) => {
     const found = answer.branches.filter(({ special }) => special.length);
-    const words = answer.branches.map(({ failure }) => failure?.detail).filter(Boolean);
+    const words = [...new Set(answer.branches.map(({ failure }) => failure?.detail).filter(Boolean))];
     if (!found.length && !words.length) words.push("No orbit has been found yet.");
     const drawn = (name, alt, query = "") => freshFigure(`${context.job.links.figures}/${name}.svg${query}`, alt);
     const pictures = element("div", { class: "stacked" });

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.known_orbits import pendulum
 from jointplay.records.point import StudySlice
 from jointplay.solver.computations import computation_of
 from jointplay.solver.continuation.columns import LABELS
@@ -135,8 +136,16 @@ OVER_AMPLITUDE = {
 }
 
 
+IN_CHAOS = {
+    "scene": pendulum(),
+    "parameter": "strength",
+    "values": {"from": 1.105, "to": 1.106, "count": 4},
+    "orbits": 3,
+}
+
+
 @pytest.mark.parametrize(
-    "fields", [{"values": {"from": 25.0, "to": 24.3, "count": 30}}, OVER_AMPLITUDE]
+    "fields", [{"values": {"from": 25.0, "to": 24.3, "count": 30}}, OVER_AMPLITUDE, IN_CHAOS]
 )
 def test_a_branch_that_is_cut_and_continued_has_the_same_bits(fields: dict[str, Any]) -> None:
     job = JOB | {"settle": 10} | fields
@@ -144,12 +153,13 @@ def test_a_branch_that_is_cut_and_continued_has_the_same_bits(fields: dict[str, 
     whole = list(computation_of(study, 0).slices())
     news = [one for one in whole if one.rows or one.started or one.ended]
     found: list[StudySlice] = []
-    computation, cuts = computation_of(study, 0), 0
+    computation, looks, cuts = computation_of(study, 0), 0, 0
     slices = computation.slices()
     while (piece := next(slices, None)) is not None:
         if piece.rows or piece.started or piece.ended:
             found.append(piece)
-        if len(found) % 7 == 3 and len(found) > 7 * cuts:
+        looks += 1
+        if looks % 53 == 0:  # before the first orbit is found, and between orbits
             cuts += 1
             computation = computation_of(parse(study.job), 0, computation.checkpoint())  # type: ignore[arg-type]
             slices = computation.slices()
