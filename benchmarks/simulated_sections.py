@@ -61,7 +61,7 @@ class SimulatedMap:
 
         Rates of contacts that last from the start on stay what they are, and are no states.
         """
-        _, lasting = self._after(self.section)
+        _, lasting = self.after(self.section)
         moving = [
             k
             for k, name in enumerate(self.names)
@@ -72,7 +72,7 @@ class SimulatedMap:
         for column, k in enumerate(moving):
             step = np.zeros(len(self.section))
             step[k] = share * extents[k]
-            ahead, behind = (self._after(self.section + sign * step)[0] for sign in (1.0, -1.0))
+            ahead, behind = (self.after(self.section + sign * step)[0] for sign in (1.0, -1.0))
             found[:, column] = ((ahead - behind) / (2.0 * step[k]))[moving]
         return found
 
@@ -83,7 +83,7 @@ class SimulatedMap:
         sizes = np.maximum(sizes, SMALL * sizes.max())
         return np.concatenate([np.minimum(states, sizes), self.section[len(states) :]])
 
-    def _after(self, section: Floats) -> tuple[Floats, Floats]:
+    def after(self, section: Floats) -> tuple[Floats, Floats]:
         """Return the section a period later, and which contacts have lasted since the start."""
         states = [name for name in self.names if not name.startswith("impact_rate.")]
         read = [_channel(name) for name in states]

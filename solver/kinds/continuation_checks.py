@@ -29,8 +29,11 @@ def check_ranges(job: ContinuationJob) -> None:
         sentence = f"'at' must lie in the range, {low:g} to {high:g}; it is {job.at:g}."
         problems.append(Problem("/at", sentence))
     if job.formulation != "reduced":
-        sentence = "Sections are joint coordinates, which only the formulation 'reduced' has."
-        problems.append(Problem("/formulation", f"{sentence} Choose that."))
+        sentence = (
+            "Sections are joint coordinates, which only the formulation 'reduced' has; choose that."
+            " The motion is the same, and so are orbits and multipliers, but for rounding."
+        )
+        problems.append(Problem("/formulation", sentence))
     if problems:
         raise InvalidInput(problems)
 
