@@ -80,6 +80,9 @@ NUDGE, BACK, GONE = 1e-6, 0.5, 2.0
 """Start beside an orbit, in the scales of its states; shares at which it is back or has gone of how
 far it is away after the first periods, `SOON`."""
 SOON = 3
+STRONG = 1e-2
+"""Share of its start beside the orbit that counts as there, after the first periods: below, all is
+the orbit's own error."""
 OPEN = 0.02
 """Distance of multipliers from the circle at which a motion shows in time what they do."""
 BEYOND = 1e-4
@@ -114,8 +117,9 @@ def shown(map_: SectionMap, branch: Branch, row: int, value: float) -> str:
     nudged[:count] += NUDGE * map_.scales[:count]
     states, onsets = motion(map_, Section(value, nudged))
     away = np.abs((states - state[:count]) / map_.scales[:count]).max(axis=1)
-    comes = "returns" if away[-1] < BACK * away[SOON] else "stays near"
-    comes = "leaves" if away[SOON:].max() > GONE * away[SOON] else comes
+    soon = max(float(away[SOON]), STRONG * NUDGE)
+    comes = "returns" if away[-1] < BACK * soon else "stays near"
+    comes = "leaves" if away[SOON:].max() > GONE * soon else comes
     period = period_of(states, map_.scales[:count])
     return f"{comes} (then period {period or 'none'}, {onsets / LONGEST:.3g} impacts a turn)"
 
