@@ -14,7 +14,9 @@ import jointplay
 from benchmarks.device.charts import chart
 from benchmarks.device.opened import opened
 from jointplay.solver.kinds import Study, admit
-from jointplay.worker.local import computing, keeping
+from jointplay.worker.local import keeping
+from jointplay.worker.local.computing import compute
+from jointplay.worker.local.folder import STORE
 
 SIZE = 24, 40
 """Points along each axis, and revolutions of each."""
@@ -43,7 +45,7 @@ def report(there: bool) -> None:
         kept = len(list(cut.glob(PARTS)))
         jointplay.resume(cut, processes=1)
         jointplay.run(job(there).job, output=whole, processes=1)
-        same = (cut / computing.STORE).read_bytes() == (whole / computing.STORE).read_bytes()
+        same = (cut / STORE).read_bytes() == (whole / STORE).read_bytes()
         print(
             f"killed after {killed:.1f} s with restart points of {kept} of"
             f" {len(job(there).blocks)} blocks; the processor went on:"
@@ -59,4 +61,4 @@ def main() -> None:
     keeping.PERIOD = keeping._MOST_OVERHEAD = 0
     found = opened()
     study = job(found.there)
-    computing.compute(study, Path(sys.argv[1]), None, lambda *_: None, found.lanes(study))
+    compute(study, Path(sys.argv[1]), None, lambda *_: None, found.lanes)
