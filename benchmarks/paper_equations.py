@@ -28,7 +28,7 @@ def seconds_a_period(scene: Scene) -> float:
     rate = dict.fromkeys(mode, 1e-3)
 
     def slope(t: float, y: np.ndarray) -> list[float]:
-        driven = {name: d.position + d.speed * t for name, d in scene.drivers.items()}
+        driven = {name: d.clock_start + d.clock_rate * t for name, d in scene.drivers.items()}
         state = [float(x) for x in y]
         mechanism = LagrangeMechanism(scene, numbers, state[:half], state[half:], driven)
         motion = mechanism.motion(mode, rate)

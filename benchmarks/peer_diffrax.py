@@ -49,12 +49,11 @@ def equations_of(kernel: Kernel) -> Callable[..., tuple[Any, Any, Any]]:
     equations, known = kernel.equations, operations()
     gaps = [one for pair in equations.gaps for one in pair]
     ordered = reachable([*equations.accelerations, *gaps])
-    fixed = {node.index: place for place, (_, node) in enumerate(kernel.fixed)}
-    blocks = {"stage": 1, "mode": 2, "impact_rate": 3, "phase": 4}
+    fixed = {slot: place for place, slot in enumerate(kernel.fixed.slots)}
 
     def slope(t: Any, y: Any, mode: Any, rate: Any, numbers: Any) -> tuple[Any, Any, Any]:
         values: dict[int, Any] = {}
-        given = (None, y, mode, rate, numbers[len(fixed) :])
+        given = {"stage": y, "mode": mode, "impact_rate": rate, "phase": numbers[len(fixed) :]}
 
         def value(node: Expression) -> Any:
             return node.value if node.operation == "constant" else values[node.index]
@@ -63,12 +62,12 @@ def equations_of(kernel: Kernel) -> Callable[..., tuple[Any, Any, Any]]:
             if node.operation == "constant":
                 continue
             if node.fixed:
-                values[node.index] = numbers[fixed[node.index]]
+                values[node.index] = numbers[fixed[kernel.layout[f"fixed{node.index}"]]]
             elif node.data == "stage_time":
                 values[node.index] = t
             elif node.operation == "variable":
                 name = str(node.data).rstrip("0123456789")
-                values[node.index] = given[blocks[name]][int(str(node.data)[len(name) :])]
+                values[node.index] = given[name][int(str(node.data)[len(name) :])]
             else:
                 arguments = [value(argument) for argument in node.arguments]
                 values[node.index] = known[node.operation](*arguments)
@@ -132,7 +131,8 @@ def solver_of(kernel: Kernel, tolerance: float) -> Callable[..., tuple[Any, Any]
         reached = jax.lax.while_loop(lambda carry: carry[0] < end, leg, begun)
         return reached[1], reached[4]
 
-    return jax.jit(jax.vmap(lane, in_axes=(0, 0, 0, None)))
+    lanes: Callable[..., tuple[Any, Any]] = jax.jit(jax.vmap(lane, in_axes=(0, 0, 0, None)))
+    return lanes
 
 
 def measure_diffrax(
@@ -155,7 +155,7 @@ def measure_diffrax(
     count = len(problems)
     start = bundle.block("y").T[:count]
     floor = bundle.block("impact_floor").T[:count]
-    fixed = np.array([kernel.fixed_values(each.scene) for each in problems])
+    fixed = np.array([kernel.fixed.values(each.scene) for each in problems])
     numbers = np.concatenate([fixed, bundle.block("phase").T[:count]], axis=1)
     run = solver_of(kernel, problems[0].tolerance)
     at_check = np.asarray(run(start, numbers, floor, check_time)[0])  # compiles, too

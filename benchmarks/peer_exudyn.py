@@ -16,10 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from jointplay.solver.joints.revolute import Clearance
+from benchmarks.press_joints import fit, pin
 from jointplay.solver.mechanics.impact_floors import MOST
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.drivers import SteadyDriver
 
 LONGEST_STEP, FIRST_STEP, SHORTEST_STEP = 1e-3, 1e-7, 1e-14
 """s; the first two as other peers have."""
@@ -42,31 +43,34 @@ def bar(press: Scene, body: str, first: str, second: str) -> float:
 
 def drive_of(press: Scene, joint: str) -> tuple[Pin, float]:
     """Return how the crank at a joint with play carries its pin, and the crank's spin, rad/s."""
-    crank, point = press.joints[joint].bearing.split(".")
+    crank, point = pin(press, joint).bearing.split(".")
     for driver in press.drivers.values():
-        hinge = press.joints[driver.joint]
+        assert driver.joint is not None
+        hinge = pin(press, driver.joint)
         body, pivot = hinge.journal.split(".")
         if body == crank:
             break
+    assert isinstance(driver, SteadyDriver)
     x0, y0 = press.ground.points[hinge.bearing.split(".")[1]]
     length, begun, speed = bar(press, crank, pivot, point), driver.position, driver.speed
 
-    def pin(t: float) -> tuple[float, float, float, float]:
+    def carried(t: float) -> tuple[float, float, float, float]:
         x, y = length * math.cos(begun + speed * t), length * math.sin(begun + speed * t)
         return x0 + x, y0 + y, -speed * y, speed * x
 
-    return pin, speed
+    return carried, speed
 
 
-def law_of(clearance: Clearance, crank_spin: float) -> Law:
+def law_of(press: Scene, joint: str, crank_spin: float) -> Law:
     """Return the force of a joint with play; it keeps the impact rate from call to call."""
+    clearance, contact, rubbing = fit(press, joint)
     play, bearing = clearance.radial_clearance, clearance.bearing_radius
     journal, turning = bearing - play, bearing * crank_spin
-    stiffness = clearance.contact.contact_stiffness(clearance)
-    hysteresis = 0.75 * (1.0 - clearance.contact.restitution**2)
-    floor = clearance.contact.impact_rate_floor or MOST  # its impacts are far above either
-    friction = clearance.friction.coefficient
-    static, dynamic = clearance.friction.static_velocity, clearance.friction.dynamic_velocity
+    stiffness = contact.contact_stiffness(clearance)
+    hysteresis = 0.75 * (1.0 - contact.restitution**2)
+    floor = contact.impact_rate_floor or MOST  # its impacts are far above either
+    friction = rubbing.coefficient
+    static, dynamic = rubbing.static_velocity, rubbing.dynamic_velocity
     impact_rate = 0.0
 
     def law(ex: float, ey: float, vx: float, vy: float, spin: float) -> tuple[float, float, float]:
@@ -94,8 +98,8 @@ def forces_of(press: Scene, calls: list[int]) -> UserFunction:
     """Return the generalised forces of both contacts as a user function that counts its calls."""
     sine, cosine = math.sin, math.cos
     (pin_a, spin_a), (pin_b, spin_b) = drive_of(press, "A"), drive_of(press, "B")
-    law_a = law_of(press.joints["A"].clearance, spin_a)
-    law_b = law_of(press.joints["B"].clearance, spin_b)
+    law_a = law_of(press, "A", spin_a)
+    law_b = law_of(press, "B", spin_b)
     length6 = bar(press, "link6", "D", "C")
     length2, length3 = bar(press, "link2", "C", "A"), bar(press, "link3", "C", "B")
     x0, y0 = press.ground.points["O1"]

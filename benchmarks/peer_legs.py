@@ -3,12 +3,13 @@
 from collections.abc import Callable
 
 import numpy as np
-from scipy.integrate import solve_ivp
+from scipy.integrate import DOP853, LSODA, RK45, OdeSolver, solve_ivp
 
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 
+SCIPY: dict[str, type[OdeSolver]] = {"RK45": RK45, "DOP853": DOP853, "LSODA": LSODA}
 FIRST_STEP, LONGEST_STEP = 1e-7, 1e-3
 """First step of peers, s: a force that is zero at an onset misleads their own choice."""
 
@@ -80,13 +81,14 @@ def scipy_leg(equations: CompiledEquations, method: str, tolerance: float) -> Le
             lambda t, y: equations.slope(t, y, mode, rate),
             (now, end),
             state,
-            method=method,
+            method=SCIPY[method],
             rtol=tolerance,
             atol=1e-3 * tolerance,
             first_step=min(FIRST_STEP, end - now),
             max_step=LONGEST_STEP,
             events=[event(joint, mode, rate) for joint in range(equations.joints)],
         )
+        assert found.t_events is not None
         fired = [len(times) for times in found.t_events]
         return float(found.t[-1]), found.y[:, -1], int(np.argmax(fired))
 

@@ -3,15 +3,18 @@
 Error scales, limits of steps and starts are the solver's own: both have the same problem to solve.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.press_joints import fit
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.drivers import SteadyDriver
 
 COORDINATES = ("slider7.s", "link6.theta", "link2.theta", "link3.theta")
 FIELDS: dict[str, tuple[int, ...]] = {
@@ -37,10 +40,11 @@ def mechanism(scene: Scene) -> NDArray[np.float64]:
     found: list[float] = []
     for body, driver, pivot in (("crank1", "drive1", "O1"), ("crank4", "drive4", "O4")):
         drive = scene.drivers[driver]
+        assert isinstance(drive, SteadyDriver)
         found += [_length(scene, body, "pivot", "pin"), *ground[pivot], drive.position, drive.speed]
     ends = (("link6", "C", "D"), ("link2", "A", "C"), ("link3", "B", "C"))
     found += [_length(scene, *link) for link in ends]
-    found += [float(np.hypot(*bodies[body].points[near])) for body, _, near in ends]
+    found += [math.hypot(*bodies[body].points[near]) for body, _, near in ends]
     found += [bodies[body].mass for body in ("slider7", "link6", "link2", "link3")]
     found += [bodies[body].inertia for body in ("link6", "link2", "link3")]
     return np.array([*found, *scene.gravity, *[0.0] * INERTIA])
@@ -57,8 +61,7 @@ def presses(kernel: Kernel, problems: Sequence[LaneProblem]) -> NDArray[np.void]
         raise ValueError(f"the press has other coordinates: {kernel.coordinates}")
     found = np.zeros(len(problems), PRESS)
     for press, problem in zip(found, problems, strict=True):
-        clearance = problem.scene.joints["A"].clearance
-        law, friction = clearance.contact, clearance.friction
+        clearance, law, friction = fit(problem.scene, "A")
         press["radial"] = clearance.radial_clearance
         press["bearing_radius"] = clearance.bearing_radius
         press["stiffness"] = law.contact_stiffness(clearance)
