@@ -152,6 +152,7 @@ def report(name: str) -> None:
     value, unstable = branch.column("value"), branch.column("unstable")
     settled = Settled(np.zeros(0), np.full(bare.kernel.states, np.inf), np.inf, np.inf)
     map_ = scaled(bare, float(value[0]), settled).map
+    assert isinstance(map_, SectionMap)
     count = len(value)
     ordinary = count - sum(one.label in ("LP", "PD", "NS", "BP", "GR") for one in branch.special)
     print(

@@ -82,7 +82,8 @@ class Puts(Counter[str]):
             self[key] += 1
             replace(place, key, measured(pieces))
 
-        Bucket.put, Bucket.replace = counting_put, counting_replace  # type: ignore[method-assign]
+        Bucket.put = counting_put  # type: ignore[assignment, method-assign]
+        Bucket.replace = counting_replace  # type: ignore[assignment, method-assign]
         try:
             yield self
         finally:

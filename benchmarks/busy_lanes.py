@@ -30,10 +30,10 @@ def busy_lanes(
         begun = time.process_time()
         running = bundle.advance(10_000_000) > 0
         seconds += time.process_time() - begun
-        for lane in np.flatnonzero(bundle.runs["status"] != Status.RUNNING):
+        for lane in np.flatnonzero(bundle.runs["status"] != Status.RUNNING).tolist():
             if waiting:
                 made += bundle.lane(lane).attempts
-                bundle.load(int(lane), waiting.pop(0))
+                bundle.load(lane, waiting.pop(0))
                 running = True
     made += sum(bundle.lane(lane).attempts for lane in range(8))
     return seconds / len(problems), made / len(problems)

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
@@ -36,6 +36,8 @@ CLAIMANTS, CLAIMS = 32, 50
 OWNERS = ("ada", "bob", "eve", "")
 SOLVER = Solver("0.1.0+abc", "x86")
 Ready = Callable[[], object]
+Given = ParamSpec("Given")
+Answer = TypeVar("Answer")
 
 
 def new(owner: str = "") -> NewJob:
@@ -77,7 +79,7 @@ def compute(catalogue: Catalogue) -> None:
     again(catalogue.finish, block.id, block.attempt, BlockEnd(BlockState.done, time=2.0, steps=9))
 
 
-def again(ask: Callable[..., Any], *given: Any, **named: Any) -> Any:
+def again(ask: Callable[Given, Answer], *given: Given.args, **named: Given.kwargs) -> Answer:
     """Return an answer of the database, asked again where others held it for too long."""
     while True:
         with suppress(Unavailable):

@@ -68,6 +68,7 @@ def planned(side: int) -> None:
     job = SHARED | {"kind": "chart", "scene": {"preset": "impact-oscillator"}} | axes
     begun = time.process_time()
     admitted = admit(job)
+    assert isinstance(admitted, Study)
     between = time.process_time()
     parse(json.loads(json.dumps(admitted.job)))
     ended = time.process_time()

@@ -43,7 +43,8 @@ def errors(job: dict[str, Any]) -> dict[str, list[float]] | None:
     if not isinstance(fine, Finished):
         return None
     ranges = np.array([peak.maximum - peak.minimum for peak in fine.peaks.values()])
-    units, found = np.array(fine.units), {}
+    units = np.array(fine.units)
+    found: dict[str, list[float]] = {}
     for (name, true), unit, spread in zip(fine.peaks.items(), units, ranges, strict=True):
         if spread > CONSTANT * ranges[units == unit].max():
             said = draft.peaks[name]

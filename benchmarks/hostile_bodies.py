@@ -56,7 +56,7 @@ def _long_lists(chance: random.Random) -> bytes:
 
 
 def _wrong_types(chance: random.Random) -> bytes:
-    wrong = [None, [], {}, "x", True, -1, 1e400, [[[]]]]
+    wrong: list[object] = [None, [], {}, "x", True, -1, 1e400, [[[]]]]
     return json.dumps({name: chance.choice(wrong) for name in PRESS}).encode()
 
 

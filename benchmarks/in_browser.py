@@ -79,7 +79,11 @@ def view(browser: Browser, address: str) -> tuple[float, int, float, int]:
     """
     page = opened(browser, still=True)
     sizes: dict[str, int] = {}
-    page.on("requestfinished", lambda asked: sizes.setdefault(asked.url, _received(asked)))
+
+    def note(asked: Request) -> None:
+        sizes.setdefault(asked.url, _received(asked))
+
+    page.on("requestfinished", note)
     visits = []
     for _ in range(2):
         sizes.clear()

@@ -9,7 +9,7 @@ at a step.
 
 from typing import Any
 
-from jointplay.solver.kinds import admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.simulate import Simulation
 
 DURATION = 10.0
@@ -60,6 +60,7 @@ def job(force: dict[str, Any], tolerance: float) -> dict[str, Any]:
 def reached(force: dict[str, Any], tolerance: float) -> tuple[float, int]:
     """Return the place of the block at the end, m, and how many steps were attempted."""
     admission = admit(job(force, tolerance))
+    assert isinstance(admission, Admission)
     simulation = Simulation(admission)
     *_, last = (found.samples for found in simulation.slices() if len(found.samples))
     names = [channel.name for channel in admission.channels]

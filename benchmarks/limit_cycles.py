@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 from benchmarks.basin_scenes import ON_THE_MASS, pendulum, sliding
 from benchmarks.known_orbits import followed
 
-SHARP = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}
+SHARP: dict[str, Any] = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}
 VAN_DER_POL = 6.66328685932313
 """s, at strength 1."""
 RAMPS = 1.6e-3, 8e-4, 4e-4, 2e-4, 1e-4
@@ -96,6 +96,8 @@ def returns(slope: Callable[[float, Any], list[float]], speed: float) -> tuple[f
 
     passes.direction, passes.terminal = 1.0, True  # type: ignore[attr-defined]
     found = solve_ivp(slope, (1e-9, 100.0), [1e-9 * speed, speed], events=passes, **SHARP)
+    assert found.y_events is not None
+    assert found.t_events is not None
     return float(found.y_events[0][0][1]), float(found.t_events[0][0])
 
 
@@ -118,7 +120,9 @@ def known_fold() -> float:
     speeds = np.linspace(0.72, 0.82, 9)
     fit = np.polynomial.Chebyshev.fit(speeds, [damping(one) for one in speeds], 8)
     tops = [
-        one.real for one in fit.deriv().roots() if abs(one.imag) < 1e-9 and 0.72 < one.real < 0.82
+        one.real
+        for one in np.asarray(fit.deriv().roots(), np.complex128)
+        if abs(one.imag) < 1e-9 and 0.72 < one.real < 0.82
     ]
     return max(float(fit(one)) for one in tops)
 

@@ -107,8 +107,8 @@ def _forces(square: float, ramp: float) -> dict[str, Any]:
     ends = {"first": "box.O", "second": "mass.O"}
     along = {"type": "force", "direction": [1.0, 0.0]}
     pulls = along | ends | {"over": {"quantity": "x", **ends}, "course": pull()}
-    turned = {"type": "table", "outside": "held"}
-    turned |= {"knots": [-9.0, -ramp, ramp, 9.0], "values": [1.0, 1.0, -1.0, -1.0]}
+    knots = {"knots": [-9.0, -ramp, ramp, 9.0], "values": [1.0, 1.0, -1.0, -1.0]}
+    turned = {"type": "table", "outside": "held", **knots}
     rubbing = {"first": "ground.O", "second": "box.O", "magnitude": FRICTION * BOX}
     return {
         "spring": {"type": "spring-damper", **ends, "stiffness": 1.0, "damping": DAMPING},

@@ -15,7 +15,7 @@ DAMPING, FRICTION, FREQUENCY, RESTITUTION = 0.04, 3.17, 0.92, 0.8
 BOX, WALL = 5.0, 0.5
 """kg and m; the mass is 1 kg and its spring 1 N/m."""
 PERIOD = math.pi / FREQUENCY
-SHARP = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14}
+SHARP: dict[str, Any] = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14}
 GUESS = np.array([-0.1, 0.18])
 """Time of an impact, s, and speed before it, m/s."""
 
@@ -43,7 +43,7 @@ def known_grazing() -> float:
 def known_stuck(excited: float) -> Floats:
     """Return q and its rate at phase 0 of the stable motion without impacts."""
 
-    def away(state: Any) -> Floats:
+    def away(state: Floats) -> Floats:
         found = solve_ivp(stuck(excited), (0.0, PERIOD), state, **SHARP)
         return np.asarray(found.y[:, -1]) - state
 
@@ -52,11 +52,17 @@ def known_stuck(excited: float) -> Floats:
 
 def known_orbit(excited: float) -> tuple[Floats, Floats]:
     """Return q and its rate at phase 0 of the orbit with one impact, and both multipliers."""
-    found = root(lambda one: _next(excited, one)[0] - one, GUESS, tol=1e-12).x
+
+    def away(impact: Floats) -> Floats:
+        return _next(excited, impact)[0] - impact
+
+    found = root(away, GUESS, tol=1e-12).x
     steps = 1e-5 * np.eye(2)
     columns = [_next(excited, found + h)[0] - _next(excited, found - h)[0] for h in steps]
     multipliers = np.linalg.eigvals(np.array(columns).T / 2e-5)
-    return _next(excited, found)[1], multipliers[np.argsort(-np.abs(multipliers))]
+    assert np.isrealobj(multipliers)
+    ordered = multipliers[np.argsort(-np.abs(multipliers))]
+    return _next(excited, found)[1], np.asarray(ordered, np.float64)
 
 
 def _force(excited: float, t: float, q: float, rate: float) -> float:

@@ -46,7 +46,7 @@ def dragged(client: Client, preset: str, point: str) -> Dragged:
     pose = client.poses(preset)["poses"][0]
     begin = point_at(client.scene(preset)["bodies"], point, pose)
     radius = SHARE * max(abs(one) for at in pose.values() for one in at[:2])
-    waits, spent = [], 0.0
+    waits, spent = list[float](), 0.0
     for number in range(FIRST + POSES):
         if number == FIRST:
             waits, spent = [], processor_time()

@@ -17,7 +17,7 @@ from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kinds import admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.mechanics.tree import spanning_tree
 
 CASE = {
@@ -44,6 +44,7 @@ def problem(clearance: float, tolerance: float, duration: float) -> LaneProblem:
             "output_step": 0.01,
         }
     )
+    assert isinstance(admission, Admission)
     scene = admission.scene
     return LaneProblem(scene, duration, tolerance, 0.01, admission.samples, admission.sections, 0.0)
 

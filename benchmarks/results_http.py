@@ -23,7 +23,7 @@ from zarr.storage import ObjectStore
 
 from jointplay.records.impact import IMPACT
 from jointplay.service.app import create_app
-from jointplay.solver.kinds import admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockEnd, BlockState
 from jointplay.storage.results.layout import ResultLayout
@@ -100,6 +100,7 @@ def stored(http: httpx.Client, settings: Settings, channels: list[str], samples:
     claim = catalogue.claim_block(catalogue.blocks(job_id)[0].id, "benchmark", 3600.0)
     assert claim is not None
     admission = admit(claim.job.spec)
+    assert isinstance(admission, Admission)
     specs = admission.channels
     attributes = {"job": admission.job, "scene": admission.scene_document()}
     layout = ResultLayout(specs, admission.samples, 0, admission.joints, attributes)
@@ -111,7 +112,7 @@ def stored(http: httpx.Client, settings: Settings, channels: list[str], samples:
     nothing = np.empty(0), np.empty((0, len(specs))), np.empty(0, IMPACT)
     while writer.samples < samples:
         rows = min(len(noise), samples - writer.samples)
-        moments = (writer.samples + np.arange(rows)) * STEP
+        moments = (writer.samples + np.arange(rows, dtype=np.float64)) * STEP
         values = noise[:rows] + 3.0 * np.sin(30.0 * moments)[:, None]
         writer.append(writer.samples, moments, values, 0, *nothing)
     target = settings.sealed_run(*attempt)
@@ -164,6 +165,7 @@ def main() -> None:
             opened(http, "zarr and obstore, 96 channels", through_obstore)
             opened(http, "xarray, 2 channels", lambda: xarray.open_zarr(long))
             array = zarr.open_group(long, mode="r")["slider7.x"]
+            assert isinstance(array, zarr.Array)
             timed("slice of 1000 samples, zarr", lambda: array[5_000_000:5_001_000])
             timed("all of a channel (80 MB), zarr", lambda: array[:])
             for what, window in (

@@ -69,7 +69,7 @@ def cubic_coefficient(speed: float) -> float:
     found = []
     for one in DISTANCES:
         even = (near.after(one * right) + near.after(-one * right)) / (one * one)
-        bent = np.linalg.solve(np.eye(2) - jacobian, even)
+        bent = np.asarray(np.linalg.solve(np.eye(2) - jacobian, even), np.float64)
         found.append((grown(one, bent) - grown(0.5 * one, bent)) / (0.75 * one * one))
     return (4.0 * found[1] - found[0]) / 3.0
 

@@ -1,7 +1,8 @@
 """Indices and probabilities beside closed forms, and two clearances of the press."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -38,7 +39,7 @@ PRESS: dict[str, Any] = {
 
 
 def closed_forms(
-    name: str, function: Callable[[Floats], Floats], known: dict[str, tuple[float, ...]]
+    name: str, function: Callable[[Floats], Floats], known: Mapping[str, tuple[float, ...]]
 ) -> None:
     """Print indices of a function at several numbers of rows, with their errors."""
     parameters = len(known["total"])
@@ -64,12 +65,14 @@ def branches() -> None:
     normal = DISTRIBUTIONS["normal"].model_validate(
         {"distribution": "normal", "mean": 0.0, "standard_deviation": 1.0}
     )
+
+    def system(p: float, shares: Floats) -> Floats:
+        return four_branches(normal.quantiles(shares), p)
+
     print("\nfour branches, 65536 rows: exact, found, interval of 95 %")
     for p, exact in FOUR_BRANCHES.items():
         for design in ("saltelli", "latin-hypercube"):
-            study = study_of(
-                lambda shares, p=p: four_branches(normal.quantiles(shares), p), 2**16, 2, design
-            )
+            study = study_of(partial(system, p), 2**16, 2, design)
             one = sensitivity(study, Question(limit=0.0, failing="below"))["failure"]
             shown = f"{one['probability']:.6e}  {one['low']:.3e} {one['high']:.3e}"
             print(f"p = {p:g} {design:16} {exact:.6e}  {shown}")

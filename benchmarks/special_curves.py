@@ -84,7 +84,7 @@ def main() -> None:
             order = np.argsort(amplitudes)
             away.append((amplitudes[order], distance[order]))
             curves.append(found)
-        shared = np.linspace(*(1e3 * np.array([5e-3, 5.5e-3])), 5)
+        shared = np.linspace(5.0, 5.5, 5)
         first, second = (np.interp(shared, *one) for one in away)
         print(
             f"      ratio of distances at 5 to 5.5 mm: {(first / second).round(3).tolist()}", end=""

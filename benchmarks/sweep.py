@@ -74,7 +74,7 @@ def in_kernels() -> tuple[float, float, float]:
         spent[0] += time.perf_counter() - begun
         return running
 
-    Bundle.advance = timed  # type: ignore[method-assign]
+    Bundle.advance = timed  # type: ignore[assignment, method-assign]
     useful = attempts = 0.0
     begun = time.perf_counter()
     for block in range(len(study.blocks)):
@@ -85,7 +85,7 @@ def in_kernels() -> tuple[float, float, float]:
         assert run.group is not None
         attempts += 8.0 * run.group.bundle.attempts
     total = time.perf_counter() - begun
-    Bundle.advance = original  # type: ignore[method-assign]
+    Bundle.advance = original  # type: ignore[assignment, method-assign]
     return spent[0], total, useful / attempts
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from benchmarks.device import charts, killed, run
 from benchmarks.device.opened import opened
 from benchmarks.device.prepare import MECHANISMS, SIDE, prepare
+from jointplay.solver.kernels.device.lanes import BLOCK
 
 FEW = 4
 """Points along each axis, where there is no device."""
@@ -23,7 +24,7 @@ def main() -> None:
         " as fast as double"
     )
     side = SIDE if found.there else FEW
-    counts = (run.BLOCK * device.processors,) if found.there else (FEW * FEW,)
+    counts = (BLOCK * device.processors,) if found.there else (FEW * FEW,)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for mechanism in MECHANISMS:

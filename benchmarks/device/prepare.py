@@ -53,7 +53,8 @@ def prepare(name: str, folder: Path, side: int, *, on_host: bool = False) -> Non
         scenes = [preset(name, **dict(zip(ranges, map(float, p), strict=True))) for p in chosen]
         problems = [LaneProblem(s, 1e6, 1e-6, 1e6, 1, 2**40, 0.0) for s in scenes]
         bundle = Bundle(kernel, problems, watch=False)
-        columns.append(work_of(bundle)), runs.append(bundle.runs.copy())
+        columns.append(work_of(bundle))
+        runs.append(bundle.runs.copy())
         start = time.process_time()
         handed = advanced(bundle)
         seconds += time.process_time() - start
@@ -78,6 +79,7 @@ def prepare(name: str, folder: Path, side: int, *, on_host: bool = False) -> Non
     varied = np.flatnonzero((work != work[:, :1]).any(axis=1))
     np.savez_compressed(
         folder / f"{name}.npz",
+        allow_pickle=False,
         first=work[:, 0],
         varied=varied,
         numbers=work[varied],

@@ -51,7 +51,7 @@ def main() -> None:
         return
     for name in (part for part in given.only if part in MEASURES):
         print(f"\n{name}: seed {given.seed}, {given.runs} runs")
-        measure: Measure[Any] = MEASURES[name]
+        measure = MEASURES[name]
         if given.journal is not None:
             given.journal.mkdir(parents=True, exist_ok=True)
             path = given.journal / f"{name}-{given.seed}.jsonl"

@@ -59,7 +59,7 @@ def extremes_of(job: dict[str, Any]) -> Extremes:
     values = finished.samples
     moving = np.ptp(values, axis=0) > STILL * sizes(finished.scene, finished.units, values)
     misses, said = [], []
-    for column in np.flatnonzero(moving):
+    for column in np.flatnonzero(moving).tolist():
         name, sampled = finished.names[column], values[:, column]
         peak, spread = finished.peaks[name], float(np.ptp(sampled))
         for sense, value, time in (

@@ -30,8 +30,8 @@ def random_job(point: list[float], kinds: list[str]) -> Chosen:
     scene, unit = EVERY[kind](draw)
     job = {"kind": "simulate", "scene": scene, "duration": unit * length, "method": method}
     if kind in LOOSE:
-        asked = draw.one_of("draft", "standard", "standard", "fine")
-        job["method"], job["tolerance"] = ACCURACIES[asked]
+        accuracy = ACCURACIES[draw.one_of("draft", "standard", "standard", "fine")]
+        job["method"], job["tolerance"] = accuracy
         return Chosen(kind, job, draw.count)
     if kind in OTHERS:
         job["formulation"] = draw.one_of("reduced", "reduced", "lagrange")

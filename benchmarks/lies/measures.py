@@ -1,5 +1,7 @@
 """Measures of searches: error bars that are too short, and extremes that are wrong."""
 
+from typing import Any
+
 import numpy as np
 
 from benchmarks.lies.covered import Verdict, coverage_of
@@ -40,7 +42,7 @@ def _row_of_extremes(group: list[Extremes]) -> tuple[str, ...]:
     )
 
 
-MEASURES = {
+MEASURES: dict[str, Measure[Any]] = {
     "coverage": Measure(
         Verdict,
         coverage_of,

@@ -16,7 +16,7 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kinds import admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.version import SOLVER_VERSION
 
 BUNDLE = 8
@@ -50,10 +50,12 @@ class Case:
 
     def problems(self, every: int = 1, periods: float = 1.0) -> list[LaneProblem]:
         """Return each run, or every n-th, as the problem of a lane: no samples, no sections."""
-        jobs = (self.job(i, periods) for i in range(0, len(self.parameters), every))
+        chosen = range(0, len(self.parameters), every)
         duration = periods * self.period
-        scenes = (admit(job).scene for job in jobs)
-        less = {"ledger": False} if "ledger" in LaneProblem.__dataclass_fields__ else {}
+        scenes = (admitted(self.job(i, periods)).scene for i in chosen)
+        less: dict[str, Any] = (
+            {"ledger": False} if "ledger" in LaneProblem.__dataclass_fields__ else {}
+        )
         return [
             LaneProblem(s, duration, self.tolerance, duration, 0, 0, 0.0, **less) for s in scenes
         ]
@@ -64,6 +66,13 @@ class Case:
         if alone and "alone" in (ready_kernel.__kwdefaults__ or {}):
             return ready_kernel(problem.scene, "reduced", "tsitouras", alone=True)
         return ready_kernel(problem.scene, "reduced", "tsitouras")
+
+
+def admitted(job: dict[str, Any]) -> Admission:
+    """Return a simulation, filled in."""
+    admission = admit(job)
+    assert isinstance(admission, Admission)
+    return admission
 
 
 @dataclass(frozen=True)
@@ -153,7 +162,7 @@ def job(case: Case, _kernel: Kernel, *, certificate: bool) -> Way:
     from jointplay.solver.runs.simulate import Simulation
 
     admissions = [
-        admit(case.job(i) | {"certificate": certificate})
+        admitted(case.job(i) | {"certificate": certificate})
         for i in range(0, len(case.parameters), len(case.parameters) // BUNDLE)
     ]
 

@@ -39,8 +39,8 @@ class Program:
             raise FileNotFoundError("There is no C++ compiler: install g++ or set CXX.")
         library = folder / f"limit{width}.so"
         flags = [*FLAGS, SCALAR] if width == 1 else [*FLAGS, "-Wno-psabi"]
-        built = [found, *flags, f"-DWIDTH={width}", "-shared", "-fPIC", "-o", library, SOURCE]
-        subprocess.run(built, check=True)
+        built = [found, *flags, f"-DWIDTH={width}", "-shared", "-fPIC", "-o", str(library)]
+        subprocess.run([*built, SOURCE], check=True)
         self.width = width
         self._run = ctypes.CDLL(str(library)).run
         self._run.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_long, ctypes.c_long]

@@ -43,7 +43,7 @@ class Held(NamedTuple):
 
     path: str
     job: str
-    index: int
+    number: int
 
     def rows(self, number: int) -> str:
         """Return the name of a file of its attempt."""
@@ -99,7 +99,7 @@ class Attacked(NamedTuple):
                 found = bob.get(f"/v1/jobs/{job}", params={"wait": 5}).raise_for_status().json()
         return found
 
-    def count(self, job: str, happened: str) -> int:
+    def occurrences(self, job: str, happened: str) -> int:
         """Return how often something has happened to a job."""
         found = 0
         with self.as_("bob") as bob, bob.stream("GET", f"/v1/jobs/{job}/events") as events:

@@ -67,7 +67,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as made:
         programs: dict[str, Path | None] = {"now": None}
         if asked.beside:
-            programs = {"before": install(asked.beside, Path(made) / "wheel")} | programs
+            programs = {"before": install(asked.beside, Path(made) / "wheel"), **programs}
         print(f"load of the machine {os.getloadavg()[0]:.1f}")
         columns = [(who, kind) for kind in kinds for who in programs]
         print("| attack |" + "".join(f" {kind}, {who} |" for who, kind in columns))

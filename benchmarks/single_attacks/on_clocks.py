@@ -25,6 +25,6 @@ def late(service: Attacked) -> str:
     finally:
         worker.terminate()
         worker.wait()
-    lost, order = service.count(job, "lost"), ended["started"] >= ended["created"]
+    lost, order = service.occurrences(job, "lost"), ended["started"] >= ended["created"]
     told = f"{ended['state']}, {lost} attempts lost"
     return f"{told}, started {'after' if order else 'before'} it was created"

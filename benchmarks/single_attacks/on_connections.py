@@ -37,14 +37,14 @@ def idle(service: Attacked) -> str:
                 time.sleep(1.5 * _LEASE)
         ended = service.ended(job)
     problem = (ended["error"] or {}).get("code", "")
-    told = f"`/healthz` {healthy} of 15; of the joined worker {service.count(job, 'lost')}"
+    told = f"`/healthz` {healthy} of 15; of the joined worker {service.occurrences(job, 'lost')}"
     return f"{told} attempts lost, job {ended['state']} {problem}".strip()
 
 
 def _await_claim(service: Attacked, job: str, claims: int) -> None:
     """Wait for so many claims of a job, for some seconds: where none was lost there is one."""
     until = time.monotonic() + (10.0 if claims > 1 else 60.0)
-    while service.count(job, "claimed") < claims and time.monotonic() < until:
+    while service.occurrences(job, "claimed") < claims and time.monotonic() < until:
         time.sleep(0.5)
     time.sleep(1.0)
 

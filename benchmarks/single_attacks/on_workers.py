@@ -40,7 +40,7 @@ def finish(service: Attacked) -> str:
 def parts(service: Attacked) -> str:
     """Seal a study, write another block's part and remove it, as the holder of its first block."""
     job = service.submit(_SWEEP)
-    first, second = sorted((service.claim(n) for n in (1, 2)), key=lambda held: held.index)
+    first, second = sorted((service.claim(n) for n in (1, 2)), key=lambda held: held.number)
     names = ("sealed/study", "study/parts/00001", "study/parts/00001-a1")
     statuses = [service.put(first, name, b"garbage" * 1000) for name in names]
     with service.as_("lab") as lab:

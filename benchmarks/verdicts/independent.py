@@ -4,13 +4,14 @@ Nothing here is the solver's. Both functions return sections once a period of th
 distance of a neighbour grew in each, by Benettin's method.
 """
 
-# mypy: disable-error-code="no-untyped-def, no-untyped-call, untyped-decorator"
-
 import math
 
 import numpy as np
 from numba import njit
 
+from jointplay.records.arrays import Floats
+
+Numbers = tuple[float, ...]
 NEAR = 1e-8
 """Distance of the neighbour, rad or m, to which it is brought back every period."""
 SWINGS = 600
@@ -22,7 +23,9 @@ IMPACT = 600
 
 
 @njit(cache=True)
-def _pendulum_period(theta, omega, damping, weight, moment, speed):
+def _pendulum_period(
+    theta: float, omega: float, damping: float, weight: float, moment: float, speed: float
+) -> tuple[float, float]:
     step = 2.0 * math.pi / speed / SWINGS
     for k in range(SWINGS):
         time = k * step
@@ -44,7 +47,7 @@ def _pendulum_period(theta, omega, damping, weight, moment, speed):
 
 
 @njit(cache=True)
-def pendulum(theta, omega, numbers, periods):
+def pendulum(theta: float, omega: float, numbers: Numbers, periods: int) -> tuple[Floats, Floats]:
     """Return (periods, 2) sections and (periods,) logarithms of a neighbour's growth.
 
     numbers : damping, weight, moment and angular velocity of the drive: theta'' = moment
@@ -66,7 +69,9 @@ def pendulum(theta, omega, numbers, periods):
 
 
 @njit(cache=True)
-def _flight(place, rate, time, span, numbers):
+def _flight(
+    place: float, rate: float, time: float, span: float, numbers: Numbers
+) -> tuple[float, float]:
     """Return place and rate a span later, without the stop: in closed form."""
     spring, damping, radius, speed, _gap, _stop, _loss = numbers
     half = 0.5 * damping
@@ -83,7 +88,7 @@ def _flight(place, rate, time, span, numbers):
 
 
 @njit(cache=True)
-def _pushed(place, rate, time, struck, numbers):
+def _pushed(place: float, rate: float, time: float, struck: float, numbers: Numbers) -> float:
     """Return the acceleration at the stop, whose force never pulls."""
     spring, damping, radius, speed, gap, stop, loss = numbers
     depth = max(place - gap, 0.0)
@@ -92,7 +97,7 @@ def _pushed(place, rate, time, struck, numbers):
 
 
 @njit(cache=True)
-def _impact(place, rate, time, numbers):
+def _impact(place: float, rate: float, time: float, numbers: Numbers) -> tuple[float, float, float]:
     """Return place, rate and time when the mass has left the stop that it meets at a rate."""
     struck, stop = rate, numbers[5]
     step = 3.2 * (1.0 / (stop * stop * struck)) ** 0.2 / IMPACT
@@ -113,7 +118,7 @@ def _impact(place, rate, time, numbers):
 
 
 @njit(cache=True)
-def _oscillator_period(place, rate, numbers):
+def _oscillator_period(place: float, rate: float, numbers: Numbers) -> tuple[float, float]:
     speed, gap = numbers[3], numbers[4]
     period = 2.0 * math.pi / speed
     step, time = period / LOOKS, 0.0
@@ -140,7 +145,7 @@ def _oscillator_period(place, rate, numbers):
 
 
 @njit(cache=True)
-def oscillator(place, rate, numbers, periods):
+def oscillator(place: float, rate: float, numbers: Numbers, periods: int) -> tuple[Floats, Floats]:
     """Return (periods, 2) sections and (periods,) logarithms of a neighbour's growth.
 
     numbers : spring, damping, radius and speed of the crank, gap, stop (N/m^1.5) and the factor of

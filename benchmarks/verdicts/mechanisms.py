@@ -14,9 +14,13 @@ from jointplay.solver.scene import presets
 class Mechanism(Protocol):
     """A mechanism with two parameters and their ranges."""
 
-    name: str
-    ranges: tuple[tuple[float, float], tuple[float, float]]
-    observables: tuple[str, str]
+    @property
+    def ranges(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Lowest and highest value of each parameter."""
+
+    @property
+    def observables(self) -> tuple[str, str]:
+        """Channels that the independent program computes, too."""
 
     def scene(self, values: Floats) -> dict[str, Any]:
         """Return the scene at a point."""
@@ -35,7 +39,6 @@ class Mechanism(Protocol):
 class Pendulum:
     """theta'' = g w0^2 cos(2 pi t) - b theta' - w0^2 sin(theta), w0 = 3 pi (Taylor 2005, 12.4)."""
 
-    name: str = "driven pendulum"
     ranges: tuple[tuple[float, float], tuple[float, float]] = ((0.9, 1.5), (3.0, 8.0))
     observables: tuple[str, str] = ("rod.theta", "rod.omega")
     weight: float = (3.0 * math.pi) ** 2
@@ -68,7 +71,9 @@ class Pendulum:
         """See `Mechanism`."""
         moment, damping = values[0] * self.weight, values[1]
         numbers = (damping, self.weight, moment, 2.0 * math.pi)
-        found: tuple[Floats, Floats] = independent.pendulum(*section, numbers, periods)
+        found: tuple[Floats, Floats] = independent.pendulum(
+            section[0], section[1], numbers, periods
+        )
         return found
 
     def scales(self, values: Floats) -> Floats:
@@ -84,7 +89,6 @@ class Pendulum:
 class Oscillator:
     """The preset impact-oscillator over speed and amplitude: grazing, folds and doublings."""
 
-    name: str = "impact oscillator"
     ranges: tuple[tuple[float, float], tuple[float, float]] = ((15.0, 35.0), (2e-3, 8e-3))
     observables: tuple[str, str] = ("mass.x", "mass.vx")
     gap: float = 0.01
@@ -114,7 +118,6 @@ class Oscillator:
 class SliderCrank:
     """The preset slider-crank over clearance and speed; no program but the solver integrates it."""
 
-    name: str = "slider-crank"
     ranges: tuple[tuple[float, float], tuple[float, float]] = ((5e-5, 5e-4), (100.0, 520.0))
 
     def scene(self, values: Floats) -> dict[str, Any]:

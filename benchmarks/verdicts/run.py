@@ -3,6 +3,7 @@
 import argparse
 import time
 from collections import Counter
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -33,7 +34,8 @@ another indicator of chaos."""
 
 def drawn(ranges: tuple[tuple[float, float], ...], count: int, seed: int) -> Floats:
     """Return (count, 2) random points."""
-    low, high = np.array(ranges).T
+    ends = np.array(ranges, np.float64)
+    low, high = ends[:, 0], ends[:, 1]
     return low + (high - low) * np.random.default_rng(seed).random((count, 2))
 
 
@@ -115,7 +117,7 @@ def main() -> None:
     titles = ("points", "right", "wrong", "undecided", "not judged", "away", "undecided away")
     print(f"{'':18}" + "".join(f"{title:>15}" for title in titles) + f"{'seconds':>9}")
     seed = given.seed
-    judges = {
+    judges: dict[str, Callable[[], Counter[str]]] = {
         "driven pendulum": lambda: by_another_program(Pendulum(), given.pendulum, seed),
         "impact oscillator": lambda: by_another_program(Oscillator(), given.oscillator, seed),
         "slider-crank": lambda: by_itself(given.crank, seed),

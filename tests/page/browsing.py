@@ -88,7 +88,12 @@ class Browsing:
 
 def slowly(page: Any, addresses: str) -> None:
     """Have answers come slowly and one after the other, as over a poor link."""
-    page.route(addresses, lambda route: (time.sleep(0.2), route.continue_()))
+
+    def answer(route: Any) -> None:
+        time.sleep(0.2)
+        route.continue_()
+
+    page.route(addresses, answer)
 
 
 def barriers(page: Any) -> list[str]:

@@ -168,7 +168,7 @@ def closed(draw: st.DrawFn) -> Instant:
     for body, at, point in ((first, "from", place), (second, "to", reached)):
         owner = document["ground"] if body == "ground" else document["bodies"][body]
         owner["points"][at] = point
-    joint = {"type": kind, one: f"{first}.from", two: f"{second}.to"}
+    joint: dict[str, Any] = {"type": kind, one: f"{first}.from", two: f"{second}.to"}
     if kind == "prismatic":
         assume(math.hypot(*there) > 0.1)
         joint["axis"] = there
@@ -178,13 +178,9 @@ def closed(draw: st.DrawFn) -> Instant:
     scene = Scene.model_validate(document)
     tree = spanning_tree(scene)
     assume(tree.closing)
-    pose, rates = (
-        np.array([x for n in scene.bodies for x in (*pair(motion.bodies[n]),)])
-        for pair in (
-            lambda body: (*body.position, body.angle),
-            lambda body: (*body.velocity, body.spin),
-        )
-    )
+    moving = [motion.bodies[name] for name in scene.bodies]
+    pose = np.array([x for body in moving for x in (*body.position, body.angle)])
+    rates = np.array([x for body in moving for x in (*body.velocity, body.spin)])
     state = start_state(scene, tree.coordinates, pose, rates)
     position, speed = (
         dict(zip(tree.coordinates, half, strict=True)) for half in np.split(state, 2)

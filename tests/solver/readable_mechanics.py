@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from jointplay.solver.kernels.loop.start import start_state
-from jointplay.solver.kinds import admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.impact_floors import resting_rate
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
@@ -22,7 +22,9 @@ from jointplay.solver.scene.pairs import contact_pairs
 def preset(name: str, **parameters: float | str) -> Scene:
     """Return a preset's scene with parameters set."""
     scene = {"preset": name, "parameters": parameters}
-    return Scene.model_validate(admit({"kind": "simulate", "scene": scene, "duration": 1e-3}).scene)
+    admission = admit({"kind": "simulate", "scene": scene, "duration": 1e-3})
+    assert isinstance(admission, Admission)
+    return Scene.model_validate(admission.scene)
 
 
 def scene_of(document: Mapping[str, Any]) -> Scene:

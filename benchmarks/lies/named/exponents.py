@@ -1,6 +1,7 @@
 """Claims about exponents: of hard and rare contact, a few steps an impact, and of known motions."""
 
 import math
+from functools import partial
 from typing import Any
 
 from benchmarks.lies.named.lie import Found, Lie
@@ -134,8 +135,11 @@ LIES = (
         Lie(
             f"ball that is hit once a turn, {tolerance:g}",
             "the steps made an exponent",  # of two trajectories: the spin's, that falls like 1/t
-            lambda tolerance=tolerance: _holds(
-                job(bouncing_ball(), 200, 100, tolerance=tolerance), 0.0, chaotic=False
+            partial(
+                _holds,
+                job(bouncing_ball(), 200, 100, tolerance=tolerance),
+                0.0,
+                chaotic=False,
             ),
         )
         for tolerance in (1e-5, 1e-6, 1e-8)
@@ -144,7 +148,8 @@ LIES = (
         Lie(
             f"slider-crank with hard contact, {tolerance:g}",
             "the steps made half of an exponent",
-            lambda tolerance=tolerance: _holds(
+            partial(
+                _holds,
                 job({"preset": "slider-crank", "parameters": HARD}, 30, 60, tolerance=tolerance),
                 25.0,
                 chaotic=True,

@@ -1,6 +1,7 @@
 """Claims about free flight, where no error bounds a step."""
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -177,7 +178,7 @@ LIES = (
         Lie(
             f"ring beside a table at {slow:g} rad/s",
             "an impact was missed",
-            lambda slow=slow: by_bars(_job(_two_motors(slow), 0.1)),
+            partial(by_bars, _job(_two_motors(slow), 0.1)),
         )
         for slow in (0.3, 3.0, 299.7)
     ),

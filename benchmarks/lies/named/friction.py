@@ -1,5 +1,6 @@
 """Claims about friction that holds a joint: the slip stays on a ramp that no step resolves."""
 
+from functools import partial
 from typing import Any
 
 from benchmarks.lies.covered import by_implicit_method
@@ -38,7 +39,7 @@ BARS = (
         Lie(
             f"slider-crank, friction full at {dynamic:g} m/s",
             "bars compared eight equal mistakes",
-            lambda dynamic=dynamic: by_bars(_slider(dynamic), by_implicit_method),
+            partial(by_bars, _slider(dynamic), by_implicit_method),
         )
         for dynamic in (1e-5, 3e-5, 1e-4)
     ),

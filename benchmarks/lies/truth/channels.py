@@ -203,7 +203,7 @@ def _walls(named: Named, states: Floats, tolds: Floats, values: dict[str, Floats
             1,
         )
         centre = [
-            np.subtract(*(point(m, at, y)[2:4] for at in (m.play[j, 1], named.sliders[j])))
+            np.subtract(point(m, m.play[j, 1], y)[2:4], point(m, named.sliders[j], y)[2:4])
             for y in states
         ]
         arm = np.array(centre) + tolds[:, j, RX : RY + 1]

@@ -96,7 +96,7 @@ def read(scene: Mapping[str, Any]) -> Named:
     """Return the mechanism of a filled-in document."""
     bodies = list(scene["bodies"])
     place: dict[str, int] = {}
-    body, arm = [], []
+    body, arm = list[int](), list[Sequence[float]]()
     for owner, held in (("ground", scene["ground"]), *scene["bodies"].items()):
         for point, coordinates in held["points"].items():
             place[f"{owner}.{point}"] = len(body)
@@ -111,7 +111,9 @@ def read(scene: Mapping[str, Any]) -> Named:
         driver.get("joint") or pins[driver["body"]]: (name, driver)
         for name, driver in scene["drivers"].items()
     }
-    row, motion, rows, drivers = [], [], {}, {}
+    row, motion = list[tuple[int, int, int]](), list[tuple[float, ...]]()
+    rows, drivers = dict[str, list[int]](), dict[str, int]()
+    wanted: list[tuple[int, tuple[float, ...]]]
     for name, joint in scene["joints"].items():
         if has_play(joint):
             continue
