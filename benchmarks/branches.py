@@ -1,11 +1,10 @@
 """Branches of slider-crank, four-bar and press, each special orbit beside motions on both sides.
 
-`python -m benchmarks branches --NAME ...` takes some of the cases. A motion begins next to an orbit
-of the branch and is only simulated: it must come back where all multipliers are inside the circle,
-and leave where one is not; beyond a fold it must leave.
+A motion begins next to an orbit of the branch and is only simulated: it must come back where all
+multipliers are inside the circle, and leave where one is not; beyond a fold it must leave.
 """
 
-import sys
+import argparse
 import time
 from typing import Any
 
@@ -176,7 +175,9 @@ def report(name: str) -> None:
 
 def main() -> None:
     """Print every case, or those that are named."""
-    for name in [one.removeprefix("--") for one in sys.argv[1:]] or CASES:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks branches", description=__doc__)
+    parser.add_argument("--only", choices=CASES, nargs="+", default=list(CASES))
+    for name in parser.parse_args().only:
         report(name)
 
 

@@ -1,5 +1,6 @@
 """Charts: points beside those of a diagram, a million of them planned, and their pictures."""
 
+import argparse
 import json
 import resource
 import statistics
@@ -98,12 +99,17 @@ def tiles(side: int) -> None:
 
 def main() -> None:
     """Print all of it."""
-    if len(sys.argv) > 1:
-        planned(int(sys.argv[1]))
+    parser = argparse.ArgumentParser(prog="python -m benchmarks chart", description=__doc__)
+    parser.add_argument("--planned", type=int, help="plan this many points squared, and no more")
+    given = parser.parse_args()
+    if given.planned is not None:
+        planned(given.planned)
         return
     points()
     for side in (1000, 2000):  # each in a process of its own: the memory is its own, too
-        subprocess.run([sys.executable, "-m", "benchmarks.chart", str(side)], check=True)
+        subprocess.run(
+            [sys.executable, "-m", "benchmarks.chart", "--planned", str(side)], check=True
+        )
     tiles(1000)
 
 

@@ -8,6 +8,7 @@ neighbours upwards and downwards. Distances of each curve to the nearest boundar
 row of its speed, across the curve, in pixels. With a FOLDER results and a picture stay there.
 """
 
+import argparse
 import json
 import os
 import random
@@ -171,12 +172,15 @@ def told(name: str, away: Floats, speeds: Floats) -> None:
 
 def main() -> None:
     """Compute the charts and print their distances from the curves."""
-    given = sys.argv[1:]
-    side, count = (int(given[k]) if len(given) > k else n for k, n in enumerate((100, 20)))
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.chart_curves", description=__doc__)
+    parser.add_argument("side", type=int, nargs="?", default=100, help="points along each axis")
+    parser.add_argument("count", type=int, nargs="?", default=20, help="rows")
+    parser.add_argument("folder", type=Path, nargs="?", help="where the results are kept")
+    given = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
-        folder = Path(given[2] if len(given) > 2 else scratch)
+        folder = given.folder or Path(scratch)
         folder.mkdir(exist_ok=True)
-        measured(side, count, folder)
+        measured(given.side, given.count, folder)
 
 
 def measured(side: int, count: int, folder: Path) -> None:

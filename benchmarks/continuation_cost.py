@@ -1,13 +1,12 @@
 """Seconds of a branch: an orbit with its multipliers and errors, and a located doubling or fold.
 
 Beside it are as many points of a bifurcation diagram over the same range. Processor time of one
-core, kernels compiled before. `--NAME` takes one of the cases. The chain is like what COCO's
-published runs follow, a smooth system of four states over the frequency that shakes it; see
-docs/measurements/speed.md.
+core, kernels compiled before. The chain is like what COCO's published runs follow, a smooth system
+of four states over the frequency that shakes it; see docs/measurements/speed.md.
 """
 
+import argparse
 import statistics
-import sys
 import time
 from typing import Any, NamedTuple
 
@@ -134,7 +133,11 @@ def of_diagram(job: dict[str, Any], points: int) -> float:
 
 def main() -> None:
     """Print a line for each case, and one for each special orbit."""
-    for name in [one.removeprefix("--") for one in sys.argv[1:]] or JOBS:
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks continuation_cost", description=__doc__
+    )
+    parser.add_argument("--only", choices=JOBS, nargs="+", default=list(JOBS))
+    for name in parser.parse_args().only:
         found = cost(JOBS[name])
         count, typical = len(found.orbits), statistics.median(found.orbits)
         point = of_diagram(JOBS[name], count)

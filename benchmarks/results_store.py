@@ -1,13 +1,7 @@
-"""Cost of the results store: creating, filling, sealing, reading.
+"""Cost of the results store: creating, filling, sealing, reading."""
 
-    python benchmarks/results_store.py [FOLDER]
-
-FOLDER is where the stores are written for the measurement (default: the system's temporary
-folder); its disk decides what fsync costs.
-"""
-
+import argparse
 import shutil
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -111,7 +105,11 @@ def long_history(folder: Path) -> None:
 
 
 def main() -> None:
-    parent = sys.argv[1] if len(sys.argv) > 1 else None
+    parser = argparse.ArgumentParser(prog="python -m benchmarks results_store", description=__doc__)
+    parser.add_argument(
+        "--folder", help="where stores are written: its disk decides what fsync costs"
+    )
+    parent = parser.parse_args().folder
     folder = Path(tempfile.mkdtemp(prefix="results_store_", dir=parent))
     try:
         default_history(folder)
