@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from subprocess import DEVNULL
@@ -30,10 +30,10 @@ WORKERS, TURNS = 2, 7
 
 
 @contextmanager
-def joined_worker(url: str) -> Iterator[None]:
+def joined_worker(url: str, environment: Mapping[str, str] | None = None) -> Iterator[None]:
     """Keep a worker running that knows the address alone."""
     command = [sys.executable, "-P", "-m", "jointplay", "worker", "--join", url]
-    with subprocess.Popen(command, stdout=DEVNULL, stderr=DEVNULL) as worker:
+    with subprocess.Popen(command, env=environment, stdout=DEVNULL, stderr=DEVNULL) as worker:
         try:
             yield
         finally:

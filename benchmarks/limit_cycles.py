@@ -16,7 +16,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from benchmarks.basin_scenes import ON_THE_MASS, pendulum, sliding
+from benchmarks.basin_scenes import ON_THE_MASS, along_the_slide, pendulum, sliding
 from benchmarks.known_orbits import followed
 
 SHARP: dict[str, Any] = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}
@@ -36,14 +36,7 @@ SPRING = {"type": "spring-damper", **ON_THE_MASS, "stiffness": 1.0}
 
 def over_speed(coefficients: list[float]) -> dict[str, Any]:
     """Return a force on the mass that is a polynomial of its speed."""
-    return {
-        "type": "force",
-        **ON_THE_MASS,
-        "magnitude": 1.0,
-        "direction": [1.0, 0.0],
-        "over": {"quantity": "x", "rate": True},
-        "course": {"type": "polynomial", "coefficients": coefficients},
-    }
+    return along_the_slide(coefficients) | {"over": {"quantity": "x", "rate": True}}
 
 
 def varied(scene: dict[str, Any], path: str, value: float) -> dict[str, Any]:

@@ -16,10 +16,11 @@ are of the processor, a revolution and lane, without compiling.
 
 import statistics
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from benchmarks import press
 from benchmarks.busy_lanes import CLEARANCES, busy_lanes
 from benchmarks.paper_equations import seconds_a_period
 from benchmarks.peer_diffrax import measure_diffrax
@@ -29,7 +30,6 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.scene.document import Scene
 
 CASE = {
@@ -60,20 +60,8 @@ class Measured:
 
 def problem(clearance: float, tolerance: float, duration: float) -> LaneProblem:
     """Return the case for one lane, without outputs."""
-    admission = admit(
-        {
-            "kind": "simulate",
-            "scene": {
-                "preset": "seven-bar-press",
-                "parameters": CASE | {"clearance": clearance},
-            },
-            "duration": duration,
-            "tolerance": tolerance,
-        }
-    )
-    assert isinstance(admission, Admission)
-    scene = admission.scene
-    return LaneProblem(scene, duration, tolerance, duration, 0, 0, 0.0)
+    found = press.problem(clearance, tolerance, duration, CASE)
+    return replace(found, output_step=duration, samples=0, sections=0)
 
 
 def ours(

@@ -8,6 +8,7 @@ from 0.3 to 0.6 mm wait for lanes; the bare column seeks no extremes and writes 
 
 import statistics
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -32,9 +33,11 @@ REPEATS, REPEATS_TOGETHER = 40, 7
 CHECK_TIME = 0.03
 
 
-def problem(clearance: float, tolerance: float, duration: float) -> LaneProblem:
+def problem(
+    clearance: float, tolerance: float, duration: float, case: Mapping[str, float] = CASE
+) -> LaneProblem:
     """Return the case for one lane."""
-    parameters = CASE | {"clearance": clearance}
+    parameters = {**case, "clearance": clearance}
     admission = admit(
         {
             "kind": "simulate",

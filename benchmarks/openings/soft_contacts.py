@@ -7,6 +7,7 @@ import math
 from typing import Any
 
 from benchmarks.lies.draw import Draw
+from benchmarks.lies.scenes.bearing import rotor_in_bearing
 
 SWINGS = 8.0
 """Duration of a run, in durations of an impact (Hertz: 2.94 depth / speed)."""
@@ -27,44 +28,28 @@ def soft_contact(draw: Draw) -> dict[str, Any]:
         "dynamic_velocity": 2.0 * slip,
     }
     depth = (1.25 * mass * speed**2 / stiffness) ** 0.4
-    return {
-        "kind": "simulate",
-        "duration": float(f"{SWINGS * 2.94 * depth / speed:.9g}"),
-        "scene": {
-            "name": "soft-contact",
-            "gravity": [0.0, draw.one_of(0.0, -9.81)],
-            "ground": {"points": {"O": [0.0, 0.0]}},
-            "bodies": {
-                "rotor": {
-                    "mass": mass,
-                    "inertia": mass * draw.size(1e-4, 1e-2),
-                    "points": {"centre": [clearance * draw.even(0.0, 0.9), 0.0]},
-                }
-            },
-            "joints": {
-                "J": {
-                    "type": "revolute",
-                    "bearing": "ground.O",
-                    "journal": "rotor.centre",
-                    "clearance": {
-                        "radial_clearance": clearance,
-                        "bearing_radius": radius,
-                        "contact": {
-                            "law": "lankarani-nikravesh",
-                            "stiffness": stiffness,
-                            "restitution": draw.even(0.8, 1.0),
-                        },
-                        "friction": friction,
-                    },
-                }
-            },
-            "start": {
-                "angles": {"rotor": 0.0},
-                "angular_velocities": {"rotor": draw.even(-200.0, 200.0)},
-                "velocities": {"rotor": [speed * math.cos(heading), speed * math.sin(heading)]},
-                "joints": {
-                    "J": {"eccentricity": [aside * math.cos(at), aside * math.sin(at)]},
-                },
-            },
-        },
+    duration, gravity = SWINGS * 2.94 * depth / speed, draw.one_of(0.0, -9.81)
+    rotor = {
+        "mass": mass,
+        "inertia": mass * draw.size(1e-4, 1e-2),
+        "points": {"pin": [clearance * draw.even(0.0, 0.9), 0.0]},
     }
+    contact = {
+        "law": "lankarani-nikravesh",
+        "stiffness": stiffness,
+        "restitution": draw.even(0.8, 1.0),
+    }
+    fit = {
+        "radial_clearance": clearance,
+        "bearing_radius": radius,
+        "contact": contact,
+        "friction": friction,
+    }
+    start = {
+        "angles": {"rotor": 0.0},
+        "angular_velocities": {"rotor": draw.even(-200.0, 200.0)},
+        "velocities": {"rotor": [speed * math.cos(heading), speed * math.sin(heading)]},
+        "joints": {"J": {"eccentricity": [aside * math.cos(at), aside * math.sin(at)]}},
+    }
+    scene = rotor_in_bearing("soft-contact", gravity, rotor, fit, start)
+    return {"kind": "simulate", "scene": scene, "duration": float(f"{duration:.9g}")}

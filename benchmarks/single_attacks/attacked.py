@@ -14,6 +14,7 @@ from urllib.parse import urlsplit
 
 import httpx
 
+from benchmarks.joined import joined_worker
 from benchmarks.memory import anonymous
 from jointplay.chaos.inside import FOLDER_VARIABLE
 from jointplay.chaos.processes import running
@@ -142,18 +143,11 @@ class Attacked(NamedTuple):
     @contextmanager
     def joined(self) -> Iterator[None]:
         """Keep a worker running that has joined."""
-        command = [sys.executable, "-P", "-m", "jointplay", "worker", "--join", self.url]
         own = self.environment
         if "lab" in self.keys:
             own["JOINTPLAY_KEY"] = self.keys["lab"]
-        worker = subprocess.Popen(
-            command, env=own, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-        try:
+        with joined_worker(self.url, own):
             yield
-        finally:
-            worker.terminate()
-            worker.wait()
 
     def memory(self) -> float:
         """Return the memory of its API, MB."""

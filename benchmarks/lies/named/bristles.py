@@ -6,7 +6,7 @@ One is apart, the other in contact; both steps' ends look smooth.
 from typing import Any
 
 from benchmarks.lies.named.lie import Lie, by_extremes
-from benchmarks.lies.scenes.bristles import bristled_journal
+from benchmarks.lies.scenes.bearing import rotor_in_bearing
 
 
 def _spun(
@@ -16,7 +16,8 @@ def _spun(
     spin: float,
     start: dict[str, Any],
 ) -> dict[str, Any]:
-    scene = bristled_journal(0.0, rotor, clearance, spin, start)
+    begin = {"angular_velocities": {"rotor": spin}, "joints": {"J": start}}
+    scene = rotor_in_bearing("bristled-journal", 0.0, rotor, clearance, begin)
     return {"kind": "simulate", "scene": scene, "duration": duration}
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from benchmarks.lies.named.lie import Found, Lie, by_bars, by_extremes
 from benchmarks.lies.run import Finished, finish
+from benchmarks.lies.scenes.bearing import rotor_in_bearing
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.study.run import StudyRun
 
@@ -28,26 +29,13 @@ def _bearing(
 
 
 def _rotor(gravity: float, radius: float, spin: float) -> dict[str, Any]:
-    pin = {"mass": 1.0, "inertia": 1e-4, "points": {"pin": [2.8184e-4, 0.0]}}
-    return {
-        "name": "rotor",
-        "gravity": [0.0, gravity],
-        "ground": {"points": {"O": [0.0, 0.0]}},
-        "bodies": {"rotor": pin},
-        "joints": {
-            "J": {
-                "type": "revolute",
-                "bearing": "ground.O",
-                "journal": "rotor.pin",
-                "clearance": _bearing(5e-4, radius, 0.9, 0.1),
-            }
-        },
-        "start": {
-            "angular_velocities": {"rotor": spin},
-            "velocities": {"rotor": [0.0134, 0.0609 if gravity else 0.0]},
-            "joints": {"J": {"eccentricity": [-2.4e-5, -1.83e-5]}},
-        },
+    body = {"mass": 1.0, "inertia": 1e-4, "points": {"pin": [2.8184e-4, 0.0]}}
+    start = {
+        "angular_velocities": {"rotor": spin},
+        "velocities": {"rotor": [0.0134, 0.0609 if gravity else 0.0]},
+        "joints": {"J": {"eccentricity": [-2.4e-5, -1.83e-5]}},
     }
+    return rotor_in_bearing("rotor", gravity, body, _bearing(5e-4, radius, 0.9, 0.1), start)
 
 
 def _two_motors(slow: float) -> dict[str, Any]:
@@ -62,11 +50,7 @@ def _two_motors(slow: float) -> dict[str, Any]:
                 "points": {"O": [0.0, 0.0], "pin": [0.0, 0.0046]},
             },
             "ring": {"mass": 2.0, "inertia": 0.01, "points": {"eye": [0.0, 0.0]}},
-            "table": {
-                "mass": 1.0,
-                "inertia": 0.01,
-                "points": {"O": [0.0, 0.0], "tip": [0.2, 0.0]},
-            },
+            "table": {"mass": 1.0, "inertia": 0.01, "points": {"O": [0.0, 0.0], "tip": [0.2, 0.0]}},
         },
         "joints": {
             "O": {"type": "revolute", "bearing": "ground.O", "journal": "crank.O"},
@@ -78,10 +62,7 @@ def _two_motors(slow: float) -> dict[str, Any]:
                 "clearance": _bearing(5e-3, 0.02, 0.6, 0.05),
             },
         },
-        "drivers": {
-            "motor": {"joint": "O", "speed": 300.0},
-            "slow": {"joint": "T", "speed": slow},
-        },
+        "drivers": {"motor": {"joint": "O", "speed": 300.0}, "slow": {"joint": "T", "speed": slow}},
         "start": {
             "velocities": {"ring": [0.05, 0.0]},
             "joints": {"E": {"eccentricity": [0.0, 0.0046]}},
@@ -121,10 +102,7 @@ def _comes_to_its_end(job: dict[str, Any]) -> Found:
     return Found(ended == "done", ended)
 
 
-SPINNING = {
-    "preset": "pendulum",
-    "parameters": {"gravity_y": 0.0, "angular_velocity": 1000.0},
-}
+SPINNING = {"preset": "pendulum", "parameters": {"gravity_y": 0.0, "angular_velocity": 1000.0}}
 FLYING = {
     "preset": "bouncing-journal",
     "parameters": {
@@ -183,9 +161,7 @@ LIES = (
         for slow in (0.3, 3.0, 299.7)
     ),
     Lie(
-        "rod spinning freely",
-        "extremes were impossible",
-        lambda: by_extremes(_job(SPINNING, 0.05)),
+        "rod spinning freely", "extremes were impossible", lambda: by_extremes(_job(SPINNING, 0.05))
     ),
     Lie(
         "journal flying past",

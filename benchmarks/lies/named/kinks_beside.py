@@ -7,42 +7,22 @@ BEND = {
     "scene": {
         "name": "loose-slider-crank",
         "gravity": [0.0, -9.81],
-        "ground": {
-            "points": {
-                "O": [0.0, 0.0],
-            },
-        },
+        "ground": {"points": {"O": [0.0, 0.0]}},
         "bodies": {
             "crank": {
                 "mass": 1.0,
                 "inertia": 0.001,
-                "points": {
-                    "O": [0.0, 0.0],
-                    "pin": [0.198938045412, 0.0],
-                },
+                "points": {"O": [0.0, 0.0], "pin": [0.198938045412, 0.0]},
             },
             "rod": {
                 "mass": 1.13888441003,
                 "inertia": 0.04788335439515304,
-                "points": {
-                    "big": [-0.3551510366475745, 0.0],
-                    "small": [0.3551510366475745, 0.0],
-                },
+                "points": {"big": [-0.3551510366475745, 0.0], "small": [0.3551510366475745, 0.0]},
             },
-            "slider": {
-                "mass": 1.13888441003,
-                "inertia": 0.001,
-                "points": {
-                    "pin": [0.0, 0.0],
-                },
-            },
+            "slider": {"mass": 1.13888441003, "inertia": 0.001, "points": {"pin": [0.0, 0.0]}},
         },
         "joints": {
-            "O": {
-                "type": "revolute",
-                "bearing": "ground.O",
-                "journal": "crank.O",
-            },
+            "O": {"type": "revolute", "bearing": "ground.O", "journal": "crank.O"},
             "P": {
                 "type": "revolute",
                 "bearing": "crank.pin",
@@ -90,13 +70,7 @@ BEND = {
                 "axis": [1.0, 0.0],
             },
         },
-        "drivers": {
-            "motor": {
-                "joint": "O",
-                "position": 5.39006396388,
-                "speed": 14.8106935725,
-            },
-        },
+        "drivers": {"motor": {"joint": "O", "position": 5.39006396388, "speed": 14.8106935725}},
     },
     "duration": 0.013324093803534803,
     "method": "rk4",
@@ -108,36 +82,21 @@ RELEASE = {
     "scene": {
         "name": "double-pendulum",
         "gravity": [0.0, -9.81],
-        "ground": {
-            "points": {
-                "O": [0.0, 0.0],
-                "wall": [0.3, 0.6],
-            },
-        },
+        "ground": {"points": {"O": [0.0, 0.0], "wall": [0.3, 0.6]}},
         "bodies": {
             "upper": {
                 "mass": 0.46550849032,
                 "inertia": 0.0013810838014061367,
-                "points": {
-                    "a": [-0.0843559232622, 0.0],
-                    "b": [0.0843559232622, 0.0],
-                },
+                "points": {"a": [-0.0843559232622, 0.0], "b": [0.0843559232622, 0.0]},
             },
             "lower": {
                 "mass": 1.11572466409,
                 "inertia": 0.02500196799803979,
-                "points": {
-                    "a": [-0.336654108489, 0.0],
-                    "b": [0.336654108489, 0.0],
-                },
+                "points": {"a": [-0.336654108489, 0.0], "b": [0.336654108489, 0.0]},
             },
         },
         "joints": {
-            "O": {
-                "type": "revolute",
-                "bearing": "ground.O",
-                "journal": "upper.a",
-            },
+            "O": {"type": "revolute", "bearing": "ground.O", "journal": "upper.a"},
             "P": {
                 "type": "revolute",
                 "bearing": "upper.b",
@@ -167,17 +126,11 @@ RELEASE = {
                 "stiffness": 1.26157608538,
                 "damping": 0.0211176622966,
                 "free_length": 0.842247712201,
-            },
+            }
         },
         "start": {
-            "angles": {
-                "upper": -0.265919929053,
-                "lower": 1.68046328038,
-            },
-            "angular_velocities": {
-                "upper": 1.65718647424,
-                "lower": -0.295870674626,
-            },
+            "angles": {"upper": -0.265919929053, "lower": 1.68046328038},
+            "angular_velocities": {"upper": 1.65718647424, "lower": -0.295870674626},
         },
     },
     "duration": 0.0536235869769,

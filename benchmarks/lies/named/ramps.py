@@ -24,11 +24,7 @@ HELD = {
 BEARING = {
     "radial_clearance": 0.00177001114033,
     "bearing_radius": 0.0324108258577,
-    "contact": {
-        "law": "lankarani-nikravesh",
-        "stiffness": 247516728.0,
-        "restitution": 0.4838117,
-    },
+    "contact": {"law": "lankarani-nikravesh", "stiffness": 247516728.0, "restitution": 0.4838117},
     "friction": {
         "law": "modified-coulomb",
         "coefficient": 0.04492156,
@@ -48,12 +44,7 @@ PENDULUM = {
         }
     },
     "joints": {
-        "O": {
-            "type": "revolute",
-            "bearing": "ground.O",
-            "journal": "rod.a",
-            "clearance": BEARING,
-        }
+        "O": {"type": "revolute", "bearing": "ground.O", "journal": "rod.a", "clearance": BEARING}
     },
     "start": {"angles": {"rod": 0.737645268627}, "angular_velocities": {"rod": 3.84870963313}},
 }

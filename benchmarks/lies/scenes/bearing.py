@@ -1,4 +1,4 @@
-"""A random joint with play: its fit, contact and friction."""
+"""A random joint with play: its fit, contact and friction; a rotor in such a joint."""
 
 from typing import Any
 
@@ -22,4 +22,26 @@ def bearing(draw: Draw, clearance: float) -> dict[str, Any]:
             "dynamic_velocity": slip,
             "static_velocity": slip * draw.one_of(0.0, 0.1, 0.5, 0.9),
         },
+    }
+
+
+def rotor_in_bearing(
+    name: str,
+    gravity: float,
+    rotor: dict[str, Any],
+    clearance: dict[str, Any],
+    start: dict[str, Any],
+) -> dict[str, Any]:
+    """Return the scene of the body `rotor`, whose point `pin` has play in the joint `J`.
+
+    gravity : along y, m/s^2.
+    """
+    pin = {"type": "revolute", "bearing": "ground.O", "journal": "rotor.pin"}
+    return {
+        "name": name,
+        "gravity": [0.0, gravity],
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {"rotor": rotor},
+        "joints": {"J": pin | {"clearance": clearance}},
+        "start": start,
     }

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 from benchmarks.lies.draw import Draw
+from benchmarks.lies.scenes.bearing import rotor_in_bearing
 from benchmarks.lies.scenes.surfaces import dahl, lugre
 
 
@@ -41,34 +42,9 @@ def _journal(
         },
         "friction": friction(draw),
     }
-    start = {
+    joint = {
         "eccentricity": [aside * math.cos(at), aside * math.sin(at)],
         "rate": [speed * math.cos(heading), speed * math.sin(heading)],
     }
-    scene = bristled_journal(gravity, rotor, fit, draw.even(-300.0, 300.0), start)
-    return scene, clearance / speed
-
-
-def bristled_journal(
-    gravity: float,
-    rotor: dict[str, Any],
-    clearance: dict[str, Any],
-    spin: float,
-    start: dict[str, Any],
-) -> dict[str, Any]:
-    """Return the scene of a rotor with the point `pin`, its spin in rad/s and its joint's start."""
-    return {
-        "name": "bristled-journal",
-        "gravity": [0.0, gravity],
-        "ground": {"points": {"O": [0.0, 0.0]}},
-        "bodies": {"rotor": rotor},
-        "joints": {
-            "J": {
-                "type": "revolute",
-                "bearing": "ground.O",
-                "journal": "rotor.pin",
-                "clearance": clearance,
-            }
-        },
-        "start": {"angular_velocities": {"rotor": spin}, "joints": {"J": start}},
-    }
+    start = {"angular_velocities": {"rotor": draw.even(-300.0, 300.0)}, "joints": {"J": joint}}
+    return rotor_in_bearing("bristled-journal", gravity, rotor, fit, start), clearance / speed

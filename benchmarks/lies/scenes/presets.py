@@ -6,7 +6,8 @@ from typing import Any
 from benchmarks.lies.draw import Draw
 
 
-def _preset(name: str, **parameters: Any) -> dict[str, Any]:
+def preset(name: str, **parameters: Any) -> dict[str, Any]:
+    """Return a preset with some parameters set."""
     return {"preset": name, "parameters": parameters}
 
 
@@ -25,7 +26,7 @@ def pendulum(draw: Draw) -> tuple[dict[str, Any], float]:
     """Return a rod on a pin, from rest to a thousand rad/s, with gravity and without."""
     gravity, spin = draw.one_of(-9.81, -9.81, 0.0, -1e-3), draw.one_of(0.0, 1.0, -1.0)
     speed = spin * draw.size(0.1, 1000.0)
-    scene = _preset(
+    scene = preset(
         "pendulum",
         gravity_y=gravity,
         angle=draw.even(-3.0, 3.0),
@@ -41,7 +42,7 @@ def journal(draw: Draw) -> tuple[dict[str, Any], float]:
     clearance = draw.size(2e-5, 5e-3)
     gravity, throw = draw.one_of(-9.81, -9.81, -1.0, 0.0), draw.size(0.01, 3.0)
     heading, at, aside = draw.even(0.0, 6.283), draw.even(0.0, 6.283), draw.even(0.0, 0.95)
-    scene = _preset(
+    scene = preset(
         "bouncing-journal",
         clearance=clearance,
         bearing_radius=clearance * draw.size(1.5, 50.0),
@@ -59,7 +60,7 @@ def journal(draw: Draw) -> tuple[dict[str, Any], float]:
 def slider_crank(draw: Draw) -> tuple[dict[str, Any], float]:
     """Return the slider-crank."""
     clearance, speed = draw.size(5e-5, 5e-3), draw.size(10.0, 600.0)
-    scene = _preset(
+    scene = preset(
         "slider-crank",
         clearance=clearance,
         bearing_radius=clearance * draw.size(1.5, 50.0),
@@ -85,7 +86,7 @@ def _press(name: str, draw: Draw) -> tuple[dict[str, Any], float]:
     one, two = draw.size(5e-5, 3e-3), draw.size(5e-5, 3e-3)
     speed = draw.size(0.3, 30.0)
     ratio = draw.one_of(1.0, -1.0, 2.0, 0.5, 0.7071, 0.01, 30.0)
-    scene = _preset(
+    scene = preset(
         name,
         clearance_A=one,
         clearance_B=two,

@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from benchmarks.lies.draw import Draw
-from benchmarks.lies.scenes.bearing import bearing
+from benchmarks.lies.scenes.bearing import bearing, rotor_in_bearing
 
 
 def rotor(draw: Draw) -> tuple[dict[str, Any], float]:
@@ -13,37 +13,18 @@ def rotor(draw: Draw) -> tuple[dict[str, Any], float]:
     spin = draw.size(30.0, 3000.0)
     heading, speed = draw.even(0.0, 6.283), draw.size(1e-3, 0.3)
     at, aside = draw.even(0.0, 6.283), draw.even(0.0, 0.3)
-    scene = {
-        "name": "rotor",
-        "gravity": [0.0, draw.one_of(0.0, -9.81)],
-        "ground": {"points": {"O": [0.0, 0.0]}},
-        "bodies": {
-            "rotor": {
-                "mass": draw.size(0.1, 10.0),
-                "inertia": draw.size(1e-5, 1e-2),
-                "points": {"pin": [clearance * draw.even(0.05, 0.65), 0.0]},
-            }
-        },
-        "joints": {
-            "J": {
-                "type": "revolute",
-                "bearing": "ground.O",
-                "journal": "rotor.pin",
-                "clearance": bearing(draw, clearance),
-            }
-        },
-        "start": {
-            "angles": {"rotor": 0.0},
-            "angular_velocities": {"rotor": spin},
-            "velocities": {"rotor": [speed * math.cos(heading), speed * math.sin(heading)]},
-            "joints": {
-                "J": {
-                    "eccentricity": [
-                        aside * clearance * math.cos(at),
-                        aside * clearance * math.sin(at),
-                    ]
-                }
-            },
-        },
+    gravity = draw.one_of(0.0, -9.81)
+    body = {
+        "mass": draw.size(0.1, 10.0),
+        "inertia": draw.size(1e-5, 1e-2),
+        "points": {"pin": [clearance * draw.even(0.05, 0.65), 0.0]},
     }
+    place = [aside * clearance * math.cos(at), aside * clearance * math.sin(at)]
+    start = {
+        "angles": {"rotor": 0.0},
+        "angular_velocities": {"rotor": spin},
+        "velocities": {"rotor": [speed * math.cos(heading), speed * math.sin(heading)]},
+        "joints": {"J": {"eccentricity": place}},
+    }
+    scene = rotor_in_bearing("rotor", gravity, body, bearing(draw, clearance), start)
     return scene, min(max(1e-2 * clearance / 1e-3, 10.0 / spin), 0.03)
