@@ -4,8 +4,9 @@
 
 The press in C++, scalar and in lanes, written for this comparison and built with the compiler that
 is found, beside the product in one run: all take turns, processor time counts, ratios are medians
-of those of the turns, with their quartiles.  C++ computes the motion and nothing else.  With the
-wheel of an earlier version both versions run one text, for the press and for the slider-crank.
+of those of the turns, with their quartiles.  C++ computes the motion and nothing else; in a second
+program of it sines are exact to rounding, as in the product.  With the wheel of an earlier version
+both versions run one text, for the press and for the slider-crank.
 """
 
 import argparse
@@ -24,7 +25,7 @@ from benchmarks.limit.limit_ways import limit_ways
 from benchmarks.limit.numbers import mechanism, presses
 from benchmarks.limit.product import Case, Way
 from benchmarks.limit.program import WIDTHS, Program, compiler
-from benchmarks.limit.table import PRODUCT, WHEEL, C, table
+from benchmarks.limit.table import EXACT, PRODUCT, WHEEL, C, table
 from benchmarks.limit.turns import Samples, install, product, take_turns
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -56,8 +57,14 @@ def main() -> None:
             compare(programs)
         wheel = options.beside and install(options.beside, folder / "wheel")
         for lanes in map(int, options.lanes.split(",")):
-            limit = limit_ways(PRESS, programs[lanes], programs[1]) if programs else {}
-            measure(PRESS, lanes, limit, wheel, options.turns)
+            limits: dict[str, Mapping[str, Way]] = {}
+            if programs:
+                exact = [Program(width, folder, exact=True) for width in (lanes, 1)]
+                limits = {
+                    C: limit_ways(PRESS, programs[lanes], programs[1]),
+                    EXACT: limit_ways(PRESS, *exact),
+                }
+            measure(PRESS, lanes, limits, wheel, options.turns)
             if wheel:
                 measure(SLIDER_CRANK, lanes, {}, wheel, options.turns)
 
@@ -91,12 +98,16 @@ def _state(kernel: Kernel, problem: LaneProblem) -> tuple[NDArray[np.float64], i
 
 
 def measure(
-    case: Case, lanes: int, limit: Mapping[str, Way], wheel: Path | None, turns: int
+    case: Case,
+    lanes: int,
+    limits: Mapping[str, Mapping[str, Way]],
+    wheel: Path | None,
+    turns: int,
 ) -> None:
     """Print the table of a case for kernels of one width."""
     with ExitStack() as stack:
         now = stack.enter_context(product(case, lanes))
-        programs: dict[str, Mapping[str, Way]] = {C: limit, PRODUCT: now.ways()}
+        programs = {**limits, PRODUCT: now.ways()}
         print(
             f"\nthe {case.preset}, kernels of {now.lanes} lanes: ms a revolution; ratios of these"
         )

@@ -65,6 +65,28 @@ template <int W> inline typename Lanes<W>::Real coarse_exp2(typename Lanes<W>::R
 template <class V> struct Direction {
     V cosine, sine;
 };
+// The direction of any angle up to 1e6 rad, to rounding, as the product has it: Cody and Waite's
+// reduction to an eighth of a turn, and FDLIBM's polynomials.
+template <int W> inline Direction<typename Lanes<W>::Real> towards(typename Lanes<W>::Real angle) {
+    using V = typename Lanes<W>::Real;
+    using Bits = typename Lanes<W>::Bits;
+    const double rounding = 0x1.8p52;
+    const V shifted = angle * 0.6366197723675814 + rounding, quarters = shifted - rounding;
+    const V r = (angle - quarters * 1.5707963267341256) - quarters * 6.0771005065061922e-11;
+    const V z = r * r, w = z * z;
+    const V cubed = (-1.66666666666666324348e-01 + 8.33333333332248946124e-03 * z) +
+                    w * (-1.98412698298579493134e-04 + 2.75573137070700676789e-06 * z) +
+                    (w * w) * (-2.50507602534068634195e-08 + 1.58969099521155010221e-10 * z);
+    const V fourth = (4.16666666666666019037e-02 + -1.38888888888741095749e-03 * z) +
+                     w * (2.48015872894767294178e-05 + -2.75573143513906633035e-07 * z) +
+                     (w * w) * (2.08757232129817482790e-09 + -1.13596475577881948265e-11 * z);
+    const V sine = r + (r * z) * cubed, cosine = (1.0 - 0.5 * z) + w * fourth;
+    const Bits turns = std::bit_cast<Bits>(shifted);
+    const auto odd = (turns & 1) != 0;
+    const V ahead = odd ? sine : cosine, aside = odd ? cosine : sine;
+    return {std::bit_cast<V>(std::bit_cast<Bits>(ahead) ^ (((turns + 1) & 2) << 62)),
+            std::bit_cast<V>(std::bit_cast<Bits>(aside) ^ ((turns & 2) << 62))};
+}
 // The direction turned on by a small angle: Taylor series, to rounding up to 0.2 rad.
 template <class V> inline Direction<V> turned(const Direction<V> &from, V angle) {
     const V z = angle * angle;

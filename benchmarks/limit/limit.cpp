@@ -3,12 +3,14 @@
 // As the solver has them: the norm of the error, the control of steps, onsets that steps end on,
 // openings that steps end behind, rates latched at onsets. Left out: the ledger of energy, sections,
 // samples, and looks for contacts that a step would hide. Sines of a stage are those of the step's
-// start, turned on by a small angle, and are renewed every 256 attempts.
+// start, turned on by a small angle, and are renewed every 256 attempts; or, where EXACT says so,
+// those of any angle.
 #include "gaps.hpp"
 #include "tsitouras.hpp"
 
 constexpr double AFTER_MANY = 1e-9, CAUTIOUS = 0.3, LATE = 0.95, BEHIND = 1.02;
 constexpr double TURN = 0.2;  // rad in a step at most, for `turned`
+constexpr bool EXACT = SINES;
 constexpr int MOST_LANDINGS = 12, RENEWED = 256;
 
 template <int W> class Integrator {
@@ -32,9 +34,12 @@ template <int W> class Integrator {
 
     void slopes(const V &since, const V *state, V *out, Gap<V> *gap) {
         for (int i = 0; i < 3; ++i)
-            now[i] = turned<V>(base[i], state[1 + i] - y[1 + i]);
-        for (int j = 0; j < PINS; ++j)
-            now[3 + j] = turned<V>(base[3 + j], mechanism.crank[j].speed * since);
+            now[i] = EXACT ? towards<W>(state[1 + i]) : turned<V>(base[i], state[1 + i] - y[1 + i]);
+        for (int j = 0; j < PINS; ++j) {
+            const Crank &crank = mechanism.crank[j];
+            now[3 + j] = EXACT ? towards<W>(crank.angle + crank.speed * (time + since))
+                               : turned<V>(base[3 + j], crank.speed * since);
+        }
         for (int i = 0; i < COORDINATES; ++i)
             out[i] = state[COORDINATES + i];
         accelerations<V>(mechanism, state, now, clearance, mode, out + COORDINATES, gap);

@@ -26,8 +26,8 @@ def compiler() -> str | None:
 class Program:
     """The program for a number of runs side by side."""
 
-    def __init__(self, width: int, folder: Path) -> None:
-        """Build it in a folder.
+    def __init__(self, width: int, folder: Path, *, exact: bool = False) -> None:
+        """Build it in a folder; `exact` : with sines to rounding at every stage.
 
         Raises
         ------
@@ -37,9 +37,18 @@ class Program:
         found = compiler()
         if found is None:
             raise FileNotFoundError("There is no C++ compiler: install g++ or set CXX.")
-        library = folder / f"limit{width}.so"
+        library = folder / f"limit{width}{'-exact' * exact}.so"
         flags = [*FLAGS, SCALAR] if width == 1 else [*FLAGS, "-Wno-psabi"]
-        built = [found, *flags, f"-DWIDTH={width}", "-shared", "-fPIC", "-o", str(library)]
+        built = [
+            found,
+            *flags,
+            f"-DWIDTH={width}",
+            f"-DSINES={int(exact)}",
+            "-shared",
+            "-fPIC",
+            "-o",
+            str(library),
+        ]
         subprocess.run([*built, SOURCE], check=True)
         self.width = width
         self._run = ctypes.CDLL(str(library)).run

@@ -8,7 +8,7 @@ import numpy as np
 from benchmarks.limit.product import Measured
 from benchmarks.limit.turns import Samples
 
-C, PRODUCT, WHEEL = "C", "product", "wheel"
+C, EXACT, PRODUCT, WHEEL = "C", "C, exact sines", "product", "wheel"
 """Programs."""
 
 
@@ -35,7 +35,7 @@ ROWS = (
     Row("job", "a job, with extremes and kept steps", "alone"),
     Row("job, certificate", "  with its certificate", "job"),
 )
-COLUMNS = ("ms", "/ C", "/ C, a step", "/ bare", "/ the wheel", "goal")
+COLUMNS = ("ms", "/ C", "/ C, a step", "/ C, exact sines", "/ bare", "/ the wheel", "goal")
 NOTHING = "-"
 
 
@@ -66,7 +66,7 @@ def table(samples: Samples) -> Iterator[str]:
     Times are those of the processor for a period, ratios those of times for a period. A goal is
     shown where the ratio is that it is for.
     """
-    ours, limit, wheel = (samples.get(who, {}) for who in (PRODUCT, C, WHEEL))
+    ours, limit, exact, wheel = (samples.get(who, {}) for who in (PRODUCT, C, EXACT, WHEEL))
     yield line("", COLUMNS)
     for row in ROWS:
         measured = ours.get(row.way)
@@ -78,6 +78,7 @@ def table(samples: Samples) -> Iterator[str]:
             f"{took:#.3g}",
             ratio(measured, beside),
             ratio(measured, beside, by="steps"),
+            ratio(measured, exact.get(row.way)),
             ratio(measured, bare),
             ratio(measured, wheel.get(row.way)),
             row.goal if beside or bare else "",
