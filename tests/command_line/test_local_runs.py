@@ -114,6 +114,13 @@ def test_local_results_are_drawn(jointplay, press, tmp_path):
     assert "orbit" in unknown.line()
     late = jointplay("plot", press, "orbit", "--start", "99", "-o", tmp_path)
     assert late.line().startswith("jointplay: --start 99 is after the end of")
+    one = tmp_path / "new" / "press.svg"
+    assert jointplay("plot", press, "orbit", "-o", one).out.split() == [str(one)]
+    assert one.read_bytes() == (tmp_path / "orbit.svg").read_bytes()
+    several = jointplay("plot", press, "orbit", "energy", "-o", one)
+    assert "is one file: name one figure, or a folder" in several.line()
+    other = jointplay("plot", press, "orbit", "--format", "pdf", "-o", one)
+    assert "--format pdf is not that of 'press.svg'" in other.line()
     wrong = jointplay("plot", press, "orbit", "--joints", "Z", "-o", tmp_path)
     assert wrong.line().startswith("jointplay: --joints: ")
 

@@ -1,9 +1,9 @@
 """The animation among the figures of ``jointplay plot``, which is a film."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from jointplay.command_line.exits import Stopped
+from jointplay.command_line.figure_paths import FigurePaths
 from jointplay.progress import progress
 from jointplay.records.figure_form import FILM_FORMS
 
@@ -24,10 +24,9 @@ def is_film(names: list[str] | None, form: str | None, pace: dict[str, Any]) -> 
     return False
 
 
-def draw_film(job: "Job", folder: Path, form: str, **shown: Any) -> list[dict[str, str]]:
-    """Write the film of a job into a folder. Returns its name and path."""
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{ANIMATION}.{form}"
+def draw_film(job: "Job", paths: FigurePaths, form: str, **shown: Any) -> list[dict[str, str]]:
+    """Write the film of a job. Returns its name and path."""
+    path = paths.path(ANIMATION, form)
     with progress(ANIMATION) as report:
         job.film(path, report=lambda share: report(share, ""), **shown)
     return [{"name": ANIMATION, "path": str(path)}]

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.figure_paths import FigurePaths
 from jointplay.command_line.output import json_text, tell
 from jointplay.records.window_query import WindowQuery
 
@@ -40,7 +41,7 @@ def compute_and_show(
     found = results_of(job)
     table = _write(found, output)
     if figures:
-        draw_all(job, output / "figures")
+        draw_all(job, FigurePaths(output / "figures"))
     document = document_of(job, found)
     del document["statistics"]
     tell(document, _lines(job, found, table), as_json=as_json)

@@ -8,6 +8,7 @@ import typer
 
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.figure_options import page_of, refused_as_typed, with_figure_options
+from jointplay.command_line.figure_paths import FigurePaths, figure_paths
 from jointplay.command_line.film import draw_film, is_film
 from jointplay.command_line.options import (
     AS_JSON,
@@ -50,8 +51,9 @@ def plot(
             help="A chart, basins or, of branches, a diagram, over which orbits lie.",
         ),
     ] = None,
-    folder: Annotated[
-        Path, typer.Option("-o", "--output", metavar="FOLDER", help="Where the files go.")
+    output: Annotated[
+        Path,
+        typer.Option("-o", "--output", metavar="FOLDER|FILE", help="Where figures or one go."),
     ] = Path(),
     form: Annotated[
         Literal[Form, FilmForm] | None,
@@ -83,6 +85,7 @@ def plot(
     `jointplay plot OUT animation --start 0.2 --stop 0.21 --rate 0.002` for slow motion
     """
     chosen = {"channels": channels, "joints": joints, "start": start, "stop": stop, "over": over}
+    paths, ending = figure_paths(output, names, form)
     given = [name for name, value in chosen.items() if value is not None]
     if given and not names:
         raise Stopped(f"--{given[0]} chooses what a figure shows; name the figure.")
@@ -100,15 +103,15 @@ def plot(
         beneath = None if over is None else stack.enter_context(job_of(over, url))
         stack.enter_context(refused_as_typed())
         check_start(job, start)
-        if is_film(names, form, pace):
+        if is_film(names, ending, pace):
             for name, it in (("channels", "them"), ("over", "it")):
                 if name in given:
                     raise Stopped(f"--{name}: a film shows none; leave {it} out.")
             refused: list[str] = []
-            written = draw_film(job, folder, form or "gif", **shown, **pace)
+            written = draw_film(job, paths, ending or "gif", **shown, **pace)
         else:
             shown |= {"channel": listed(channels) or (), "over": beneath}
-            drawn = draw_all(job, folder, names, cast("Form", form or "png"), **shown)
+            drawn = draw_all(job, paths, names, cast("Form", ending or "png"), **shown)
             written, refused = drawn.written, drawn.refused
     found = {"figures": written} | ({"refused": refused} if refused else {})
     for line in refused:
@@ -126,18 +129,17 @@ class Drawn(NamedTuple):
 
 
 def draw_all(
-    job: "Job", folder: Path, names: list[str] | None = None, form: Form = "png", **shown: Any
+    job: "Job", paths: FigurePaths, names: list[str] | None = None, form: Form = "png", **shown: Any
 ) -> Drawn:
-    """Draw figures of a job, by default all, into a folder; one that is refused spares the rest."""
+    """Draw figures of a job, by default all; one that is refused spares the rest."""
     from jointplay.client import Refused
 
     wanted = names or job.figures
-    folder.mkdir(parents=True, exist_ok=True)
     drawn = Drawn([], [])
     with progress("figures") as report:
         for done, name in enumerate(wanted):
             report(done / len(wanted), name)
-            path = folder / f"{name}.{form}"
+            path = paths.path(name, form)
             try:
                 content = job.figure(name, form=form, **shown).content
             except Refused as error:
