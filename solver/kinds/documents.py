@@ -14,7 +14,8 @@ from jointplay.solver.kinds.kind import J, Kind
 from jointplay.solver.kinds.mechanism import Echo
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.scene import presets
-from jointplay.solver.scene.parameters import undeclared
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.parameters import wrong_values
 from jointplay.solver.scene.sentences import schema_problems
 
 LATER = {"energies": True}
@@ -42,20 +43,22 @@ def job_of(document: Any, kind: Kind[J]) -> J:
     try:
         job: J = model.model_validate(dict(document))
     except ValidationError as error:
-        problems = [*schema_problems(error, model, document), *_unknown_parameters(document)]
-        raise InvalidInput(problems) from None
+        problems = schema_problems(error, model, document)
+        told = {one.pointer for one in problems}
+        others = [one for one in _wrong_parameters(document) if one.pointer not in told]
+        raise InvalidInput([*problems, *others]) from None
     return job
 
 
-def _unknown_parameters(document: Mapping[str, Any]) -> list[Problem]:
-    """Return the misspelt parameters of a preset, to be told together with a job's other errors."""
+def _wrong_parameters(document: Mapping[str, Any]) -> list[Problem]:
+    """Return what is wrong with a preset's parameters, to be told with a job's other errors."""
     scene = document.get("scene")
     if not (isinstance(scene, Mapping) and isinstance(scene.get("parameters"), Mapping)):
         return []
     preset = scene.get("preset")
     if not isinstance(preset, str) or preset not in presets.names():
         return []
-    return undeclared(presets.document(preset)["parameters"], scene["parameters"])
+    return wrong_values(Scene.model_validate(presets.document(preset)), scene["parameters"])
 
 
 def filled(

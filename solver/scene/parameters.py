@@ -55,6 +55,18 @@ def set_parameters(
     return filled.document, echo
 
 
+def wrong_values(scene: Scene, values: Mapping[str, object]) -> list[Problem]:
+    """Return a problem for every given value that is of no parameter or not one of its values."""
+    declared = scene.parameters
+    complaints = {
+        name: _complaint(name, declared[name], value, varies=True)
+        for name, value in values.items()
+        if name in declared
+    }
+    wrong = [Problem(f"{POINTER}/{name}", text) for name, text in complaints.items() if text]
+    return undeclared(declared, values) + wrong
+
+
 def undeclared(declared: Collection[str], names: Iterable[str]) -> list[Problem]:
     """Return a problem for every name that no parameter has."""
     return [

@@ -154,11 +154,14 @@ def test_a_wrong_job_is_refused_with_the_field_and_what_would_be_right(
     assert all(len(error["detail"]) >= 15 for error in problem["errors"])
 
 
-def test_a_misspelt_parameter_is_told_together_with_a_missing_field(http: httpx.Client) -> None:
-    job = {name: value for name, value in press_with(clearence=1e-4).items() if name != "duration"}
+def test_wrong_parameters_are_told_together_with_a_missing_field(http: httpx.Client) -> None:
+    press = press_with(clearence=1e-4, friction=-0.1, speed="fast")
+    job = {name: value for name, value in press.items() if name != "duration"}
     problem = refused(http, json.dumps(job).encode(), 422)
     told = {error["pointer"]: error["detail"] for error in problem["errors"]}
-    assert told.keys() == {"/duration", "/scene/parameters/clearence"}
+    wrong = {f"/scene/parameters/{name}" for name in ("clearence", "friction", "speed")}
+    assert told.keys() == {"/duration"} | wrong
+    assert told["/scene/parameters/friction"] == "'friction' is -0.1; it lies between 0 and 10."
     assert "did you mean 'clearance'?" in told["/scene/parameters/clearence"]
 
 
