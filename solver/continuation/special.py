@@ -13,7 +13,7 @@ from jointplay.solver.continuation.multipliers import (
     unstable,
 )
 from jointplay.solver.continuation.orbit import Orbit
-from jointplay.solver.continuation.sign_changes import Special, changes, zero
+from jointplay.solver.continuation.sign_changes import Special, changes, jumps, zero
 
 MOST_GRAZINGS = 8
 """Impacts that may begin or end between two orbits; where more do, steps are shorter."""
@@ -48,6 +48,8 @@ def explained(piece: Piece, specials: list[Special]) -> bool:
     """
     if piece.curve.of:
         return True
+    if any(one.jumps for one in specials):
+        return True
     counts = [unstable(orbit.multipliers) for orbit in (piece.first, piece.last)]
     allowed = sum(CHANGES[one.label] for one in specials)
     return abs(counts[1] - counts[0]) <= allowed
@@ -59,13 +61,16 @@ def _every(piece: Piece) -> Iterator[Special]:
     if turned:
         found = root(piece, piece.direction, lambda one: piece.direction(one, coarser=True))
         yield Special("LP", found)
+    grazes, jumped = piece.first.onsets != piece.last.onsets, False
     for label, test in (("BP", passing_one), ("PD", doubling), ("NS", torus)):
         if (label == "BP" and turned) or not changes(piece, test):
             continue
         found = zero(piece, test)
-        if label != "NS" or is_torus(found.orbit.multipliers):
+        if grazes and jumps(piece, test, found):
+            jumped = True
+        elif label != "NS" or is_torus(found.orbit.multipliers):
             yield Special(label, found)
-    yield from _grazing(piece)
+    yield from (replace(one, jumps=jumped) for one in _grazing(piece))
     yield from _sticking(piece)
 
 

@@ -182,3 +182,28 @@ def test_where_many_impacts_begin_steps_are_shorter() -> None:
     assert labels.count("g") == 100
     assert max(map(len, labels.split("."))) <= 8
     assert labels.endswith("e")
+
+
+@pytest.mark.parametrize("before", [-1.2, 1.2])
+def test_multipliers_that_jump_at_grazing_pass_nothing(before: float) -> None:
+    def slope(a: float) -> float:
+        return before if a < 0.3 else 0.2
+
+    rows = rows_of(
+        lambda x, a: [slope(a) * (x[0] - a) + a], [0.1], (0.1, 0.9), impacts=lambda _x, a: a < 0.3
+    )
+    assert [row.label for row in rows if row.label] == ["GR", "EP"]
+    assert [len(row.orbit.multipliers) for row in rows] == [1] * len(rows)
+    assert rows[-1].orbit.multipliers[0].real == pytest.approx(0.2)
+
+
+def test_a_doubling_beside_grazing_is_told_apart_from_its_jump() -> None:
+    def slope(a: float) -> float:
+        return -0.8 - a if a < 0.21 else 0.2
+
+    rows = rows_of(
+        lambda x, a: [slope(a) * (x[0] - a) + a], [0.1], (0.1, 0.9), impacts=lambda _x, a: a < 0.21
+    )
+    (doubling,) = (row for row in rows if row.label == "PD")
+    assert abs(doubling.orbit.values[0] - 0.2) <= doubling.bound <= 1e-6
+    assert [row.label for row in rows if row.label] == ["PD", "GR", "EP"]
