@@ -90,6 +90,8 @@ def note_openings(s: Step, inside: bool) -> float:
     ends. A gap that was open `inside` the step, which is to be taken otherwise, and closed again
     has ended a contact: what touches then is another one, with an impact rate of its own. The
     share is then such that the step redone ends within that opening, or at least before its end.
+    Of a contact that begins where the step does and has ended within it the share is about the
+    middle, for it may lie between two stages, and its force be seen by none.
     """
     lane, at, work = s.lane, s.at, s.work
     step = work[at.tried, lane]
@@ -109,6 +111,10 @@ def note_openings(s: Step, inside: bool) -> float:
             low = dip(j, s)
             if low < 1.0:
                 soonest = min(soonest, min(low, LATE) / BEHIND)
+            if start <= LANDED and gap <= 0.0 and rate < 0.0:
+                whole = start_rate / (start_rate - gap)
+                if 0.25 * start_rate * whole > LANDED:
+                    soonest = min(soonest, 0.5 * whole)
         open_now = gap <= 0.0 and (start > LANDED or rate < 0.0)
         work[at.opened + j, lane] = work[at.time, lane] + high * step if open_now else np.inf
     return soonest
