@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.rigid_stop import DAMPING, GAP, STIFFNESS
 from jointplay.local import run
 from jointplay.records.arrays import Floats
 from jointplay.records.branch import Branch, branches
@@ -21,9 +22,12 @@ from jointplay.solver.runs.study.plan import Study
 STIFFNESSES = (1e9, 1e10, 1e11, 1e12)
 """N/m^1.5."""
 SHORTER = -0.4
+AMPLITUDE = 5e-3
+"""Length of the crank, m."""
 RIGID = {
     "fold, rad/s": 31.4314262200,
     "doubling, rad/s": 19.2111372427,
+    "grazing, rad/s": 24.3714871390,
     "at 25 rad/s, stable multiplier, real": 0.06918,
     "at 25 rad/s, stable multiplier, imaginary": 0.61836,
     "at 25 rad/s, saddle's larger multiplier": 17.09934,
@@ -51,6 +55,13 @@ def branch_job(stop: float, **fields: Any) -> dict[str, Any]:
     return {"kind": "continuation", "scene": scene(stop), "parameter": "speed", **fields}
 
 
+def free_section(speed: float) -> list[float]:
+    """Return the section of the motion without impacts, from the stop: m and m/s."""
+    shaken = STIFFNESS * AMPLITUDE
+    motion = shaken / complex(STIFFNESS - speed**2, DAMPING * speed)
+    return [motion.real - GAP, -speed * motion.imag]
+
+
 def branch(stop: float, **fields: Any) -> Branch:
     """Return a branch over speed; `fields` of the job."""
     return next(branches(run(branch_job(stop, **fields), processes=1).study()))
@@ -60,12 +71,17 @@ def numbers(stop: float) -> list[float]:
     """Return the numbers of `RIGID` for a stop."""
     up = branch(stop, values={"from": 25.0, "to": 33.0, "count": 200})
     down = branch(stop, values={"from": 25.0, "to": 18.0, "count": 40})
-    fold = next(one.value for one in up.special if one.label == "LP")
-    doubling = next(one.value for one in down.special if one.label == "PD")
+    # without impacts down to grazing, and back as a saddle to where the range begins
+    values = {"from": 25.0, "to": 24.0, "count": 100}
+    touching = branch(stop, values=values, at=24.5, state=free_section(24.5), settle=0)
+    fold, doubling, grazing = (
+        next(one for one in found.special if one.label == label)
+        for found, label in ((up, "LP"), (down, "PD"), (touching, "GR"))
+    )
     first = [float(up.column(f"multiplier_1.{part}")[0]) for part in ("real", "imaginary")]
-    # behind the fold the branch comes back to where the range begins, as a saddle
-    pair = [float(up.column(f"multiplier_{k}.real")[-1]) for k in (1, 2)]
-    return [fold, doubling, *first, *pair]
+    saddle = next(one.row for one in touching.special[2:] if one.label == "EP")
+    pair = [float(touching.column(f"multiplier_{k}.real")[saddle]) for k in (1, 2)]
+    return [fold.value, doubling.value, grazing.value, *first, *pair]
 
 
 def to_the_limit(stops: Sequence[float], rows: Sequence[Sequence[float]]) -> tuple[Floats, Floats]:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.location import NotLocated, Piece
 from jointplay.solver.continuation.multipliers import largest
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit
+from jointplay.solver.continuation.past_grazing import past_grazing
 from jointplay.solver.continuation.plan import Reach
 from jointplay.solver.continuation.sign_changes import Special
 from jointplay.solver.continuation.special import explained, special_orbits
@@ -32,6 +33,8 @@ SHAKEN = 0.01
 """Error of the multipliers, in the largest, that tells of grazing: there the map has a corner."""
 VAGUE = 0.1
 """The same beyond which an orbit without contacts is refused."""
+CORNER = 1e-4
+"""Length along the branch before and behind grazing where a hard stop's map may be a corner."""
 LONG = 5.0
 """Period, in that at the start, beyond which a branch may end at a position of rest."""
 ENOUGH = 8
@@ -68,13 +71,50 @@ def follow(
 
     `along` : that direction, roughly, as a scaled vector. `sense` : 1 or -1, of the lengths that
     are told. `begin` : length at the start. The last row says why the branch ends.
+
+    The last orbits are held back: where the branch is lost in the corner that a hard stop has at
+    grazing, it goes on from there with another number of impacts, without those next to it.
+    """
+    orbit, counted, passed_at = start, 0, -1
+    while True:
+        before, held, lost = orbit, list[Row](), None
+        for row in _smooth(orbit, along, reach, sense, begin, counted, start):
+            if row.label == "MX":
+                lost = row
+                break
+            counted += not row.label
+            held.append(row)
+            while abs(row.length - held[0].length) > CORNER:
+                before = held[0].orbit
+                yield held.pop(0)
+        if lost is None:
+            yield from held
+            return
+        passed = past_grazing(before, lost.orbit)
+        if isinstance(passed, NoOrbit) and passed.grazing:
+            lost = replace(lost, note=_lost(lost.orbit, passed) + passed.reason)
+        if isinstance(passed, NoOrbit) or counted == passed_at:
+            yield from [*held, lost]
+            return
+        touching, (orbit, along), passed_at = passed.grazing, passed.way, counted
+        yield Row(touching, lost.length, "GR", (passed.bound,), passed.note)
+        begin = abs(lost.length) + orbit.curve.scales.length(orbit.vector - touching.vector)
+        yield Row(orbit, sense * begin)
+
+
+def _smooth(
+    start: Orbit, along: Floats, reach: Reach, sense: float, begin: float, counted: int, home: Orbit
+) -> Iterator[Row]:
+    """Yield what `follow` does, up to where ordinary steps end.
+
+    `counted` : orbits before. `home` : the first of them, at which the branch may have closed.
     """
     curve, tangent = start.curve, start.tangent(along)
     if tangent is None:
         yield Row(start, sense * begin, "MX", note="the branch has no direction here")
         return
     orbit, length, step = start, begin, FIRST * reach.step
-    for count in range(1, reach.orbits + 1):
+    for count in range(counted + 1, reach.orbits + 1):
         stepped = _step(curve, orbit, tangent, step, reach)
         if isinstance(stepped, NoOrbit):
             yield Row(orbit, sense * length, "MX", note=_lost(orbit, stepped))
@@ -91,7 +131,7 @@ def follow(
         if not reach.inside(orbit.values):
             yield Row(orbit, sense * length, "EP", note="end of the range")
             return
-        if count >= ENOUGH and _closed(piece, start):
+        if count >= ENOUGH and _closed(piece, home):
             yield Row(orbit, sense * length, "EP", note="the branch has closed")
             return
         ended = count == reach.orbits

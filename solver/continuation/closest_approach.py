@@ -102,8 +102,13 @@ class Approaches:
             again = np.arange(-2, len(depth) + 1) % (len(depth) - 1)
             gaps += [-top for top in _tops(depth[again], apart[again])]
             depths += [-top for top in _tops(-depth[again], pressed[again])]
-        speeds = [rate for _, onset, _, rate in self._contacts[lane] if onset > 0.0]
-        return Margins(*(min(found, default=math.nan) for found in (gaps, depths, speeds)))
+        gap, penetration = min(gaps, default=math.nan), min(depths, default=math.nan)
+        return Margins(gap, penetration, self.slowest(lane))
+
+    def slowest(self, lane: int) -> float:
+        """Return the approach rate of a lane's slowest impact, m/s; NaN: none."""
+        rates = (rate for _, onset, _, rate in self._contacts[lane] if onset > 0.0)
+        return min(rates, default=math.nan)
 
     def _apart(self, lane: int, pair: int, depth: Floats, interval: float) -> Mask:
         """Return at which rows a pair is apart, and not beside a contact."""

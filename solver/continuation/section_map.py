@@ -237,6 +237,7 @@ class SectionMap:
             near, margins = math.nan, NO_MARGINS
             if self.watches:
                 near = ended.approaches.nearest(lane, interval)
+                margins = Margins(speed=ended.approaches.slowest(lane))
             elif self._rows(lane) and not failures[lane]:
                 margins = ended.approaches.margins(lane, interval)
             told = *margins, near, duration, at.run["onsets"], ended.steps[lane] + steps[lane]

@@ -10,6 +10,7 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.branch import Row, follow
+from jointplay.solver.continuation.closest_approach import Margins
 from jointplay.solver.continuation.orbit import Curve, Scales
 from jointplay.solver.continuation.passage import Passage, Section
 from jointplay.solver.continuation.plan import Reach
@@ -28,6 +29,7 @@ class KnownMap(SectionMap):
     formula: Formula = lambda state, _value: state.tolist()
     impacts: Callable[..., int] = lambda _state, *_values: 0
     nearest: Callable[..., float] = lambda _state, *_values: math.nan
+    speed: Callable[..., float] = lambda _state, *_values: math.nan
 
     def passages(self, sections: Sequence[Section]) -> list[Passage]:
         """Return what the formula gives, iterated for each period."""
@@ -38,7 +40,8 @@ class KnownMap(SectionMap):
                 end = np.array(self.formula(end, *one.values), np.float64)
             onsets = self.impacts(one.state, *one.values)
             nearest = self.nearest(one.state, *one.values)
-            found.append(Passage(end, onsets, 1, "", nearest))
+            margins = Margins(speed=self.speed(one.state, *one.values))
+            found.append(Passage(end, onsets, 1, "", nearest, margins=margins))
         return found
 
 
@@ -52,18 +55,20 @@ def rows_of(
     low: float | None = None,
     orbits: int = 400,
     sense: float = 1.0,
+    pairs: int = 0,
+    **distances: Callable[[Floats, float], float],
 ) -> list[Row]:
     """Return the branch of fixed points from a state, from one value of the parameter to another.
 
-    `low` : the other end of the range; else the value at which the branch begins.
+    `low` : the other end of the range; else the value at which the branch begins. `pairs` : numbers
+    at the end of the state that are impact rates. `distances` : `nearest` and `speed` of the map.
     """
     size, (begin, end) = len(start), values
-    kernel: Any = SimpleNamespace(states=size, pairs=())  # all that is asked of one
+    kernel: Any = SimpleNamespace(states=size - pairs, pairs=range(pairs))  # all that is asked of
     width = abs(end - begin)
     ones = np.ones(size)
-    map_ = KnownMap(
-        kernel, lambda _value: None, 1, 1e-13, ones, width, formula=formula, impacts=impacts
-    )  # type: ignore[arg-type,return-value]
+    parts: Any = {"formula": formula, "impacts": impacts, **distances}
+    map_ = KnownMap(kernel, lambda _value: None, 1, 1e-13, ones, width, **parts)  # type: ignore[arg-type,return-value]
     curve = Curve(map_, Scales(np.append(ones, width), np.append(ones / size, 1.0)))
     orbit = first_orbit(curve, Section(begin, np.array(start, np.float64)))
     way = np.append(np.zeros(size), np.sign(end - begin))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.continuation import free_section
 from benchmarks.known_orbits import pendulum
 from jointplay.records.point import StudySlice
 from jointplay.solver.computations import computation_of
@@ -142,10 +143,21 @@ IN_CHAOS = {
     "values": {"from": 1.105, "to": 1.106, "count": 4},
     "orbits": 3,
 }
+PAST_GRAZING = {
+    "scene": document(1e11),
+    "values": {"from": 24.4, "to": 24.3, "count": 20},
+    "state": free_section(24.4),
+}
 
 
 @pytest.mark.parametrize(
-    "fields", [{"values": {"from": 25.0, "to": 24.3, "count": 30}}, OVER_AMPLITUDE, IN_CHAOS]
+    "fields",
+    [
+        {"values": {"from": 25.0, "to": 24.3, "count": 30}},
+        OVER_AMPLITUDE,
+        IN_CHAOS,
+        PAST_GRAZING,
+    ],
 )
 def test_a_branch_that_is_cut_and_continued_has_the_same_bits(fields: dict[str, Any]) -> None:
     job = JOB | {"settle": 10} | fields
@@ -174,16 +186,6 @@ def test_a_branch_that_is_cut_and_continued_has_the_same_bits(fields: dict[str, 
             replace(end, peaks=None)
             for end in other.ended  # type: ignore[arg-type]
         ]
-
-
-def test_a_branch_that_cannot_be_followed_further_says_where_and_why() -> None:
-    values = {"from": 33.0, "to": 24.0, "count": 100}
-    study = admitted(JOB | {"scene": document(1e12), "values": values})
-    ends = [end for one in computation_of(study, 0).slices() for end in one.ended]
-    last = ends[0].document["special"][-1]  # type: ignore[index]
-    assert last["label"] == "MX"
-    assert last["value"] == pytest.approx(grazing()[1], abs=1e-4)
-    assert "because an impact begins or ends here (grazing); try a softer contact" in last["note"]
 
 
 def test_a_special_orbit_that_is_the_last_of_a_branch_stays_one() -> None:
