@@ -79,6 +79,16 @@ def test_no_sample_of_a_journal_is_beyond_its_extremes(seed: int, count: int) ->
         check("bouncing-journal", duration, parameters, **ACCURACIES[i % len(ACCURACIES)])
 
 
+def test_steps_that_swing_in_turn_are_looked_into() -> None:
+    # every other step is longer, and swings five times as much: friction holds a bearing
+    parameters = {"clearance_A": 0.00171042972834, "clearance_B": 0.000160960149567}
+    parameters |= {"bearing_radius": 0.03052885187242814, "stiffness": 1422787700.06}
+    parameters |= {"speed": 3.02042690556, "speed_crank4": 3.02042690556, "gravity_x": 9.81}
+    parameters |= {"restitution": 0.628118714294, "friction": 0.179293385843}
+    parameters |= {"dynamic_velocity": 0.00116670411727, "static_velocity": 0.001050033705543}
+    check("seven-bar-press", 0.0585, parameters, tolerance=1.11542e-05)
+
+
 @pytest.mark.parametrize("accuracy", ACCURACIES[:2])
 def test_no_sample_of_the_press_is_beyond_its_extremes(accuracy: dict[str, Any]) -> None:
     check("seven-bar-press", 0.04, {"friction": 0.1}, **accuracy)

@@ -14,8 +14,8 @@ from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.extremes.rounding import ROUNDING
 from jointplay.solver.kernels.loop.extremes.swinging import (
-    GROWTH,
     NEARBY,
+    REACH,
     SEEN,
     UNEVEN,
     WIDELY,
@@ -56,7 +56,7 @@ def may_set_extremes(s: Step) -> bool:
         s.run.rough += 1
     if rough and near and not int(work[at.flag, lane]) & SWINGING:
         work[at.rough_until, lane] = steps + EVERY
-    growth = GROWTH if answer & WIDELY else max(GROWTH, SEEN / (most + 1e-300))
+    growth = REACH if answer & WIDELY else SEEN / (most + 1e-300)
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
     work[at.look_beyond, lane] = work[at.swing, lane] * growth
     return near

@@ -22,11 +22,10 @@ ROUGH = 0.003
 SEEN = 1e-6
 """The same, from which on a swing is worth a search."""
 REACH = 4.0
-"""Times that a swing may be larger between the instants, or in the next steps."""
-GROWTH = 30.0
-"""Times by which swings grow until steps are looked at again."""
-MUCH = 2.0 * SEEN / GROWTH
-"""Share of its range by which a channel swings so much that `GROWTH` is all."""
+"""Times that a swing may be larger between the instants, or in the next steps that are not looked
+at: one that swings more is."""
+MUCH = SEEN / REACH
+"""Share of its range by which a channel swings so much that `REACH` is all."""
 TINY = 1e-300
 NEARBY, UNEVEN, WIDELY = (0xFF << shift for shift in (0, 8, 16))
 """Bits of an answer for a channel of each eight: an extreme is in reach; is rough; swings much."""
