@@ -79,6 +79,17 @@ def test_no_sample_of_a_journal_is_beyond_its_extremes(seed: int, count: int) ->
         check("bouncing-journal", duration, parameters, **ACCURACIES[i % len(ACCURACIES)])
 
 
+def test_a_start_at_the_centre_has_no_extreme_of_rounding() -> None:
+    # the pin rests at the centre of its bearing but for 1e-17 m, which it passes in the first step
+    parameters = {"clearance": 0.00317, "bearing_radius": 0.0059, "speed": 599.0}
+    parameters |= {"dynamic_velocity": 5.3e-4, "static_velocity": 2.7e-4}
+    found = run("slider-crank", 1.5e-4, parameters=parameters, output_step=1.5e-7)
+    samples, peak = found.samples["P.slip_velocity"], found.peaks["P.slip_velocity"]
+    slack = CLOSE * np.ptp(samples)
+    assert samples.min() - slack <= peak.minimum
+    assert peak.maximum <= samples.max() + slack
+
+
 def test_steps_that_swing_in_turn_are_looked_into() -> None:
     # every other step is longer, and swings five times as much: friction holds a bearing
     parameters = {"clearance_A": 0.00171042972834, "clearance_B": 0.000160960149567}

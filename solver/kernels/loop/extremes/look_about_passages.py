@@ -8,6 +8,7 @@ from jointplay.solver.kernels.loop.extremes.passages import (
     NARROWEST,
     closest_approach,
     distance_and_speed,
+    is_through,
     orbiting_at_end,
     passes,
 )
@@ -26,7 +27,8 @@ def look_about_passages(every: np.ndarray, low: float, high: float, s: Step) -> 
     for j in range(s.at.pairs):
         if passes(j, s):
             share, width = closest_approach(j, s)
-            look_about(share, width, every, low, high, s)
+            if not is_through(j, share, s):
+                look_about(share, width, every, low, high, s)
 
 
 @inner_kernel()
@@ -42,7 +44,8 @@ def look_about_fast_passages(s: Step) -> None:
         share, width = closest_approach(j, s)
         if NARROWEST < share < 1.0 - NARROWEST and may_be_fastest(j, share, s):
             rows, count = np.empty(2, np.int64), 0
-            for row in (work[at.slip_row + j, lane], work[at.penetration_row + j, lane]):
+            slip = NO_ROW if is_through(j, share, s) else work[at.slip_row + j, lane]
+            for row in (slip, work[at.penetration_row + j, lane]):
                 if row != NO_ROW:
                     rows[count] = int(row)
                     count += 1

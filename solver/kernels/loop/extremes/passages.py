@@ -14,6 +14,8 @@ from jointplay.solver.kernels.loop.step import Step
 MOST_ITERATIONS = 60
 NARROWEST = 1e-9
 """Least width of a passage that is told apart, in steps."""
+ROUNDED = 2.0**-48
+"""Share of the mechanism's size by which a journal's place is rounded."""
 ABOUT = (-2.0, -1.0, -0.45, -0.2, 0.0, 0.2, 0.45, 1.0)
 """Instants about the closest approach, in widths of the passage."""
 AXES = 2
@@ -104,6 +106,15 @@ def distance_and_speed(j: int, share: float, s: Step) -> tuple[float, float]:
         square += position * position
         way += rate * rate
     return np.sqrt(square), np.sqrt(way) / s.work[s.at.tried, s.lane]
+
+
+@inner_kernel()
+def is_through(j: int, share: float, s: Step) -> bool:
+    """Whether a journal passes through the centre, as far as its place tells.
+
+    Its normal jumps there to the other side. Where it points to in between is rounding.
+    """
+    return bool(distance_and_speed(j, share, s)[0] <= ROUNDED * s.work[s.at.lever, s.lane])
 
 
 @inner_kernel()
