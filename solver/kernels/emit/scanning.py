@@ -31,11 +31,12 @@ BARELY = 1.0 + 1e-9
 def allocate(layout: Layout, rows: int, rest: int) -> None:
     """Give slots to `rows` channel values, their predecessors, changes and extremes so far.
 
+    Also to the range below which each is ``rounding``, and to the first row that is ``alike``.
     `rest` further channel values are not scanned.
     """
     layout.add_block("marked", -(-rows // BYTES))
     layout.add_block("channel", rows + rest)
-    for block in (*BLOCKS[1:], "highest_time", "lowest_time", "known_range"):
+    for block in (*BLOCKS[1:], "highest_time", "lowest_time", "known_range", "rounding", "alike"):
         layout.add_block(block, rows)
 
 

@@ -59,6 +59,7 @@ def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
     if like is not None:
         lane.work[:, lane.index] = like.work[:, like.index]
     else:
+        lane["alike"].T[:] = kernel.rows.alike
         number(lane, kernel, scene)
         if lane.tangents is not None:
             number(lane, lane.tangents, scene)
@@ -167,7 +168,7 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
         lane[name] = since
     lane["pace_at"] = PACE_STEPS
     lane[KEEPS_LEDGER] = float(problem.ledger)
-    for name in ("look_at", "look_beyond", "swing", "rough_until", "widest"):
+    for name in ("look_at", "look_beyond", "swing", "rough_until"):
         lane[name] = 0.0
     lane["smallest_step"] = period
     for k, clock in enumerate(clocks(scene).values()):

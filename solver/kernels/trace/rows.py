@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import Expression
+from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 
 NO_ROW = -1
@@ -30,6 +31,8 @@ class Rows:
     rest: tuple[str, ...]
     multiples: dict[str, tuple[str, float, float]]
     """Channels that are factor * watched channel + offset: (channel, factor, offset)."""
+    alike: tuple[int, ...]
+    """First row of the kind of each that is scanned: angles count as lengths, moments as forces."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -73,7 +76,14 @@ def arrange(scene: Scene, equations: Equations) -> Rows:
         else:
             watched[expression.index] = name
     contacts = tuple(f"{name}.normal_force" for name in equations.pairs)
-    return Rows(tuple(watched.values()), contacts, tuple(rest), multiples)
+    kinds = {channel.name: _kind(channel.unit) for channel in channels(scene)}
+    scanned = [kinds[name] for name in (*watched.values(), *contacts)]
+    alike = tuple(map(scanned.index, scanned))
+    return Rows(tuple(watched.values()), contacts, tuple(rest), multiples, alike)
+
+
+def _kind(unit: str) -> str:
+    return unit.replace("rad", "m").removesuffix(" m")
 
 
 def _moving(expressions: Iterable[Expression]) -> set[Expression]:

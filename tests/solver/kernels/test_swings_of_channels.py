@@ -1,6 +1,5 @@
 """Swings of eight channels at once, against the same a channel at a time."""
 
-import math
 from typing import Any
 
 import numba
@@ -19,25 +18,23 @@ from jointplay.solver.kernels.loop.extremes.swinging import (
     weigh_swings,
 )
 
-CHANNEL, HIGHEST, LOWEST, SLOTS, LANES = 3, 5, 40, 80, 4
+CHANNEL, HIGHEST, LOWEST, LEAST, SLOTS, LANES = 3, 5, 40, 80, 120, 4
 PAUSE = 255.0
 
 
 @numba.njit(error_model="numpy")
-def weighed(values: Any, work: Any, count: int, lane: int, least: float) -> Any:
-    return weigh_swings(values, CHANNEL, work, (HIGHEST, LOWEST, count), lane, least, PAUSE)
+def weighed(values: Any, work: Any, count: int, lane: int) -> Any:
+    return weigh_swings(values, CHANNEL, work, (HIGHEST, LOWEST, LEAST, count), lane, PAUSE)
 
 
-def one_by_one(values: Any, highs: Any, lows: Any, least: float) -> tuple[Any, ...]:
+def one_by_one(values: Any, highs: Any, lows: Any, leasts: Any) -> tuple[Any, ...]:
     """Return the same, in plain arithmetic."""
     near = rough = much = False
-    pause, most, widest, narrowest = PAUSE, 0.0, 0.0, math.inf
-    for channel, highest, lowest in zip(values, highs, lows, strict=True):
+    pause, most = PAUSE, 0.0
+    for channel, highest, lowest, least in zip(values, highs, lows, leasts, strict=True):
         spread = highest - lowest
-        widest = max(widest, spread)
         if spread <= least:
             continue
-        narrowest = min(narrowest, spread)
         first, last = channel[0], channel[-1]
         low, high = min(first, last), max(first, last)
         above, below = max(*channel, high) - high, low - min(*channel, low)
@@ -54,7 +51,7 @@ def one_by_one(values: Any, highs: Any, lows: Any, least: float) -> tuple[Any, .
             speed = abs(last - first)
             way = speed + np.sqrt(bend * close) + 1e-300
             pause = min(pause, 0.5 * max(close / way, (speed - REACH * swing) / bend))
-    return near, rough, much, pause, most, widest, narrowest
+    return near, rough, much, pause, most
 
 
 @pytest.mark.parametrize("count", [1, 5, 8, 13, 16, 30])
@@ -68,15 +65,17 @@ def test_eight_at_once_are_as_one_by_one(count: int) -> None:
         )
         own = ends + scale * random.normal(size=(count, INSTANTS)) * random.integers(0, 2)
         values[CHANNEL : CHANNEL + count] = own
-        lane, least = draw % LANES, 10.0 ** random.uniform(-12.0, 0.5)
+        lane = draw % LANES
         reach = 10.0 ** random.uniform(-4.0, 3.0, (2, count))
         work[HIGHEST : HIGHEST + count, lane] = highs = own.max(1) + reach[0]
         work[LOWEST : LOWEST + count, lane] = lows = own.min(1) - reach[1]
-        answer, *numbers = weighed(values, work, count, lane, least)
-        near, rough, much, pause, most, widest, narrowest = one_by_one(own, highs, lows, least)
+        leasts = 10.0 ** random.uniform(-12.0, 0.5) * random.integers(0, 2, count)
+        work[LEAST : LEAST + count, lane] = leasts
+        answer, found, largest = weighed(values, work, count, lane)
+        near, rough, much, pause, most = one_by_one(own, highs, lows, leasts)
         marks = [bool(answer & bits) for bits in (NEARBY, UNEVEN, WIDELY)]
         assert marks == [near, rough, much]
-        assert [numbers[0], *numbers[2:]] == [pause, widest, narrowest]
-        assert much or numbers[1] == most
+        assert found == pause
+        assert much or largest == most
         seen |= {("near", near), ("rough", rough), ("much", much), ("sooner", pause < PAUSE)}
     assert len(seen) == 8

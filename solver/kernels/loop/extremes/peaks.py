@@ -18,7 +18,7 @@ from jointplay.solver.kernels.loop.extremes.extreme import NODES
 from jointplay.solver.kernels.loop.extremes.extreme_so_far import count_best, spread
 from jointplay.solver.kernels.loop.extremes.kinks_beside import look_at_kinks_beside
 from jointplay.solver.kernels.loop.extremes.narrowing import HALF
-from jointplay.solver.kernels.loop.extremes.rounding import ROUNDING, widest_range, zigzags
+from jointplay.solver.kernels.loop.extremes.rounding import note_rounding, zigzags
 from jointplay.solver.kernels.loop.extremes.seeking import FORETOLD, seek
 from jointplay.solver.kernels.loop.extremes.tops import open_brackets
 from jointplay.solver.kernels.loop.step import Step, channels_around
@@ -85,11 +85,14 @@ def look_at_quarters(r: int, waiting: int, s: Step) -> int:
 @inner_kernel(borrows=True)
 def leave_rounding(waiting: int, s: Step) -> None:
     """Let the values of brackets count as they are where a channel is nothing but rounding."""
-    table, widest = s.table, -1.0
+    table, noted = s.table, False
     for w in range(BRACKETS, BRACKETS + STRIDE * waiting, STRIDE):
         if zigzags(table, w + VALUES, w + VALUES + NODES):
-            widest = widest_range(s) if widest < 0.0 else widest
-            if spread(int(table[w + ROW]), table[w + VALUE], s) <= ROUNDING * widest:
+            if not noted:
+                note_rounding(s)
+                noted = True
+            r = int(table[w + ROW])
+            if spread(r, table[w + VALUE], s) <= s.work[s.at.rounding + r, s.lane]:
                 count_best(w, s)
                 table[w + ROUNDS] = MOST_ROUNDS
 

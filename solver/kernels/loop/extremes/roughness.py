@@ -12,7 +12,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.closer_looks import EVERY
 from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.rounding import ROUNDING
+from jointplay.solver.kernels.loop.extremes.rounding import note_rounding
 from jointplay.solver.kernels.loop.extremes.swinging import (
     NEARBY,
     REACH,
@@ -40,16 +40,9 @@ def may_set_extremes(s: Step) -> bool:
     extreme as a swing goes, or when one swings more.
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
-    answer, pause, most, least = 0, 0.0, 0.0, ROUNDING * work[at.widest, lane]
-    extremes = (at.highest, at.lowest, at.contact_row)  # behind are those of single contacts
-    for _ in range(2):
-        answer, pause, most, widest, narrowest = weigh_swings(
-            spare, at.channel, work, extremes, lane, least, EVERY - 1.0
-        )
-        work[at.widest, lane] = widest
-        if least <= ROUNDING * widest < narrowest:
-            break  # else the widest has become wider since the last look
-        least = ROUNDING * widest
+    note_rounding(s)
+    extremes = (at.highest, at.lowest, at.rounding, at.contact_row)  # behind are single contacts
+    answer, pause, most = weigh_swings(spare, at.channel, work, extremes, lane, EVERY - 1.0)
     steps = int(work[at.steps, lane])
     near, rough = answer & NEARBY != 0, answer & UNEVEN != 0
     if rough:

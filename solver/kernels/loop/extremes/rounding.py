@@ -18,8 +18,8 @@ LARGE = 0.25
 """Share of what values differ by from which on a change is one that counts."""
 ENOUGH = 2
 """Turns between such changes that rounding makes."""
-ROUNDING = 1e-13
-"""Share of the largest range of all channels that a range of nothing but rounding is below."""
+ROUNDING = 1e-12
+"""Share of the largest range of channels of its kind that one of nothing but rounding is below."""
 
 
 @inner_kernel()
@@ -70,10 +70,17 @@ def zigzags(values: np.ndarray, first: int, behind: int) -> bool:
 
 
 @inner_kernel()
-def widest_range(s: Step) -> float:
-    """Return the largest range up to now of all channels, each in its unit."""
+def note_rounding(s: Step) -> None:
+    """Note below which range up to now each channel is nothing but rounding.
+
+    Channels of a kind (`solver.kernels.trace.rows`) are compared with each other.
+    """
     lane, at, work = s.lane, s.at, s.work
-    widest = 0.0
     for r in range(at.contact_row):  # behind are those of single contacts
-        widest = max(widest, work[at.highest + r, lane] - work[at.lowest + r, lane])
-    return widest
+        first = int(work[at.alike + r, lane])
+        least = ROUNDING * (work[at.highest + r, lane] - work[at.lowest + r, lane])
+        if r > first:
+            least = max(least, work[at.rounding + first, lane])
+        work[at.rounding + first, lane] = least
+    for r in range(at.contact_row):
+        work[at.rounding + r, lane] = work[at.rounding + int(work[at.alike + r, lane]), lane]

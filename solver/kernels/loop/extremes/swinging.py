@@ -29,7 +29,7 @@ MUCH = SEEN / REACH
 TINY = 1e-300
 NEARBY, UNEVEN, WIDELY = (0xFF << shift for shift in (0, 8, 16))
 """Bits of an answer for a channel of each eight: an extreme is in reach; is rough; swings much."""
-FOUND = types.Tuple((int64, *[float64] * 4))
+FOUND = types.Tuple((int64, float64, float64))
 
 
 def _weigh(
@@ -39,7 +39,6 @@ def _weigh(
     work: Any,
     extremes: Any,
     lane: Any,
-    least: Any,
     pause: Any,
 ) -> Any:
     """Return what the channels of a step come to.
@@ -51,9 +50,7 @@ def _weigh(
     work : (slots, lanes)
         Has the lane's extremes so far.
     extremes
-        Slots of the first highest and lowest value, number of channels.
-    least
-        Range of channels that are left out.
+        Slots of the first highest and lowest value, and range that is rounding; number of channels.
     pause
         Steps.
 
@@ -61,7 +58,7 @@ def _weigh(
     -------
     Bits of `NEARBY`, `UNEVEN`, `WIDELY`. In how many steps a swing may come to an extreme, if less
     than the pause. The largest share of its range by which a channel swings, where that is not
-    much. The largest range, and the smallest of those that are not left out.
+    much. Channels whose range is rounding are left out.
     """
 
     def generate(context, builder, signature, arguments):
@@ -70,30 +67,28 @@ def _weigh(
             for k in (0, 2)
         )
         at = _Channels(builder, spare.data, lanes, arguments[4])
-        slots = cgutils.unpack_tuple(builder, arguments[3], 3)
-        found = _Found(at, arguments[6])
-        groups = builder.udiv(builder.add(slots[2], WORD(INSTANTS - 1)), WORD(INSTANTS))
+        *slots, count = cgutils.unpack_tuple(builder, arguments[3], 4)
+        found = _Found(at, arguments[5])
+        groups = builder.udiv(builder.add(count, WORD(INSTANTS - 1)), WORD(INSTANTS))
         with cgutils.for_range(builder, groups) as loop:
             first = builder.mul(loop.index, WORD(INSTANTS))
             v = at.channels(at.spare, builder.add(arguments[1], first))
-            highest, lowest = (at.of_lane(builder.add(slot, first)) for slot in slots[:2])
-            kept = at.first(builder.sub(slots[2], first))
-            _add(found, at, v, highest, lowest, kept, arguments[5])
+            highest, lowest, least = (at.of_lane(builder.add(slot, first)) for slot in slots)
+            moves = at.less(least, builder.fsub(highest, lowest))
+            kept = builder.and_(at.first(builder.sub(count, first)), moves)
+            _add(found, at, v, highest, lowest, kept)
         return context.make_tuple(builder, FOUND, found.numbers())
 
-    return FOUND(values, channel, work, extremes, lane, least, pause), generate
+    return FOUND(values, channel, work, extremes, lane, pause), generate
 
 
-weigh_swings = cast(Callable[..., tuple[int, float, float, float, float]], intrinsic(_weigh))
+weigh_swings = cast(Callable[..., tuple[int, float, float]], intrinsic(_weigh))
 
 
-def _add(found, at, v, highest, lowest, kept, least):
-    """Let eight channels count."""
+def _add(found, at, v, highest, lowest, kept):
+    """Let eight channels count, but for those that are not kept."""
     b, last = at.builder, INSTANTS - 1
     spread = b.fsub(highest, lowest)
-    found.widest.let(at.larger, b.select(kept, spread, at.number(0.0)))
-    kept = b.and_(kept, b.not_(b.fcmp_ordered("<=", spread, at.same(least))))
-    found.narrowest.let(at.smaller, b.select(kept, spread, at.number(float("inf"))))
     low, high = at.smaller(v[0], v[last]), at.larger(v[0], v[last])
     bottom, top = low, high
     for i in range(1, last):
@@ -163,8 +158,7 @@ class _Found:
         self._at, b = at, at.builder
         self.answer = cgutils.alloca_once_value(b, WORD(0))
         self.pause = cgutils.alloca_once_value(b, pause)
-        self.largest, self.widest = _Vector(at, 0.0), _Vector(at, 0.0)
-        self.narrowest = _Vector(at, float("inf"))
+        self.largest = _Vector(at, 0.0)
 
     def mark(self, bits, marks) -> None:
         """Set one of the bits for each mark."""
@@ -175,10 +169,8 @@ class _Found:
 
     def numbers(self):
         """Return all."""
-        b, at = self._at.builder, self._at
-        largest, widest = (at.largest(one.now()) for one in (self.largest, self.widest))
-        narrowest = at.least(self.narrowest.now())
-        return [b.load(self.answer), b.load(self.pause), largest, widest, narrowest]
+        b, largest = self._at.builder, self._at.largest(self.largest.now())
+        return [b.load(self.answer), b.load(self.pause), largest]
 
 
 class _Vector:
