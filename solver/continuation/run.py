@@ -16,7 +16,8 @@ from jointplay.solver.continuation.doubling import behind_doubling
 from jointplay.solver.continuation.first_orbits import first_orbits
 from jointplay.solver.continuation.orbit import Orbit
 from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach, Second
-from jointplay.solver.continuation.section_map import Answers, SectionMap
+from jointplay.solver.continuation.section_map import SectionMap
+from jointplay.solver.continuation.section_runs import Answers
 from jointplay.solver.continuation.settled import NoStart
 from jointplay.solver.continuation.slips import rubbings
 from jointplay.solver.continuation.special_curve import starts_of_curves
@@ -277,8 +278,8 @@ def section_map(
         study.tolerance,
         ones,
         width,
-        looked,
-        recall,
+        looked=looked,
+        recall=recall,
         rubs=bool(rubbings(scene)),
         crossing=section and Crossing(crossing_event(kernel, section), float(study.period[0])),
         angles=tuple(k for k, one in enumerate(kernel.coordinates) if one.endswith(".theta")),

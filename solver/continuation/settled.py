@@ -7,7 +7,8 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.crossing import PATIENCE, Crossings
-from jointplay.solver.continuation.section_map import ATTEMPTS, Answers, SectionMap
+from jointplay.solver.continuation.section_map import SectionMap
+from jointplay.solver.continuation.section_runs import ATTEMPTS, Answers
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
