@@ -11,31 +11,41 @@ chapter 8): 2e-3 of the force away where tau is 1e-3 of the period.
 
 import numpy as np
 
-from jointplay.records.arrays import Floats
+from jointplay.records.arrays import Flags, Floats
 
 SLOW = 2.0 / 3.0
 """Power of the time in which the ramp is passed."""
+APART = 2
+"""Side of a slip while its pair is apart."""
 TINY = 1e-300
 """Change of a slip between two rows at least: of one that rests there it is 0."""
 
 
-def phases(slip: Floats, low: float, high: float) -> tuple[int, int]:
+def phases(
+    slip: Floats, low: float, high: float, touching: Flags | None = None, contacts: int = 0
+) -> tuple[int, int]:
     """Return how often a slip sticks, and how often it slides, in a period.
 
     slip : (count + 1,) equally far apart in time, the first and the last a period.
     low, high : ends of the ramp, in its unit.
+    touching : (count + 1,) of a pair, not always. Each of its `contacts` begins and ends sliding,
+        as its force is small there; those between two rows slide once.
     """
     around = slip[:-1]
     side = (around > high).astype(np.int64) - (around < low)
+    if touching is not None:
+        side[~touching[:-1]] = APART
     begins = np.flatnonzero(side != np.roll(side, 1)).tolist()
     if not begins:
-        return int(side[0] == 0), int(side[0] != 0)
+        return int(side[0] == 0), contacts + int(abs(side[0]) == 1)
     held = 0
     for first, behind in zip(begins, [*begins[1:], begins[0]], strict=True):
-        if side[first] == 0:
-            same = side[first - 1] == side[behind]
+        beside = side[first - 1], side[behind]
+        if side[first] == 0 and APART not in beside:
+            same = beside[0] == beside[1]
             held += int(same or _stays(around, low, high, first - 1, behind))
-    return held, int(np.count_nonzero(side[begins]))
+    slides, seen = (int(np.count_nonzero(abs(side[begins]) == one)) for one in (1, APART))
+    return held, slides - seen + contacts
 
 
 def _stays(around: Floats, low: float, high: float, before: int, behind: int) -> bool:

@@ -74,17 +74,20 @@ class Slips:
         self._names = names
         self._columns = np.array([bundle.kernel.rows.index(one) for one in names], np.int64)
         self._values = [np.zeros((0, len(names)))]
-        self._touching = [np.zeros((0, len(bundle.kernel.pairs)))]
+        self._touching = [np.zeros((0, len(bundle.kernel.pairs)), np.bool_)]
+        self._begun = np.zeros(len(bundle.kernel.pairs), np.int64)
 
     def collect(self) -> None:
         """Take what the bundle has handed out in its last call."""
         rows, at = self._bundle.rows(SAMPLES, 0), self._bundle.kernel.row
         if len(rows) and self._rubbed:
             self._values.append(self._bundle.observe(0, rows, self._columns))
-            self._touching.append(rows[:, at.mode : at.impact_rate].copy())
+            self._touching.append(rows[:, at.mode : at.impact_rate] > 0.0)
+        contacts = self._bundle.impacts(0)
+        np.add.at(self._begun, contacts["joint"][contacts["onset"] > 0.0], 1)
 
     def phases(self) -> list[int]:
-        """Return how often each slip sticks and slides, in turn; 0 where a pair is apart once.
+        """Return how often each slip sticks and slides, in turn, of pairs while they touch.
 
         Of a run that failed before it had three rows all are 0.
         """
@@ -95,10 +98,11 @@ class Slips:
         for one in self._rubbed:
             if one.pair is None:
                 slip = _argument(self._scene, one.name, values)
-            else:
-                slip = values[f"{one.name}.slip_velocity"]
-            apart = one.pair is not None and not touching[:, one.pair].all()
-            found += (0, 0) if apart else phases(slip, one.low, one.high)
+                found += phases(slip, one.low, one.high)
+                continue
+            slip, touches = values[f"{one.name}.slip_velocity"], touching[:, one.pair]
+            opens = () if touches.all() else (touches, int(self._begun[one.pair]))
+            found += phases(slip, one.low, one.high, *opens)
         return found
 
 

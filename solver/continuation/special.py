@@ -91,9 +91,11 @@ def _grazing(piece: Piece) -> Iterator[Special]:
 def _sticking(piece: Piece) -> Iterator[Special]:
     """Yield where phases of friction begin or end; no more of a piece in which that cannot be told.
 
-    A branch does not depend on them, so that it goes on there.
+    A branch does not depend on them, so that it goes on there. Phases of other impacts are others.
     """
     at, before, last = 0.0, piece.first.phases, piece.last.phases
+    if piece.first.onsets != piece.last.onsets:
+        return
     for _ in range(MOST_STICKINGS):
         if before == last or len(before) != len(last):
             return
