@@ -73,8 +73,7 @@ def extremes_of(job: dict[str, Any]) -> Extremes:
                 miss = max(miss - rounding(finished, column, seen_at, spacing), 0.0)
             at = int(np.searchsorted(finished.time, time))
             near = sense * sampled[max(at - 3, 0) : at + 3]
-            one_method = finished.method == finished.admission.method  # or no run repeats it
-            if one_method and beyond(sense * value, near) > ALLOWED * spread:
+            if finished.one_method and beyond(sense * value, near) > ALLOWED * spread:
                 near = sense * samples_about(finished, column, time, spacing)
                 miss = max(miss, beyond(sense * value, near))
             misses.append(miss / spread)

@@ -27,6 +27,8 @@ class Finished:
     admission: Admission
     method: str
     """That it was computed with in the end."""
+    one_method: bool
+    """Whether it had that from its start, so that a run with one method repeats it."""
     scene: dict[str, Any]
     names: list[str]
     units: list[str]
@@ -45,12 +47,13 @@ def finish(job: dict[str, Any], most_steps: float = MOST_STEPS) -> Finished | st
         return f"refused: {refused}"
     assert isinstance(admission, Admission)
     simulation = Simulation(admission)
-    times, samples, impacts = [], [], []
+    times, samples, impacts, methods = [], [], [], set[float]()
     try:
         for piece in simulation.slices():
             times.append(piece.sample_time)
             samples.append(piece.samples)
             impacts.append(piece.impacts)
+            methods.update(piece.steps[:, -1].tolist())
             if simulation.summary().statistics["steps"] > most_steps:
                 return "too many steps"
     except SimulationFailed as failure:
@@ -59,6 +62,7 @@ def finish(job: dict[str, Any], most_steps: float = MOST_STEPS) -> Finished | st
     return Finished(
         admission,
         summary.statistics["method"],
+        len(methods) <= 1,
         admission.scene_document(),
         [channel.name for channel in admission.channels],
         [channel.unit for channel in admission.channels],
