@@ -34,7 +34,9 @@ def warm(name: str) -> float:
         replay.mismatch(rows)
         replay.channels(names, rows, np.array([[0.0, 1.0]]))
         replay.extremes(names, rows, np.array([0.0, 1e-3]), np.zeros(1))
-    compile_tangents(ready_kernel(admission.scene, admission.job["formulation"], admission.method))
+    structure = admission.scene, admission.job["formulation"], admission.method
+    compile_tangents(ready_kernel(*structure))
+    ready_kernel(*structure, alone=True)  # of simulations without certificate
     return time.perf_counter() - began
 
 
