@@ -34,8 +34,8 @@ def largest(multipliers: Complexes) -> float:
     return max(map(size, multipliers.tolist()))
 
 
-def unstable(multipliers: Complexes, label: str = "") -> int:
-    """Return how many multipliers lie outside of the unit circle.
+def unstable(multipliers: Complexes, label: str = "", *, within: float = 0.0) -> int:
+    """Return how many multipliers lie outside of the unit circle, by more than a distance.
 
     `label` : of a special orbit; the multiplier or the pair that makes it one is not counted.
     """
@@ -44,7 +44,7 @@ def unstable(multipliers: Complexes, label: str = "") -> int:
         left = neutral_pair(multipliers)[1].tolist()
     elif label in CRITICAL:
         left.remove(min(left, key=lambda one: size(one - CRITICAL[label])))
-    return sum(size(one) > 1.0 for one in left)
+    return sum(size(one) > 1.0 + within for one in left)
 
 
 def doubling(multipliers: Complexes) -> float:
@@ -79,6 +79,12 @@ def _product(factors: Iterable[tuple[float, float]]) -> float:
 def is_torus(multipliers: Complexes) -> bool:
     """Return whether the pair whose product is nearest to 1 is complex: else they are real."""
     return bool(multipliers[_neutral(multipliers)[0]].imag != 0.0)
+
+
+def preserves_areas(multipliers: Complexes, within: float) -> bool:
+    """Return whether the product of two multipliers is 1 but for an error of each."""
+    one, other = (size(multipliers[k]) for k in _neutral(multipliers))
+    return abs(one * other - 1.0) <= within * (one + other)
 
 
 def neutral_pair(multipliers: Complexes) -> tuple[float, Complexes]:

@@ -43,6 +43,9 @@ SHARP = 1e-3
 BAR = 3.0
 """Share of the multipliers' bar in how far differences at two scales are apart: once that is too
 little for 2 of 200 random orbits, by a factor of 1.4 at most (`benchmarks random_orbits`)."""
+NEUTRAL = 1e-5
+"""Distance from the unit circle, at most, that is one of multipliers on it if their bar is not
+less: motion without losses has pairs that stay there."""
 LOOSER = 10.0
 """The second tolerance of runs, in the first. Of 48 orbits with and without impacts, at tolerances
 from 1e-7 to 5e-11, differences at two scales alone err by more than their share of the bar for 23,
@@ -148,6 +151,11 @@ class Orbit:
             return math.inf
         apart = spread(self.multipliers, multipliers_of(self.looser.monodromy))
         return BAR * self.error + apart
+
+    @property
+    def slack(self) -> float:
+        """Distance from the unit circle within which multipliers may be on either side of it."""
+        return min(self.bar, NEUTRAL)
 
     @cached_property
     def criticality(self) -> tuple[float, float]:

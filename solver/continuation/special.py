@@ -9,6 +9,7 @@ from jointplay.solver.continuation.multipliers import (
     doubling,
     is_torus,
     passing_one,
+    preserves_areas,
     torus,
     unstable,
 )
@@ -50,9 +51,23 @@ def explained(piece: Piece, specials: list[Special]) -> bool:
         return True
     if any(one.jumps for one in specials):
         return True
-    counts = [unstable(orbit.multipliers) for orbit in (piece.first, piece.last)]
     allowed = sum(CHANGES[one.label] for one in specials)
-    return abs(counts[1] - counts[0]) <= allowed
+    first, last = (unstable(one.multipliers) for one in (piece.first, piece.last))
+    excess = abs(last - first) - allowed
+    return excess <= 0 or excess <= _uncertain(piece)
+
+
+def _uncertain(piece: Piece) -> int:
+    """Return how many multipliers at either end may be on either side of the unit circle."""
+    return sum(
+        unstable(one.multipliers, within=-one.slack) - unstable(one.multipliers, within=one.slack)
+        for one in (piece.first, piece.last)
+    )
+
+
+def _neutral(piece: Piece) -> bool:
+    """Return whether two multipliers have the product 1 at both ends, but for errors."""
+    return all(preserves_areas(one.multipliers, one.slack) for one in (piece.first, piece.last))
 
 
 def _every(piece: Piece) -> Iterator[Special]:
@@ -64,6 +79,8 @@ def _every(piece: Piece) -> Iterator[Special]:
     grazes, jumped = piece.first.onsets != piece.last.onsets, False
     for label, test in (("BP", passing_one), ("PD", doubling), ("NS", torus)):
         if (label == "BP" and turned) or not changes(piece, test):
+            continue
+        if label == "NS" and _neutral(piece):
             continue
         found = zero(piece, test)
         if grazes and jumps(piece, test, found):

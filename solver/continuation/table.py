@@ -31,7 +31,7 @@ def row_of(row: Row, seconds: Sequence[float] = ()) -> Floats:
         bounds[0],
         orbit.linear.passage.duration,
         float(orbit.onsets),
-        float(unstable(orbit.multipliers, orbit.curve.of)),
+        float(unstable(orbit.multipliers, orbit.curve.of, within=orbit.slack)),
         orbit.residual,
         orbit.bar,
         *orbit.looser.passage.margins,

@@ -7,6 +7,7 @@ import pytest
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.branch import Row
+from jointplay.solver.continuation.multipliers import unstable
 from tests.solver.continuation.known_maps import Formula, rows_of
 
 B = 0.3
@@ -25,6 +26,11 @@ def delayed_logistic(state: Floats, a: float) -> list[float]:
 def pitchfork(state: Floats, a: float) -> list[float]:
     (x,) = state.tolist()
     return [a * x - x**3]
+
+
+def area_preserving(state: Floats, a: float) -> list[float]:
+    x, y = state.tolist()
+    return [a - x * x - y, x]
 
 
 def neutral_saddle(state: Floats, a: float) -> list[float]:
@@ -75,6 +81,18 @@ def test_what_bifurcates_has_its_label_at_its_place_within_its_bound(
         assert abs(row.orbit.value - at) <= row.bound + 1e-12
         assert row.bound < 1e-5
     assert rows[-1].label == "EP"
+
+
+def test_pairs_that_stay_on_the_unit_circle_pass_nothing_by_their_errors() -> None:
+    # elliptic until it doubles where x is 1; before, the pair stays on the circle
+    rows = rows_of(area_preserving, [0.1, 0.1], (0.2, 3.3))
+    (doubling,) = [row for row in rows if row.label not in ("", "EP")]
+    assert doubling.label == "PD"
+    assert abs(doubling.orbit.value - 3.0) <= doubling.bound + 1e-12
+    counts = [unstable(row.orbit.multipliers, within=row.orbit.slack) for row in rows]
+    at = rows.index(doubling)
+    assert not any(counts[:at])
+    assert all(counts[at + 1 :])
 
 
 def test_a_branch_that_closes_is_gone_round_once() -> None:
