@@ -8,6 +8,7 @@ those of states and parameters; latched impact rates do not count.
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import count
 
 import numpy as np
 from numpy.linalg import LinAlgError
@@ -27,6 +28,7 @@ from jointplay.solver.linear_algebra.elimination import solve
 
 AnyMap = SectionMap | SpecialMap
 MOST_ROUNDS = 8
+"""Rounds of Newton's method after which it ends unless it is close enough: then a few follow."""
 CLOSE = 10.0
 """Residual at which Newton's method ends, in the tolerance of the runs."""
 CLOSE_ENOUGH = 1e-6
@@ -268,7 +270,7 @@ class Curve:
 
     def _newton(self, guess: Floats, along: Floats, scale: float) -> Orbit | NoOrbit:
         vector, before = guess.copy(), math.inf
-        for rounds in range(MOST_ROUNDS + 1):
+        for rounds in count():
             linear = self.map.linear(self.section(vector), scale)
             if linear.passage.failure:
                 return NoOrbit(linear.passage.failure, before)
@@ -276,7 +278,8 @@ class Curve:
             stalled = residual > GAIN * before and rounds > 1
             if residual <= CLOSE * self.map.tolerance or (stalled and residual <= CLOSE_ENOUGH):
                 return Orbit(self, vector, linear, residual, rounds, scale)
-            if not math.isfinite(residual) or (stalled and rounds > 3):
+            late = rounds >= MOST_ROUNDS and residual > CLOSE_ENOUGH
+            if late or not math.isfinite(residual) or (stalled and rounds > 3):
                 break
             before = residual
             right = np.append(-linear.residual / self.scales.extents[:-1], 0.0)
