@@ -30,6 +30,7 @@ class KnownMap(SectionMap):
     impacts: Callable[..., int] = lambda _state, *_values: 0
     nearest: Callable[..., float] = lambda _state, *_values: math.nan
     speed: Callable[..., float] = lambda _state, *_values: math.nan
+    phases: Callable[..., tuple[int, ...]] = lambda _state, *_values: ()
 
     def passages(self, sections: Sequence[Section]) -> list[Passage]:
         """Return what the formula gives, iterated for each period."""
@@ -41,7 +42,9 @@ class KnownMap(SectionMap):
             onsets = self.impacts(one.state, *one.values)
             nearest = self.nearest(one.state, *one.values)
             margins = Margins(speed=self.speed(one.state, *one.values))
-            found.append(Passage(end, onsets, 1, "", nearest, margins=margins))
+            phases = self.phases(one.state, *one.values)
+            told = Passage(end, onsets, 1, "", nearest, margins=margins, phases=phases)
+            found.append(told)
         return found
 
 
@@ -56,19 +59,20 @@ def rows_of(
     orbits: int = 400,
     sense: float = 1.0,
     pairs: int = 0,
-    **distances: Callable[[Floats, float], float],
+    **others: Callable[[Floats, float], Any],
 ) -> list[Row]:
     """Return the branch of fixed points from a state, from one value of the parameter to another.
 
     `low` : the other end of the range; else the value at which the branch begins. `pairs` : numbers
-    at the end of the state that are impact rates. `distances` : `nearest` and `speed` of the map.
+    at the end of the state that are impact rates. `others` : `nearest`, `speed` and `phases` of
+    the map.
     """
     size, (begin, end) = len(start), values
     kernel: Any = SimpleNamespace(states=size - pairs, pairs=range(pairs))  # all that is asked of
     width = abs(end - begin)
     ones = np.ones(size)
-    parts: Any = {"formula": formula, "impacts": impacts, **distances}
-    map_ = KnownMap(kernel, lambda _value: None, 1, 1e-13, ones, width, **parts)  # type: ignore[arg-type,return-value]
+    parts: Any = {"formula": formula, "impacts": impacts, "rubs": "phases" in others}
+    map_ = KnownMap(kernel, lambda _value: None, 1, 1e-13, ones, width, **parts, **others)  # type: ignore[arg-type,return-value]
     curve = Curve(map_, Scales(np.append(ones, width), np.append(ones / size, 1.0)))
     orbit = first_orbit(curve, Section(begin, np.array(start, np.float64)))
     way = np.append(np.zeros(size), np.sign(end - begin))

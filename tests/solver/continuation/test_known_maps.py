@@ -1,5 +1,6 @@
 """Labels, places and bounds of special orbits, of maps whose bifurcations are known exactly."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -120,6 +121,18 @@ def test_impacts_begin_and_end_where_their_number_changes() -> None:
     ]
     for row, at in zip(found, (0.31, 0.32), strict=True):
         assert abs(row.orbit.value - at) <= row.bound < 1e-8
+
+
+@pytest.mark.parametrize("rubs", [True, False])
+def test_a_branch_that_is_lost_says_what_to_try(rubs: bool) -> None:
+    def ends(state: Floats, a: float) -> list[float]:
+        return [a * float(state[0]) if a < 0.5 else math.nan]
+
+    told = {"phases": lambda _state, _a: (0, 1)} if rubs else {}
+    *_, last = rows_of(ends, [0.0], (0.1, 0.9), **told)
+    friction = "a wider ramp of friction, " if rubs else ""
+    assert last.label == "MX"
+    assert last.note.endswith(f"; try {friction}a smaller tolerance or a smaller 'largest_step'")
 
 
 def test_lengths_behind_the_start_are_negative_and_orbits_are_counted() -> None:
