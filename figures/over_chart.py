@@ -25,8 +25,10 @@ class OverChart:
         NotDrawable: the chart has another axis, or the place along one is not known.
         """
         if over.kind not in KINDS:
-            kinds = f"{', '.join(KINDS)} or, branches, bifurcation"
-            sentence = f"Orbits are drawn over a job of kind {kinds}, not {over.kind}."
+            sentence = (
+                f"Curves are drawn over a job of kind {' or '.join(KINDS)}, branches over one of"
+                f" kind bifurcation, too; this one is of kind {over.kind}."
+            )
             raise NotDrawable(sentence, "over")
         self._map = ChartMap(over, offered(over)[0])
         self._names = [one.name for one in source.parameters]

@@ -33,7 +33,7 @@ def test_a_branch_is_drawn_over_a_chart(jointplay, folders, tmp_path):
 def test_what_lies_beneath_must_be_a_map(jointplay, folders, tmp_path):
     branch, chart = folders
     said = jointplay("plot", branch, "branch", "--over", branch, "-o", tmp_path)
-    assert "--over: Orbits are drawn over a job of kind chart, basins or, branches," in said.line()
+    assert "--over: Curves are drawn over a job of kind chart or basins, branches" in said.line()
     said = jointplay("plot", chart, "chart", "--over", chart, "-o", tmp_path)
     assert "--over: The figure 'chart' does not depend on over" in said.line()
     assert "--over chooses what a figure shows" in jointplay("plot", branch, "--over", chart).line()
