@@ -1,7 +1,7 @@
 """A branch of periodic orbits, followed by pseudo-arclength: predictor, corrector, step control."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -39,6 +39,7 @@ LONG = 5.0
 """Period, in that at the start, beyond which a branch may end at a position of rest."""
 ENOUGH = 8
 """Orbits after which a branch may have closed."""
+CLOSED = "the branch has closed"
 
 
 Way = tuple[Orbit, Floats]
@@ -62,6 +63,21 @@ class Row:
     def bound(self) -> float:
         """Largest error of the parameter at a special orbit, or the first one's; 0 elsewhere."""
         return self.bounds[0] if self.bounds else 0.0
+
+
+def both_ways(start: Row, ways: Sequence[Way], reach: Reach) -> Iterator[Row]:
+    """Yield the orbits of a branch behind its first one, one way after the other.
+
+    Where the first way closes the branch, there is no other.
+    """
+    for (orbit, along), sense in zip(ways, (1.0, -1.0), strict=False):
+        begin = orbit.curve.scales.length(orbit.vector - start.orbit.vector)
+        closed = False
+        for row in follow(orbit, along, reach, sense, begin):
+            closed = row.note == CLOSED
+            yield row
+        if closed:
+            return
 
 
 def follow(
@@ -132,7 +148,7 @@ def _smooth(
             yield Row(orbit, sense * length, "EP", note="end of the range")
             return
         if count >= ENOUGH and _closed(piece, home):
-            yield Row(orbit, sense * length, "EP", note="the branch has closed")
+            yield Row(orbit, sense * length, "EP", note=CLOSED)
             return
         ended = count == reach.orbits
         note = f"{count} orbits were asked for" if ended else ""

@@ -10,7 +10,7 @@ from greenlet import getcurrent, greenlet
 
 from jointplay.records.checkpoint import decode, encode
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
-from jointplay.solver.continuation.branch import Row, Way, follow
+from jointplay.solver.continuation.branch import Row, Way, both_ways
 from jointplay.solver.continuation.crossing import Crossing
 from jointplay.solver.continuation.doubling import behind_doubling
 from jointplay.solver.continuation.first_orbits import first_orbits
@@ -138,7 +138,7 @@ class ContinuationRun:
             except NoStart as none:
                 failure = str(none)
             else:
-                self._follow(point, rows, start, _both(start, ways, reach))
+                self._follow(point, rows, start, both_ways(start, ways, reach))
             branches.append(rows)
             self._end(point, rows, spent, failure)
         if study.second is not None:
@@ -173,7 +173,7 @@ class ContinuationRun:
                 failure = str(start)
             elif start is not None:
                 ways = _ways(start.orbit, second.start, second.reach)
-                self._follow(point, rows, start, _both(start, ways, second.reach))
+                self._follow(point, rows, start, both_ways(start, ways, second.reach))
             curves.append(rows)
             self._end(point, rows, spent, failure)
 
@@ -289,10 +289,3 @@ def section_map(
 def _last(row: Row) -> Row:
     """Return the last orbit that a branch may have; a special one stays what it is."""
     return replace(row, label=row.label or "EP", note="; ".join(filter(None, (row.note, FULL))))
-
-
-def _both(start: Row, ways: list[Way], reach: Reach) -> Iterator[Row]:
-    """Yield the orbits of a branch behind its first one, one way after the other."""
-    for (orbit, along), sense in zip(ways, (1.0, -1.0), strict=False):
-        begin = orbit.curve.scales.length(orbit.vector - start.orbit.vector)
-        yield from follow(orbit, along, reach, sense, begin)

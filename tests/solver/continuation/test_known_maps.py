@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.continuation.branch import Row
+from jointplay.solver.continuation.branch import Row, both_ways
 from jointplay.solver.continuation.multipliers import unstable
+from jointplay.solver.continuation.plan import Reach
 from tests.solver.continuation.known_maps import Formula, rows_of
 
 B = 0.3
@@ -101,7 +102,11 @@ def test_a_branch_that_closes_is_gone_round_once() -> None:
     assert told(rows[-1]) == ("EP", "the branch has closed")
     folds = [row.orbit.value for row in rows if row.label == "LP"]
     assert folds == [pytest.approx(1.0, abs=1e-7), pytest.approx(-1.0, abs=1e-7)]
-    lengths = [row.length for row in rows]
+    start = rows[0].orbit
+    ways = [(start, sign * np.array([0.0, 1.0])) for sign in (1.0, -1.0)]
+    both = list(both_ways(rows[0], ways, Reach(-2.0, 2.0, 400, 0.03)))
+    assert both[-1].note == rows[-1].note
+    lengths = [row.length for row in both]
     assert lengths == sorted(lengths)
     # once round, where the parameter counts in widths of 1.4
     circumference = sum(
