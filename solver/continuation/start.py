@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from jointplay.solver.continuation.multipliers import size
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Scales
 from jointplay.solver.continuation.passage import Passage, Section
 from jointplay.solver.continuation.section_map import TURN, SectionMap
@@ -45,7 +46,7 @@ def first_orbit(curve: Curve, section: Section) -> Orbit:
     Raises
     ------
     NoStart
-        There is none near, or it repeats after fewer periods.
+        There is none near, it repeats after fewer periods, or nothing tells it from others.
     """
     axis = np.zeros(curve.map.size + 1)
     axis[-1] = 1.0
@@ -61,6 +62,13 @@ def first_orbit(curve: Curve, section: Section) -> Orbit:
         raise NoStart(
             f"The orbit that was found repeats after {shorter} of the {curve.map.periods} periods;"
             f" ask for 'period' {shorter}."
+        )
+    nearest = min(size(one - 1.0) for one in found.multipliers.tolist())
+    if curve.sections.crossing is not None and nearest <= found.slack:
+        raise NoStart(
+            "A multiplier of the orbit that was found is 1: it is one of a family at the same value"
+            " of the parameter, such as one for each energy where nothing takes that away. Let"
+            " something damp the mechanism, and something drive it."
         )
     return within_a_turn(found)
 

@@ -146,6 +146,12 @@ def test_a_motion_that_comes_to_rest_is_not_waited_for() -> None:
     assert "The motion is at the section 0 instead of 2 times until" in detail
 
 
+def test_orbits_without_losses_are_a_family_and_no_branch() -> None:
+    section = {"channel": "rod.theta", "value": -1.57}
+    job = {"scene": {"preset": "pendulum"}, "parameter": "mass", "section": section}
+    assert "one for each energy" in refusal(job | {"values": {"from": 1.0, "to": 2.0, "count": 3}})
+
+
 def test_a_branch_ends_where_its_orbit_comes_to_rest_upside_down() -> None:
     values = {"from": 0.2, "to": 0.1, "count": 60}
     branch = found(TURNING | {"values": values, "largest_step": 0.2})
