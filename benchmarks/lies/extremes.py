@@ -22,6 +22,8 @@ ALLOWED = 1e-6
 ROUNDED = 4.0
 """Median second differences of samples CLOSER to each other that count as rounding: where a journal
 is as close to its bearing's centre as its place is rounded, the direction of its slip is."""
+PLACE = 2.0**-52
+"""What places of up to a metre are rounded by, m."""
 CLOSER, ABOUT = 2000, 0.1
 """Factor by which samples are closer about an extreme that none of the others reaches, and how many
 spacings to either side."""
@@ -74,8 +76,9 @@ def extremes_of(job: dict[str, Any]) -> Extremes:
             at = int(np.searchsorted(finished.time, time))
             near = sense * sampled[max(at - 3, 0) : at + 3]
             if finished.one_method and beyond(sense * value, near) > ALLOWED * spread:
-                near = sense * samples_about(finished, column, time, spacing)
-                miss = max(miss, beyond(sense * value, near))
+                close = samples_about(finished, time, spacing)
+                excess = beyond(sense * value, sense * close[:, column])
+                miss = max(miss, excess - direction(finished, name, close))
             misses.append(miss / spread)
             said.append(f"{name} {value:.9g} at {time:.9g} s, sampled {sense * seen:.9g}")
     if not misses:
@@ -85,11 +88,11 @@ def extremes_of(job: dict[str, Any]) -> Extremes:
     return Extremes("judged", len(misses), right, float(misses[worst]), said[worst])
 
 
-def samples_about(finished: Finished, column: int, time: float, spacing: float) -> Floats:
-    """Return samples of a channel about a time, a CLOSER part of a spacing apart."""
+def samples_about(finished: Finished, time: float, spacing: float) -> Floats:
+    """Return samples of all channels about a time, a CLOSER part of a spacing apart."""
     close, count = spacing / CLOSER, int(2.0 * ABOUT * CLOSER)
     first = max(time - ABOUT * spacing, 0.0)
-    return close_look(finished.admission, finished.method, first, close, count)[:, column]
+    return close_look(finished.admission, finished.method, first, close, count)
 
 
 def rounding(finished: Finished, column: int, time: float, spacing: float) -> float:
@@ -97,8 +100,21 @@ def rounding(finished: Finished, column: int, time: float, spacing: float) -> fl
 
     A kink there leaves all but one of the second differences small.
     """
-    values = samples_about(finished, column, time, spacing)
-    return ROUNDED * float(np.median(np.abs(np.diff(values, 2)))) if len(values) > 2 else 0.0
+    close = samples_about(finished, time, spacing)
+    if len(close) < 3:
+        return 0.0
+    noise = ROUNDED * float(np.median(np.abs(np.diff(close[:, column], 2))))
+    return max(noise, direction(finished, finished.names[column], close))
+
+
+def direction(finished: Finished, name: str, close: Floats) -> float:
+    """Return what slip is rounded by, m/s, where a journal is next to its bearing's centre."""
+    joint, _, quantity = name.partition(".")
+    if quantity != "slip_velocity" or f"{joint}.eccentricity_x" not in finished.names:
+        return 0.0
+    parts = ("eccentricity_x", "eccentricity_y", "eccentricity_rate_x", "eccentricity_rate_y")
+    x, y, vx, vy = (close[:, finished.names.index(f"{joint}.{one}")] for one in parts)
+    return float((np.hypot(vx, vy) * PLACE / np.maximum(np.hypot(x, y), PLACE)).max())
 
 
 def beyond(highest: float, sampled: Floats) -> float:
