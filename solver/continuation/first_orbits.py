@@ -16,6 +16,7 @@ from jointplay.solver.continuation.section_map import SectionMap
 from jointplay.solver.continuation.settled import NoStart, settle
 from jointplay.solver.continuation.start import (
     first_orbit,
+    isolated,
     scaled,
     shorter_period,
     within_a_turn,
@@ -49,6 +50,11 @@ def embedded_orbits(curve: Curve, section: Section, count: int) -> list[Orbit | 
     """Return (count,) different orbits next to the motion behind a section, or why there are fewer.
 
     Chaotic motion passes next to unstable orbits, and then nearly repeats.
+
+    Raises
+    ------
+    NoStart
+        Orbits are those of a family.
     """
     return _Search(curve, count).orbits(_sections(curve, section, SECTIONS))
 
@@ -95,7 +101,7 @@ class _Search:
             if isinstance(orbit, NoOrbit):
                 nearest = min(nearest, orbit.residual)
             elif not self._is_known(orbit.section):
-                found += self._taken(orbit)
+                found += self._taken(isolated(orbit))
         missing = self.count - len(found)
         return found + [self._lack(len(found), len(sections), tries, nearest)] * missing
 

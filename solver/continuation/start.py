@@ -63,14 +63,22 @@ def first_orbit(curve: Curve, section: Section) -> Orbit:
             f"The orbit that was found repeats after {shorter} of the {curve.map.periods} periods;"
             f" ask for 'period' {shorter}."
         )
-    nearest = min(size(one - 1.0) for one in found.multipliers.tolist())
-    if curve.sections.crossing is not None and nearest <= found.slack:
+    return within_a_turn(isolated(found))
+
+
+def isolated(orbit: Orbit) -> Orbit:
+    """Return an orbit that has no neighbours at its value of the parameter.
+
+    NoStart: it has, where nothing drives the mechanism.
+    """
+    nearest = min(size(one - 1.0) for one in orbit.multipliers.tolist())
+    if orbit.curve.sections.crossing is not None and nearest <= orbit.slack:
         raise NoStart(
             "A multiplier of the orbit that was found is 1: it is one of a family at the same value"
             " of the parameter, such as one for each energy where nothing takes that away. Let"
             " something damp the mechanism, and something drive it."
         )
-    return within_a_turn(found)
+    return orbit
 
 
 def shorter_period(orbit: Orbit) -> int:

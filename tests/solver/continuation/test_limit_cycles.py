@@ -148,8 +148,15 @@ def test_a_motion_that_comes_to_rest_is_not_waited_for() -> None:
 
 def test_orbits_without_losses_are_a_family_and_no_branch() -> None:
     section = {"channel": "rod.theta", "value": -1.57}
-    job = {"scene": {"preset": "pendulum"}, "parameter": "mass", "section": section}
-    assert "one for each energy" in refusal(job | {"values": {"from": 1.0, "to": 2.0, "count": 3}})
+    values = {"from": 1.0, "to": 2.0, "count": 3}
+    job = {"scene": {"preset": "pendulum"}, "parameter": "mass", "values": values}
+    for orbits in (1, 2):
+        several = run(
+            {"kind": "continuation"} | job | {"section": section, "orbits": orbits}, processes=1
+        )
+        for one in branches(several.study()):
+            assert one.failure is not None
+            assert "one for each energy" in one.failure.detail
 
 
 def test_a_branch_ends_where_its_orbit_comes_to_rest_upside_down() -> None:
