@@ -246,6 +246,10 @@ def _lost(orbit: Orbit, why: NoOrbit) -> str:
     touching = why.grazing or shaken or not orbit.linear.alike
     if orbit.curve.sections.kernel.pairs and touching:
         cause, remedy = "an impact begins or ends here (grazing)", "a softer contact"
+        map_ = orbit.curve.sections
+        if orbit.onsets and orbit.section.state[map_.kernel.states :].any():
+            cause += ", or lies on the section"
+            remedy += f", or another {'section' if map_.crossing else 'phase of the drive'}"
     else:
         cause, remedy = why.reason, "a smaller tolerance or a smaller 'largest_step'"
         if orbit.curve.sections.rubs:

@@ -140,6 +140,20 @@ def test_a_branch_that_is_lost_says_what_to_try(rubs: bool) -> None:
     assert last.note.endswith(f"; try {friction}a smaller tolerance or a smaller 'largest_step'")
 
 
+def test_a_branch_that_is_lost_in_a_contact_on_the_section_says_so() -> None:
+    def strikes(state: Floats, a: float, *_second: float) -> list[float]:
+        return [0.5 * float(state[0]) + a + (a > 0.5), 0.3]
+
+    def impacts(_state: Floats, a: float, *_second: float) -> int:
+        return 1 + (a > 0.5)
+
+    *_, last = rows_of(strikes, [0.2, 0.3], (0.1, 0.9), impacts=impacts, pairs=1)
+    assert last.label == "MX"
+    assert (
+        "or lies on the section; try a softer contact, or another phase of the drive" in last.note
+    )
+
+
 def test_lengths_behind_the_start_are_negative_and_orbits_are_counted() -> None:
     rows = rows_of(pitchfork, [0.0], (0.9, 0.1), sense=-1.0, orbits=5)
     assert len(rows) == 5
