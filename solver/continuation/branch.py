@@ -246,10 +246,10 @@ def _lost(orbit: Orbit, why: NoOrbit) -> str:
     touching = why.grazing or shaken or not orbit.linear.alike
     if orbit.curve.sections.kernel.pairs and touching:
         cause, remedy = "an impact begins or ends here (grazing)", "a softer contact"
-        map_ = orbit.curve.sections
-        if orbit.onsets and orbit.section.state[map_.kernel.states :].any():
+        if orbit.onsets:
+            driven = orbit.curve.sections.crossing is None
             cause += ", or lies on the section"
-            remedy += f", or another {'section' if map_.crossing else 'phase of the drive'}"
+            remedy += f", or another {'phase of the drive' if driven else 'section'}"
     else:
         cause, remedy = why.reason, "a smaller tolerance or a smaller 'largest_step'"
         if orbit.curve.sections.rubs:
