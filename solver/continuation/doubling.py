@@ -25,8 +25,8 @@ def behind_doubling(branch: Sequence[Row]) -> Way:
     """
     row = next((row for row in branch if row.label == "PD"), None)
     if row is None:
-        sentence = "The branch before has no period doubling in the range"
-        raise NoStart(f"{sentence}; try a wider one, or fewer 'doublings'.")
+        sentence = "The branch before has no period doubling; try a wider range, a larger 'count'"
+        raise NoStart(f"{sentence} or fewer 'doublings'.")
     return _doubled(row.orbit)
 
 

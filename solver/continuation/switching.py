@@ -25,8 +25,8 @@ def beside_branch_point(branch: Sequence[Row], number: int) -> tuple[Row, list[W
     points = [row for row in branch if row.label == "BP"]
     if number >= len(points):
         raise NoStart(
-            f"The first branch has {len(points)} branch points in the range; try a wider one, or"
-            " fewer 'branch_points'."
+            f"The first branch has {len(points)} branch points; try a wider range, a larger 'count'"
+            " or fewer 'branch_points'."
         )
     point = points[number]
     return Row(point.orbit, 0.0, "BP", point.bounds, "start of the branch"), _switched(

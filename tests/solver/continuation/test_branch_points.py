@@ -59,7 +59,7 @@ def test_the_other_branch_goes_both_ways_from_a_branch_point(
 
 def test_where_there_is_no_branch_point_nothing_begins() -> None:
     rows = rows_of(pitchfork, [0.0, 0.0], (0.5, 0.9))
-    with pytest.raises(NoStart, match="has 0 branch points in the range; try a wider one"):
+    with pytest.raises(NoStart, match="has 0 branch points; try a wider range, a larger 'count'"):
         beside_branch_point(rows, 0)
 
 
