@@ -100,8 +100,7 @@ def _grazing(piece: Piece) -> Iterator[Special]:
         found = change(piece, _onsets, at)
         at = found.at
         behind = piece.last.onsets if at >= piece.length else piece.orbit(at).onsets
-        gained = "begins" if behind > onsets else "ends"
-        yield Special("GR", found, f"an impact {gained}: {onsets} before, {behind} behind")
+        yield Special("GR", found, _grazed(onsets, behind))
         onsets = behind
 
 
@@ -137,6 +136,12 @@ def _phases(orbit: Orbit) -> tuple[int, ...]:
 
 def _told(phases: tuple[int, ...]) -> str:
     return f"sticks {sum(phases[::2])} and slides {sum(phases[1::2])} times a period"
+
+
+def _grazed(before: int, behind: int) -> str:
+    change = "begin" if behind > before else "end"
+    what = f"an impact {change}s" if abs(behind - before) == 1 else f"impacts {change}"
+    return f"{what}: {before} before, {behind} behind"
 
 
 def _onsets(orbit: Orbit) -> int:

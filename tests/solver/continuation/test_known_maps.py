@@ -122,7 +122,7 @@ def test_impacts_begin_and_end_where_their_number_changes() -> None:
     found = [row for row in rows if row.label == "GR"]
     assert [row.note for row in found] == [
         "an impact begins: 2 before, 3 behind",
-        "an impact ends: 3 before, 1 behind",
+        "impacts end: 3 before, 1 behind",
     ]
     for row, at in zip(found, (0.31, 0.32), strict=True):
         assert abs(row.orbit.value - at) <= row.bound < 1e-8
@@ -268,3 +268,9 @@ def test_a_doubling_beside_grazing_is_told_apart_from_its_jump() -> None:
     (doubling,) = (row for row in rows if row.label == "PD")
     assert abs(doubling.orbit.values[0] - 0.2) <= doubling.bound <= 1e-6
     assert [row.label for row in rows if row.label] == ["PD", "GR", "EP"]
+
+
+def test_impacts_that_begin_at_once_are_told_as_several() -> None:
+    rows = rows_of(pitchfork, [0.0], (0.1, 0.9), impacts=lambda _state, a: 2 * int(a > 0.31))
+    (touch,) = (row for row in rows if row.label == "GR")
+    assert touch.note == "impacts begin: 0 before, 2 behind"
