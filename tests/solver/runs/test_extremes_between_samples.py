@@ -100,6 +100,17 @@ def test_steps_that_swing_in_turn_are_looked_into() -> None:
     check("seven-bar-press", 0.0585, parameters, tolerance=1.11542e-05)
 
 
+def test_what_rises_for_an_instant_behind_a_step_end_is_seen() -> None:
+    # a journal falls on: with fixed steps its contact begins at a step's end, and 0.0004 steps
+    # later its weight has lost against the wall
+    step, speed, gravity, clearance = 1e-4, 0.2, 9.81, 1e-3
+    fall = 2.999 * step
+    parameters = {"clearance": clearance, "velocity_y": -speed, "gravity_y": -gravity}
+    parameters |= {"position_y": speed * fall + 0.5 * gravity * fall**2 - clearance}
+    parameters |= {"stiffness": 2e11, "restitution": 0.5, "friction": 0.0}
+    check("bouncing-journal", 4.0 * step, parameters, method="rk4", step=step)
+
+
 @pytest.mark.parametrize("accuracy", ACCURACIES[:2])
 def test_no_sample_of_the_press_is_beyond_its_extremes(accuracy: dict[str, Any]) -> None:
     check("seven-bar-press", 0.04, {"friction": 0.1}, **accuracy)

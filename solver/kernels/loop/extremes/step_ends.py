@@ -26,8 +26,9 @@ from jointplay.solver.kernels.loop.extremes.extreme_so_far import count
 from jointplay.solver.kernels.loop.extremes.narrowing import HALF
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
-DISTANCES = (0.008, 0.04, 0.15, 0.45)
-"""Instants of a look at an end, in spacings from there."""
+DISTANCES = (1e-4, 0.008, 0.06, 0.45)
+"""Instants of a look at an end, in spacings from there. What begins at the end and turns a channel
+that rises by a tenth of its range in a step hides at most 1e-6 of that before the nearest."""
 SAME = 1e-9
 """Share of a step: instants closer than that are one."""
 
@@ -49,52 +50,61 @@ def look_at_ends(waiting: int, s: Step) -> None:
     table, behind = s.table, BRACKETS + STRIDE * waiting
     for w in range(BRACKETS, behind, STRIDE):
         table[w + AT_END] = 1.0 if table[w + ROUNDS] < MOST_ROUNDS and is_at_end(w, table) else 0.0
-    leaders = np.empty(2, np.int64)
-    while find_leaders(behind, leaders, s):
+    while place_at_ends(behind, s):
         channels_around(s)
         for w in range(BRACKETS, behind, STRIDE):
-            leader = leaders[int(table[w + IN_THIS])]
-            if table[w + AT_END] > 0.0 and leader > 0 and same_end(w, leader, table):
+            first = s.spare[s.at.theta, HALF * int(table[w + IN_THIS])]
+            if table[w + AT_END] > 0.0 and first == beside_end(0, w, table):
                 table[w + AT_END] = 0.0
-                if rests(w, s):
-                    table[w + ROUNDS] = MOST_ROUNDS
+                look_at_end(w, s)
 
 
 @inner_kernel()
-def find_leaders(behind: int, leaders: np.ndarray, s: Step) -> bool:
-    """Find the first bracket to be looked at in either step, and place instants at its end.
+def beside_end(i: int, w: int, table: np.ndarray) -> float:
+    """Return where in its step the instant `i` of a look at a bracket's end is."""
+    far = DISTANCES[i] * table[w + SPACING]
+    return float(far if table[w + BEST] == 0.0 else 1.0 - far)
+
+
+@inner_kernel()
+def place_at_ends(behind: int, s: Step) -> bool:
+    """Place instants at the end of the first bracket that is to be looked at in either step.
 
     Returns whether there is one.
     """
-    table, found = s.table, False
-    leaders[:] = 0
+    table, placed = s.table, np.zeros(2, np.bool_)
     for w in range(BRACKETS, behind, STRIDE):
         step = int(table[w + IN_THIS])
-        if table[w + AT_END] > 0.0 and leaders[step] == 0:
-            leaders[step], found = w, True
+        if table[w + AT_END] > 0.0 and not placed[step]:
+            placed[step] = True
             for i in range(HALF):
-                far = DISTANCES[i] * table[w + SPACING]
-                s.spare[s.at.theta, HALF * step + i] = far if table[w + BEST] == 0.0 else 1.0 - far
-    return found
+                s.spare[s.at.theta, HALF * step + i] = beside_end(i, w, table)
+    return bool(placed[0] or placed[1])
 
 
 @inner_kernel()
-def same_end(w: int, v: int, table: np.ndarray) -> bool:
-    """Whether two brackets of a step have their best values at the same end, equally spaced."""
-    return bool(table[w + BEST] == table[v + BEST] and table[w + SPACING] == table[v + SPACING])
+def look_at_end(w: int, s: Step) -> None:
+    """Leave a bracket if its channel only falls behind the end of the step, by the look there.
 
-
-@inner_kernel()
-def rests(w: int, s: Step) -> bool:
-    """Whether a channel goes nowhere beyond the end of the step by the look there."""
-    table, r = s.table, int(s.table[w + ROW])
-    column, sense, best = HALF * int(table[w + IN_THIS]), table[w + SENSE], int(table[w + BEST])
-    before = table[w + VALUES + best]
-    for i in range(HALF):
-        value = s.spare[s.at.channel + r, column + i]
-        away = DISTANCES[i] if best == 0 else -DISTANCES[i]
-        count(w, best + away, value, s)
+    If it rises and then falls, the bracket is narrowed to the end and the instant behind the best.
+    """
+    table, column = s.table, HALF * int(s.table[w + IN_THIS])
+    sense, best, spacing = table[w + SENSE], int(table[w + BEST]), table[w + SPACING]
+    away = 1 if best == 0 else -1
+    look = s.spare[s.at.channel + int(table[w + ROW]), column : column + HALF]
+    rises, before = 0, table[w + VALUES + best]
+    for i in range(HALF + 1):
+        value = look[i] if i < HALF else table[w + VALUES + best + away]
+        if i < HALF:
+            count(w, best + away * DISTANCES[i], value, s)
         if sense * value > sense * before:
-            return False
+            if rises < i:
+                return
+            rises += 1
         before = value
-    return bool(sense * table[w + VALUES + (1 if best == 0 else LAST - 1)] <= sense * before)
+    if rises == 0:
+        table[w + ROUNDS] = MOST_ROUNDS
+    elif rises < HALF:
+        table[w + VALUES + best + away] = look[rises]
+        table[w + SPACING] = DISTANCES[rises] * spacing
+        table[w + START] += best * (spacing - table[w + SPACING])
