@@ -30,9 +30,9 @@ CALLS = {
     "press, steady": {
         "extremes": {
             "scan_some": 0.002,
-            "foresee_bends": 0.326,  # a lane swings in one step of thirty
+            "foresee_bends": 0.113,  # a lane is looked into in one step of ninety
             "gaps_within": 0.004,
-            "channels_within": 0.316,
+            "channels_within": 0.083,
             "channels_around": 0.004,
         },
         "crossings": {"scan_some": 0.009, "channels_within": 0.01},

@@ -15,10 +15,8 @@ from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.extremes.rounding import note_rounding
 from jointplay.solver.kernels.loop.extremes.swinging import (
     NEARBY,
-    REACH,
     SEEN,
     UNEVEN,
-    WIDELY,
     weigh_swings,
 )
 from jointplay.solver.kernels.loop.step import Step
@@ -41,15 +39,16 @@ def may_set_extremes(s: Step) -> bool:
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
     note_rounding(s)
-    extremes = (at.highest, at.lowest, at.rounding, at.contact_row)  # behind are single contacts
-    answer, pause, most = weigh_swings(spare, at.channel, work, extremes, lane, EVERY - 1.0)
+    # behind are those of single contacts
+    slots = (at.highest, at.lowest, at.rounding, at.change, at.contact_row)
+    longer = work[at.tried, lane] / work[at.before_step, lane]
+    answer, pause, most = weigh_swings(spare, at.channel, work, slots, lane, longer, EVERY - 1.0)
     steps = int(work[at.steps, lane])
     near, rough = answer & NEARBY != 0, answer & UNEVEN != 0
     if rough:
         s.run.rough += 1
     if rough and near and not int(work[at.flag, lane]) & SWINGING:
         work[at.rough_until, lane] = steps + EVERY
-    growth = REACH if answer & WIDELY else SEEN / (most + 1e-300)
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
-    work[at.look_beyond, lane] = work[at.swing, lane] * growth
+    work[at.look_beyond, lane] = work[at.swing, lane] * (SEEN / (most + 1e-300))
     return near

@@ -15,7 +15,6 @@ from numba.extending import intrinsic
 from jointplay.solver.kernels.emit.scanning import BARELY
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.eights import WORD, Eights
-from jointplay.solver.kernels.loop.extremes.narrowing import HALF
 
 ROUGH = 0.003
 """Share of a channel's range by which it leaves its values at the ends of a rough step."""
@@ -23,12 +22,13 @@ SEEN = 1e-6
 """The same, from which on a swing is worth a search."""
 REACH = 4.0
 """Times that a swing may be larger between the instants, or in the next steps that are not looked
-at: one that swings more is."""
+at: one that swings more is. A swing that is not worth a search may grow until it is."""
 MUCH = SEEN / REACH
-"""Share of its range by which a channel swings so much that `REACH` is all."""
-TINY = 1e-300
-NEARBY, UNEVEN, WIDELY = (0xFF << shift for shift in (0, 8, 16))
-"""Bits of an answer for a channel of each eight: an extreme is in reach; is rough; swings much."""
+"""Share of its range that stands for a swing which is worth a search: it may grow by `REACH`."""
+TINY, UNKNOWN = 1e-300, 1e300
+"""The least bend of a channel, and what stands for that where there is no step before."""
+NEARBY, UNEVEN = 0xFF, 0xFF00
+"""Bits of an answer for a channel of each eight: an extreme is in reach; is rough."""
 FOUND = types.Tuple((int64, float64, float64))
 
 
@@ -39,6 +39,7 @@ def _weigh(
     work: Any,
     extremes: Any,
     lane: Any,
+    longer: Any,
     pause: Any,
 ) -> Any:
     """Return what the channels of a step come to.
@@ -50,15 +51,18 @@ def _weigh(
     work : (slots, lanes)
         Has the lane's extremes so far.
     extremes
-        Slots of the first highest and lowest value, and range that is rounding; number of channels.
+        Slots of the first highest and lowest value, range that is rounding, and change in the step
+        before; number of channels.
+    longer
+        Length of this step by that of the step before.
     pause
         Steps.
 
     Returns
     -------
-    Bits of `NEARBY`, `UNEVEN`, `WIDELY`. In how many steps a swing may come to an extreme, if less
-    than the pause. The largest share of its range by which a channel swings, where that is not
-    much. Channels whose range is rounding are left out.
+    Bits of `NEARBY`, `UNEVEN`. In how many steps a swing may come to an extreme, if less than the
+    pause. The largest share of its range by which a channel swings, `MUCH` for what is worth a
+    search. Channels whose range is rounding are left out.
     """
 
     def generate(context, builder, signature, arguments):
@@ -67,26 +71,31 @@ def _weigh(
             for k in (0, 2)
         )
         at = _Channels(builder, spare.data, lanes, arguments[4])
-        *slots, count = cgutils.unpack_tuple(builder, arguments[3], 4)
-        found = _Found(at, arguments[5])
+        *slots, count = cgutils.unpack_tuple(builder, arguments[3], 5)
+        found, longer = _Found(at, arguments[6]), at.same(arguments[5])
         groups = builder.udiv(builder.add(count, WORD(INSTANTS - 1)), WORD(INSTANTS))
         with cgutils.for_range(builder, groups) as loop:
             first = builder.mul(loop.index, WORD(INSTANTS))
             v = at.channels(at.spare, builder.add(arguments[1], first))
-            highest, lowest, least = (at.of_lane(builder.add(slot, first)) for slot in slots)
+            highest, lowest, least, change = (
+                at.of_lane(builder.add(slot, first)) for slot in slots
+            )
             moves = at.less(least, builder.fsub(highest, lowest))
             kept = builder.and_(at.first(builder.sub(count, first)), moves)
-            _add(found, at, v, highest, lowest, kept)
+            _add(found, at, v, highest, lowest, builder.fmul(longer, change), kept)
         return context.make_tuple(builder, FOUND, found.numbers())
 
-    return FOUND(values, channel, work, extremes, lane, pause), generate
+    return FOUND(values, channel, work, extremes, lane, longer, pause), generate
 
 
 weigh_swings = cast(Callable[..., tuple[int, float, float]], intrinsic(_weigh))
 
 
-def _add(found, at, v, highest, lowest, kept):
-    """Let eight channels count, but for those that are not kept."""
+def _add(found, at, v, highest, lowest, change, kept):
+    """Let eight channels count, but for those that are not kept.
+
+    `change` : from end to end of the step before, had that been as long.
+    """
     b, last = at.builder, INSTANTS - 1
     spread = b.fsub(highest, lowest)
     low, high = at.smaller(v[0], v[last]), at.larger(v[0], v[last])
@@ -99,15 +108,16 @@ def _add(found, at, v, highest, lowest, kept):
     downwards = b.and_(at.less(seen, below), at.less(b.fsub(low, at.times(REACH, below)), lowest))
     found.mark(NEARBY, b.and_(kept, b.or_(upwards, downwards)))
     found.mark(UNEVEN, b.and_(kept, at.less(at.times(ROUGH, spread), swing)))
-    found.mark(WIDELY, b.and_(kept, at.less(at.times(MUCH, spread), swing)))
-    with b.if_then(b.icmp_unsigned("<", b.load(found.answer), WORD(WIDELY & -WIDELY))):
-        found.largest.let(at.larger, b.select(kept, b.fdiv(swing, spread), at.number(0.0)))
-    middle = b.fadd(v[HALF - 1], v[HALF])
-    bend = at.times(4.0, b.fsub(b.fadd(v[0], v[last]), middle))
+    counted = b.select(at.less(seen, swing), at.times(MUCH, spread), swing)
+    more = b.and_(kept, at.less(b.fmul(found.largest.now(), spread), counted))
+    with b.if_then(b.icmp_unsigned("!=", at.bits(more), WORD(0))):
+        found.largest.let(at.larger, b.select(kept, b.fdiv(counted, spread), at.number(0.0)))
+    rise = b.fsub(v[last], v[0])
+    bend = at.smaller(at.size(b.fsub(rise, change)), at.number(UNKNOWN))
     approach = _Approach(
         at,
-        at.size(b.fsub(v[last], v[0])),
-        b.fadd(at.size(bend), at.number(TINY)),
+        at.size(rise),
+        b.fadd(bend, at.number(TINY)),
         at.smaller(b.fsub(highest, high), b.fsub(low, lowest)),
         at.times(REACH, swing),
     )
@@ -123,7 +133,7 @@ class _Approach:
 
     Ends of steps must come as close to it, and turn: while they change by more than that from one
     step to the next, the next one is beyond all that is in this. They are taken to change and bend
-    twice as much as in this step.
+    twice as much as now. What bends inside the step is mostly the swing, and tells nothing of ends.
     """
 
     def __init__(self, at, speed, bend, rest, swing) -> None:
