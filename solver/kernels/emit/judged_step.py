@@ -27,7 +27,7 @@ from jointplay.solver.quantities.scalars import maximum, minimum, select_positiv
 SMALLEST_ERROR = 1e-16
 """Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
 GROWN = 2.0
-"""A step that many times as long as the one before is looked at if it swings."""
+"""A step that many times as long as the last one that was looked into is, too, if it swings."""
 
 
 def before(name: str) -> str:
@@ -155,7 +155,7 @@ class JudgedStep:
             swing = swings(first, inside, end, self.tableau.nodes[-2], self._weighed(i))
             most = maximum(most, swing)
         late = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
-        due = maximum(late, v("tried") - GROWN * v(before("tried")))
+        due = maximum(late, v("tried") - GROWN * v("looked_into"))
         wanted = minimum(v("seeks_extremes"), minimum(most, due))
         flag: Expression = select_positive(wanted, self.tracer.constant(SWINGING), 0.0)
         return flag, most

@@ -168,7 +168,7 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
         lane[name] = since
     lane["pace_at"] = PACE_STEPS
     lane[KEEPS_LEDGER] = float(problem.ledger)
-    for name in ("look_at", "look_beyond", "swing", "rough_until"):
+    for name in ("look_at", "look_beyond", "looked_into", "swing", "rough_until"):
         lane[name] = 0.0
     lane["smallest_step"] = period
     for k, clock in enumerate(clocks(scene).values()):

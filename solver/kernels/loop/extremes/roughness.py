@@ -35,7 +35,7 @@ def may_set_extremes(s: Step) -> bool:
 
     Channels are known at eight even instants. Notes if the step is rough, and which of the next
     ones that swing is to be looked at: when ends that move as these do may be as far from an
-    extreme as a swing goes, or when one swings more.
+    extreme as a swing goes, or when one swings more, or is longer and swings.
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
     note_rounding(s)
@@ -51,4 +51,5 @@ def may_set_extremes(s: Step) -> bool:
         work[at.rough_until, lane] = steps + EVERY
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
     work[at.look_beyond, lane] = work[at.swing, lane] * (SEEN / (most + 1e-300))
+    work[at.looked_into, lane] = work[at.tried, lane]
     return near
