@@ -50,6 +50,7 @@ def may_set_extremes(s: Step) -> bool:
     if rough and near and not int(work[at.flag, lane]) & SWINGING:
         work[at.rough_until, lane] = steps + EVERY
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
-    work[at.look_beyond, lane] = work[at.swing, lane] * (SEEN / (most + 1e-300))
+    if most > 0.0:  # else channels rise by more than they swing, and the last limit holds
+        work[at.look_beyond, lane] = work[at.swing, lane] * (SEEN / most)
     work[at.looked_into, lane] = work[at.tried, lane]
     return near
