@@ -111,7 +111,7 @@ def note_openings(s: Step, inside: bool) -> float:
             low = dip(j, s)
             if low < 1.0:
                 soonest = min(soonest, min(low, LATE) / BEHIND)
-            if start <= LANDED and gap <= 0.0 and rate < 0.0:
+            if start <= LANDED and gap <= 0.0 and rate < 0.0 < start_rate:
                 whole = start_rate / (start_rate - gap)
                 if 0.25 * start_rate * whole > LANDED:
                     soonest = min(soonest, 0.5 * whole)
