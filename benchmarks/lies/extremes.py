@@ -23,7 +23,7 @@ ROUNDED = 4.0
 """Median second differences of samples CLOSER to each other that count as rounding: where a journal
 is as close to its bearing's centre as its place is rounded, the direction of its slip is."""
 PLACE = 2.0**-52
-"""What places of up to a metre are rounded by, m."""
+"""Rounding of places of up to a metre, m."""
 CLOSER, ABOUT = 2000, 0.1
 """Factor by which samples are closer about an extreme that none of the others reaches, and how many
 spacings to either side."""

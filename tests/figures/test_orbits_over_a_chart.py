@@ -91,7 +91,7 @@ def test_a_branch_lies_at_the_value_of_the_parameter_that_does_not_vary():
             folded(),
             "branch",
             folded(),
-            "over a job of kind chart, basins or, branches, bifurcation, not",
+            "branches over one of kind bifurcation, too; this one is of kind continuation",
         ),
         (told(folded(), None), "branch", chart(), "axis is width, of which these orbits tell no"),
         (
