@@ -50,7 +50,8 @@ def may_set_extremes(s: Step) -> bool:
     if rough and near and not int(work[at.flag, lane]) & SWINGING:
         work[at.rough_until, lane] = steps + EVERY
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
-    if most > 0.0:  # else channels rise by more than they swing, and the last limit holds
-        work[at.look_beyond, lane] = work[at.swing, lane] * (SEEN / most)
+    if most > 0.0 or work[at.look_beyond, lane] == 0.0:
+        work[at.look_beyond, lane] = work[at.swing, lane] * (SEEN / (most + 1e-300))
+    # else channels rise by more than they swing, and the last limit holds
     work[at.looked_into, lane] = work[at.tried, lane]
     return near
