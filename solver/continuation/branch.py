@@ -9,7 +9,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.location import NotLocated, Piece
 from jointplay.solver.continuation.multipliers import largest
-from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit
+from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Way
 from jointplay.solver.continuation.past_grazing import past_grazing
 from jointplay.solver.continuation.plan import Reach
 from jointplay.solver.continuation.sign_changes import Special
@@ -40,10 +40,6 @@ LONG = 5.0
 ENOUGH = 8
 """Orbits after which a branch may have closed."""
 CLOSED = "the branch has closed"
-
-
-Way = tuple[Orbit, Floats]
-"""An orbit, and the direction in which a branch goes on from there, as a scaled vector."""
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from jointplay.solver.continuation.branch import Row, Way
+from jointplay.solver.continuation.branch import Row
 from jointplay.solver.continuation.multipliers import direction_of
-from jointplay.solver.continuation.orbit import Curve, Orbit
+from jointplay.solver.continuation.orbit import Curve, Orbit, Way
 from jointplay.solver.continuation.settled import NoStart
 from jointplay.solver.continuation.start import shorter_period
 

@@ -206,6 +206,10 @@ class Orbit:
         return np.asarray(ahead + ASIDE * step * step / self.curve.scales.length(aside) * aside)
 
 
+Way = tuple[Orbit, Floats]
+"""An orbit, and the direction in which a branch goes on from there, as a scaled vector."""
+
+
 @dataclass(frozen=True, eq=False)
 class Curve:
     """The curve of fixed points of a section map."""

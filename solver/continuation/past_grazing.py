@@ -16,7 +16,7 @@ import numpy as np
 from numpy.linalg import LinAlgError
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Scales
+from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Scales, Way
 from jointplay.solver.continuation.passage import Passage
 from jointplay.solver.continuation.special_map import FINE, GRAZING, SpecialMap
 from jointplay.solver.linear_algebra.elimination import solve
@@ -35,9 +35,6 @@ SETTLED = 1e-3
 ASTRAY = 0.2
 """Share of that distance by which Newton's method may move it then."""
 OTHERS = "another impact begins or ends, too"
-
-Way = tuple[Orbit, Floats]
-"""See `solver.continuation.branch`."""
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,11 @@ from greenlet import getcurrent, greenlet
 
 from jointplay.records.checkpoint import decode, encode
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
-from jointplay.solver.continuation.branch import Row, Way, both_ways
+from jointplay.solver.continuation.branch import Row, both_ways
 from jointplay.solver.continuation.crossing import Crossing
 from jointplay.solver.continuation.doubling import behind_doubling
 from jointplay.solver.continuation.first_orbits import first_orbits
-from jointplay.solver.continuation.orbit import Orbit
+from jointplay.solver.continuation.orbit import Orbit, Way
 from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach, Second
 from jointplay.solver.continuation.section_map import SectionMap
 from jointplay.solver.continuation.section_runs import Answers

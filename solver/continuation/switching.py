@@ -5,10 +5,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.continuation.branch import Row, Way
+from jointplay.solver.continuation.branch import Row
 from jointplay.solver.continuation.doubling import DISTANCES
 from jointplay.solver.continuation.multipliers import direction_of
-from jointplay.solver.continuation.orbit import Orbit
+from jointplay.solver.continuation.orbit import Orbit, Way
 from jointplay.solver.continuation.settled import NoStart
 
 

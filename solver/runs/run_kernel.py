@@ -8,12 +8,7 @@ from jointplay.solver.runs.admission import Admission
 def run_kernel(admission: Admission, method: str) -> Kernel:
     """Return the kernel of a run by a method; companions of a certificate are beside it.
 
-    Raises
-    ------
-    LimitExceeded
-        The scene's equations are too long to compile.
-    CompilationEnded
-        Somebody watched the compilation, and it took too long or was not wanted any more.
+    Raises what `ready_kernel` does.
     """
     job = admission.job
     alone = not job["certificate"]

@@ -3,6 +3,8 @@
 from typing import Any
 
 from benchmarks.lies.named.lie import Lie, by_extremes
+from benchmarks.lies.scenes.bearing import play
+from benchmarks.lies.scenes.mechanisms import loose_slider_crank
 
 
 def _press(duration: float, tolerance: float, parameters: dict[str, Any]) -> dict[str, Any]:
@@ -56,74 +58,25 @@ ZIGZAG = _press(
 
 UNSEEN = {
     "kind": "simulate",
-    "scene": {
-        "name": "loose-slider-crank",
-        "gravity": [0.0, -9.81],
-        "ground": {"points": {"O": [0.0, 0.0]}},
-        "bodies": {
-            "crank": {
-                "mass": 1.0,
-                "inertia": 0.001,
-                "points": {"O": [0.0, 0.0], "pin": [0.0753861417079, 0.0]},
-            },
-            "rod": {
-                "mass": 0.535116612675,
-                "inertia": 0.0048754441716441525,
-                "points": {"big": [-0.16532689307971932, 0.0], "small": [0.16532689307971932, 0.0]},
-            },
-            "slider": {"mass": 0.535116612675, "inertia": 0.001, "points": {"pin": [0.0, 0.0]}},
-        },
-        "joints": {
-            "O": {"type": "revolute", "bearing": "ground.O", "journal": "crank.O"},
-            "P": {
-                "type": "revolute",
-                "bearing": "crank.pin",
-                "journal": "rod.big",
-                "clearance": {
-                    "radial_clearance": 0.0008075013059807292,
-                    "bearing_radius": 0.0012931766716825813,
-                    "contact": {
-                        "law": "lankarani-nikravesh",
-                        "stiffness": 460857331.383,
-                        "restitution": 0.814753199506,
-                    },
-                    "friction": {
-                        "law": "modified-coulomb",
-                        "coefficient": 0.497650786382,
-                        "dynamic_velocity": 0.000562720140969,
-                        "static_velocity": 5.6272014096900004e-05,
-                    },
-                },
-            },
-            "Q": {
-                "type": "revolute",
-                "bearing": "rod.small",
-                "journal": "slider.pin",
-                "clearance": {
-                    "radial_clearance": 0.00012658328375616385,
-                    "bearing_radius": 0.0006029538832743327,
-                    "contact": {
-                        "law": "lankarani-nikravesh",
-                        "stiffness": 2233782336.01,
-                        "restitution": 0.707905631324,
-                    },
-                    "friction": {
-                        "law": "modified-coulomb",
-                        "coefficient": 0.117584055339,
-                        "dynamic_velocity": 0.00783245909606,
-                        "static_velocity": 0.000783245909606,
-                    },
-                },
-            },
-            "guide": {
-                "type": "prismatic",
-                "guide": "ground.O",
-                "slider": "slider.pin",
-                "axis": [1.0, 0.0],
-            },
-        },
-        "drivers": {"motor": {"joint": "O", "position": 1.30469095855, "speed": 235.967959873}},
-    },
+    "scene": loose_slider_crank(
+        (0.0753861417079, 0.33065378615943863),
+        0.535116612675,
+        [
+            play(
+                0.0008075013059807292,
+                0.0012931766716825813,
+                (460857331.383, 0.814753199506),
+                (0.497650786382, 0.000562720140969, 5.6272014096900004e-05),
+            ),
+            play(
+                0.00012658328375616385,
+                0.0006029538832743327,
+                (2233782336.01, 0.707905631324),
+                (0.117584055339, 0.00783245909606, 0.000783245909606),
+            ),
+        ],
+        {"position": 1.30469095855, "speed": 235.967959873},
+    ),
     "duration": 0.01851153217725391,
     "method": "tsitouras",
     "tolerance": 3.19326e-06,

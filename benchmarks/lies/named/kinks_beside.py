@@ -1,77 +1,30 @@
 """Claims about extremes at kinks that lie next to where a step begins or ends."""
 
 from benchmarks.lies.named.lie import Lie, by_extremes
+from benchmarks.lies.scenes.bearing import play
+from benchmarks.lies.scenes.mechanisms import loose_slider_crank
 
 BEND = {
     "kind": "simulate",
-    "scene": {
-        "name": "loose-slider-crank",
-        "gravity": [0.0, -9.81],
-        "ground": {"points": {"O": [0.0, 0.0]}},
-        "bodies": {
-            "crank": {
-                "mass": 1.0,
-                "inertia": 0.001,
-                "points": {"O": [0.0, 0.0], "pin": [0.198938045412, 0.0]},
-            },
-            "rod": {
-                "mass": 1.13888441003,
-                "inertia": 0.04788335439515304,
-                "points": {"big": [-0.3551510366475745, 0.0], "small": [0.3551510366475745, 0.0]},
-            },
-            "slider": {"mass": 1.13888441003, "inertia": 0.001, "points": {"pin": [0.0, 0.0]}},
-        },
-        "joints": {
-            "O": {"type": "revolute", "bearing": "ground.O", "journal": "crank.O"},
-            "P": {
-                "type": "revolute",
-                "bearing": "crank.pin",
-                "journal": "rod.big",
-                "clearance": {
-                    "radial_clearance": 0.0015172402830648175,
-                    "bearing_radius": 0.005320329586446393,
-                    "contact": {
-                        "law": "lankarani-nikravesh",
-                        "stiffness": 185111675.241,
-                        "restitution": 0.152286504311,
-                    },
-                    "friction": {
-                        "law": "modified-coulomb",
-                        "coefficient": 0.0128855955974,
-                        "dynamic_velocity": 3.17133373541e-05,
-                        "static_velocity": 0.0,
-                    },
-                },
-            },
-            "Q": {
-                "type": "revolute",
-                "bearing": "rod.small",
-                "journal": "slider.pin",
-                "clearance": {
-                    "radial_clearance": 0.001170821335801322,
-                    "bearing_radius": 0.006447208189871751,
-                    "contact": {
-                        "law": "lankarani-nikravesh",
-                        "stiffness": 2911402427.03,
-                        "restitution": 0.465705599551,
-                    },
-                    "friction": {
-                        "law": "modified-coulomb",
-                        "coefficient": 0.0245819062055,
-                        "dynamic_velocity": 0.0292822998783,
-                        "static_velocity": 0.0,
-                    },
-                },
-            },
-            "guide": {
-                "type": "prismatic",
-                "guide": "ground.O",
-                "slider": "slider.pin",
-                "axis": [1.0, 0.0],
-            },
-        },
-        "drivers": {"motor": {"joint": "O", "position": 5.39006396388, "speed": 14.8106935725}},
-    },
+    "scene": loose_slider_crank(
+        (0.198938045412, 0.710302073295149),
+        1.13888441003,
+        [
+            play(
+                0.0015172402830648175,
+                0.005320329586446393,
+                (185111675.241, 0.152286504311),
+                (0.0128855955974, 3.17133373541e-05, 0.0),
+            ),
+            play(
+                0.001170821335801322,
+                0.006447208189871751,
+                (2911402427.03, 0.465705599551),
+                (0.0245819062055, 0.0292822998783, 0.0),
+            ),
+        ],
+        {"position": 5.39006396388, "speed": 14.8106935725},
+    ),
     "duration": 0.013324093803534803,
     "method": "rk4",
     "step": 7.390263732754539e-05,

@@ -1,5 +1,6 @@
 """A slider-crank of random size, loose at both pins of its rod."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from benchmarks.lies.draw import Draw
@@ -13,7 +14,35 @@ def slider_crank(draw: Draw) -> tuple[dict[str, Any], float]:
     speed = draw.size(3.0, 300.0)
     mass = draw.size(0.1, 3.0)
     bearings = [bearing(draw, crank * draw.size(1e-3, 2e-2)) for _ in range(2)]
-    scene = {
+    slope = draw.one_of(0.0, 0.2)
+    motor = {"position": draw.even(0.0, 6.28), "speed": speed}
+    return loose_slider_crank((crank, rod), mass, bearings, motor, slope), 0.3 / speed
+
+
+def loose_slider_crank(
+    lengths: tuple[float, float],
+    mass: float,
+    bearings: Sequence[dict[str, Any]],
+    motor: dict[str, float],
+    slope: float = 0.0,
+) -> dict[str, Any]:
+    """Return the scene of a slider-crank, its rod loose at both pins.
+
+    Parameters
+    ----------
+    lengths
+        Those of crank and rod, m.
+    mass
+        That of the rod, and of the slider, kg.
+    bearings
+        Fields "clearance" of the pins at crank and slider.
+    motor
+        Position, rad, and speed, rad/s, of the crank.
+    slope
+        That of the guide.
+    """
+    crank, rod = lengths
+    return {
         "name": "loose-slider-crank",
         "gravity": [0.0, -9.81],
         "ground": {"points": {"O": [0.0, 0.0]}},
@@ -48,9 +77,8 @@ def slider_crank(draw: Draw) -> tuple[dict[str, Any], float]:
                 "type": "prismatic",
                 "guide": "ground.O",
                 "slider": "slider.pin",
-                "axis": [1.0, draw.one_of(0.0, 0.2)],
+                "axis": [1.0, slope],
             },
         },
-        "drivers": {"motor": {"joint": "O", "position": draw.even(0.0, 6.28), "speed": speed}},
+        "drivers": {"motor": {"joint": "O", **motor}},
     }
-    return scene, 0.3 / speed
