@@ -15,7 +15,7 @@ PERIODS = 12
 
 
 @pytest.mark.parametrize(
-    "mechanism", [Pendulum(), Oscillator()], ids=lambda one: type(one).__name__
+    "mechanism", [Pendulum(), Oscillator()], ids=["driven pendulum", "impact oscillator"]
 )
 def test_no_verdict_is_wrong(mechanism):
     found = by_another_program(mechanism, 6, seed=7)
