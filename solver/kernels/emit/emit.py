@@ -109,6 +109,24 @@ class Tape:
         """Have what follows done only if an expression is positive in any lane."""
         self.lines.append(f"where {self._evaluate(expression)}")
 
+    def take_unless(
+        self, condition: Expression, choices: Iterable[tuple[Expression, Expression, Expression]]
+    ) -> None:
+        """Have values taken for expressions: of each the first, or in all lanes the second.
+
+        The second ones are evaluated only if the condition is positive in any lane; they may depend
+        on the expression itself. Each choice is an expression and its two values.
+        """
+        wanted = list(choices)
+        firsts = [self._evaluate(first) for _, first, _ in wanted]
+        self.lines.append(f"if {self._evaluate(condition)}")
+        values, found = dict(self.values), set(self._found)
+        seconds = [self._evaluate(second) for _, _, second in wanted]
+        self.values, self._found = values, found
+        self.lines.append("end")
+        for (node, _, _), first, second in zip(wanted, firsts, seconds, strict=True):
+            self._define(node, f"either {second} {first}")
+
     def store_and_go_on_where(self, expression: Expression, outputs: Outputs) -> None:
         """Store in rows; have what follows done only if an expression is positive in any lane.
 

@@ -28,6 +28,7 @@ SIGNATURES: Mapping[str, types.FunctionType] = {
     "right_hand_side": OVER_LANES,
     "attempt": JUDGING,
     "remember": OVER_LANES,
+    "remember_some": OVER_LANES,
     "take": OVER_LANES,
     "weigh": OVER_LANES,
     "observe": OVER_LANES,

@@ -9,6 +9,7 @@ import math
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.emit.emit import FixedNodes, Known, lane_function, statements
 from jointplay.solver.kernels.emit.stepping import StepTracer
+from jointplay.solver.kernels.emit.turned_sines import Angle
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.derivative import Derivative
 from jointplay.solver.kernels.trace.equations import Equations
@@ -53,6 +54,9 @@ class RosenbrockTracer(StepTracer):
         parts += [self._right(s) for s in stages]
         parts += [self._inner(1), self._inner(2), self._finish()]
         return parts
+
+    def _turned(self) -> list[Angle]:
+        return []  # its steps are long
 
     def _swinging(self) -> tuple[Expression, Expression]:
         none = self.tracer.constant(0.0)

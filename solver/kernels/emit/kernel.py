@@ -27,6 +27,7 @@ from jointplay.solver.kernels.emit.emit import (
 )
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.slots import DenseRow, StepRow, slots_of
+from jointplay.solver.kernels.emit.turned_sines import TurnedSines
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.trace.equations import (
@@ -137,7 +138,7 @@ def compile_kernel(
     lanes = lanes or own_target().lanes
     source = module_source(
         [
-            _slope_function(equations, layout, fixed),
+            _slope_function(equations, layout, fixed, steps.turned),
             _right_hand_side(equations, evaluated, layout, fixed),
             lane_function("observe", scanned, layout, fixed, known),
             lane_function("observe_rest", rest, layout, fixed, known),
@@ -179,13 +180,16 @@ def compile_kernel(
     )
 
 
-def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
+def _slope_function(
+    equations: Equations, layout: Layout, fixed: FixedNodes, turned: TurnedSines
+) -> str:
     """Return the source of slopes(W, row), which writes slopes where a stage's are kept.
 
     `row` : slots from those of the first stage.
     """
     held = equations.tracer.held.values()
     tape = Tape(layout, fixed, {node: f"inverse_rate{j}" for j, node in enumerate(held)})
+    turned.turn(tape)
     tape.store_rows([(name.replace("slope", "k1_"), rate) for name, rate in slopes(equations)])
     tape.go_on_where(equations.tracer.variable(KEEPS_LEDGER))
     rates = ledger_slopes(equations)

@@ -65,17 +65,27 @@ class Lanes:
         self._begin(f"end{number}")
 
     @contextmanager
-    def where(self, x: str) -> Iterator[None]:
-        """Have what is written inside done if a number is positive in any lane."""
+    def where(self, x: str) -> Iterator[list[str]]:
+        """Have what is written inside done if a number is positive in any lane.
+
+        Yields the blocks that what follows comes from: the one inside, the one before.
+        """
         self._names += 1
         then, behind = f"then{self._names}", f"behind{self._names}"
         bits = self.new(f"bitcast <{self.count} x i1> {self.positive(x)} to i{self.count}")
         found = self.new(f"icmp ne i{self.count} {bits}, 0")
         self.lines.append(f"br i1 {found}, label %{then}, label %{behind}")
+        ways = [then, self._block]
         self._begin(then)
-        yield
+        yield ways
+        ways[0] = self._block
         self.lines.append(f"br label %{behind}")
         self._begin(behind)
+
+    def either(self, ways: list[str], inside: str, before: str) -> str:
+        """Return a value from inside if that was done, else one from before; see `where`."""
+        (one, other), kind = ways, self.numbers_type
+        return self.new(f"phi {kind} [ {inside}, %{one} ], [ {before}, %{other} ]")
 
     def _begin(self, block: str) -> None:
         self.lines.append(f"{block}:")

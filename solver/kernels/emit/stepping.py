@@ -13,10 +13,10 @@ from jointplay.solver.kernels.emit.emit import (
     Known,
     Outputs,
     Tape,
-    lane_function,
     statements,
 )
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
+from jointplay.solver.kernels.emit.turned_sines import Angle, TurnedSines, turned_in_slopes
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER, MOTION, Equations
 from jointplay.solver.kernels.trace.reachable import reachable
@@ -78,6 +78,7 @@ class StepTracer(JudgedStep):
         """`known` : what the right-hand side leaves in slots."""
         super().__init__(tableau, equations, ledger, layout)
         self.known = known
+        self.turned = TurnedSines(self._turned(), layout)
         layout.add(*(before(name) for name in self._remembered()))
 
     def source(self, energies: Outputs, fixed: FixedNodes) -> str:
@@ -86,10 +87,15 @@ class StepTracer(JudgedStep):
         `energies` : what gravity and contacts store, at the stage.
         """
         parts = [*self._steps(), *self.knots.source(fixed)]
-        parts += [self._look_inside(), self._judge(), self._attempt(), self._remember()]
+        parts += [self._look_inside(), self._judge(), self._attempt(), *self._remember()]
+        if self.turned.angles:
+            parts.insert(0, self.turned.source(fixed))
         if self.equations.corrections:
             parts.insert(0, closing.source(self.equations, self.layout, fixed))
         return "\n\n".join([*parts, self._take(energies, fixed)])
+
+    def _turned(self) -> list[Angle]:
+        return turned_in_slopes(self.equations)
 
     def _steps(self) -> list[str]:
         """Return the sources of what an attempt calls beside the slopes, but for the judge."""
@@ -98,7 +104,7 @@ class StepTracer(JudgedStep):
     def _calls(self) -> list[str]:
         """Return what an attempt calls before the judge, in its order."""
         last = self.tableau.stages
-        calls = []
+        calls = ["sines_at_start"] if self.turned.angles else []
         for s in range(2, last):
             offset = self.layout[f"k{s}_0"] - self.layout["k1_0"]
             calls += [f"stage_{s}", f"slopes {offset}"]
@@ -180,6 +186,7 @@ class StepTracer(JudgedStep):
         for j in range(self.pairs):
             outputs += [(f"{name}_start{j}", v(f"{name}{j}")) for name in ENDS]
         outputs += [(start, v(end)) for start, end in self.knots.ends()]
+        outputs += self.turned.at_end()
         paths = range(len(MOTION) * self.pairs)
         outputs += [(f"eccentricity_start{i}", v(f"eccentricity{i}")) for i in paths]
         for i in range(self.states):
@@ -215,10 +222,14 @@ class StepTracer(JudgedStep):
         outputs += [(f"kledger1_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
         return [("gross", gross), *outputs]
 
-    def _remember(self) -> str:
-        """Keep the dense output of this step, before the next one begins."""
+    def _remember(self) -> list[str]:
+        """Keep the dense output of this step before the next one begins: of all lanes, or of some.
+
+        Those are the ones that accept it.
+        """
         outputs = [(before(name), self.variable(name)) for name in self._remembered()]
-        return lane_function("remember", self._where_accepted(outputs), self.layout)
+        accepted = self._where_accepted(outputs)
+        return [self._function("remember", outputs), self._function("remember_some", accepted)]
 
     def _remembered(self) -> list[str]:
         """Return the slots that dense output reads."""

@@ -20,6 +20,12 @@ something is positive::
     mark 14 v3              byte `row` of slot 14 and those behind it: bit k is set where lane k is
     where v3                what follows is done if it is positive in any lane; else no bit is set
 
+What few lanes need is evaluated only where one does::
+
+    if v3                   what follows, up to the end, is done if v3 is positive in any lane
+    end
+    v5 = either v4 v2       v4, which was made in between, if that was done, else v2
+
 A step is a tape that calls others of its module, and has equations solved::
 
     call stage_2            a function of W
@@ -105,6 +111,7 @@ class _Tape:
         self.lanes, self.symbol = lanes, symbol
         self.target, self.row, self.part = target, row, part
         self.values: dict[str, str] = {}
+        self.ways: list[str] = []
 
     def run(self, tape: str) -> None:
         """Write the code of a tape's lines."""
@@ -114,6 +121,12 @@ class _Tape:
             if words[0] == "where":
                 with self.lanes.where(self._value(words[1])):
                     self.run("\n".join(lines[i + 1 :]))
+                return
+            if words[0] == "if":
+                end = lines.index("end")
+                with self.lanes.where(self._value(words[1])) as self.ways:
+                    self.run("\n".join(lines[i + 1 : end]))
+                self.run("\n".join(lines[end + 1 :]))
                 return
             if words[1] == "=":
                 self.values[words[0]] = self._made(*words[2:])
@@ -128,6 +141,8 @@ class _Tape:
             return self._load(self.target, *operands)
         if what == "spread":
             return self._spread(*operands)
+        if what == "either":
+            return self.lanes.either(self.ways, *map(self._value, operands))
         on_lanes = OPERATIONS[what].on_lanes
         assert on_lanes is not None  # noqa: S101  (tapes have no others)
         found: str = on_lanes(self.lanes, *map(self._value, operands))

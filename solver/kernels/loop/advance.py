@@ -90,7 +90,7 @@ def advance(
             if watch and candidates > 0:
                 refine_lanes(candidates, group, marked)
         if watch:
-            call.remember(work)
+            call.remember(work) if quiet else call.remember_some(work)
         full |= keep_steps(group, steps)
         if tangents and (quiet or any_accepted(at, work)):
             call.tangent_step(work)

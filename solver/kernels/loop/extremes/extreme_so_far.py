@@ -10,6 +10,7 @@ from jointplay.solver.kernels.loop.extremes.brackets import (
     START,
     VALUES,
 )
+from jointplay.solver.kernels.loop.extremes.rounding import note_range
 from jointplay.solver.kernels.loop.step import Step
 
 
@@ -36,6 +37,8 @@ def count(w: int, abscissa: float, value: float, s: Step) -> None:
     if table[w + IN_THIS] == 0.0:
         time = (share - 1.0) * work[at.before_step, lane]
     work[block + r, lane] = value
+    if r < at.contact_row:
+        note_range(r, s)
     work[times + r, lane] = float(s.run.periods) * s.run.period + work[at.time, lane] + time
 
 

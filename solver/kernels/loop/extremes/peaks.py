@@ -18,7 +18,7 @@ from jointplay.solver.kernels.loop.extremes.extreme import NODES
 from jointplay.solver.kernels.loop.extremes.extreme_so_far import count_best, spread
 from jointplay.solver.kernels.loop.extremes.kinks_beside import look_at_kinks_beside
 from jointplay.solver.kernels.loop.extremes.narrowing import HALF
-from jointplay.solver.kernels.loop.extremes.rounding import note_rounding, zigzags
+from jointplay.solver.kernels.loop.extremes.rounding import zigzags
 from jointplay.solver.kernels.loop.extremes.seeking import FORETOLD, seek
 from jointplay.solver.kernels.loop.extremes.tops import open_brackets
 from jointplay.solver.kernels.loop.step import Step, channels_around
@@ -85,12 +85,9 @@ def look_at_quarters(r: int, waiting: int, s: Step) -> int:
 @inner_kernel(borrows=True)
 def leave_rounding(waiting: int, s: Step) -> None:
     """Let the values of brackets count as they are where a channel is nothing but rounding."""
-    table, noted = s.table, False
+    table = s.table
     for w in range(BRACKETS, BRACKETS + STRIDE * waiting, STRIDE):
         if zigzags(table, w + VALUES, w + VALUES + NODES):
-            if not noted:
-                note_rounding(s)
-                noted = True
             r = int(table[w + ROW])
             if spread(r, table[w + VALUE], s) <= s.work[s.at.rounding + r, s.lane]:
                 count_best(w, s)

@@ -12,7 +12,6 @@ import numpy as np
 from jointplay.solver.kernels.emit.closer_looks import EVERY
 from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.rounding import note_rounding
 from jointplay.solver.kernels.loop.extremes.swinging import (
     NEARBY,
     SEEN,
@@ -38,7 +37,6 @@ def may_set_extremes(s: Step) -> bool:
     extreme as a swing goes, or when one swings more, or is longer and swings.
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
-    note_rounding(s)
     # behind are those of single contacts
     slots = (at.highest, at.lowest, at.rounding, at.change, at.contact_row)
     longer = work[at.tried, lane] / work[at.before_step, lane]

@@ -20,6 +20,8 @@ ENOUGH = 2
 """Turns between such changes that rounding makes."""
 ROUNDING = 1e-12
 """Share of the largest range of channels of its kind that one of nothing but rounding is below."""
+GROWN = 2.0
+"""Times that a range has grown by when rounding is noted anew."""
 
 
 @inner_kernel()
@@ -67,6 +69,15 @@ def zigzags(values: np.ndarray, first: int, behind: int) -> bool:
             turns += int(change * before < 0.0)
             before = change
     return turns >= ENOUGH
+
+
+@inner_kernel(borrows=True)
+def note_range(r: int, s: Step) -> None:
+    """Have a channel's range up to now tell what is rounding, when it has grown by much."""
+    lane, at, work = s.lane, s.at, s.work
+    full = work[at.highest + r, lane] - work[at.lowest + r, lane]
+    if ROUNDING * full > GROWN * work[at.rounding + r, lane]:
+        note_rounding(s)
 
 
 @inner_kernel()

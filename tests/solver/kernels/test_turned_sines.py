@@ -1,0 +1,91 @@
+"""Sines of stages that are turned on from those where the step starts."""
+
+import math
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.kernels.cache import load
+from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, module_source
+from jointplay.solver.kernels.emit.turned_sines import FARTHEST, Angle, TurnedSines
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.target import own_target
+from jointplay.solver.kernels.trace.tracer import Tracer
+from tests.solver.readable_mechanics import preset
+
+ROUNDED = 4.5e-16
+"""Two units in the last place of 1: those of sines at the start, and sums of three terms."""
+LANES = own_target().lanes
+STARTS = ("angle_start", "sine_start", "cosine_start")
+
+
+@pytest.fixture(scope="module")
+def turning() -> tuple[Layout, ModuleType]:
+    """Return sines of one angle: at the start (`sines_at_start`) and of a stage (`sines`)."""
+    layout, angle = Layout(), Tracer().variable("stage0")
+    layout.add("time", "stage_time", "y0", "stage0", "sine", "cosine")
+    sine, cosine = angle.sine_cosine()
+    turned = TurnedSines([Angle(angle, sine, cosine)], layout)
+    tape = Tape(layout)
+    turned.turn(tape)
+    tape.store([("sine", sine), ("cosine", cosine)])
+    source = module_source([turned.source(FixedNodes(layout)), tape.function("sines")], LANES)
+    return layout, load(source)
+
+
+def sines(turning: tuple[Layout, ModuleType], start: Floats, angle: Floats) -> Floats:
+    """Return (2, lanes) sine and cosine of angles, whose steps start at others, rad."""
+    layout, module = turning
+    work = np.zeros((layout.size, LANES))
+    work[layout["y0"]], work[layout["stage0"]] = start, angle
+    module.sines_at_start(work)
+    module.sines(work)
+    return work[[layout["sine"], layout["cosine"]]]
+
+
+def test_turned_sines_are_those_of_the_angle(turning: tuple[Layout, ModuleType]) -> None:
+    random, turned = np.random.default_rng(5), 0
+    for _ in range(500):
+        start = random.uniform(-50.0, 50.0, LANES)
+        turn = random.choice([1e-9, 1e-3, 0.5, 0.999]) * FARTHEST * random.uniform(-1.0, 1.0, LANES)
+        angle = start + turn
+        found = sines(turning, start, angle)
+        assert (abs(found - [np.sin(angle), np.cos(angle)]) <= ROUNDED).all()
+        turned += (found != sines(turning, angle, angle)).sum()
+    assert turned > 100  # not evaluated anew
+
+
+def test_who_turns_far_has_sines_evaluated_anew_and_changes_nothing_beside(
+    turning: tuple[Layout, ModuleType],
+) -> None:
+    start, turns = np.linspace(0.3, 1.7, LANES), np.linspace(1e-3, 1e-2, LANES)
+    alone = sines(turning, start, start + turns)
+    for far in (1.001 * FARTHEST, 3.0, 1e3, math.inf, math.nan):
+        angle = start + turns
+        angle[0] = start[0] + far
+        found = sines(turning, start, angle)
+        assert np.array_equal(found[:, 1:], alone[:, 1:])
+        anew = sines(turning, angle, angle)
+        assert np.array_equal(found[:, 0], anew[:, 0], equal_nan=True)
+
+
+def test_sines_that_a_step_leaves_are_those_where_the_next_one_starts() -> None:
+    scenes = [preset("seven-bar-press", clearance=float(c)) for c in np.linspace(3e-4, 6e-4, 8)]
+    kernel = ready_kernel(scenes[0], "reduced", "tsitouras")
+    bundle = Bundle(kernel, [LaneProblem(one, 1e3, 1e-6, 1e3, 0, 0, 0.0) for one in scenes])
+    for attempts in (500, 1, 1, 1):
+        bundle.advance(attempts)
+        work = bundle.groups[0].work.copy()
+        rows = np.concatenate(
+            [np.arange(kernel.layout.size)[kernel.layout.block(name)] for name in STARTS]
+        )
+        kept = work[rows]
+        work[rows] = 0.0
+        kernel.module.sines_at_start(work)
+        assert np.array_equal(work[rows], kept)
+        assert (kept != 0.0).all()
