@@ -38,9 +38,10 @@ class Estimate(BaseModel):
     )
     device_seconds: float | None = in_unit(
         "s",
-        "Time in which the graphics processors of all workers that are alive make these steps"
-        " together; preparing and judging points, a few milliseconds each, is not in it. Null:"
-        " there are none, or they do not compute such a job.",
+        "The same of the graphics processors of all workers that are alive together, by how much"
+        " faster than a core of this machine they were in their trials; preparing and judging"
+        " points, a few milliseconds each, is not in it. Null: there are none, or they do not"
+        " compute such a job.",
     )
     steps: int = in_unit("1", "Accepted steps of the solver.")
     bytes: int = in_unit("B", "What the results take on the disk.")
@@ -81,18 +82,17 @@ def estimate_job(
     own = replace(found.job, owner=caller.owner)
     cached = found.reuse and catalogue.identical(own) is not None
     refined = bool(own.spec.get("refine"))
-    cost = prober.cost_of(own.spec)
-    there = catalogue.devices() if cost.pop("on_devices") else {}
-    seconds = on_devices(cost["steps"], cost["points"], there)
+    devices = catalogue.devices()
+    cost = prober.cost_of(own.spec, on_devices=bool(devices))
+    steps = cost.pop("trial_steps")
+    seconds = None if steps is None else on_devices(steps, cost["points"], devices)
     return Estimate(**cost, device_seconds=seconds, at_most=refined, cached=cached)
 
 
-def on_devices(steps: float, points: int, devices: Mapping[str, Devices]) -> float | None:
-    """Return how long devices take for so many steps together [s]; None: there are no devices.
+def on_devices(steps: float, points: int, devices: Mapping[str, Devices]) -> float:
+    """Return how long devices take together for so many steps of the mechanism of their trials [s].
 
     Points that do not fill the lanes take as long as if they did.
     """
-    if not devices:
-        return None
     rate, lanes = (sum(getattr(one, of) for one in devices.values()) for of in ("rate", "lanes"))
     return float(steps / (rate * min(points / lanes, 1.0)))

@@ -15,7 +15,7 @@ class Prober:
     def __init__(self) -> None:
         self._process = AnsweringProcess("jointplay.worker.probe", _PATIENCE)
 
-    def cost_of(self, job: dict[str, Any]) -> dict[str, Any]:
+    def cost_of(self, job: dict[str, Any], *, on_devices: bool = False) -> dict[str, Any]:
         """Return what an admitted job costs, as `worker.probe.Cost` has it.
 
         Raises
@@ -26,7 +26,7 @@ class Prober:
             503: too many are waiting, or the process does not answer.
         """
         try:
-            answer = self._process.answer(job)
+            answer = self._process.answer({"job": job, "on_devices": on_devices})
         except Busy:
             raise unavailable("Many estimates are being made; ask again in a moment.", 2) from None
         except TooSlow:

@@ -1,8 +1,9 @@
 """`python -m jointplay.worker.probe FD`: says what jobs will cost, computing the beginning of each.
 
-Receives admitted job documents through the connection whose file descriptor is its argument, and
-answers each with a dictionary, until it is idle. A job that is over within the budget is known
-exactly; of a longer one the pace at the end of the beginning is taken for the rest.
+Receives admitted jobs through the connection whose file descriptor is its argument, each with
+whether graphics processors may compute it, and answers with dictionaries, until it is idle. A job
+that is over within the budget is known exactly; of a longer one the pace at the end of the
+beginning is taken for the rest.
 """
 
 import shutil
@@ -10,6 +11,7 @@ import tempfile
 import time
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,7 @@ from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.runs.dense_output.columns import most_steps
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.required_study import required_study
+from jointplay.solver.runs.trial_pace import trial_pace
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
@@ -28,6 +31,7 @@ from jointplay.storage.results.intervals import GROUP as INTERVALS
 from jointplay.storage.results.steps import GROUP as STEPS
 from jointplay.worker.answering import answer_questions
 from jointplay.worker.execute import Answer, Outcome, Progress, execute
+from jointplay.worker.own_device import trial_scenes
 
 BUDGET = 0.5
 """Seconds of computing spent on one estimate; more where nothing has moved by then."""
@@ -53,7 +57,9 @@ class Cost:
     blocks: int  # that can be computed at the same time
     exact: bool  # it was computed to its end
     failure: str | None  # why it will end early
-    on_devices: bool  # whether graphics processors compute it, too
+    trial_steps: float | None
+    """Steps of the mechanism by which graphics processors are tried that this processor makes in
+    the same time; None: they do not compute the job, or nobody asked."""
 
 
 @dataclass(frozen=True)
@@ -65,8 +71,10 @@ class Mark:
     steps: float
 
 
-def cost_of(document: dict[str, Any]) -> Cost:
+def cost_of(document: dict[str, Any], *, on_devices: bool = False) -> Cost:
     """Return what an admitted job takes on this machine, at its present load.
+
+    `on_devices` : whether `Cost.trial_steps` is wanted.
 
     Raises
     ------
@@ -76,7 +84,10 @@ def cost_of(document: dict[str, Any]) -> Cost:
     admitted = parse(document)
     before = SPENT.seconds
     cost = _of_study(admitted) if isinstance(admitted, Study) else _of_simulation(admitted)
-    return replace(cost, compilation=SPENT.seconds - before)
+    cost = replace(cost, compilation=SPENT.seconds - before)
+    if on_devices and isinstance(admitted, Study):
+        cost = replace(cost, trial_steps=_trial_steps(admitted, cost.seconds))
+    return cost
 
 
 def _of_simulation(admission: Admission) -> Cost:
@@ -108,7 +119,7 @@ def _of_simulation(admission: Admission) -> Cost:
         blocks=1,
         exact=exact,
         failure=outcome.error.detail if outcome.error else None,
-        on_devices=False,
+        trial_steps=None,
     )
 
 
@@ -176,16 +187,21 @@ def _of_study(study: Study) -> Cost:
         blocks=count,
         exact=exact and len(chosen) == count,
         failure=failure,
-        on_devices=_on_devices(study),
+        trial_steps=None,
     )
 
 
-def _on_devices(study: Study) -> bool:
+def _trial_steps(study: Study, seconds: float) -> float | None:
     try:
         required_study(study)
     except InvalidInput:
-        return False
-    return True
+        return None
+    return seconds * _pace()
+
+
+@cache
+def _pace() -> float:
+    return trial_pace([*trial_scenes()])
 
 
 def _run_block(study: Study, index: int, budget: float) -> tuple[list[Mark], str | None]:
@@ -214,9 +230,9 @@ def _extrapolated(marks: list[Mark]) -> Mark:
     )
 
 
-def _answer(document: dict[str, Any]) -> dict[str, Any]:
+def _answer(question: dict[str, Any]) -> dict[str, Any]:
     try:
-        return asdict(cost_of(document))
+        return asdict(cost_of(question["job"], on_devices=question["on_devices"]))
     except InvalidInput as error:
         return {"refused": str(error)}
 

@@ -16,11 +16,9 @@ from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.runs.trial_pace import ATTEMPTS, trial_problems
 from jointplay.solver.scene.document import Scene
 
-ATTEMPTS = 2000
-"""Steps that are compared, and then timed: two revolutions each."""
 LANES = 512
 """Lanes a multiprocessor of the device: two are computed while others wait for memory."""
 HIGHEST_RATIO = 4
@@ -67,7 +65,7 @@ def try_device(
         The device does not do it.
     """
     lanes = lanes or LANES * device.processors
-    problems = [LaneProblem(scene, 1e6, 1e-6, 1e6, 1, 0, 0.0) for scene in scenes]
+    problems = trial_problems(scenes)
     kernel = ready_kernel(problems[0].scene, "reduced")
     here = Bundle(kernel, problems, watch=False)
     there = DeviceBundle(device, kernel, lanes, write=write)
