@@ -67,6 +67,8 @@ class Kernel:
     """Numbers that depend on those of the scene alone."""
     equations: Equations
     tableau: Method
+    turned: TurnedSines
+    """Sines in slopes."""
 
     @property
     def states(self) -> int:
@@ -177,6 +179,7 @@ def compile_kernel(
         FixedNumbers({layout[f"fixed{index}"]: node for index, node in fixed.nodes.items()}),
         equations,
         tableau,
+        steps.turned,
     )
 
 

@@ -78,7 +78,8 @@ class StepTracer(JudgedStep):
         """`known` : what the right-hand side leaves in slots."""
         super().__init__(tableau, equations, ledger, layout)
         self.known = known
-        self.turned = TurnedSines(self._turned(), layout)
+        self.turned = TurnedSines(self._turned())
+        self.turned.allocate(layout)
         layout.add(*(before(name) for name in self._remembered()))
 
     def source(self, energies: Outputs, fixed: FixedNodes) -> str:
@@ -89,7 +90,7 @@ class StepTracer(JudgedStep):
         parts = [*self._steps(), *self.knots.source(fixed)]
         parts += [self._look_inside(), self._judge(), self._attempt(), *self._remember()]
         if self.turned.angles:
-            parts.insert(0, self.turned.source(fixed))
+            parts.insert(0, self.turned.source(self.layout, fixed))
         if self.equations.corrections:
             parts.insert(0, closing.source(self.equations, self.layout, fixed))
         return "\n\n".join([*parts, self._take(energies, fixed)])

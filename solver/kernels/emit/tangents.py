@@ -66,7 +66,7 @@ def compile_tangents(kernel: Kernel) -> Tangents:
     source = module_source(
         [
             kinks.kink_function(bends, layout, fixed),
-            slope_function(equations, bends, layout, fixed),
+            slope_function(kernel, bends, layout, fixed),
             *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),
             tangent_step.TangentTracer(equations, len(bends), layout).source(),
             gap_function(equations, layout, fixed),
@@ -95,12 +95,12 @@ def allocate(layout: Layout, states: int, pairs: int, bends: int) -> None:
     tangent_step.allocate(layout, states)
 
 
-def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: FixedNodes) -> str:
+def slope_function(kernel: Kernel, bends: Kinks, layout: Layout, fixed: FixedNodes) -> str:
     """Return the source of carried_slopes(W): J w at a point that the step passes.
 
     That point has slots of its own: the base's stage holds the state to come.
     """
-    tracer = equations.tracer
+    equations, tracer = kernel.equations, kernel.equations.tracer
     along = {f"stage{i}": tracer.variable(f"carried{i}") for i in range(equations.states)}
     for j in range(len(equations.pairs)):
         along[f"impact_rate{j}"] = tracer.variable(f"tangent_impact_rate{j}")
@@ -109,6 +109,7 @@ def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: Fi
     passing = {f"stage{i}": f"passing{i}" for i in range(equations.states)}
     passing["stage_time"] = "passing_time"
     tape = Tape(layout, fixed, fetch=lambda name: f"load {layout[passing.get(name, name)]}")
+    kernel.turned.turn(tape)
     # the slopes of coordinates are the carried speeds
     tape.store([(f"carried_slope{i}", derivative(rate)) for i, rate in equations.slopes])
     return tape.function("carried_slopes")

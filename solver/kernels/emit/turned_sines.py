@@ -53,13 +53,16 @@ def turned_in_slopes(equations: Equations) -> list[Angle]:
     return found
 
 
+@dataclass(frozen=True)
 class TurnedSines:
     """Writes them on tapes; ``angle_start``, ``sine_start``, ``cosine_start`` are the start's."""
 
-    def __init__(self, angles: Sequence[Angle], layout: Layout) -> None:
-        self.angles, self.layout = angles, layout
+    angles: Sequence[Angle]
+
+    def allocate(self, layout: Layout) -> None:
+        """Give slots to sines where the step starts."""
         for name in ("angle_start", "sine_start", "cosine_start"):
-            layout.add_block(name, len(angles))
+            layout.add_block(name, len(self.angles))
 
     def at_end(self) -> list[tuple[str, Expression]]:
         """Return what an accepted step leaves for the next one, where it ends."""
@@ -69,14 +72,14 @@ class TurnedSines:
             for name in ("angle", "sine", "cosine")
         ]
 
-    def source(self, fixed: FixedNodes) -> str:
+    def source(self, layout: Layout, fixed: FixedNodes) -> str:
         """Return the source of sines_at_start(W), for lanes that begin elsewhere than one ended."""
 
         def at_start(name: str) -> str:
             start = {"stage_time": "time"}.get(name, name.replace("stage", "y"))
-            return f"load {self.layout[start]}"
+            return f"load {layout[start]}"
 
-        tape = Tape(self.layout, fixed, fetch=at_start)
+        tape = Tape(layout, fixed, fetch=at_start)
         apart = [abs(one.angle - self._start("angle", n)) for n, one in enumerate(self.angles)]
         tape.go_on_where(reduce(maximum, apart))
         tape.store(self.at_end())

@@ -30,11 +30,14 @@ def turning() -> tuple[Layout, ModuleType]:
     layout, angle = Layout(), Tracer().variable("stage0")
     layout.add("time", "stage_time", "y0", "stage0", "sine", "cosine")
     sine, cosine = angle.sine_cosine()
-    turned = TurnedSines([Angle(angle, sine, cosine)], layout)
+    turned = TurnedSines([Angle(angle, sine, cosine)])
+    turned.allocate(layout)
     tape = Tape(layout)
     turned.turn(tape)
     tape.store([("sine", sine), ("cosine", cosine)])
-    source = module_source([turned.source(FixedNodes(layout)), tape.function("sines")], LANES)
+    source = module_source(
+        [turned.source(layout, FixedNodes(layout)), tape.function("sines")], LANES
+    )
     return layout, load(source)
 
 
