@@ -112,7 +112,7 @@ def advance_one_lane(
         unowned(carray(lanes.rows, (0,))),
     )
     spare = unowned(carray(room.spare, (sizes.slots, INSTANTS)))
-    group = Group(own, at, work, spare, buffers.table, call)
+    group = Group(own, at, work, spare, buffers.brackets, call)
     full, made = False, 0
     while made < budget and work[at.active, 0] > 0.0 and not full:
         made += 1

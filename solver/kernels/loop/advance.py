@@ -67,7 +67,7 @@ def advance(
     """
     call, at = functions_at(addresses[0]), slots[0]
     work, spare, runs = unowned(work), unowned(spare), unowned(runs)
-    group = Group(runs, at, work, spare, unowned(buffers.table), addresses[0])
+    group = Group(runs, at, work, spare, unowned(buffers.brackets), addresses[0])
     marked = unowned(work.reshape(work.size).view(np.uint64))
     rows, steps = unowned(buffers.rows), unowned(buffers.steps)
     running, landing, crossing = count_active(at, work), still_landing(runs), any_crossing(runs)

@@ -22,7 +22,7 @@ from jointplay.solver.kernels.loop.contacts import (
 )
 from jointplay.solver.kernels.loop.dense_rows import hand_out
 from jointplay.solver.kernels.loop.events import has_all_events, record_event
-from jointplay.solver.kernels.loop.extremes.peaks import end_peaks
+from jointplay.solver.kernels.loop.extremes.extreme_so_far import count_end
 from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, note_openings
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers, SectionKind, Status
@@ -105,7 +105,7 @@ def settle(flag: int, s: Step, buffers: Buffers) -> bool:
                 end_contact(j, begun + opened, s, buffers.impacts)
         full |= run.impacts + at.pairs > buffers.impacts.shape[1]
     if work[at.time, lane] >= work[at.end, lane] or has_all_events(run):
-        end_peaks(now, s)
+        count_end(now, s)
         if tangents:
             full |= record_growth(now, s, buffers.growths)
         for j in range(at.pairs):

@@ -12,7 +12,7 @@ from numba import float64, from_dtype, types
 from numpy.typing import NDArray
 
 from jointplay.records.impact import IMPACT
-from jointplay.solver.kernels.loop.extremes.brackets import size_of_table
+from jointplay.solver.kernels.loop.extremes.brackets import BRACKETS, room_for
 
 
 class Status(IntEnum):
@@ -131,7 +131,7 @@ class Buffers(NamedTuple):
     """(lanes, capacity) of `GROWTH`; without capacity there are no tangents."""
     steps: NDArray[np.float64]
     """Accepted steps of the lanes that keep them, the first ones, (lanes, capacity, width)."""
-    table: NDArray[np.float64]
+    brackets: NDArray[np.void]
     """See `solver.kernels.loop.extremes.brackets`."""
 
     @classmethod
@@ -151,7 +151,7 @@ class Buffers(NamedTuple):
             np.zeros((lanes, capacity), IMPACT),
             np.zeros((lanes, capacity if tangents else 0), GROWTH),
             np.zeros(steps),
-            np.zeros(size_of_table(channels)),
+            room_for(channels),
         )
 
 
@@ -161,7 +161,7 @@ BUFFERS = types.NamedTuple(
         from_dtype(IMPACT)[:, ::1],
         from_dtype(GROWTH)[:, ::1],
         float64[:, :, ::1],
-        float64[::1],
+        BRACKETS,
     ],
     Buffers,
 )

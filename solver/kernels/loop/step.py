@@ -24,8 +24,8 @@ class Step(NamedTuple):
     """All quantities of all lanes of the group, (slots, lanes)."""
     spare: np.ndarray
     """Room for instants inside this step, (slots, INSTANTS)."""
-    table: np.ndarray
-    """See `solver.kernels.loop.extremes.brackets`."""
+    brackets: np.ndarray
+    """Room for those of a search; see `solver.kernels.loop.extremes.brackets`."""
     call: Addresses
 
 
@@ -37,7 +37,7 @@ class Group(NamedTuple):
     at: Slots
     work: np.ndarray
     spare: np.ndarray
-    table: np.ndarray
+    brackets: np.ndarray
     call: Addresses
 
 
@@ -45,7 +45,7 @@ class Group(NamedTuple):
 def step_of(lane: int, group: Group) -> Step:
     """Return the step that a lane attempts."""
     run = group.runs[lane]
-    return Step(lane, run, group.at, group.work, group.spare, group.table, group.call)
+    return Step(lane, run, group.at, group.work, group.spare, group.brackets, group.call)
 
 
 @inner_kernel(forceinline=True)

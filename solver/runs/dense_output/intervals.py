@@ -36,7 +36,7 @@ class IntervalExtremes:
         self._sources, self._wanted = self._replay.sought(names)
         self._columns = [self._wanted.index(name) for name, _, _ in self._sources]
         self._factors, self._offsets = np.array([source[1:] for source in self._sources]).T
-        self._rows, self._table = self._replay.rows(self._wanted), self._replay.table()
+        self._rows, self._brackets = self._replay.rows(self._wanted), self._replay.brackets()
         self._present = NONE
         """Sample at the end of the interval that is not complete yet."""
         self._book = self._replay.book(self._wanted, np.zeros(len(self._wanted)))
@@ -60,7 +60,7 @@ class IntervalExtremes:
         parts[:, 1] += goes_on
         extremes_in_steps(
             *self._replay.arguments,
-            self._table,
+            self._brackets,
             np.ascontiguousarray(steps),
             parts,
             shares,

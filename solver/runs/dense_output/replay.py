@@ -11,7 +11,7 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.slots import LENGTH
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.extremes.book import blank_book
-from jointplay.solver.kernels.loop.extremes.brackets import size_of_table
+from jointplay.solver.kernels.loop.extremes.brackets import room_for
 from jointplay.solver.kernels.loop.extremes.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.extremes.seeking import SHARP
 from jointplay.solver.kernels.loop.problem import LaneProblem
@@ -187,7 +187,7 @@ class ProblemReplay:
             parts[:, 0] -= first
             extremes_in_steps(
                 *self.arguments,
-                self.table(),
+                self.brackets(),
                 np.ascontiguousarray(steps[first:last]),
                 parts,
                 shares,
@@ -208,9 +208,9 @@ class ProblemReplay:
         """Return the book of a first bin, with the ranges (wanted,) of wanted channels."""
         return blank_book(len(self.kernel.rows.names), self.rows(wanted), ranges)
 
-    def table(self) -> Floats:
-        """Return room for windows in which extremes are sought."""
-        return np.zeros(size_of_table(self.kernel.rows.scanned))
+    def brackets(self) -> NDArray[Any]:
+        """Return room for brackets in which extremes are sought."""
+        return room_for(self.kernel.rows.scanned)
 
     def rows(self, names: Sequence[str]) -> NDArray[np.int64]:
         """Return the rows of the channel block that channels have, (names,)."""

@@ -6,7 +6,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.loop.extremes.extreme import NODES, STEEPER, slope_left_out
+from jointplay.solver.kernels.loop.extremes.brackets import NODES
+from jointplay.solver.kernels.loop.extremes.extreme import STEEPER, slope_left_out
 from jointplay.solver.kernels.loop.extremes.extreme import extreme as extreme_of
 
 SENSES = pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -16,7 +17,7 @@ ABSCISSA = np.arange(float(NODES))
 def extreme(values: NDArray[np.float64], sense: float) -> tuple[float, float, float]:
     """Return the abscissa of an extreme, its value, and the bound on what that is off."""
     so_far, best = -sense * np.inf, int(np.argmax(sense * values))
-    abscissa, value, error, _ = extreme_of(values, 0, best, sense, so_far, 1.0)
+    abscissa, value, error, _ = extreme_of(values, best, sense, so_far, 1.0)
     return abscissa, value, error
 
 
@@ -70,7 +71,7 @@ def test_a_corner_is_within_the_bound_that_shrinks_with_the_nodes(
     behind = -ratio * (late + 0.5 * STEEPER * spacing * bends[1] * late**2)
     values = sense * np.where(late < 0.0, before, behind)
     assume(np.argmax(sense * values) == 2)
-    _, value, error, _ = extreme_of(values, 0, 2, sense, -sense * np.inf, spacing)
+    _, value, error, _ = extreme_of(values, 2, sense, -sense * np.inf, spacing)
     assert -sense * value <= error + 1e-15
     # the middle node is below the corner by a slope, and what lines bend by is of the second order
     assert error <= max(1.0, ratio) * abs(top - 2.0) + 40.0 * spacing + 1e-15
@@ -85,7 +86,7 @@ def test_a_corner_next_to_the_last_node_is_not_taken_for_sharp(
     late = ABSCISSA - top
     values = sense * np.where(late < 0.0, late, -fall * late)
     _, value, error, _ = extreme_of(
-        values, 0, int(np.argmax(sense * values)), sense, -sense * np.inf, 1e-9
+        values, int(np.argmax(sense * values)), sense, -sense * np.inf, 1e-9
     )
     assert -sense * value <= max(error, 1e-12)
 

@@ -18,7 +18,7 @@ from tests.solver.readable_mechanics import preset
 
 @kernel()
 def turns(values: np.ndarray) -> bool:
-    return bool(zigzags(values, 0, len(values)))
+    return bool(zigzags(values, len(values)))
 
 
 @pytest.mark.parametrize(

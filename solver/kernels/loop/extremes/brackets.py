@@ -1,35 +1,72 @@
-"""Brackets of steps in which extremes are sought: rows of a table of numbers.
+"""Brackets of steps in which extremes are sought, and room for all that one search has at once."""
 
-A bracket is a channel, a sense, five equally spaced nodes of the step before or of this one, the
-values there, and where the extreme is by them (`solver.kernels.loop.extremes.extreme`).
-"""
+# mypy: disable-error-code="no-untyped-call"
 
-STRIDE = 20
-"""From a bracket of a table to the next."""
-ROW, SENSE, IN_THIS, START, SPACING, VALUES = 0, 1, 2, 3, 4, 5
-"""Columns of a bracket: channel, sense, 1 in this step and 0 in the one before, first node and
-distance of nodes in shares of that step, values."""
-ABSCISSA, VALUE, ERROR, BENT = 10, 11, 12, 13
-"""Results of `extreme`."""
-COLUMN, FOUND = 14, 15
-"""Where the channel is evaluated there, and its value there."""
-ROUNDS = 16
-"""Number of looks at a bracket; `MOST_ROUNDS`: nothing is left to do."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import from_dtype
+from numpy.typing import NDArray
+
+from jointplay.solver.kernels.layout import INSTANTS
+
+NODES = 5
+MIDDLE, LAST = 2, NODES - 1
 MOST_ROUNDS = 18
 """Two looks of three narrow a bracket to a third at least."""
-BEST = 17
-"""Node about which the extreme is sought: no value beside it is beyond its own."""
-AT_END = 18
-"""1 while nobody looked next to a best value at an end of the step."""
-NARROWING = 19
-"""Share of a bracket's spacing to which a look where the extreme is foretold narrows it next; 0
-after such a look missed it."""
-CLOSER, BRACKETS = 0, STRIDE
-"""Where a table has the values of a closer look, and its brackets from."""
 MOST = 20
 """Brackets of a channel: eight instants, twice; or five nodes of four parts of two steps."""
 
 
-def size_of_table(rows: int) -> int:
-    """Return how many numbers a table has for that many channels."""
-    return BRACKETS + MOST * rows * STRIDE
+class Bracket:
+    """Type of a bracket: even nodes of the step before or of this one, about an extreme."""
+
+    row: int
+    """Channel."""
+    sense: float
+    """1: a maximum is sought; -1: a minimum."""
+    step: int
+    """1: in this step; 0: in the one before."""
+    start: float
+    """First node, as a share of that step."""
+    spacing: float
+    """From one node to the next."""
+    values: NDArray[np.float64]
+    """(NODES,) of the channel at the nodes."""
+    best: int
+    """Node about which the extreme is sought: no value beside it is beyond its own."""
+    abscissa: float
+    """Where `extreme` foretells it, in spacings from the first node."""
+    value: float
+    error: float
+    bent: float
+    """Its value, a bound on that value's error, and the second difference there."""
+    column: int
+    """Instant of a look that is there; -1: it is at a node."""
+    rounds: int
+    """Number of looks at it; `MOST_ROUNDS`: nothing is left to do."""
+    at_end: int
+    """1 while nobody looked next to a best value at an end of the step."""
+    narrowing: float
+    """Share of the spacing to which a look where the extreme is foretold narrows it next; 0 after
+    such a look missed it."""
+    seen: NDArray[np.float64]
+    """(INSTANTS,) values of the last look, in the order of time."""
+
+
+SHAPES = {"values": (NODES,), "seen": (INSTANTS,)}
+DTYPE = np.dtype(
+    [
+        (name, np.int64 if kind == "int" else np.float64, SHAPES.get(name, ()))
+        for name, kind in Bracket.__annotations__.items()
+    ]
+)
+BRACKETS = from_dtype(DTYPE)[::1]
+"""Their type in kernels."""
+
+
+def room_for(channels: int) -> NDArray[Any]:
+    """Return room for the brackets of so many channels, and for what opens one more."""
+    return np.zeros(MOST * channels + 1, DTYPE)

@@ -4,7 +4,6 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.brackets import CLOSER
 from jointplay.solver.kernels.loop.extremes.seeking import seek
 from jointplay.solver.kernels.loop.extremes.tops import open_brackets
 from jointplay.solver.kernels.loop.step import Step
@@ -26,7 +25,8 @@ def seek_between(chosen: np.ndarray, low: float, high: float, s: Step) -> None:
     """Seek extremes of chosen rows that are known at even instants between two shares."""
     waiting, spacing = 0, (high - low) / (INSTANTS - 1)
     for r in chosen:
+        values = s.brackets[waiting].seen
         for i in range(INSTANTS):  # a slice would take 2 s to compile, for what it raises
-            s.table[CLOSER + i] = s.spare[s.at.channel + r, i]
+            values[i] = s.spare[s.at.channel + r, i]
         waiting = open_brackets(r, 1, low, spacing, INSTANTS, EXACT, waiting, s)
     seek(waiting, s)

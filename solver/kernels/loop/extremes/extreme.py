@@ -3,9 +3,8 @@
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel, kernel
+from jointplay.solver.kernels.loop.extremes.brackets import LAST, MIDDLE, NODES
 
-NODES = 5
-MIDDLE, LAST = 2, NODES - 1
 MOST_ITERATIONS = 8
 CLOSE = 1e-3
 """Change of the abscissa, in spacings, that ends the search: a value changes by its square."""
@@ -31,22 +30,22 @@ TWELFTH = 1.0 / 12.0
 
 @kernel()
 def extreme(
-    table: np.ndarray, first: int, best: int, sense: float, so_far: float, spacing: float
+    values: np.ndarray, best: int, sense: float, so_far: float, spacing: float
 ) -> tuple[float, float, float, float]:
     """Return the extreme (sense 1: maximum, -1: minimum) of a function about one of five nodes.
 
-    The values are at `first` of the table; none beside that at the node `best` is beyond it.
+    No value beside that at the node `best` is beyond it.
     Where the extreme is, in spacings from the first node; its value; a bound on the value's error;
     and the second difference there, 0 at what may be a corner. A sample that nothing surpasses is
     as it is, and the bound then tells how far the function may go beyond it; so it is of a
     `corner`. What does not come near that `so_far` is not looked for. `spacing` : of the nodes, as
     a share of the step.
     """
-    middle = table[first + MIDDLE]
-    odd = table[first + 3] - table[first + 1]
-    even = table[first + 3] + table[first + 1] - 2.0 * middle
-    far_odd = table[first + 4] - table[first]
-    far_even = table[first + 4] + table[first] - 2.0 * middle
+    middle = values[MIDDLE]
+    odd = values[3] - values[1]
+    even = values[3] + values[1] - 2.0 * middle
+    far_odd = values[4] - values[0]
+    far_even = values[4] + values[0] - 2.0 * middle
     # the quartic's coefficients about the middle
     slope, bend = (8.0 * odd - far_odd) * TWELFTH, (8.0 * even - 0.5 * far_even) * TWELFTH
     twist, curl = (far_odd - 2.0 * odd) * TWELFTH, (0.5 * far_even - 2.0 * even) * TWELFTH
@@ -55,12 +54,12 @@ def extreme(
     rounded = ROUNDED * abs(middle)
     shrinking = max(fourth / (second + third + rounded), third / (second + abs(slope) + rounded))
     error = DOUBT * (second + third) * shrinking * np.sqrt(shrinking)
-    sample, abscissa = table[first + best], float(best - MIDDLE)
+    sample, abscissa = values[best], float(best - MIDDLE)
     if shrinking > ROUGH:  # maybe a corner: it goes on as steeply as to either side at most
-        inner = first + min(max(best, 1), LAST - 1)
-        rise, fall = table[inner] - table[inner - 1], table[inner] - table[inner + 1]
+        inner = min(max(best, 1), LAST - 1)
+        rise, fall = values[inner] - values[inner - 1], values[inner] - values[inner + 1]
         error = max(error, max(abs(rise), abs(fall)))
-    rests = best + 2 <= LAST and sample == table[first + best + 1] == table[first + best + 2]
+    rests = best + 2 <= LAST and sample == values[best + 1] == values[best + 2]
     if rests:
         return float(best), sample, 0.0, second
     if best in (0, LAST):
@@ -72,7 +71,7 @@ def extreme(
     low, high = max(best - 1, 0) - MIDDLE, min(best + 1, LAST) - MIDDLE
     if shrinking > ROUGH:
         if best == MIDDLE:
-            abscissa, off = corner(table, first, spacing)
+            abscissa, off = corner(values, spacing)
             error, abscissa = min(error, off), min(max(abscissa, low), high)
         return abscissa + MIDDLE, sample, error, 0.0  # a value there tells no slope
     for _ in range(MOST_ITERATIONS):
@@ -91,20 +90,20 @@ def extreme(
 
 
 @inner_kernel()
-def corner(table: np.ndarray, first: int, spacing: float) -> tuple[float, float]:
+def corner(values: np.ndarray, spacing: float) -> tuple[float, float]:
     """Return where a function of five nodes has a corner next to the middle one, from there on.
 
     That is where straight lines through the two nodes at either end cross. Also how far it may be
     beyond the value in the middle: what it bends by shows there on one side, and on the other it is
     taken to bend by its slope in a part of a step.
     """
-    middle, last = table[first + MIDDLE], table[first + LAST]
-    rise, fall = table[first + 1] - table[first], table[first + 3] - last
+    middle, last = values[MIDDLE], values[LAST]
+    rise, fall = values[1] - values[0], values[3] - last
     if not rise * fall > 0.0:
         return 0.0, np.inf
-    crossing = (last - table[first] + LAST * fall) / (rise + fall)
-    beyond = abs(table[first] + crossing * rise - middle)
-    off = min(abs(middle - rise - table[first + 1]), abs(middle - fall - table[first + 3]))
+    crossing = (last - values[0] + LAST * fall) / (rise + fall)
+    beyond = abs(values[0] + crossing * rise - middle)
+    off = min(abs(middle - rise - values[1]), abs(middle - fall - values[3]))
     steeper = STEEPER * spacing * max(abs(rise), abs(fall))
     return crossing - MIDDLE, beyond + BENDING * off + steeper
 
@@ -121,13 +120,3 @@ def slope_left_out(abscissa: float, off: float) -> float:
         if abs(abscissa - i) > BESIDE:
             steeper += 1.0 / (abscissa - i)
     return off * max(abs(steeper), LEFT_OUT)
-
-
-@inner_kernel()
-def highest(table: np.ndarray, first: int, behind: int, sense: float) -> int:
-    """Return where in a table the largest (sense 1) or smallest (sense -1) value is."""
-    best = first
-    for i in range(first + 1, behind):
-        if sense * table[i] > sense * table[best]:
-            best = i
-    return best

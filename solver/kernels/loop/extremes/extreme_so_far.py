@@ -1,17 +1,15 @@
 """The highest and lowest values of a lane's channels until now, and what is let count as one."""
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.brackets import (
-    BEST,
-    IN_THIS,
-    ROW,
-    SENSE,
-    SPACING,
-    START,
-    VALUES,
-)
+from jointplay.solver.kernels.loop.extremes.brackets import Bracket
 from jointplay.solver.kernels.loop.extremes.rounding import note_range
 from jointplay.solver.kernels.loop.step import Step
+
+
+@inner_kernel(borrows=True)
+def extreme_so_far(r: int, sense: float, s: Step) -> float:
+    """Return a channel's highest value until now (sense 1), or the lowest (sense -1)."""
+    return float(s.work[(s.at.highest if sense > 0.0 else s.at.lowest) + r, s.lane])
 
 
 @inner_kernel(borrows=True)
@@ -23,18 +21,17 @@ def spread(r: int, value: float, s: Step) -> float:
 
 
 @inner_kernel(borrows=True)
-def count(w: int, abscissa: float, value: float, s: Step) -> None:
+def count(bracket: Bracket, abscissa: float, value: float, s: Step) -> None:
     """Note a value at an abscissa of a bracket, if it is beyond its channel's extreme so far."""
-    lane, at, work, table = s.lane, s.at, s.work, s.table
-    r, sense = int(table[w + ROW]), table[w + SENSE]
+    lane, at, work, r = s.lane, s.at, s.work, bracket.row
     block, times = at.lowest, at.lowest_time
-    if sense > 0.0:
+    if bracket.sense > 0.0:
         block, times = at.highest, at.highest_time
-    if not sense * value > sense * work[block + r, lane]:
+    if not bracket.sense * value > bracket.sense * work[block + r, lane]:
         return
-    share = table[w + START] + abscissa * table[w + SPACING]
+    share = bracket.start + abscissa * bracket.spacing
     time = share * work[at.tried, lane]
-    if table[w + IN_THIS] == 0.0:
+    if bracket.step == 0:
         time = (share - 1.0) * work[at.before_step, lane]
     work[block + r, lane] = value
     if r < at.contact_row:
@@ -43,7 +40,18 @@ def count(w: int, abscissa: float, value: float, s: Step) -> None:
 
 
 @inner_kernel()
-def count_best(w: int, s: Step) -> None:
+def count_best(bracket: Bracket, s: Step) -> None:
     """Let the best value of a bracket count as it is."""
-    best = s.table[w + BEST]
-    count(w, best, s.table[w + VALUES + int(best)], s)
+    count(bracket, float(bracket.best), bracket.values[bracket.best], s)
+
+
+@inner_kernel()
+def count_end(now: float, s: Step) -> None:
+    """Let the values at the run's last instant count, s since the start."""
+    lane, at, work = s.lane, s.at, s.work
+    for r in range(at.rows):
+        value = work[at.previous + r, lane]
+        if value > work[at.highest + r, lane]:
+            work[at.highest + r, lane], work[at.highest_time + r, lane] = value, now
+        if value < work[at.lowest + r, lane]:
+            work[at.lowest + r, lane], work[at.lowest_time + r, lane] = value, now

@@ -21,6 +21,7 @@ from jointplay.solver.kernels.loop.extremes.book import (
     close_bin,
     write_bin,
 )
+from jointplay.solver.kernels.loop.extremes.brackets import BRACKETS
 from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
 from jointplay.solver.kernels.loop.extremes.look_about_passages import look_about_passages
 from jointplay.solver.kernels.loop.extremes.passages import passes
@@ -138,7 +139,7 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
 
 @deferred(
     void(
-        *(ADDRESSES, AT, WORK, WORK, RUNS, float64[::1], float64[:, ::1], int64[:, ::1]),
+        *(ADDRESSES, AT, WORK, WORK, RUNS, BRACKETS, float64[:, ::1], int64[:, ::1]),
         *(float64[:, ::1], int64[::1], float64, float64[:, ::1], float64[:, :, ::1]),
     )
 )
@@ -148,7 +149,7 @@ def extremes_in_steps(
     work: np.ndarray,
     spare: np.ndarray,
     runs: np.ndarray,
-    table: np.ndarray,
+    brackets: np.ndarray,
     steps: np.ndarray,
     parts: np.ndarray,
     shares: np.ndarray,
@@ -163,8 +164,8 @@ def extremes_in_steps(
     ----------
     work, spare, runs
         As `states_in_steps` takes them.
-    table
-        See `solver.kernels.loop.extremes.brackets`.
+    brackets
+        Room for those of a search: `room_for`.
     steps : (n, width)
         Consecutive steps, as `write_step` wrote them.
     parts : (k, 2)
@@ -181,8 +182,8 @@ def extremes_in_steps(
         Lowest value, its time, highest value, its time; left as it is where a bin has no part.
     """
     call, at = functions_at(addresses[0]), slots[0]
-    work, spare, runs, table = unowned(work), unowned(spare), unowned(runs), unowned(table)
-    group = Group(runs, at, work, spare, table, addresses[0])
+    work, spare, runs = unowned(work), unowned(spare), unowned(runs)
+    group = Group(runs, at, work, spare, unowned(brackets), addresses[0])
     book, room = unowned(book), np.empty((2, book.shape[1]), np.int64)
     wanted = Wanted(rows[rows < at.rows], eights(rows), room[0], room[1], np.empty(spare.shape))
     p, present = 0, 0

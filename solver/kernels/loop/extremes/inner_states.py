@@ -11,7 +11,7 @@ from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
 from jointplay.solver.kernels.loop.extremes.seeking import SHARP
-from jointplay.solver.kernels.loop.extremes.tops import CORNER
+from jointplay.solver.kernels.loop.extremes.tops import CORNER, spread_and_bend
 from jointplay.solver.kernels.loop.step import Step, channels_within, states_within
 from jointplay.solver.kernels.trace.rows import NO_ROW
 
@@ -37,11 +37,7 @@ def surpasses(k: int, s: Step) -> bool:
     lane, at, work = s.lane, s.at, s.work
     row = int(work[at.inner_row + k, lane])
     values = s.spare[at.stage + 2 * at.step_row.coordinates + k]
-    least, most, bend = values[0], values[0], 0.0
-    for i in range(1, INSTANTS):
-        least, most = min(least, values[i]), max(most, values[i])
-        if i > 1:
-            bend = max(bend, abs(values[i - 2] - 2.0 * values[i - 1] + values[i]))
+    least, most, bend = spread_and_bend(values, INSTANTS)
     lowest, highest = work[at.lowest + row, lane], work[at.highest + row, lane]
     beyond = CORNER * bend - SHARP * (highest - lowest)
     return bool(most + beyond > highest or least - beyond < lowest)

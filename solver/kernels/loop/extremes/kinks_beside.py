@@ -9,9 +9,8 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS
-from jointplay.solver.kernels.loop.extremes.brackets import CLOSER
+from jointplay.solver.kernels.loop.extremes.brackets import NODES
 from jointplay.solver.kernels.loop.extremes.cuts_at_bends import has_bend
-from jointplay.solver.kernels.loop.extremes.extreme import NODES
 from jointplay.solver.kernels.loop.extremes.narrowing import HALF
 from jointplay.solver.kernels.loop.extremes.seeking import FORETOLD, SHARP
 from jointplay.solver.kernels.loop.extremes.tops import open_brackets
@@ -90,10 +89,10 @@ def look_at_kinks_beside(rows: np.ndarray, waiting: int, s: Step) -> int:
         for step, beside in enumerate((before, behind)):
             if beside == 0.0:
                 continue
+            values = s.brackets[waiting].seen
             for i in range(HALF):
-                s.table[CLOSER + step + i] = spare[at.channel + r, HALF * step + i]
-            junction = work[at.previous + r, lane] - work[at.change + r, lane]
-            s.table[CLOSER + (1 - step) * HALF] = junction
+                values[step + i] = spare[at.channel + r, HALF * step + i]
+            values[(1 - step) * HALF] = work[at.previous + r, lane] - work[at.change + r, lane]
             start, spacing = (1 - step) * (1.0 - 0.5 * HALF * beside), 0.5 * beside
             waiting = open_brackets(r, step, start, spacing, NODES, FORETOLD, waiting, s)
     return waiting

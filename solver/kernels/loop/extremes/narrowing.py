@@ -6,24 +6,16 @@ square of that share by the next look, for what a foretelling errs by falls so. 
 divide the part between the nodes beside the best one evenly.
 """
 
-import numpy as np
+from typing import NamedTuple
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.extremes.brackets import (
-    ABSCISSA,
-    BEST,
-    CLOSER,
-    IN_THIS,
+    LAST,
+    MIDDLE,
     MOST_ROUNDS,
-    NARROWING,
-    ROUNDS,
-    ROW,
-    SENSE,
-    SPACING,
-    START,
-    VALUES,
+    NODES,
+    Bracket,
 )
-from jointplay.solver.kernels.loop.extremes.extreme import LAST, MIDDLE, NODES, highest
 from jointplay.solver.kernels.loop.extremes.extreme_so_far import count
 from jointplay.solver.kernels.loop.extremes.rounding import spread_of, zigzags
 from jointplay.solver.kernels.loop.step import Step
@@ -44,100 +36,106 @@ STILL = 0.5
 rounding, if they zigzag."""
 
 
-@inner_kernel()
-def closer(w: int, table: np.ndarray) -> tuple[float, float, int, int]:
-    """Return the next look at a bracket: its first node, their distance, parts and known node.
+class Look(NamedTuple):
+    """Even nodes of a closer look at a bracket; four are instants that are not known yet."""
 
-    The known node is that of a look where the extreme is foretold; others know the nodes at both
-    ends, and of thirds the middle one.
-    """
-    best, start, spacing = int(table[w + BEST]), table[w + START], table[w + SPACING]
+    start: float
+    """First node, as a share of the step."""
+    spacing: float
+    parts: int
+    """From the first node to the last: `AROUND`, `FIFTHS` or `THIRDS`."""
+    known: int
+    """Node that is known where the extreme is foretold: the bracket's best one. Others know those
+    at both ends, and of thirds the middle one."""
+
+
+@inner_kernel()
+def closer(bracket: Bracket) -> Look:
+    """Return the next look at a bracket."""
+    best, start, spacing = bracket.best, bracket.start, bracket.spacing
     if best in (0, LAST):
         left = max(best - 1, 0)
-        return start + left * spacing, spacing / FIFTHS, FIFTHS, 0
-    share = table[w + NARROWING]
+        return Look(start + left * spacing, spacing / FIFTHS, FIFTHS, 0)
+    share = bracket.narrowing
     if share == 0.0 or best != MIDDLE:
-        return start + (best - 1) * spacing, 2.0 * spacing / THIRDS, THIRDS, 0
-    ahead = table[w + ABSCISSA] - best
+        return Look(start + (best - 1) * spacing, 2.0 * spacing / THIRDS, THIRDS, 0)
+    ahead = bracket.abscissa - best
     if abs(ahead) <= 2.0 * share:
         known = MIDDLE
     else:
         known = 0 if ahead > 0.0 else LAST
         share = min(0.5 * abs(ahead), WIDEST)
-    return start + (best - known * share) * spacing, share * spacing, AROUND, known
+    return Look(start + (best - known * share) * spacing, share * spacing, AROUND, known)
 
 
 @inner_kernel()
-def is_known(k: int, parts: int, known: int) -> bool:
+def is_known(k: int, look: Look) -> bool:
     """Whether a look has the value at a node already."""
-    if parts == AROUND:
-        return k == known
-    return k in (0, parts) or 2 * k == THIRDS == parts
+    if look.parts == AROUND:
+        return k == look.known
+    return k in (0, look.parts) or 2 * k == THIRDS == look.parts
 
 
 @inner_kernel()
-def place_closer(start: float, spacing: float, parts: int, known: int, first: int, s: Step) -> None:
+def place_closer(look: Look, first: int, s: Step) -> None:
     """Place the instants of a look, in columns from `first`."""
     column = first
-    for k in range(parts + 1):
-        if not is_known(k, parts, known):
-            s.spare[s.at.theta, column] = min(max(start + k * spacing, 0.0), 1.0)
+    for k in range(look.parts + 1):
+        if not is_known(k, look):
+            share = look.start + k * look.spacing
+            s.spare[s.at.theta, column] = min(max(share, 0.0), 1.0)
             column += 1
 
 
 @inner_kernel()
-def read_look(w: int, parts: int, known: int, s: Step) -> None:
-    """Write the values of a look at a bracket, in the order of time."""
-    table, best = s.table, int(s.table[w + BEST])
-    row, column = s.at.channel + int(table[w + ROW]), HALF * int(table[w + IN_THIS])
+def read_look(bracket: Bracket, look: Look, s: Step) -> None:
+    """Write what a look at a bracket has seen."""
+    best, parts = bracket.best, look.parts
+    row, column = s.at.channel + bracket.row, HALF * bracket.step
     for k in range(parts + 1):
-        if not is_known(k, parts, known):
-            table[CLOSER + k] = s.spare[row, column]
+        if not is_known(k, look):
+            bracket.seen[k] = s.spare[row, column]
             column += 1
         elif parts == AROUND:
-            table[CLOSER + k] = table[w + VALUES + best]
+            bracket.seen[k] = bracket.values[best]
         else:
             behind = k // 3 if parts == THIRDS else k // FIFTHS
-            table[CLOSER + k] = table[w + VALUES + max(best - 1, 0) + behind]
+            bracket.seen[k] = bracket.values[max(best - 1, 0) + behind]
 
 
 @inner_kernel()
-def shows_rounding(w: int, parts: int, table: np.ndarray) -> bool:
+def shows_rounding(bracket: Bracket, parts: int) -> bool:
     """Whether a look at a part of a bracket turns twice, and differs by as much as the whole."""
-    behind = CLOSER + parts + 1
-    before = spread_of(table, w + VALUES, w + VALUES + NODES)
-    narrow = parts != THIRDS and zigzags(table, CLOSER, behind)
-    return narrow and spread_of(table, CLOSER, behind) > STILL * before
+    narrow = parts != THIRDS and zigzags(bracket.seen, parts + 1)
+    return narrow and spread_of(bracket.seen, parts + 1) > STILL * spread_of(bracket.values, NODES)
 
 
 @inner_kernel()
-def narrow(w: int, start: float, spacing: float, parts: int, known: int, s: Step) -> bool:
+def narrow(bracket: Bracket, look: Look, s: Step) -> bool:
     """Narrow a bracket to five nodes about the best one of a look, or leave it if it is outside.
 
     Returns whether it has new nodes to be judged. If it is nothing but rounding, it is done.
     """
-    table = s.table
-    read_look(w, parts, known, s)
-    rounding = shows_rounding(w, parts, table)
-    best = highest(table, CLOSER, CLOSER + parts + 1, table[w + SENSE]) - CLOSER
-    table[w + ROUNDS] += 1.0
+    read_look(bracket, look, s)
+    seen, parts, best = bracket.seen, look.parts, 0
+    for k in range(1, parts + 1):
+        if bracket.sense * seen[k] > bracket.sense * seen[best]:
+            best = k
+    rounding = shows_rounding(bracket, parts)
+    bracket.rounds = MOST_ROUNDS if rounding else bracket.rounds + 1
     if parts == AROUND:
-        share = spacing / table[w + SPACING]
-        table[w + NARROWING] = share * share
+        share = look.spacing / bracket.spacing
+        bracket.narrowing = share * share
         if best in (0, LAST):
-            table[w + NARROWING] = 0.0
-            abscissa = (start + best * spacing - table[w + START]) / table[w + SPACING]
-            count(w, abscissa, table[CLOSER + best], s)
-            if rounding:
-                table[w + ROUNDS] = MOST_ROUNDS
+            bracket.narrowing = 0.0
+            abscissa = (look.start + best * look.spacing - bracket.start) / bracket.spacing
+            count(bracket, abscissa, seen[best], s)
             return False
-    elif table[w + NARROWING] == 0.0 and table[w + ROUNDS] % AGAIN == 0.0:
-        table[w + NARROWING] = FIRST
+    elif bracket.narrowing == 0.0 and bracket.rounds % AGAIN == 0:
+        bracket.narrowing = FIRST
     kept = min(max(best - NODES // 2, 0), parts + 1 - NODES)
     for i in range(NODES):
-        table[w + VALUES + i] = table[CLOSER + kept + i]
-    table[w + BEST] = best - kept
-    table[w + START], table[w + SPACING] = start + kept * spacing, spacing
-    if rounding:
-        table[w + ROUNDS] = MOST_ROUNDS
+        bracket.values[i] = seen[kept + i]
+    bracket.best = best - kept
+    bracket.start, bracket.spacing = look.start + kept * look.spacing, look.spacing
     return not rounding

@@ -4,17 +4,7 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.brackets import (
-    BRACKETS,
-    CLOSER,
-    MOST_ROUNDS,
-    ROUNDS,
-    ROW,
-    STRIDE,
-    VALUE,
-    VALUES,
-)
-from jointplay.solver.kernels.loop.extremes.extreme import NODES
+from jointplay.solver.kernels.loop.extremes.brackets import MOST_ROUNDS, NODES
 from jointplay.solver.kernels.loop.extremes.extreme_so_far import count_best, spread
 from jointplay.solver.kernels.loop.extremes.kinks_beside import look_at_kinks_beside
 from jointplay.solver.kernels.loop.extremes.narrowing import HALF
@@ -33,7 +23,7 @@ def refine_peaks(s: Step, marked: np.ndarray) -> None:
     """Seek the extremes that the scan suspects around the start of this step.
 
     Candidate channels are evaluated at quarters of the step before and of this one. `marked` :
-    `work`, seen as bytes of the scan. `table` : see `solver.kernels.loop.extremes.brackets`.
+    `work`, seen as bytes of the scan.
     """
     for i in range(INSTANTS):
         s.spare[s.at.theta, i] = (i % HALF) / HALF
@@ -75,9 +65,10 @@ def look_at_quarters(r: int, waiting: int, s: Step) -> int:
     end = work[at.previous + r, lane]
     junction = end - work[at.change + r, lane]
     for step in range(2):
+        values = s.brackets[waiting].seen
         for i in range(HALF):
-            s.table[CLOSER + i] = s.spare[at.channel + r, HALF * step + i]
-        s.table[CLOSER + HALF] = end if step else junction
+            values[i] = s.spare[at.channel + r, HALF * step + i]
+        values[HALF] = end if step else junction
         waiting = open_brackets(r, step, 0.0, 1.0 / HALF, NODES, FORETOLD, waiting, s)
     return waiting
 
@@ -85,24 +76,10 @@ def look_at_quarters(r: int, waiting: int, s: Step) -> int:
 @inner_kernel(borrows=True)
 def leave_rounding(waiting: int, s: Step) -> None:
     """Let the values of brackets count as they are where a channel is nothing but rounding."""
-    table = s.table
-    for w in range(BRACKETS, BRACKETS + STRIDE * waiting, STRIDE):
-        if zigzags(table, w + VALUES, w + VALUES + NODES):
-            r = int(table[w + ROW])
-            if spread(r, table[w + VALUE], s) <= s.work[s.at.rounding + r, s.lane]:
-                count_best(w, s)
-                table[w + ROUNDS] = MOST_ROUNDS
-
-
-@inner_kernel()
-def end_peaks(now: float, s: Step) -> None:
-    """Let the values at the run's last instant count as extremes."""
-    lane, at, work = s.lane, s.at, s.work
-    for r in range(at.rows):
-        value = work[at.previous + r, lane]
-        if value > work[at.highest + r, lane]:
-            work[at.highest + r, lane] = value
-            work[at.highest_time + r, lane] = now
-        if value < work[at.lowest + r, lane]:
-            work[at.lowest + r, lane] = value
-            work[at.lowest_time + r, lane] = now
+    for k in range(waiting):
+        bracket = s.brackets[k]
+        if zigzags(bracket.values, NODES):
+            least = s.work[s.at.rounding + bracket.row, s.lane]
+            if spread(bracket.row, bracket.value, s) <= least:
+                count_best(bracket, s)
+                bracket.rounds = MOST_ROUNDS

@@ -48,22 +48,22 @@ def place_closely(share: float, theta: np.ndarray) -> None:
 
 
 @inner_kernel()
-def spread_of(values: np.ndarray, first: int, behind: int) -> float:
-    """Return by how much the values from `first` on differ."""
-    least = most = values[first]
-    for i in range(first + 1, behind):
+def spread_of(values: np.ndarray, count: int) -> float:
+    """Return by how much the first values differ."""
+    least = most = values[0]
+    for i in range(1, count):
         least, most = min(least, values[i]), max(most, values[i])
     return float(most - least)
 
 
 @inner_kernel()
-def zigzags(values: np.ndarray, first: int, behind: int) -> bool:
-    """Whether values turn twice, each time by more than a part of what they differ by.
+def zigzags(values: np.ndarray, count: int) -> bool:
+    """Whether the first values turn twice, each time by more than a part of what they differ by.
 
     A corner or a narrow peak turns once, and a jump does not turn.
     """
-    least, turns, before = LARGE * spread_of(values, first, behind), 0, 0.0
-    for i in range(first + 1, behind):
+    least, turns, before = LARGE * spread_of(values, count), 0, 0.0
+    for i in range(1, count):
         change = values[i] - values[i - 1]
         if abs(change) > least:
             turns += int(change * before < 0.0)

@@ -8,7 +8,6 @@ from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.book import ROUNDING, count_value
-from jointplay.solver.kernels.loop.extremes.brackets import CLOSER
 from jointplay.solver.kernels.loop.extremes.polynomial_extreme import count_if_polynomial
 from jointplay.solver.kernels.loop.extremes.rounding import place_closely, scatter
 from jointplay.solver.kernels.loop.extremes.screening import JAGGED, ONE_BY_ONE, screen
@@ -84,7 +83,7 @@ def find_suspects(
     at, begin, spacing, sharp = s.at, part.begin, part.spacing, part.sharp
     count, looked = 0, False
     end = begin + spacing * (INSTANTS - 1)
-    powers = s.table[CLOSER : CLOSER + INSTANTS]
+    powers = s.brackets[0].seen  # no bracket is open yet
     for first in blocks:
         marks = screen(s.spare, at.channel + first, book, first, begin, end, sharp)
         if marks == 0:

@@ -3,21 +3,8 @@
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.brackets import (
-    BEST,
-    BRACKETS,
-    CLOSER,
-    IN_THIS,
-    NARROWING,
-    ROUNDS,
-    ROW,
-    SENSE,
-    SPACING,
-    START,
-    STRIDE,
-    VALUES,
-)
-from jointplay.solver.kernels.loop.extremes.extreme import NODES
+from jointplay.solver.kernels.loop.extremes.brackets import NODES
+from jointplay.solver.kernels.loop.extremes.extreme_so_far import extreme_so_far
 from jointplay.solver.kernels.loop.extremes.narrowing import FIRST
 from jointplay.solver.kernels.loop.extremes.seeking import is_done
 from jointplay.solver.kernels.loop.step import Step
@@ -32,43 +19,47 @@ def open_brackets(
 ) -> int:
     """Let local extremes of a channel among `count` values of a step count, if they are sharp.
 
-    The values are where the table has those of a closer look; `start` and `spacing` are shares of
-    the step (1: this one, 0: the one before). Returns how many brackets wait to be looked at more
+    The values are those that the next bracket has seen; `start` and `spacing` are shares of the
+    step (1: this one, 0: the one before). Returns how many brackets wait to be looked at more
     closely, of all channels.
     """
-    table = s.table
-    values = table[CLOSER : CLOSER + count]
-    least, most, bend = min(values[0], values[1]), max(values[0], values[1]), 0.0
-    for i in range(2, count):
-        least, most = min(least, values[i]), max(most, values[i])
-        bend = max(bend, abs(values[i - 2] - 2.0 * values[i - 1] + values[i]))
+    values = s.brackets[waiting].seen
+    least, most, bend = spread_and_bend(values, count)
     for sense in (1.0, -1.0):
-        so_far = s.work[(s.at.highest if sense > 0.0 else s.at.lowest) + r, s.lane]
+        so_far = extreme_so_far(r, sense, s)
         if not (most if sense > 0.0 else -least) + CORNER * bend > sense * so_far:
             continue
         for best in range(count):
-            if not tops(values, best, sense, so_far):
+            if not tops(values, count, best, sense, so_far):
                 continue
-            kept = min(max(best - NODES // 2, 0), count - NODES)
-            w = BRACKETS + STRIDE * waiting
-            table[w + ROW], table[w + SENSE], table[w + IN_THIS] = r, sense, step
-            table[w + START], table[w + SPACING] = start + kept * spacing, spacing
-            table[w + BEST] = best - kept
-            table[w + ROUNDS], table[w + NARROWING] = 0.0, FIRST
+            bracket, kept = s.brackets[waiting], min(max(best - NODES // 2, 0), count - NODES)
+            bracket.row, bracket.sense, bracket.step = r, sense, step
+            bracket.start, bracket.spacing = start + kept * spacing, spacing
+            bracket.best, bracket.rounds, bracket.narrowing = best - kept, 0, FIRST
             for i in range(NODES):
-                table[w + VALUES + i] = values[kept + i]
-            if not is_done(w, sharp, s):
+                bracket.values[i] = values[kept + i]
+            if not is_done(bracket, sharp, s):
                 waiting += 1
     return waiting
 
 
 @inner_kernel()
-def tops(values: np.ndarray, i: int, sense: float, so_far: float) -> bool:
-    """Whether no value beside one is beyond it, and there may be a new extreme.
+def spread_and_bend(values: np.ndarray, count: int) -> tuple[float, float, float]:
+    """Return the least and the largest of the first values, and their largest second difference."""
+    least, most, bend = min(values[0], values[1]), max(values[0], values[1]), 0.0
+    for i in range(2, count):
+        least, most = min(least, values[i]), max(most, values[i])
+        bend = max(bend, abs(values[i - 2] - 2.0 * values[i - 1] + values[i]))
+    return least, most, bend
+
+
+@inner_kernel()
+def tops(values: np.ndarray, count: int, i: int, sense: float, so_far: float) -> bool:
+    """Whether no value beside one of so many is beyond it, and there may be a new extreme.
 
     A corner between two values is beyond them by half of the second difference there at most.
     """
-    last = len(values) - 1
+    last = count - 1
     here, middle = sense * values[i], min(max(i, 1), last - 1)
     if (i > 0 and sense * values[i - 1] >= here) or (i < last and sense * values[i + 1] > here):
         return False
