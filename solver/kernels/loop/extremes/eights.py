@@ -5,7 +5,7 @@ A channel at a time, looks at channels took longer than computing the channels d
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
 
-from typing import Any
+from __future__ import annotations
 
 from llvmlite import ir
 from numba.core import cgutils
@@ -13,108 +13,139 @@ from numba.core import cgutils
 from jointplay.solver.kernels.layout import INSTANTS
 
 NUMBER, WORD, INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
-EIGHT = ir.VectorType(NUMBER, INSTANTS)
+EIGHT, WORDS = ir.VectorType(NUMBER, INSTANTS), ir.VectorType(WORD, INSTANTS)
 ALIGNED = 8
 
 
-class Eights:
-    """Writes code on vectors of eight."""
+def _instruction(name):
+    """Return a method that writes one on numbers or marks."""
 
-    def __init__(self, builder) -> None:
+    def method(self, other) -> Eight:
+        return Eight(self.builder, getattr(self.builder, name)(self.value, self.lifted(other)))
+
+    return method
+
+
+def _comparison(sign):
+    """Return a method that writes one: marks are nowhere where one of both is no number."""
+
+    def method(self, other) -> Eight:
+        compared = self.builder.fcmp_ordered(sign, self.value, self.lifted(other))
+        return Eight(self.builder, compared)
+
+    return method
+
+
+class Eight:
+    """Eight numbers, or marks of what is true of them, in code that is written.
+
+    Arithmetic on them writes more of it. A plain number is the same eight times.
+    """
+
+    def __init__(self, builder, value) -> None:
         self.builder = builder
+        self.value = ir.Constant(EIGHT, [value] * INSTANTS) if isinstance(value, float) else value
 
-    def channels(self, values, row):
-        """Return eight channels, from a slot on, at each of eight instants: (slots, INSTANTS)."""
-        rows = (self.builder.add(row, WORD(k)) for k in range(INSTANTS))
-        offsets = (self.builder.mul(one, WORD(INSTANTS)) for one in rows)
-        return _transposed(self.builder, [self.load(values, offset) for offset in offsets])
+    __add__, __sub__ = _instruction("fadd"), _instruction("fsub")
+    __mul__ = __rmul__ = _instruction("fmul")
+    __truediv__ = _instruction("fdiv")
+    __and__, __or__ = _instruction("and_"), _instruction("or_")
+    __lt__, __gt__ = _comparison("<"), _comparison(">")
+    __le__, __ge__ = _comparison("<="), _comparison(">=")
 
-    def column(self, values, first, width):
-        """Return eight numbers, `width` apart."""
-        b, found = self.builder, ir.Constant(EIGHT, ir.Undefined)
-        for k in range(INSTANTS):
-            address = b.gep(values, [b.add(first, b.mul(width, WORD(k)))])
-            found = b.insert_element(found, b.load(address, align=ALIGNED), INDEX(k))
-        return found
+    def lifted(self, other):
+        """Return the value of an operand beside this."""
+        return other.value if isinstance(other, Eight) else Eight(self.builder, other).value
 
-    def load(self, values, offset):
-        """Return eight numbers side by side."""
-        return self.builder.load(self._pointer(values, offset), align=ALIGNED)
+    def __invert__(self) -> Eight:
+        return Eight(self.builder, self.builder.not_(self.value))
 
-    def store(self, values, offset, vector) -> None:
-        """Write eight numbers side by side."""
-        self.builder.store(vector, self._pointer(values, offset), align=ALIGNED)
+    def __abs__(self) -> Eight:
+        b = self.builder
+        unsigned = ir.Constant(WORDS, [2**63 - 1] * INSTANTS)
+        return Eight(b, b.bitcast(b.and_(b.bitcast(self.value, WORDS), unsigned), EIGHT))
 
-    def same(self, number):
-        """Return a number eight times."""
-        return self._everywhere(EIGHT, number)
-
-    def number(self, value):
-        """Return a constant eight times."""
-        return ir.Constant(EIGHT, [value] * INSTANTS)
-
-    def times(self, value, x):
-        """Return the product with a number."""
-        return self.builder.fmul(self.number(value), x)
-
-    def first(self, count):
-        """Return where the first numbers are, so many."""
-        words = ir.VectorType(WORD, INSTANTS)
-        columns = ir.Constant(words, list(range(INSTANTS)))
-        return self.builder.icmp_signed("<", columns, self._everywhere(words, count))
-
-    def largest(self, x):
-        """Return the largest of eight numbers."""
-        return self._one(self.larger, x)
-
-    def least(self, x):
-        """Return the smallest of eight numbers."""
-        return self._one(self.smaller, x)
-
-    def root(self, x):
+    def sqrt(self) -> Eight:
         """Return the square roots."""
-        kind = ir.FunctionType(EIGHT, [EIGHT])
-        name = f"llvm.sqrt.v{INSTANTS}f64"
+        kind, name = ir.FunctionType(EIGHT, [EIGHT]), f"llvm.sqrt.v{INSTANTS}f64"
         root = cgutils.get_or_insert_function(self.builder.module, kind, name)
-        return self.builder.call(root, [x])
+        return Eight(self.builder, self.builder.call(root, [self.value]))
 
-    def less(self, x, y):
-        """Return where x < y; nowhere where one is no number."""
-        return self.builder.fcmp_ordered("<", x, y)
+    def bits(self):
+        """Return a word in which bit k is set where mark k is."""
+        return self.builder.zext(self.builder.bitcast(self.value, ir.IntType(INSTANTS)), WORD)
 
-    def smaller(self, x, y):
-        """Return the smaller of each two; y where one is no number."""
-        return self.builder.select(self.less(x, y), x, y)
-
-    def larger(self, x, y):
-        """Return the larger of each two; y where one is no number."""
-        return self.builder.select(self.less(y, x), x, y)
-
-    def size(self, x):
-        """Return x without its sign."""
-        words = ir.VectorType(WORD, INSTANTS)
-        kept = self.builder.and_(
-            self.builder.bitcast(x, words), ir.Constant(words, [2**63 - 1] * INSTANTS)
-        )
-        return self.builder.bitcast(kept, EIGHT)
-
-    def bits(self, marks):
-        """Return bit k where mark k is set."""
-        return self.builder.zext(self.builder.bitcast(marks, ir.IntType(INSTANTS)), WORD)
-
-    def _everywhere(self, kind, one):
-        undefined = ir.Constant(kind, ir.Undefined)
-        alone = self.builder.insert_element(undefined, one, INDEX(0))
-        return self.builder.shuffle_vector(alone, undefined, _order([0] * INSTANTS))
-
-    def _one(self, combine, x):
+    def one(self, combine):
+        """Return what `larger` or `smaller` leaves of the eight."""
+        found = self
         for half in (4, 2, 1):
             order = _order([k ^ half for k in range(INSTANTS)])
-            x = combine(x, self.builder.shuffle_vector(x, x, order))
-        return self.builder.extract_element(x, INDEX(0))
+            swapped = self.builder.shuffle_vector(found.value, found.value, order)
+            found = combine(found, Eight(self.builder, swapped))
+        return self.builder.extract_element(found.value, INDEX(0))
 
-    def _pointer(self, values, offset):
-        return self.builder.bitcast(self.builder.gep(values, [offset]), EIGHT.as_pointer())
+
+def where(marks, x, y) -> Eight:
+    """Return x where a mark is set, else y."""
+    chosen = marks.builder.select(marks.value, marks.lifted(x), marks.lifted(y))
+    return Eight(marks.builder, chosen)
+
+
+def smaller(x, y) -> Eight:
+    """Return the smaller of each two; y where one is no number."""
+    return where(x < y, x, y)
+
+
+def larger(x, y) -> Eight:
+    """Return the larger of each two; y where one is no number."""
+    return where(y < x, x, y)
+
+
+def channels(builder, values, row) -> list[Eight]:
+    """Return eight channels, from a slot on, at each of eight instants: (slots, INSTANTS)."""
+    slots = (builder.add(row, WORD(k)) for k in range(INSTANTS))
+    rows = [load(builder, values, builder.mul(slot, WORD(INSTANTS))).value for slot in slots]
+    return [Eight(builder, one) for one in _transposed(builder, rows)]
+
+
+def column(builder, values, first, width) -> Eight:
+    """Return eight numbers, `width` apart."""
+    found = ir.Constant(EIGHT, ir.Undefined)
+    for k in range(INSTANTS):
+        address = builder.gep(values, [builder.add(first, builder.mul(width, WORD(k)))])
+        found = builder.insert_element(found, builder.load(address, align=ALIGNED), INDEX(k))
+    return Eight(builder, found)
+
+
+def load(builder, values, offset) -> Eight:
+    """Return eight numbers side by side."""
+    return Eight(builder, builder.load(_pointer(builder, values, offset), align=ALIGNED))
+
+
+def store(builder, values, offset, numbers) -> None:
+    """Write eight numbers side by side."""
+    builder.store(numbers.value, _pointer(builder, values, offset), align=ALIGNED)
+
+
+def same(builder, number) -> Eight:
+    """Return a number eight times."""
+    return Eight(builder, _everywhere(builder, EIGHT, number))
+
+
+def first(builder, count) -> Eight:
+    """Return marks of the first ones, so many."""
+    columns = ir.Constant(WORDS, list(range(INSTANTS)))
+    return Eight(builder, builder.icmp_signed("<", columns, _everywhere(builder, WORDS, count)))
+
+
+def _everywhere(builder, kind, one):
+    undefined = ir.Constant(kind, ir.Undefined)
+    alone = builder.insert_element(undefined, one, INDEX(0))
+    return builder.shuffle_vector(alone, undefined, _order([0] * INSTANTS))
+
+
+def _pointer(builder, values, offset):
+    return builder.bitcast(builder.gep(values, [offset]), EIGHT.as_pointer())
 
 
 def _transposed(builder, rows):
@@ -132,5 +163,5 @@ def _transposed(builder, rows):
     return rows
 
 
-def _order(order: list[int]) -> Any:
+def _order(order):
     return ir.Constant(ir.VectorType(INDEX, len(order)), order)

@@ -3,6 +3,8 @@
 # mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
 
 from collections.abc import Callable
+from functools import reduce
+from operator import add, or_
 from typing import Any, cast
 
 from numba import int64
@@ -17,7 +19,18 @@ from jointplay.solver.kernels.loop.extremes.book import (
     RANGE,
     ROUNDING,
 )
-from jointplay.solver.kernels.loop.extremes.eights import WORD, Eights
+from jointplay.solver.kernels.loop.extremes.eights import (
+    WORD,
+    Eight,
+    channels,
+    larger,
+    load,
+    same,
+    smaller,
+    store,
+    where,
+)
+from jointplay.solver.kernels.loop.extremes.polynomial_extreme import SEVENTH
 from jointplay.solver.kernels.loop.extremes.seeking import SHARP
 from jointplay.solver.kernels.loop.extremes.tops import CORNER
 
@@ -55,13 +68,15 @@ def _screen(
     """
 
     def generate(context, builder, signature, arguments):
-        arrays = [
+        spare, lines = (
             context.make_array(signature.args[k])(context, builder, value=arguments[k])
             for k in (0, 2)
-        ]
-        width = builder.extract_value(arrays[1].shape, 1)
-        vectors = _Book(builder, arrays[0].data, arrays[1].data, width, arguments[3])
-        return _answer(vectors, arguments[1], *arguments[4:])
+        )
+        width = builder.extract_value(lines.shape, 1)
+        own = _Book(builder, lines.data, width, arguments[3])
+        times = [same(builder, time) for time in arguments[4:6]]
+        least = same(builder, arguments[6])
+        return _answer(channels(builder, spare.data, arguments[1]), own, times, least)
 
     return int64(values, row, book, first, begin, end, sharp), generate
 
@@ -69,49 +84,34 @@ def _screen(
 screen = cast(Callable[..., int], intrinsic(_screen))
 
 
-def _answer(at, row, begin, end, sharp):
-    """Generate the code of `screen`."""
-    b, v = at.builder, at.of(row)
-    last = INSTANTS - 1
-    low, high = at.line(LOWEST), at.line(HIGHEST)
-    low_time, high_time = at.line(LOWEST_TIME), at.line(HIGHEST_TIME)
-    for value, time in ((v[0], at.same(begin)), (v[last], at.same(end))):
-        below, above = at.less(value, low), at.less(high, value)
-        low, low_time = b.select(below, value, low), b.select(below, time, low_time)
-        high, high_time = b.select(above, value, high), b.select(above, time, high_time)
-    for line, found in (
-        (LOWEST, low),
-        (HIGHEST, high),
-        (LOWEST_TIME, low_time),
-        (HIGHEST_TIME, high_time),
-    ):
-        at.write(line, found)
-    least, most, bend = v[1], v[1], None
-    for i in range(1, last):
-        least, most = at.smaller(least, v[i]), at.larger(most, v[i])
-        bent = at.size(b.fsub(b.fadd(v[i - 1], v[i + 1]), b.fadd(v[i], v[i])))
-        bend = bent if bend is None else at.larger(bend, bent)
-    far = b.fsub(
-        at.larger(most, at.larger(v[0], v[last])), at.smaller(least, at.smaller(v[0], v[last]))
-    )
-    own = b.fmul(at.number(ULPS), at.larger(at.size(v[0]), at.size(v[last])))
-    moves = at.less(at.larger(at.line(ROUNDING), own), far)
-    spread = at.line(RANGE)
-    beyond = b.fsub(b.fmul(at.number(CORNER), bend), b.fmul(at.same(sharp), spread))
-    inside = b.or_(at.less(high, b.fadd(most, beyond)), at.less(b.fsub(least, beyond), low))
-    wide = at.larger(spread, b.fsub(high, low))
-    hidden = _hides_beside_ends(at, v, low, high, b.fmul(at.number(SHARP), wide))
-    wanted = b.and_(moves, b.or_(inside, hidden))
-    surpassed = b.or_(at.less(high, most), at.less(least, low))
-    one_by_one = b.and_(b.not_(moves), surpassed)
-    jagged = b.and_(wanted, at.less(far, bend))
-    answer = at.bits(wanted)
-    for marks, shift in ((one_by_one, ONE_BY_ONE), (jagged, JAGGED)):
-        answer = b.or_(answer, b.shl(at.bits(marks), WORD(shift)))
+def _answer(v, book, times, sharp):
+    """Generate the code of `screen`, of channels at eight instants."""
+    start, *inner, end = v
+    low, high = book[LOWEST], book[HIGHEST]
+    low_time, high_time = book[LOWEST_TIME], book[HIGHEST_TIME]
+    for value, time in zip((start, end), times, strict=True):
+        below, above = value < low, high < value
+        low, low_time = where(below, value, low), where(below, time, low_time)
+        high, high_time = where(above, value, high), where(above, time, high_time)
+    book[LOWEST], book[LOWEST_TIME] = low, low_time
+    book[HIGHEST], book[HIGHEST_TIME] = high, high_time
+    least, most = reduce(smaller, inner), reduce(larger, inner)
+    bends = [abs(v[i - 1] + v[i + 1] - (v[i] + v[i])) for i in range(1, INSTANTS - 1)]
+    bend, spread = reduce(larger, bends), book[RANGE]
+    far = larger(most, larger(start, end)) - smaller(least, smaller(start, end))
+    moves = larger(book[ROUNDING], ULPS * larger(abs(start), abs(end))) < far
+    beyond = CORNER * bend - sharp * spread
+    inside = (high < most + beyond) | (least - beyond < low)
+    hidden = _hides_beside_ends(v, low, high, SHARP * larger(spread, high - low))
+    wanted = moves & (inside | hidden)
+    one_by_one = ~moves & ((high < most) | (least < low))
+    answer, b = wanted.bits(), wanted.builder
+    for marks, shift in ((one_by_one, ONE_BY_ONE), (wanted & (far < bend), JAGGED)):
+        answer = b.or_(answer, b.shl(marks.bits(), WORD(shift)))
     return answer
 
 
-def _hides_beside_ends(at, v, low, high, sharp):
+def _hides_beside_ends(v, low, high, sharp) -> Eight:
     """Return where beside an end an extreme may hide, beyond the one so far by more than `sharp`.
 
     A corner shows in the seventh difference of eight values by no less than it goes beyond them.
@@ -120,41 +120,30 @@ def _hides_beside_ends(at, v, low, high, sharp):
 
     The end of the step before is the same instant, but may differ in the last bit.
     """
-    b, seventh = at.builder, at.number(0.0)
-    for i, weight in enumerate((-1.0, 7.0, -21.0, 35.0)):
-        apart = b.fsub(v[i], v[INSTANTS - 1 - i])
-        seventh = b.fadd(seventh, b.fmul(at.number(weight), apart))
-    seventh = at.size(seventh)
-    cornered = b.not_(b.fcmp_ordered("<=", seventh, sharp))
-    found = None
-    for end, sense in ((0, 1), (INSTANTS - 1, -1)):
-        rise = b.fsub(v[end + sense], v[end])
-        bend = at.size(b.fsub(b.fsub(v[end + 2 * sense], v[end + sense]), rise))
-        turns = b.and_(at.less(sharp, bend), b.not_(at.less(bend, at.size(rise))))
-        reach = b.select(cornered, seventh, at.larger(sharp, b.fmul(at.number(CORNER), bend)))
-        below = b.fcmp_ordered("<=", b.fsub(v[end], reach), low)
-        beyond = b.or_(below, b.fcmp_ordered(">=", b.fadd(v[end], reach), high))
-        hides = b.and_(beyond, b.or_(cornered, turns))
-        found = hides if found is None else b.or_(found, hides)
-    return found
+    seventh = abs(reduce(add, (w * (x - y) for w, x, y in zip(SEVENTH, v, v[::-1], strict=False))))
+    cornered = ~(seventh <= sharp)
+    hides = []
+    for end, beside, next_one in (v[:3], v[:-4:-1]):
+        rise = beside - end
+        bend = abs(next_one - beside - rise)
+        turns = (sharp < bend) & ~(bend < abs(rise))
+        reach = where(cornered, seventh, larger(sharp, CORNER * bend))
+        beyond = (end - reach <= low) | (end + reach >= high)
+        hides.append(beyond & (cornered | turns))
+    return reduce(or_, hides)
 
 
-class _Book(Eights):
-    """Channels, and their lines in a book."""
+class _Book:
+    """Lines of a book, of eight channels."""
 
-    def __init__(self, builder, values, book, width, first) -> None:
-        super().__init__(builder)
-        self._values, self._book, self._width, self._first = values, book, width, first
+    def __init__(self, builder, values, width, first) -> None:
+        self._builder, self._values, self._width, self._first = builder, values, width, first
 
-    def of(self, row):
-        """Return eight channels at each of eight instants."""
-        return self.channels(self._values, row)
+    def __getitem__(self, line) -> Eight:
+        return load(self._builder, self._values, self._place(line))
 
-    def line(self, line):
-        return self.load(self._book, self._place(line))
-
-    def write(self, line, vector) -> None:
-        self.store(self._book, self._place(line), vector)
+    def __setitem__(self, line, numbers) -> None:
+        store(self._builder, self._values, self._place(line), numbers)
 
     def _place(self, line):
-        return self.builder.add(self.builder.mul(self._width, WORD(line)), self._first)
+        return self._builder.add(self._builder.mul(self._width, WORD(line)), self._first)

@@ -6,6 +6,7 @@ A channel at a time, this took longer than all else that extremes take in a step
 # mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
 
 from collections.abc import Callable
+from functools import reduce
 from typing import Any, cast
 
 from numba import float64, int64, types
@@ -14,7 +15,17 @@ from numba.extending import intrinsic
 
 from jointplay.solver.kernels.emit.scanning import BARELY
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.eights import WORD, Eights
+from jointplay.solver.kernels.loop.extremes.eights import (
+    WORD,
+    Eight,
+    channels,
+    column,
+    first,
+    larger,
+    same,
+    smaller,
+    where,
+)
 
 ROUGH = 0.003
 """Share of a channel's range by which it leaves its values at the ends of a rough step."""
@@ -70,19 +81,19 @@ def _weigh(
             context.make_array(signature.args[k])(context, builder, value=arguments[k])
             for k in (0, 2)
         )
-        at = _Channels(builder, spare.data, lanes, arguments[4])
+        width = builder.extract_value(lanes.shape, 1)
         *slots, count = cgutils.unpack_tuple(builder, arguments[3], 5)
-        found, longer = _Found(at, arguments[6]), at.same(arguments[5])
+        found, longer = _Found(builder, arguments[6]), same(builder, arguments[5])
         groups = builder.udiv(builder.add(count, WORD(INSTANTS - 1)), WORD(INSTANTS))
         with cgutils.for_range(builder, groups) as loop:
-            first = builder.mul(loop.index, WORD(INSTANTS))
-            v = at.channels(at.spare, builder.add(arguments[1], first))
+            before = builder.mul(loop.index, WORD(INSTANTS))
+            values = channels(builder, spare.data, builder.add(arguments[1], before))
+            rows = (builder.mul(builder.add(slot, before), width) for slot in slots)
             highest, lowest, least, change = (
-                at.of_lane(builder.add(slot, first)) for slot in slots
+                column(builder, lanes.data, builder.add(row, arguments[4]), width) for row in rows
             )
-            moves = at.less(least, builder.fsub(highest, lowest))
-            kept = builder.and_(at.first(builder.sub(count, first)), moves)
-            _add(found, at, v, highest, lowest, builder.fmul(longer, change), kept)
+            kept = first(builder, builder.sub(count, before)) & (least < highest - lowest)
+            _add(found, values, highest, lowest, longer * change, kept)
         return context.make_tuple(builder, FOUND, found.numbers())
 
     return FOUND(values, channel, work, extremes, lane, longer, pause), generate
@@ -91,41 +102,24 @@ def _weigh(
 weigh_swings = cast(Callable[..., tuple[int, float, float]], intrinsic(_weigh))
 
 
-def _add(found, at, v, highest, lowest, change, kept):
+def _add(found, values, highest, lowest, change, kept):
     """Let eight channels count, but for those that are not kept.
 
     `change` : from end to end of the step before, had that been as long.
     """
-    b, last = at.builder, INSTANTS - 1
-    spread = b.fsub(highest, lowest)
-    low, high = at.smaller(v[0], v[last]), at.larger(v[0], v[last])
-    bottom, top = low, high
-    for i in range(1, last):
-        bottom, top = at.smaller(bottom, v[i]), at.larger(top, v[i])
-    above, below = b.fsub(top, high), b.fsub(low, bottom)
-    swing, seen = at.larger(above, below), at.times(SEEN, spread)
-    upwards = b.and_(at.less(seen, above), at.less(highest, b.fadd(high, at.times(REACH, above))))
-    downwards = b.and_(at.less(seen, below), at.less(b.fsub(low, at.times(REACH, below)), lowest))
-    found.mark(NEARBY, b.and_(kept, b.or_(upwards, downwards)))
-    found.mark(UNEVEN, b.and_(kept, at.less(at.times(ROUGH, spread), swing)))
-    counted = b.select(at.less(seen, swing), at.times(MUCH, spread), swing)
-    more = b.and_(kept, at.less(b.fmul(found.largest.now(), spread), counted))
-    with b.if_then(b.icmp_unsigned("!=", at.bits(more), WORD(0))):
-        found.largest.let(at.larger, b.select(kept, b.fdiv(counted, spread), at.number(0.0)))
-    rise = b.fsub(v[last], v[0])
-    bend = at.smaller(at.size(b.fsub(rise, change)), at.number(UNKNOWN))
-    approach = _Approach(
-        at,
-        at.size(rise),
-        b.fadd(bend, at.number(TINY)),
-        at.smaller(b.fsub(highest, high), b.fsub(low, lowest)),
-        at.times(REACH, swing),
-    )
-    sooner = b.and_(b.and_(kept, at.less(seen, swing)), approach.may_end(b.load(found.pause)))
-    with b.if_then(b.icmp_unsigned("!=", at.bits(sooner), WORD(0))):
-        steps = at.least(b.select(sooner, approach.steps(), at.number(float("inf"))))
-        before = b.load(found.pause)
-        b.store(b.select(b.fcmp_ordered("<", steps, before), steps, before), found.pause)
+    start, *inner, end = values
+    low, high = smaller(start, end), larger(start, end)
+    above, below = reduce(larger, inner, high) - high, low - reduce(smaller, inner, low)
+    spread, swing = highest - lowest, larger(above, below)
+    seen = SEEN * spread
+    upwards = (seen < above) & (highest < high + REACH * above)
+    downwards = (seen < below) & (low - REACH * below < lowest)
+    found.mark(NEARBY, kept & (upwards | downwards))
+    found.mark(UNEVEN, kept & (ROUGH * spread < swing))
+    found.swing(where(seen < swing, MUCH * spread, swing), spread, kept)
+    rest = smaller(highest - high, low - lowest)
+    bend = smaller(abs(end - start - change), UNKNOWN) + TINY
+    found.wait(_Approach(abs(end - start), bend, rest, REACH * swing), kept & (seen < swing))
 
 
 class _Approach:
@@ -136,76 +130,60 @@ class _Approach:
     twice as much as now. What bends inside the step is mostly the swing, and tells nothing of ends.
     """
 
-    def __init__(self, at, speed, bend, rest, swing) -> None:
+    def __init__(self, speed, bend, rest, swing) -> None:
         """`speed`, `bend` : sizes of a change and a second difference from step to step."""
-        self._at, self._speed, self._bend = at, speed, bend
-        self._close = at.larger(at.builder.fsub(rest, swing), at.number(0.0))
-        self._beyond = at.builder.fsub(speed, swing)
+        self._speed, self._bend = speed, bend
+        self._close, self._beyond = larger(rest - swing, 0.0), speed - swing
 
-    def steps(self):
+    def steps(self) -> Eight:
         """Return that."""
-        at, b = self._at, self._at.builder
-        root = at.root(b.fmul(self._bend, self._close))
-        way = b.fadd(b.fadd(self._speed, root), at.number(TINY))
-        later = at.larger(b.fdiv(self._close, way), b.fdiv(self._beyond, self._bend))
-        return at.times(0.5, later)
+        way = self._speed + (self._bend * self._close).sqrt() + TINY
+        return 0.5 * larger(self._close / way, self._beyond / self._bend)
 
-    def may_end(self, pause):
+    def may_end(self, pause) -> Eight:
         """Return where it may be fewer than a pause, without divisions and roots."""
-        at, b = self._at, self._at.builder
-        twice = at.times(2.0 * BARELY, at.same(pause))
-        bends = b.fmul(twice, self._bend)
-        left = b.fsub(self._close, b.fmul(twice, self._speed))
-        far = at.less(b.fmul(b.fmul(twice, bends), self._close), b.fmul(left, left))
-        late = b.and_(at.less(at.number(0.0), left), far)
-        return b.not_(b.or_(late, at.less(bends, self._beyond)))
+        twice = 2.0 * BARELY * pause
+        bends, left = twice * self._bend, self._close - twice * self._speed
+        late = (left > 0.0) & (twice * bends * self._close < left * left)
+        return ~(late | (bends < self._beyond))
 
 
 class _Found:
     """Numbers that channels have come to so far."""
 
-    def __init__(self, at, pause) -> None:
-        self._at, b = at, at.builder
-        self.answer = cgutils.alloca_once_value(b, WORD(0))
-        self.pause = cgutils.alloca_once_value(b, pause)
-        self.largest = _Vector(at, 0.0)
+    def __init__(self, builder, pause) -> None:
+        self._builder = builder
+        self._answer = cgutils.alloca_once_value(builder, WORD(0))
+        self._pause = cgutils.alloca_once_value(builder, pause)
+        self._largest = cgutils.alloca_once_value(builder, Eight(builder, 0.0).value)
 
     def mark(self, bits, marks) -> None:
         """Set one of the bits for each mark."""
-        b = self._at.builder
-        shift = WORD((bits & -bits).bit_length() - 1)
-        found = b.or_(b.load(self.answer), b.shl(self._at.bits(marks), shift))
-        b.store(found, self.answer)
+        b, shift = self._builder, WORD((bits & -bits).bit_length() - 1)
+        b.store(b.or_(b.load(self._answer), b.shl(marks.bits(), shift)), self._answer)
+
+    def swing(self, by, spread, kept) -> None:
+        """Note a swing of those that are kept, if its share of the spread is the largest."""
+        b = self._builder
+        with self._any(kept & (self._shares() * spread < by)):
+            b.store(larger(self._shares(), where(kept, by / spread, 0.0)).value, self._largest)
+
+    def wait(self, approach, kept) -> None:
+        """Note in how many steps those that are kept may come to an extreme."""
+        b = self._builder
+        sooner = kept & approach.may_end(same(b, b.load(self._pause)))
+        with self._any(sooner):
+            steps = where(sooner, approach.steps(), float("inf")).one(smaller)
+            before = b.load(self._pause)
+            b.store(b.select(b.fcmp_ordered("<", steps, before), steps, before), self._pause)
 
     def numbers(self):
         """Return all."""
-        b, largest = self._at.builder, self._at.largest(self.largest.now())
-        return [b.load(self.answer), b.load(self.pause), largest]
+        b = self._builder
+        return [b.load(self._answer), b.load(self._pause), self._shares().one(larger)]
 
+    def _shares(self) -> Eight:
+        return Eight(self._builder, self._builder.load(self._largest))
 
-class _Vector:
-    """Eight numbers that change."""
-
-    def __init__(self, at, value) -> None:
-        self._builder = at.builder
-        self._place = cgutils.alloca_once_value(at.builder, at.number(value))
-
-    def now(self):
-        return self._builder.load(self._place)
-
-    def let(self, combine, others) -> None:
-        self._builder.store(combine(self.now(), others), self._place)
-
-
-class _Channels(Eights):
-    """Channels of a step, and extremes so far of its lane."""
-
-    def __init__(self, builder, spare, lanes, lane) -> None:
-        super().__init__(builder)
-        self.spare, self._data, self._lane = spare, lanes.data, lane
-        self._lanes = builder.extract_value(lanes.shape, 1)
-
-    def of_lane(self, slot):
-        """Return the lane's numbers in eight slots."""
-        first = self.builder.add(self.builder.mul(slot, self._lanes), self._lane)
-        return self.column(self._data, first, self._lanes)
+    def _any(self, marks):
+        return self._builder.if_then(self._builder.icmp_unsigned("!=", marks.bits(), WORD(0)))
