@@ -14,7 +14,7 @@ from jointplay.solver.kernels.emit.judging import PASSING
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.dense_rows import write_row
-from jointplay.solver.kernels.loop.extremes.passages import closest_approach, passes, place_about
+from jointplay.solver.kernels.loop.extremes.passages import beside, closest_approach, passes
 from jointplay.solver.kernels.loop.runs import SECTIONS, Run, SectionKind
 from jointplay.solver.kernels.loop.step import Step, channels_within
 
@@ -151,10 +151,9 @@ def instants_to_look_at(s: Step, shares: np.ndarray) -> int:
     count = INSTANTS
     for j in range(s.at.pairs):
         if passes(j, s) and count + INSTANTS <= MOST_INSTANTS // 4:
-            share, width = closest_approach(j, s)
-            place_about(share, width, s)
+            passage = closest_approach(j, s)
             for i in range(INSTANTS):
-                shares[count + i] = s.spare[s.at.theta, i]
+                shares[count + i] = beside(i, passage)
             count += INSTANTS
     return ordered(shares, count)
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.extremes.cuts_at_bends import MOST_INSTANTS, find_cuts, has_bend
-from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
-from jointplay.solver.kernels.loop.step import Step, channels_within
+from jointplay.solver.kernels.loop.extremes.even_instants import look_evenly
+from jointplay.solver.kernels.loop.step import Step
 
 SWAY = 2.0
 """Part of its range that friction may make of a channel in a step with the largest normal force."""
@@ -49,7 +49,5 @@ def look_between_bends(chosen: np.ndarray, low: float, high: float, s: Step) -> 
     cuts[count] = high
     for end, behind in cuts[: count + 1]:
         if begin < end:
-            place_evenly(begin, end, s)
-            channels_within(s)
-            seek_between(chosen, begin, end, s)
+            look_evenly(chosen, begin, end, s)
         begin = max(begin, behind)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.step import Step
 
 LOWEST, LOWEST_TIME, HIGHEST, HIGHEST_TIME = range(4)
 """Lines of a book, and columns of an extreme in the order of `jointplay.records.peak.PEAK`."""
@@ -59,3 +60,22 @@ def count_value(book: np.ndarray, r: int, value: float, time: float) -> None:
         book[LOWEST, r], book[LOWEST_TIME, r] = value, time
     if value > book[HIGHEST, r]:
         book[HIGHEST, r], book[HIGHEST_TIME, r] = value, time
+
+
+@inner_kernel()
+def load_extremes(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
+    """Set a lane's extremes of chosen rows to those of a book, and their ranges."""
+    at = s.at
+    blocks = (at.lowest, at.lowest_time, at.highest, at.highest_time, at.known_range)
+    for line, block in enumerate(blocks):
+        for r in chosen:
+            s.work[block + r, s.lane] = book[line, r]
+
+
+@inner_kernel()
+def store_extremes(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
+    """Set a book's extremes to those that a lane has of chosen rows."""
+    at = s.at
+    for line, block in enumerate((at.lowest, at.lowest_time, at.highest, at.highest_time)):
+        for r in chosen:
+            book[line, r] = s.work[block + r, s.lane]

@@ -6,7 +6,7 @@ from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.seeking import seek
 from jointplay.solver.kernels.loop.extremes.tops import open_brackets
-from jointplay.solver.kernels.loop.step import Step
+from jointplay.solver.kernels.loop.step import Step, channels_within
 
 EXACT = 0.0
 """Share of its range by which what is counted may be off: a quartic through such instants may pass
@@ -18,6 +18,14 @@ def place_evenly(low: float, high: float, s: Step) -> None:
     """Place eight instants evenly from one share of a step to another."""
     for i in range(INSTANTS):
         s.spare[s.at.theta, i] = low + (high - low) * (i / (INSTANTS - 1))
+
+
+@inner_kernel()
+def look_evenly(chosen: np.ndarray, low: float, high: float, s: Step) -> None:
+    """Seek extremes of chosen rows between two shares of a step."""
+    place_evenly(low, high, s)
+    channels_within(s)
+    seek_between(chosen, low, high, s)
 
 
 @inner_kernel()

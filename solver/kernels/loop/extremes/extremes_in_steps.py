@@ -11,20 +11,21 @@ from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
 from jointplay.solver.kernels.loop.extremes.bends import look_between_bends
-from jointplay.solver.kernels.loop.extremes.beside_ends import find_cornered, look_beside_ends
 from jointplay.solver.kernels.loop.extremes.book import (
-    HIGHEST,
-    HIGHEST_TIME,
-    LOWEST,
-    LOWEST_TIME,
-    RANGE,
     close_bin,
+    load_extremes,
+    store_extremes,
     write_bin,
 )
 from jointplay.solver.kernels.loop.extremes.brackets import BRACKETS
-from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
+from jointplay.solver.kernels.loop.extremes.even_instants import (
+    look_evenly,
+    place_evenly,
+    seek_between,
+)
 from jointplay.solver.kernels.loop.extremes.look_about_passages import look_about_passages
 from jointplay.solver.kernels.loop.extremes.passages import passes
+from jointplay.solver.kernels.loop.extremes.polynomial_extreme import has_corner
 from jointplay.solver.kernels.loop.extremes.suspects import Part, find_suspects
 from jointplay.solver.kernels.loop.runs import RUNS
 from jointplay.solver.kernels.loop.step import Group, Step, channels_within, step_of
@@ -37,37 +38,16 @@ MOTION = 6
 @inner_kernel()
 def remember_start(s: Step) -> None:
     """Keep what pairs do where the step starts: the stage is there."""
-    lane, at, work = s.lane, s.at, s.work
-    for j in range(at.pairs):
-        work[at.gap_start + j, lane] = work[at.gap + j, lane]
-        work[at.gap_rate_start + j, lane] = work[at.gap_rate + j, lane]
-        work[at.slip_start + j, lane] = work[at.slip + j, lane]
-        work[at.slip_rate_start + j, lane] = work[at.slip_rate + j, lane]
-    for k in range(MOTION * at.pairs):
-        work[at.eccentricity_start + k, lane] = work[at.eccentricity + k, lane]
-
-
-@inner_kernel()
-def load_extremes(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
-    """Set a lane's extremes of chosen rows to those of a book, and their ranges."""
-    lane, at, work = s.lane, s.at, s.work
-    for r in chosen:
-        work[at.known_range + r, lane] = book[RANGE, r]
-        work[at.lowest + r, lane] = book[LOWEST, r]
-        work[at.lowest_time + r, lane] = book[LOWEST_TIME, r]
-        work[at.highest + r, lane] = book[HIGHEST, r]
-        work[at.highest_time + r, lane] = book[HIGHEST_TIME, r]
-
-
-@inner_kernel()
-def store_extremes(chosen: np.ndarray, book: np.ndarray, s: Step) -> None:
-    """Set a book's extremes to those that a lane has of chosen rows."""
-    lane, at, work = s.lane, s.at, s.work
-    for r in chosen:
-        book[LOWEST, r] = work[at.lowest + r, lane]
-        book[LOWEST_TIME, r] = work[at.lowest_time + r, lane]
-        book[HIGHEST, r] = work[at.highest + r, lane]
-        book[HIGHEST_TIME, r] = work[at.highest_time + r, lane]
+    at, work = s.at, s.work
+    for start, now, count in (
+        (at.gap_start, at.gap, 1),
+        (at.gap_rate_start, at.gap_rate, 1),
+        (at.slip_start, at.slip, 1),
+        (at.slip_rate_start, at.slip_rate, 1),
+        (at.eccentricity_start, at.eccentricity, MOTION),
+    ):
+        for k in range(count * at.pairs):
+            work[start + k, s.lane] = work[now + k, s.lane]
 
 
 @inner_kernel()
@@ -111,6 +91,28 @@ def part_of(low: float, high: float, sharp: float, s: Step) -> Part:
     tried = s.work[s.at.tried, s.lane]
     begun = float(s.run.periods) * s.run.period + s.work[s.at.time, s.lane]
     return Part(low, high, begun + low * tried, (high - low) * tried / (INSTANTS - 1), sharp)
+
+
+@inner_kernel()
+def find_cornered(chosen: np.ndarray, s: Step, book: np.ndarray, found: np.ndarray) -> int:
+    """Write those of chosen rows that no polynomial describes. Returns how many."""
+    count = 0
+    for r in chosen:
+        if has_corner(r, s, book):
+            found[count] = r
+            count += 1
+    return count
+
+
+@inner_kernel()
+def look_beside_ends(cornered: np.ndarray, low: float, high: float, s: Step) -> None:
+    """Seek extremes between the ends of a part of a step and the instants beside them.
+
+    Where a contact ends there, a force may dip and come back: it looks as if it went straight on.
+    """
+    spacing = (high - low) / (INSTANTS - 1)
+    for begin in (low, high - spacing):
+        look_evenly(cornered, begin, begin + spacing, s)
 
 
 @inner_kernel()

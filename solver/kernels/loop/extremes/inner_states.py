@@ -9,10 +9,10 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
+from jointplay.solver.kernels.loop.extremes.even_instants import look_evenly, place_evenly
 from jointplay.solver.kernels.loop.extremes.seeking import SHARP
 from jointplay.solver.kernels.loop.extremes.tops import CORNER, spread_and_bend
-from jointplay.solver.kernels.loop.step import Step, channels_within, states_within
+from jointplay.solver.kernels.loop.step import Step, states_within
 from jointplay.solver.kernels.trace.rows import NO_ROW
 
 
@@ -59,5 +59,4 @@ def look_at_inner_states(s: Step) -> None:
             rows[count] = int(s.work[s.at.inner_row + k, s.lane])
             count += 1
     if count > 0:
-        channels_within(s)
-        seek_between(rows[:count], 0.0, 1.0, s)
+        look_evenly(rows[:count], 0.0, 1.0, s)

@@ -3,16 +3,16 @@
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
+from jointplay.solver.kernels.loop.extremes.even_instants import look_evenly
 from jointplay.solver.kernels.loop.extremes.passages import (
     NARROWEST,
+    Passage,
     closest_approach,
-    distance_and_speed,
     is_through,
     orbiting_at_end,
     passes,
 )
-from jointplay.solver.kernels.loop.step import Step, channels_within
+from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.trace.rows import NO_ROW
 
 SLACK = 0.1
@@ -26,9 +26,9 @@ def look_about_passages(every: np.ndarray, low: float, high: float, s: Step) -> 
     """Seek extremes of rows about all passages between two shares of the step."""
     for j in range(s.at.pairs):
         if passes(j, s):
-            share, width = closest_approach(j, s)
-            if not is_through(j, share, s):
-                look_about(share, width, every, low, high, s)
+            passage = closest_approach(j, s)
+            if not is_through(passage, s):
+                look_about(passage, every, low, high, s)
 
 
 @inner_kernel()
@@ -41,42 +41,40 @@ def look_about_fast_passages(s: Step) -> None:
     for j in range(at.pairs):
         if not passes(j, s):
             continue
-        share, width = closest_approach(j, s)
-        if NARROWEST < share < 1.0 - NARROWEST and may_be_fastest(j, share, s):
+        passage = closest_approach(j, s)
+        if NARROWEST < passage.share < 1.0 - NARROWEST and may_be_fastest(j, passage, s):
             rows, count = np.empty(2, np.int64), 0
-            slip = NO_ROW if is_through(j, share, s) else work[at.slip_row + j, lane]
+            slip = NO_ROW if is_through(passage, s) else work[at.slip_row + j, lane]
             for row in (slip, work[at.penetration_row + j, lane]):
                 if row != NO_ROW:
                     rows[count] = int(row)
                     count += 1
-            look_about(share, width, rows[:count], 0.0, 1.0, s)
+            look_about(passage, rows[:count], 0.0, 1.0, s)
 
 
 @inner_kernel()
-def look_about(
-    share: float, width: float, rows: np.ndarray, low: float, high: float, s: Step
-) -> None:
-    """Seek extremes of rows about one passage of that width."""
-    left, right = max(share - WIDTHS * width, low), min(share + WIDTHS * width, high)
+def look_about(passage: Passage, rows: np.ndarray, low: float, high: float, s: Step) -> None:
+    """Seek extremes of rows about one passage."""
+    reach = WIDTHS * passage.width
+    left, right = max(passage.share - reach, low), min(passage.share + reach, high)
     if left < right - NARROWEST:
-        place_evenly(left, right, s)
-        channels_within(s)
-        seek_between(rows, left, right, s)
+        look_evenly(rows, left, right, s)
 
 
 @inner_kernel()
-def may_be_fastest(j: int, share: float, s: Step) -> bool:
+def may_be_fastest(j: int, passage: Passage, s: Step) -> bool:
     """Whether a pair's slip or penetration may have a new extreme where it passes the centre.
 
     There the slip is that of the spins, as at the end of the step, and all of the journal's speed.
     """
     lane, at, work = s.lane, s.at, s.work
-    distance, speed = distance_and_speed(j, share, s)
     slip, depth = int(work[at.slip_row + j, lane]), int(work[at.penetration_row + j, lane])
-    found = depth != NO_ROW and distance - work[at.inner + j, lane] < work[at.lowest + depth, lane]
+    found = False
+    if depth != NO_ROW:
+        found |= passage.distance - work[at.inner + j, lane] < work[at.lowest + depth, lane]
     if slip != NO_ROW:
         spinning = work[at.channel + slip, lane] - orbiting_at_end(j, s)
-        beyond = SLACK * speed
-        found |= spinning + speed + beyond > work[at.highest + slip, lane]
-        found |= spinning - speed - beyond < work[at.lowest + slip, lane]
+        beyond = SLACK * passage.speed
+        found |= spinning + passage.speed + beyond > work[at.highest + slip, lane]
+        found |= spinning - passage.speed - beyond < work[at.lowest + slip, lane]
     return bool(found)

@@ -5,10 +5,11 @@ however long the step is. The journal's position is that on the quintic which en
 (`solver.kernels.emit.enclosure`).
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.step import Step
 
 MOST_ITERATIONS = 60
@@ -31,42 +32,43 @@ def passes(j: int, s: Step) -> bool:
     )
 
 
+class Passage(NamedTuple):
+    """A journal where it is closest to the centre of its bearing."""
+
+    share: float
+    """Share of the step at which that is."""
+    width: float
+    """Share of the step in which the normal turns by an eighth of a turn: the distance over the way
+    that the journal makes in a step."""
+    distance: float
+    """Distance from the centre, m."""
+    speed: float
+    """Its speed, m/s."""
+
+
 @inner_kernel()
-def power(k: int, axis: int, j: int, s: Step) -> float:
-    """Return the coefficient of share^k of one component of pair j's eccentricity, m."""
+def path_of(j: int, s: Step) -> np.ndarray:
+    """Return the coefficients (AXES, 6) of pair j's eccentricity, m, by powers of the share."""
     lane, at, work = s.lane, s.at, s.work
-    step = work[at.tried, lane]
-    first, last = at.eccentricity_start + 6 * j + axis, at.eccentricity + 6 * j + axis
-    position, rate = work[first, lane], step * work[first + AXES, lane]
-    bend = 0.5 * step * step * work[first + 2 * AXES, lane]
-    if k == 0:
-        return float(position)
-    if k == 1:
-        return float(rate)
-    if k == 2:
-        return float(bend)
-    moved = work[last, lane] - position - rate - bend
-    turned = step * work[last + AXES, lane] - rate - 2.0 * bend
-    bent = 0.5 * step * step * work[last + 2 * AXES, lane] - bend
-    if k == 3:
-        return float(10.0 * moved - 4.0 * turned + bent)
-    if k == 4:
-        return float(-15.0 * moved + 7.0 * turned - 2.0 * bent)
-    return float(6.0 * moved - 3.0 * turned + bent)
+    step, path = work[at.tried, lane], np.empty((AXES, 6))
+    for axis in range(AXES):
+        first, last = at.eccentricity_start + 6 * j + axis, at.eccentricity + 6 * j + axis
+        position, rate = work[first, lane], step * work[first + AXES, lane]
+        bend = 0.5 * step * step * work[first + 2 * AXES, lane]
+        moved = work[last, lane] - position - rate - bend
+        turned = step * work[last + AXES, lane] - rate - 2.0 * bend
+        bent = 0.5 * step * step * work[last + 2 * AXES, lane] - bend
+        path[axis, 0], path[axis, 1], path[axis, 2] = position, rate, bend
+        path[axis, 3] = 10.0 * moved - 4.0 * turned + bent
+        path[axis, 4] = -15.0 * moved + 7.0 * turned - 2.0 * bent
+        path[axis, 5] = 6.0 * moved - 3.0 * turned + bent
+    return path
 
 
 @inner_kernel()
-def closest_approach(j: int, s: Step) -> tuple[float, float]:
-    """Return the share of the step at which a journal is closest to the centre, and the width.
-
-    The width is the distance there over the way that the journal makes in a step: the share of the
-    step in which the normal turns by an eighth of a turn. By Newton's rule inside a bracket.
-    """
-    x = np.empty((AXES, 6))
-    for axis in range(AXES):
-        for k in range(6):
-            x[axis, k] = power(k, axis, j, s)
-    low, high, share = 0.0, 1.0, 0.5
+def closest_approach(j: int, s: Step) -> Passage:
+    """Return where a journal is closest to the centre: by Newton's rule inside a bracket."""
+    path, low, high, share = path_of(j, s), 0.0, 1.0, 0.5
     distance = way = 0.0
     for _ in range(MOST_ITERATIONS):
         square = approach = slope = way = 0.0
@@ -75,7 +77,7 @@ def closest_approach(j: int, s: Step) -> tuple[float, float]:
             for k in range(5, -1, -1):
                 bend = bend * share + 2.0 * rate
                 rate = rate * share + position
-                position = position * share + x[axis, k]
+                position = position * share + path[axis, k]
             square += position * position
             approach += position * rate
             slope += rate * rate + position * bend
@@ -91,30 +93,17 @@ def closest_approach(j: int, s: Step) -> tuple[float, float]:
         if abs(better - share) <= 1e-16:
             break
         share = better
-    return share, max(distance / (way + 1e-300), NARROWEST)
+    width = max(distance / (way + 1e-300), NARROWEST)
+    return Passage(share, width, distance, way / s.work[s.at.tried, s.lane])
 
 
 @inner_kernel()
-def distance_and_speed(j: int, share: float, s: Step) -> tuple[float, float]:
-    """Return how far a journal is from the centre at a share of the step, m, and its speed, m/s."""
-    square = way = 0.0
-    for axis in range(AXES):
-        position = rate = 0.0
-        for k in range(5, -1, -1):
-            rate = rate * share + position
-            position = position * share + power(k, axis, j, s)
-        square += position * position
-        way += rate * rate
-    return np.sqrt(square), np.sqrt(way) / s.work[s.at.tried, s.lane]
-
-
-@inner_kernel()
-def is_through(j: int, share: float, s: Step) -> bool:
+def is_through(passage: Passage, s: Step) -> bool:
     """Whether a journal passes through the centre, as far as its place tells.
 
     Its normal jumps there to the other side. Where it points to in between is rounding.
     """
-    return bool(distance_and_speed(j, share, s)[0] <= ROUNDED * s.work[s.at.lever, s.lane])
+    return bool(passage.distance <= ROUNDED * s.work[s.at.lever, s.lane])
 
 
 @inner_kernel()
@@ -128,8 +117,8 @@ def orbiting_at_end(j: int, s: Step) -> float:
 
 
 @inner_kernel()
-def place_about(share: float, width: float, s: Step) -> None:
-    """Place eight instants of a step about a passage, inside the step."""
+def beside(i: int, passage: Passage) -> float:
+    """Return the share of a step at which the instant `i` of eight about a passage is."""
+    share, width = passage.share, passage.width
     before, after = min(width, 0.5 * share), min(width, 0.5 * (1.0 - share))
-    for i in range(INSTANTS):
-        s.spare[s.at.theta, i] = share + ABOUT[i] * (before if ABOUT[i] < 0.0 else after)
+    return float(share + ABOUT[i] * (before if ABOUT[i] < 0.0 else after))

@@ -9,7 +9,7 @@ from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.book import ROUNDING, count_value
 from jointplay.solver.kernels.loop.extremes.polynomial_extreme import count_if_polynomial
-from jointplay.solver.kernels.loop.extremes.rounding import place_closely, scatter
+from jointplay.solver.kernels.loop.extremes.rounding import place_closely, scatter, spread_of
 from jointplay.solver.kernels.loop.extremes.screening import JAGGED, ONE_BY_ONE, screen
 from jointplay.solver.kernels.loop.step import Step
 
@@ -56,10 +56,7 @@ def is_rounding(r: int, s: Step, close: np.ndarray, book: np.ndarray) -> bool:
     close : as `spare`, at instants `SHORT` apart. The book notes what was seen.
     """
     book[ROUNDING, r] = max(book[ROUNDING, r], scatter(close[s.at.channel + r]))
-    least, most = np.inf, -np.inf
-    for value in s.spare[s.at.channel + r]:
-        least, most = min(least, value), max(most, value)
-    return bool(most - least <= book[ROUNDING, r])
+    return bool(spread_of(s.spare[s.at.channel + r], INSTANTS) <= book[ROUNDING, r])
 
 
 @inner_kernel()
