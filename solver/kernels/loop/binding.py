@@ -14,7 +14,7 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.periods import PACE_STEPS, set_clock, set_clocks
+from jointplay.solver.kernels.loop.periods import PACE_STEPS
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, SectionKind
 from jointplay.solver.kernels.loop.start import mechanism_size, start_state
@@ -53,11 +53,11 @@ FIRST_STEP = 1e-6
 """First step, in such periods."""
 
 
-def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
-    """Set a lane's numbers, scales and start; `like` is a lane that has the scene's numbers."""
+def bind(lane: Lane, problem: LaneProblem, like: Floats | None = None) -> None:
+    """Set numbers, scales and starts, but no clocks; `like` : (slots,) that have the numbers."""
     kernel, scene = lane.kernel, problem.scene
     if like is not None:
-        lane.work[:, lane.index] = like.work[:, like.index]
+        lane.work[:, lane.index].T[:] = like
     else:
         lane["alike"].T[:] = kernel.rows.alike
         number(lane, kernel, scene)
@@ -191,7 +191,3 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     run["section_value"], run["section_sense"] = event.value, event.sense
     run["section_turn"] = event.turn
     run["section_from"], run["section_offset"] = event.not_before, problem.section_offset
-    if isinstance(lane.index, slice):
-        set_clocks(lane.slots, lane.work, run)
-    else:
-        set_clock(lane.index, run, lane.slots[0], lane.work)

@@ -14,17 +14,15 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
 from jointplay.solver.kernels.loop.advance import advance
-from jointplay.solver.kernels.loop.beginning import begin, resting_rates
-from jointplay.solver.kernels.loop.binding import FIRST_STEP, bind, number
+from jointplay.solver.kernels.loop.binding import FIRST_STEP, number
 from jointplay.solver.kernels.loop.dense_rows import observe_rows
 from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
 from jointplay.solver.kernels.loop.periods import look_ahead, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
-from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes
+from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes, make_ready
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, Buffers, Status
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed
-from jointplay.solver.scene.references import tangent_obstacle
 
 Floats = NDArray[np.float64]
 LaneState = tuple[Floats, Any, Floats]
@@ -120,13 +118,11 @@ class Bundle:
 
         `like` is a lane that has the problem's scene already, which saves looking at it again.
         """
-        lane = self.lane(i)
-        bind(lane, problem, None if like is None else self.lane(like))
-        self._repeat(i)
-        obstructed = bool(tangent_obstacle(problem.scene))
-        begin(lane, problem, resting_rates(problem.scene), obstructed)
-        self.set_going(i)
-        self.first_energy[:, i] = self.energy(i)
+        numbers = None if like is None else self.lane(like).work[:, self.lane(like).index]
+        ready = make_ready(
+            self.kernel, self.tangents, [problem], lambda _: problem.scene, like=numbers
+        )
+        self.load_ready(i, ready, 0)
 
     def load_ready(self, i: int, ready: ReadyLanes, k: int) -> None:
         """Give a lane that does not run the k-th of problems that were made ready; as `load`."""
@@ -137,20 +133,14 @@ class Bundle:
 
         column : (slots,). run : of type `Run`. first_energy : (3,) J.
         """
-        group, index = divmod(i, self.width)
-        self.groups[group].work[:, index] = column
-        self._repeat(i)
+        group, index = self.groups[i // self.width], i % self.width
+        group.work[:, index] = column
         self.runs[i] = run
         self.first_energy[:, i] = first_energy
-
-    def _repeat(self, i: int) -> None:
-        """Give lanes that never had a problem the numbers of this one: harmless, unlike zeros."""
-        group, index = self.groups[i // self.width], i % self.width
-        fresh = group.runs["status"] == Status.IDLE
-        fresh[index] = False
-        if fresh.any():
-            group.work[:, fresh] = group.work[:, [index]]
-            group.work[self.kernel.layout["active"], fresh] = 0.0
+        idle = group.runs["status"] == Status.IDLE
+        if idle.any():  # their numbers are harmless, unlike zeros
+            group.work[:, idle] = group.work[:, [index]]
+            group.work[self.kernel.layout["active"], idle] = 0.0
 
     def number_like(self, other: Bundle, i: int, scene: Scene) -> None:
         """Give the first lane the numbers of a scene that a lane of another bundle has already."""

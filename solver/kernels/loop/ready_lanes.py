@@ -47,7 +47,11 @@ class ReadyLanes:
 
 
 def make_ready(
-    kernel: Kernel, tangents: Tangents | None, problems: Sequence[LaneProblem], scene_of: SceneOf
+    kernel: Kernel,
+    tangents: Tangents | None,
+    problems: Sequence[LaneProblem],
+    scene_of: SceneOf,
+    like: Floats | None = None,
 ) -> ReadyLanes:
     """Return lanes of problems that all have one scene, with the numbers of all (`Varied`).
 
@@ -58,26 +62,28 @@ def make_ready(
     kernel, tangents
         Of the lanes' structure.
     problems
-        Alike but for scenes' numbers, `DIFFERING`, starts' states and when events count; starts
-        are without contacts.
+        One; or some that are alike but for scenes' numbers, `DIFFERING`, starts' states and when
+        events count, and whose starts are without contacts.
     scene_of
         Returns the scene of a lane, for what cannot take all numbers at once.
+    like : (slots,)
+        Of a lane that has the scene's numbers already, which saves looking at it again.
     """
     size = (kernel.layout if tangents is None else tangents.layout).size
     work, runs = np.zeros((size, len(problems))), np.zeros(len(problems), DTYPE)
-    problem = _joined(kernel, problems, scene_of)
+    problem = problems[0] if len(problems) == 1 else _joined(kernel, problems, scene_of)
+    every = Lane(kernel, tangents, work, slice(None), runs)
     try:
         with np.errstate(divide="raise", invalid="raise"):
-            bind(Lane(kernel, tangents, work, slice(None), runs), problem)
+            bind(every, problem, like)
             resting = resting_rates(problem.scene)
     except REFUSALS:
         resting = np.zeros((len(kernel.pairs), len(problems)))
-        slots = kernel.slots if tangents is None else tangents.slots
         for i, problem in enumerate(problems):
             problem = replace(problem, scene=scene_of(i))
-            bind(Lane(kernel, tangents, work, i, runs[i]), problem)
+            bind(Lane(kernel, tangents, work, i, runs[i]), problem, like)
             resting[:, i] = resting_rates(problem.scene)
-        set_clocks(slots, work, runs)
+    set_clocks(every.slots, work, runs)
     obstructed = _obstructed(problems, scene_of)
     resting = np.broadcast_to(resting.T, (len(problems), len(kernel.pairs))).T
     energies = np.empty((len(ENERGIES), len(problems)))
@@ -87,7 +93,7 @@ def make_ready(
         own = np.minimum(np.arange(first, first + kernel.lanes), len(problems) - 1)
         group[:] = work[:, own]
         lanes = Lane(kernel, tangents, group, slice(None), runs[own])
-        begin(lanes, problems[0], resting[:, own], obstructed[own])
+        begin(lanes, problems[0].start, resting[:, own], obstructed[own])
         work[:, own] = group
         kernel.module.observe_rest(group)
         energies[:, own] = lanes["channel"][columns]
