@@ -23,8 +23,7 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.loop.bundle import Bundle, Group, LaneState
-from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes
+from jointplay.solver.kernels.loop.ready_lanes import ENERGIES
 from jointplay.solver.kernels.loop.runs import (
     DTYPE,
     GROWTH,
@@ -98,38 +97,15 @@ class DeviceBundle(Bundle):
         self._changed = np.ones(count, np.bool_)
         self._stale = np.zeros(count, np.bool_)
         self._launched = np.zeros(count, np.bool_)
-        self._rows: NDArray[Any] = np.zeros(0)
-        self._impacts: NDArray[Any] = np.zeros(0)
-        self._growths: NDArray[Any] = np.zeros(0)
 
-    def load(self, i: int, problem: LaneProblem, like: int | None = None) -> None:
-        """Give a lane that does not run a problem to compute; the other lanes do not notice.
+    def take_up(self, i: int, column: Floats, run: Any, first_energy: Floats) -> None:
+        """Give a lane that does not run the state of another, as `Bundle.take_up` does.
 
         Raises
         ------
         InvalidInput
             Its sections are where a channel crosses a value, which no device looks for.
         """
-        if problem.event is not None and problem.event.kind == SectionKind.CROSSING:
-            raise InvalidInput.at("section", NO_CROSSINGS)
-        self._beside.load(0, problem)
-        self.groups[0].work[:, i] = self._beside.lane(0).work[:, 0]
-        self.runs[i] = self._beside.runs[0]
-        self.first_energy[:, i] = self._beside.first_energy[:, 0]
-        self._touched(i)
-
-    def load_ready(self, i: int, ready: ReadyLanes, k: int) -> None:
-        """Give a lane that does not run the k-th of problems that were made ready; as `load`.
-
-        Raises
-        ------
-        InvalidInput
-            As `load` does.
-        """
-        self.take_up(i, ready.work[k], ready.runs[k], ready.first_energy[k])
-
-    def take_up(self, i: int, column: Floats, run: Any, first_energy: Floats) -> None:
-        """Give a lane that does not run the state of another, (slots,); see `Bundle.take_up`."""
         if run["section_kind"] == SectionKind.CROSSING:
             raise InvalidInput.at("section", NO_CROSSINGS)
         self.groups[0].work[:, i] = column
@@ -192,9 +168,11 @@ class DeviceBundle(Bundle):
         for name in HANDED:
             self.runs[name] = 0
         self.runs[launched] = lanes.runs.read()[launched]
-        self._rows = lanes.rows(int(self.runs["filled"].max(initial=0)))
-        self._impacts = lanes.impacts(int(self.runs["impacts"].max(initial=0)))
-        self._growths = lanes.growths(int(self.runs["growths"].max(initial=0)))
+        group.buffers = group.buffers._replace(
+            rows=lanes.rows(int(self.runs["filled"].max(initial=0))).swapaxes(0, 1),
+            impacts=lanes.impacts(int(self.runs["impacts"].max(initial=0))),
+            growths=lanes.growths(int(self.runs["growths"].max(initial=0))),
+        )
         running = self.runs["status"] == Status.RUNNING
         self._fetch(launched & ~running)
         for name in ("time", "steps"):
@@ -207,21 +185,6 @@ class DeviceBundle(Bundle):
         lanes = np.flatnonzero(wanted & self._stale)
         self.groups[0].work[:, lanes], _ = self._lanes.fetch(lanes)
         self._stale[lanes] = False
-
-    def rows(self, kind: int, i: int) -> Floats:
-        """Return what a lane handed out in the last call: dense rows (count, width)."""
-        found: Floats = self._rows[i, kind, : self.runs["filled"][i, kind]]
-        return found
-
-    def impacts(self, i: int) -> NDArray[np.void]:
-        """Return the contacts of a lane that ended in the last call, of dtype `IMPACT`."""
-        found: NDArray[np.void] = self._impacts[i, : self.runs["impacts"][i]].copy()
-        return found
-
-    def growth(self, i: int) -> Floats:
-        """Return how a lane's tangent grew in the last call: (k, 2) ends of time, s, logarithms."""
-        growths = self._growths[i, : self.runs["growths"][i]]
-        return growths.copy().view(np.float64).reshape(-1, 2)
 
     def observe(self, i: int, rows: Floats, columns: NDArray[np.int64]) -> Floats:
         """Return channels (rows, columns) of a lane at rows of dense state, by this processor."""
