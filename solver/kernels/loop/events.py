@@ -77,19 +77,13 @@ def level(height: float, run: Run) -> float:
 
 
 @inner_kernel()
-def above(height: float, run: Run) -> float:
-    """Return how far the next level above a height is; infinite if there is none."""
-    if run.section_turn > 0.0:
-        return run.section_turn * (math.floor(height / run.section_turn) + 1.0) - height
-    return -height if height < 0.0 else math.inf
-
-
-@inner_kernel()
-def below(height: float, run: Run) -> float:
-    """Return how far the next level at or below a height is; infinite if there is none."""
-    if run.section_turn > 0.0:
-        return height - run.section_turn * math.floor(height / run.section_turn)
-    return height if height >= 0.0 else math.inf
+def beside_levels(height: float, run: Run) -> tuple[float, float]:
+    """Return how far the levels at or below and above a height are; infinite where none is."""
+    turn = run.section_turn
+    if turn > 0.0:
+        whole = math.floor(height / turn)
+        return height - turn * whole, turn * (whole + 1.0) - height
+    return (height, math.inf) if height >= 0.0 else (math.inf, -height)
 
 
 @inner_kernel()
@@ -109,9 +103,7 @@ def may_cross(s: Step) -> bool:
     if level(before, run) != level(now, run):
         return True
     reach = REACH * (abs(now - before) + abs(work[at.change + index, lane]))
-    nearest = min(
-        min(above(before, run), below(before, run)), min(above(now, run), below(now, run))
-    )
+    nearest = min(min(beside_levels(before, run)), min(beside_levels(now, run)))
     return not nearest > reach  # before the first step there is no change: it is NaN
 
 
@@ -131,10 +123,9 @@ def record_crossings(s: Step, rows: np.ndarray) -> bool:
     full = False
     taken = 0
     for i in range(1, count):
-        if level(heights[i], run) > level(heights[i - 1], run) and taken < MOST_IN_A_STEP:
-            wanted = level(heights[i], run)
-            low, high = shares[i - 1], shares[i]
-            found = locate(wanted, low, high, s)
+        wanted = level(heights[i], run)
+        if wanted > level(heights[i - 1], run) and taken < MOST_IN_A_STEP:
+            found = locate(wanted, shares[i - 1], shares[i], s)
             full |= record_event(found, s, s.spare, rows)
             taken += 1
     return full
@@ -198,9 +189,9 @@ def refined(shares: np.ndarray, heights: np.ndarray, count: int, run: Run) -> in
     for i in range(count):
         left, right = max(i - 1, 0), min(i + 1, count - 1)
         rise, fall = heights[i] - heights[left], heights[i] - heights[right]
-        near = abs(rise) + abs(fall)
-        top = rise >= 0.0 and fall >= 0.0 and above(heights[i], run) < near
-        bottom = rise <= 0.0 and fall <= 0.0 and below(heights[i], run) < near
+        near, (below, above) = abs(rise) + abs(fall), beside_levels(heights[i], run)
+        top = rise >= 0.0 and fall >= 0.0 and above < near
+        bottom = rise <= 0.0 and fall <= 0.0 and below < near
         same = level(heights[left], run) == level(heights[i], run) == level(heights[right], run)
         if (top or bottom) and same and total + 6 <= MOST_INSTANTS:
             for k in range(1, 4):
