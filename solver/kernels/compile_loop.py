@@ -19,18 +19,13 @@ from jointplay.solver.kernels.loop.advance import advance
 from jointplay.solver.kernels.loop.dense_rows import observe_rows
 from jointplay.solver.kernels.loop.extremes.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.periods import set_clocks
-from jointplay.solver.kernels.loop.replay import (
-    find_steps,
-    states_in_steps,
-    step_ends,
-    works_in_steps,
-)
+from jointplay.solver.kernels.loop.replay import find_steps, make_again, states_in_steps
 from jointplay.solver.kernels.target import own_target
 
 RUNS, WINDOWS = "runs", "windows"
 PARTS: Mapping[str, Sequence[Deferred]] = {
     RUNS: (advance, observe_rows, set_clocks),
-    WINDOWS: (extremes_in_steps, states_in_steps, works_in_steps, step_ends, find_steps),
+    WINDOWS: (extremes_in_steps, states_in_steps, make_again, find_steps),
 }
 """Kernels that Python calls: what every run needs, and what makes stored steps again."""
 

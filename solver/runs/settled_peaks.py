@@ -38,7 +38,7 @@ class SettledPeaks:
         self._replay, self._names = replay, names
         self._edges = np.array([settle, end])
         self._sources, self._wanted = self._replay.sought(names)
-        self._rows, self._brackets = self._replay.rows(self._wanted), self._replay.brackets()
+        self._rows = self._replay.rows(self._wanted)
         self._book = self._replay.book(self._wanted, np.zeros(len(self._wanted)))
         self._record = np.full((1, len(self._wanted), 4), np.nan)
 
@@ -57,8 +57,7 @@ class SettledPeaks:
         first, last = int(parts[0, 0]), int(parts[-1, 0]) + 1
         parts[:, 0] -= first
         extremes_in_steps(
-            *self._replay.arguments,
-            self._brackets,
+            self._replay.workspace,
             np.ascontiguousarray(steps[first:last]),
             parts,
             shares,

@@ -88,7 +88,7 @@ class DeviceBundle(Bundle):
             sources = [*sources, *tangents.module.tapes.sources]
             slots, rows = tangents.slots, tangents.layout.size
         work = np.zeros((rows, count))
-        none = Buffers.of(0, 0, kernel.row.width, 0, tangents=False, steps=(0, 0, 0))
+        none = Buffers.of(0, 0, kernel.row.width, tangents=False, steps=(0, 0, 0))
         self.groups = [Group(work, self.runs, none)]
         sizes = Sizes(0, rows, *handed[:2], 0 if tangents is None else handed[2])
         loaded = Code(device, write(sources, slots, sizes), ENTRY)

@@ -109,10 +109,9 @@ def advance_one_lane(
         unowned(carray(lanes.impacts, (sizes.lanes, 1, sizes.impacts))[lane]),
         unowned(carray(lanes.growths, (sizes.lanes, 1, sizes.growths))[lane]),
         unowned(carray(lanes.rows, (0, 1, 1))),
-        unowned(carray(lanes.rows, (0,))),
     )
     spare = unowned(carray(room.spare, (sizes.slots, INSTANTS)))
-    group = Group(own, at, work, spare, buffers.brackets, call)
+    group = Group(own, at, work, spare, carray(lanes.rows, (0,)), call)  # seeks no extremes
     full, made = False, 0
     while made < budget and work[at.active, 0] > 0.0 and not full:
         made += 1

@@ -9,8 +9,7 @@ shorten a step.
 import numpy as np
 from numba import int64
 
-from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.slots import AT
+from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import deferred
 from jointplay.solver.kernels.loop.events import any_crossing
 from jointplay.solver.kernels.loop.lanes import (
@@ -24,39 +23,19 @@ from jointplay.solver.kernels.loop.lanes import (
     settle_lanes,
     still_landing,
 )
-from jointplay.solver.kernels.loop.runs import BUFFERS, RUNS, Buffers
-from jointplay.solver.kernels.loop.step import Group
+from jointplay.solver.kernels.loop.runs import BUFFERS, Buffers
+from jointplay.solver.kernels.loop.step import WORKSPACE, Workspace, group_of
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
 
-@deferred(int64(ADDRESSES, AT, WORK, WORK, RUNS, BUFFERS, int64, int64))
-def advance(
-    addresses: np.ndarray,
-    slots: np.ndarray,
-    work: np.ndarray,
-    spare: np.ndarray,
-    runs: np.ndarray,
-    buffers: Buffers,
-    watch: int,
-    budget: int,
-) -> int:
+@deferred(int64(WORKSPACE, BUFFERS, int64, int64))
+def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
     """Make at most `budget` attempts at a step; fewer if a lane ends or a buffer is full.
 
     Parameters
     ----------
-    addresses
-        Of the kernel's functions, by name; those of tangents are not called where `buffers` has
-        no room for growths.
-    slots
-        Where quantities are in `work` and `spare`: one `Slots`, in kernels called `at`.
-    work : (slots, lanes)
-        All quantities of all lanes.
-    spare : (slots, INSTANTS)
-        Room for instants inside a step of one lane.
-    runs : (lanes,)
-        Each lane's run.
     buffers
-        Rows that are handed out.
+        Rows that are handed out; where they have no room for growths, there are no tangents.
     watch
         Whether the extremes of channels are sought.
 
@@ -65,9 +44,8 @@ def advance(
     int
         How many attempts were made.
     """
-    call, at = functions_at(addresses[0]), slots[0]
-    work, spare, runs = unowned(work), unowned(spare), unowned(runs)
-    group = Group(runs, at, work, spare, unowned(buffers.brackets), addresses[0])
+    group = group_of(given)
+    at, work, runs, call = group.at, group.work, group.runs, functions_at(group.call)
     marked = unowned(work.reshape(work.size).view(np.uint64))
     rows, steps = unowned(buffers.rows), unowned(buffers.steps)
     running, landing, crossing = count_active(at, work), still_landing(runs), any_crossing(runs)

@@ -16,11 +16,13 @@ from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
 from jointplay.solver.kernels.loop.advance import advance
 from jointplay.solver.kernels.loop.binding import FIRST_STEP, number
 from jointplay.solver.kernels.loop.dense_rows import observe_rows
+from jointplay.solver.kernels.loop.extremes.brackets import room_for
 from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
 from jointplay.solver.kernels.loop.periods import look_ahead, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes, make_ready
-from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, Buffers, Status
+from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SECTIONS, Buffers, Status
+from jointplay.solver.kernels.loop.step import Workspace
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed
 
@@ -78,6 +80,7 @@ class Bundle:
         size = (kernel.layout if tangents is None else tangents.layout).size
         self.width = width = kernel.lanes
         self.spare = aligned_zeros(kernel.layout.size, INSTANTS)
+        self.brackets = room_for(kernel.rows.scanned)
         self.runs = np.zeros(BUNDLE, DTYPE)
         self.runs["status"] = Status.IDLE
         self.runs["landing"] = NO_PAIR
@@ -90,7 +93,6 @@ class Bundle:
                     width,
                     ROWS_AT_ONCE,
                     kernel.row.width,
-                    kernel.rows.scanned,
                     tangents=tangents is not None,
                     steps=(
                         min(max(keep_steps - first, 0), width),
@@ -182,9 +184,7 @@ class Bundle:
         lane = self.lane(i)
         lane.run["status"] = Status.RUNNING
         lane["active"] = 1.0
-        arguments = (lane.index, lane.run, lane.slots[0], lane.work)
-        for kind in (SAMPLES, SECTIONS):
-            look_ahead(kind, *arguments)
+        look_ahead(lane.index, lane.run, lane.slots[0], lane.work)
         lane["next_due"] = -math.inf  # the first step is looked at, whatever is due in it
 
     def stop(self, i: int) -> None:
@@ -216,26 +216,23 @@ class Bundle:
 
         Comes back early when a lane ends or has as many rows as it can hold.
         """
-        tangents = self.tangents
-        addresses = self.kernel.addresses if tangents is None else tangents.addresses
-        slots = self.kernel.slots if tangents is None else tangents.slots
         for name in ("filled", "impacts", "growths", "kept"):
             self.runs[name] = 0
         goal = self.attempts + budget
         for group in self.groups:
             if group.runs_on:
                 group.work[self.kernel.layout["seeks_extremes"]] = float(self.watch)
+                left = goal - group.attempts
                 group.attempts += advance(
-                    addresses,
-                    slots,
-                    group.work,
-                    self.spare,
-                    group.runs,
-                    group.buffers,
-                    int(self.watch),
-                    goal - group.attempts,
+                    self.workspace(group), group.buffers, int(self.watch), left
                 )
         return int(np.count_nonzero(self.runs["status"] == Status.RUNNING))
+
+    def workspace(self, group: Group) -> Workspace:
+        """Return a group of lanes as kernels take it."""
+        of = self.kernel if self.tangents is None else self.tangents
+        arrays = group.work, self.spare, group.runs, self.brackets
+        return Workspace(of.addresses, of.slots, *arrays)
 
     def rows(self, kind: int, i: int) -> Floats:
         """Return what a lane handed out in the last call: dense rows (count, width).

@@ -49,9 +49,10 @@ def due_time(kind: int, index: int, lane: int, run: Run, at: Slots, work: np.nda
 
 
 @kernel()
-def look_ahead(kind: int, lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
-    """Note when the next sample or section is due."""
-    run.due[kind] = due_time(kind, run.next[kind], lane, run, at, work)
+def look_ahead(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
+    """Note when the next sample and the next section are due."""
+    for kind in range(2):
+        run.due[kind] = due_time(kind, run.next[kind], lane, run, at, work)
 
 
 @kernel()
@@ -68,8 +69,7 @@ def turn_over(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     work[at.time, lane] -= run.period
     work[at.before_time, lane] -= run.period
     set_clock(lane, run, at, work)
-    for kind in range(2):
-        look_ahead(kind, lane, run, at, work)
+    look_ahead(lane, run, at, work)
 
 
 @kernel()
@@ -93,8 +93,7 @@ def set_clocks(slots: np.ndarray, work: np.ndarray, runs: np.ndarray) -> None:
     """Set the clocks of all lanes as they are in their present periods; note what is due next."""
     for lane in range(len(runs)):
         set_clock(lane, runs[lane], slots[0], work)
-        for kind in range(2):
-            look_ahead(kind, lane, runs[lane], slots[0], work)
+        look_ahead(lane, runs[lane], slots[0], work)
 
 
 @kernel()

@@ -3,15 +3,15 @@
 import numpy as np
 from numba import float64, int64, void
 
-from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.slots import AT, LENGTH, PERIOD, TIME
+from jointplay.solver.kernels.emit.functions import functions_at
+from jointplay.solver.kernels.emit.slots import LENGTH, PERIOD, TIME
 from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_step, read_steps
 from jointplay.solver.kernels.loop.dense_rows import write_row
 from jointplay.solver.kernels.loop.periods import product_difference
 from jointplay.solver.kernels.loop.runs import RUNS, Run
-from jointplay.solver.kernels.loop.unowned_view import unowned
+from jointplay.solver.kernels.loop.step import WORKSPACE, Workspace, group_of
 
 TABLE = float64[:, ::1]
 
@@ -45,33 +45,24 @@ def find_steps(runs: np.ndarray, steps: np.ndarray, moments: np.ndarray, found: 
         found[i] = k
 
 
-@deferred(void(ADDRESSES, AT, WORK, WORK, RUNS, TABLE, TABLE, int64[::1], TABLE))
+@deferred(void(WORKSPACE, TABLE, TABLE, int64[::1], TABLE))
 def states_in_steps(
-    addresses: np.ndarray,
-    slots: np.ndarray,
-    work: np.ndarray,
-    spare: np.ndarray,
-    runs: np.ndarray,
-    steps: np.ndarray,
-    moments: np.ndarray,
-    found: np.ndarray,
-    rows: np.ndarray,
+    given: Workspace, steps: np.ndarray, moments: np.ndarray, found: np.ndarray, rows: np.ndarray
 ) -> None:
     """Write dense states at instants inside steps, bit for bit those that the run hands out.
 
     Parameters
     ----------
-    work : (slots, lanes)
-        Lanes that have the scene's numbers; the rest of them is overwritten.
-    runs : (lanes,)
-        Each with the run's period.
+    given
+        Lanes that have the scene's numbers, and runs with its period; the rest is overwritten.
     steps, moments, found
         As `find_steps` takes them; steps without an instant are not made again.
     rows : (m, width)
         Where dense rows are written.
     """
-    call, at = functions_at(addresses[0]), slots[0]
-    work, spare, runs = unowned(work), unowned(spare), unowned(runs)
+    group = group_of(given)
+    at, work, spare, runs = group.at, group.work, group.spare, group.runs
+    call = functions_at(group.call)
     lanes, done = work.shape[1], 0
     begins = np.empty(lanes + 1, np.int64)
     while done < len(found):
@@ -100,23 +91,17 @@ def states_in_steps(
         done = i
 
 
-@deferred(void(ADDRESSES, AT, WORK, RUNS, TABLE, TABLE))
-def works_in_steps(
-    addresses: np.ndarray,
-    slots: np.ndarray,
-    work: np.ndarray,
-    runs: np.ndarray,
-    steps: np.ndarray,
-    works: np.ndarray,
-) -> None:
-    """Write what steps (n, width) add to the terms of the energy ledger, (n, terms), J.
+@deferred(void(WORKSPACE, TABLE, TABLE, TABLE))
+def make_again(given: Workspace, steps: np.ndarray, ends: np.ndarray, works: np.ndarray) -> None:
+    """Make steps (n, width) again, in lanes as `states_in_steps` takes them.
 
-    Else as `states_in_steps`.
+    Writes the states (n, states) that they end with, and what they add to the terms of the energy
+    ledger, (n, terms), J.
     """
-    call, at = functions_at(addresses[0]), slots[0]
-    work, runs = unowned(work), unowned(runs)
+    group = group_of(given)
+    at, work, call = group.at, group.work, functions_at(group.call)
     for first in range(0, len(steps), work.shape[1]):
-        count = read_steps(steps, first, runs, at, work)
+        count = read_steps(steps, first, group.runs, at, work)
         call.right_hand_side(work)
         call.weigh(work)
         for lane in range(work.shape[1]):
@@ -125,29 +110,12 @@ def works_in_steps(
                 work[at.kledger1_ + k, lane] = work[at.power + k, lane]
                 work[at.total + k, lane] = 0.0
         call.attempt(work)
+        for lane in range(count):
+            for k in range(at.states):
+                ends[first + lane, k] = work[at.stage + k, lane]
         for lane in range(work.shape[1]):
             work[at.accept, lane] = 1.0
         call.take(work)
         for lane in range(count):
             for k in range(works.shape[1]):
                 works[first + lane, k] = work[at.total + k, lane]
-
-
-@deferred(void(ADDRESSES, AT, WORK, RUNS, TABLE, TABLE))
-def step_ends(
-    addresses: np.ndarray,
-    slots: np.ndarray,
-    work: np.ndarray,
-    runs: np.ndarray,
-    steps: np.ndarray,
-    ends: np.ndarray,
-) -> None:
-    """Write the states (n, states) that steps (n, width) end with; else as `states_in_steps`."""
-    call, at = functions_at(addresses[0]), slots[0]
-    work, runs = unowned(work), unowned(runs)
-    for first in range(0, len(steps), work.shape[1]):
-        count = read_steps(steps, first, runs, at, work)
-        call.attempt(work)
-        for lane in range(count):
-            for k in range(at.states):
-                ends[first + lane, k] = work[at.stage + k, lane]

@@ -12,7 +12,6 @@ from numba import float64, from_dtype, types
 from numpy.typing import NDArray
 
 from jointplay.records.impact import IMPACT
-from jointplay.solver.kernels.loop.extremes.brackets import BRACKETS, room_for
 
 
 class Status(IntEnum):
@@ -121,7 +120,7 @@ GROWTH = np.dtype([("end", np.float64), ("logarithm", np.float64)])
 
 
 class Buffers(NamedTuple):
-    """Output of the loop for Python to read, by lane, and room for it to compute in."""
+    """Output of the loop for Python to read, by lane."""
 
     rows: NDArray[np.float64]
     """Dense rows of samples and of sections, (2, lanes, capacity, width)."""
@@ -131,8 +130,6 @@ class Buffers(NamedTuple):
     """(lanes, capacity) of `GROWTH`; without capacity there are no tangents."""
     steps: NDArray[np.float64]
     """Accepted steps of the lanes that keep them, the first ones, (lanes, capacity, width)."""
-    brackets: NDArray[np.void]
-    """See `solver.kernels.loop.extremes.brackets`."""
 
     @classmethod
     def of(
@@ -140,7 +137,6 @@ class Buffers(NamedTuple):
         lanes: int,
         capacity: int,
         width: int,
-        channels: int,
         *,
         tangents: bool,
         steps: tuple[int, int, int],
@@ -151,7 +147,6 @@ class Buffers(NamedTuple):
             np.zeros((lanes, capacity), IMPACT),
             np.zeros((lanes, capacity if tangents else 0), GROWTH),
             np.zeros(steps),
-            room_for(channels),
         )
 
 
@@ -161,7 +156,6 @@ BUFFERS = types.NamedTuple(
         from_dtype(IMPACT)[:, ::1],
         from_dtype(GROWTH)[:, ::1],
         float64[:, :, ::1],
-        BRACKETS,
     ],
     Buffers,
 )

@@ -1,13 +1,18 @@
 """A step of one lane, as the loop looks at it: what its functions take as `s`, one for all."""
 
+# mypy: disable-error-code="no-untyped-call"
+
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba import types
 
-from jointplay.solver.kernels.emit.functions import functions_at
-from jointplay.solver.kernels.emit.slots import Slots
+from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
+from jointplay.solver.kernels.emit.slots import AT, Slots
 from jointplay.solver.kernels.jit import inner_kernel, written_out
-from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.loop.extremes.brackets import BRACKETS
+from jointplay.solver.kernels.loop.runs import RUNS, Run
+from jointplay.solver.kernels.loop.unowned_view import unowned
 
 Addresses = Any
 """Structure of the kernel's functions; see `solver.kernels.emit.functions`."""
@@ -39,6 +44,31 @@ class Group(NamedTuple):
     spare: np.ndarray
     brackets: np.ndarray
     call: Addresses
+
+
+class Workspace(NamedTuple):
+    """Lanes as Python gives them to kernels, and room for these to compute in."""
+
+    addresses: np.ndarray
+    """Addresses of the kernel's functions, by name, (1,); those of tangents may be 0."""
+    slots: np.ndarray
+    """Where quantities are in `work` and `spare`, (1,) of `Slots`, in kernels called `at`."""
+    work: np.ndarray
+    spare: np.ndarray
+    runs: np.ndarray
+    brackets: np.ndarray
+    """These as in a `Group`."""
+
+
+WORKSPACE = types.NamedTuple([ADDRESSES, AT, WORK, WORK, RUNS, BRACKETS], Workspace)
+"""Its type in kernels."""
+
+
+@written_out()
+def group_of(given: Workspace) -> Group:
+    """Return the lanes of a workspace; the caller keeps its arrays alive."""
+    work, spare, brackets = unowned(given.work), unowned(given.spare), unowned(given.brackets)
+    return Group(unowned(given.runs), given.slots[0], work, spare, brackets, given.addresses[0])
 
 
 @written_out()

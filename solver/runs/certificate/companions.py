@@ -177,7 +177,7 @@ class Companions:
         lane.run["next"][SAMPLES] = -(-following * stride // coarser)
         lane.run["stop"][SAMPLES] = self.instants.last // coarser + 1
         arguments = (lane.index, lane.run, lane.slots[0], lane.work)
-        look_ahead(SAMPLES, *arguments)
+        look_ahead(*arguments)
         plan(*arguments)
 
     def checkpoint(self) -> dict[str, NDArray[Any]]:

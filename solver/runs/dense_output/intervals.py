@@ -36,7 +36,7 @@ class IntervalExtremes:
         self._sources, self._wanted = self._replay.sought(names)
         self._columns = [self._wanted.index(name) for name, _, _ in self._sources]
         self._factors, self._offsets = np.array([source[1:] for source in self._sources]).T
-        self._rows, self._brackets = self._replay.rows(self._wanted), self._replay.brackets()
+        self._rows = self._replay.rows(self._wanted)
         self._present = NONE
         """Sample at the end of the interval that is not complete yet."""
         self._book = self._replay.book(self._wanted, np.zeros(len(self._wanted)))
@@ -59,8 +59,7 @@ class IntervalExtremes:
         parts, shares = cut(begins, lengths, edges)
         parts[:, 1] += goes_on
         extremes_in_steps(
-            *self._replay.arguments,
-            self._brackets,
+            self._replay.workspace,
             np.ascontiguousarray(steps),
             parts,
             shares,

@@ -1,7 +1,6 @@
 """Stored steps of a run, made again: any channel at any time, bit for bit as it was sampled."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,16 +10,11 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.slots import LENGTH
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.extremes.book import blank_book
-from jointplay.solver.kernels.loop.extremes.brackets import room_for
 from jointplay.solver.kernels.loop.extremes.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.extremes.seeking import SHARP
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.replay import (
-    find_steps,
-    states_in_steps,
-    step_ends,
-    works_in_steps,
-)
+from jointplay.solver.kernels.loop.replay import find_steps, make_again, states_in_steps
+from jointplay.solver.kernels.loop.step import Workspace
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
 from jointplay.solver.runs.run_kernel import run_kernel
@@ -54,16 +48,9 @@ class ProblemReplay:
         self.period = float(self.runs["period"][LANE])
 
     @property
-    def arguments(self) -> tuple[Any, ...]:
-        """Arguments of the kernels that make steps again: functions, places, room and runs."""
-        bundle = self._bundle
-        return (
-            self.kernel.addresses,
-            self.kernel.slots,
-            bundle.groups[0].work,
-            bundle.spare,
-            self.runs,
-        )
+    def workspace(self) -> Workspace:
+        """Lanes for the kernels that make steps again."""
+        return self._bundle.workspace(self._bundle.groups[0])
 
     @property
     def width(self) -> int:
@@ -97,27 +84,13 @@ class ProblemReplay:
                 raise ValueError("the steps end before the last instant")
             found = np.minimum(found, len(steps) - 1)
         rows = np.empty((len(moments), self.kernel.row.width))
-        states_in_steps(
-            *self.arguments,
-            steps,
-            moments,
-            found,
-            rows,
-        )
+        states_in_steps(self.workspace, steps, moments, found, rows)
         return self._bundle.observe(LANE, rows, self.rows(names))
 
     def works(self, steps: Floats) -> Floats:
         """Return works (n, 4) of steps (n, width), J, in the order of `records.works.WORKS`."""
         kernel = self.kernel
-        found = np.empty((len(steps), kernel.losses + len(kernel.drivers)))
-        works_in_steps(
-            kernel.addresses,
-            kernel.slots,
-            self._bundle.groups[0].work,
-            self.runs,
-            np.ascontiguousarray(steps),
-            found,
-        )
+        _, found = self._made(steps)
         contact, friction, *elements = found.T[: kernel.losses]
         nothing = np.zeros(len(steps))
         drivers = found.T[kernel.losses :]
@@ -134,18 +107,18 @@ class ProblemReplay:
         chosen = np.unique(np.linspace(0, len(steps) - 2, LOOKED_AT).astype(np.int64))
         columns = self.kernel.step_row
         states = slice(columns.state, columns.slope)
-        ends = np.empty((len(chosen), columns.slope - columns.state))
-        step_ends(
-            self.kernel.addresses,
-            self.kernel.slots,
-            self._bundle.groups[0].work,
-            self.runs,
-            np.ascontiguousarray(steps[chosen]),
-            ends,
-        )
+        ends, _ = self._made(steps[chosen])
         following = steps[chosen + 1, states]
         scale = np.abs(steps[:, states]).max(axis=0) + 1e-300
         return float((np.abs(ends - following) / scale).max())
+
+    def _made(self, steps: Floats) -> tuple[Floats, Floats]:
+        """Return states (n, states) that steps end with, and terms (n, terms) of their ledger."""
+        kernel, count = self.kernel, len(steps)
+        ends = np.empty((count, kernel.equations.states))
+        works = np.empty((count, kernel.losses + len(kernel.drivers)))
+        make_again(self.workspace, np.ascontiguousarray(steps), ends, works)
+        return ends, works
 
     def extremes(
         self,
@@ -186,8 +159,7 @@ class ProblemReplay:
             first, last = int(parts[0, 0]), int(parts[-1, 0]) + 1
             parts[:, 0] -= first
             extremes_in_steps(
-                *self.arguments,
-                self.brackets(),
+                self.workspace,
                 np.ascontiguousarray(steps[first:last]),
                 parts,
                 shares,
@@ -207,10 +179,6 @@ class ProblemReplay:
     def book(self, wanted: Sequence[str], ranges: Floats) -> Floats:
         """Return the book of a first bin, with the ranges (wanted,) of wanted channels."""
         return blank_book(len(self.kernel.rows.names), self.rows(wanted), ranges)
-
-    def brackets(self) -> NDArray[Any]:
-        """Return room for brackets in which extremes are sought."""
-        return room_for(self.kernel.rows.scanned)
 
     def rows(self, names: Sequence[str]) -> NDArray[np.int64]:
         """Return the rows of the channel block that channels have, (names,)."""

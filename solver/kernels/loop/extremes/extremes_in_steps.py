@@ -5,8 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import float64, int64, void
 
-from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.slots import AT
+from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
@@ -17,7 +16,6 @@ from jointplay.solver.kernels.loop.extremes.book import (
     store_extremes,
     write_bin,
 )
-from jointplay.solver.kernels.loop.extremes.brackets import BRACKETS
 from jointplay.solver.kernels.loop.extremes.even_instants import (
     look_evenly,
     place_evenly,
@@ -27,8 +25,14 @@ from jointplay.solver.kernels.loop.extremes.look_about_passages import look_abou
 from jointplay.solver.kernels.loop.extremes.passages import passes
 from jointplay.solver.kernels.loop.extremes.polynomial_extreme import has_corner
 from jointplay.solver.kernels.loop.extremes.suspects import Part, find_suspects
-from jointplay.solver.kernels.loop.runs import RUNS
-from jointplay.solver.kernels.loop.step import Group, Step, channels_within, step_of
+from jointplay.solver.kernels.loop.step import (
+    WORKSPACE,
+    Step,
+    Workspace,
+    channels_within,
+    group_of,
+    step_of,
+)
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
 MOTION = 6
@@ -141,17 +145,12 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
 
 @deferred(
     void(
-        *(ADDRESSES, AT, WORK, WORK, RUNS, BRACKETS, float64[:, ::1], int64[:, ::1]),
-        *(float64[:, ::1], int64[::1], float64, float64[:, ::1], float64[:, :, ::1]),
+        *(WORKSPACE, float64[:, ::1], int64[:, ::1], float64[:, ::1], int64[::1]),
+        *(float64, float64[:, ::1], float64[:, :, ::1]),
     )
 )
 def extremes_in_steps(
-    addresses: np.ndarray,
-    slots: np.ndarray,
-    work: np.ndarray,
-    spare: np.ndarray,
-    runs: np.ndarray,
-    brackets: np.ndarray,
+    given: Workspace,
     steps: np.ndarray,
     parts: np.ndarray,
     shares: np.ndarray,
@@ -164,10 +163,8 @@ def extremes_in_steps(
 
     Parameters
     ----------
-    work, spare, runs
-        As `states_in_steps` takes them.
-    brackets
-        Room for those of a search: `room_for`.
+    given
+        Lanes as `states_in_steps` takes them.
     steps : (n, width)
         Consecutive steps, as `write_step` wrote them.
     parts : (k, 2)
@@ -183,14 +180,15 @@ def extremes_in_steps(
     extremes : (bins, channels, 4)
         Lowest value, its time, highest value, its time; left as it is where a bin has no part.
     """
-    call, at = functions_at(addresses[0]), slots[0]
-    work, spare, runs = unowned(work), unowned(spare), unowned(runs)
-    group = Group(runs, at, work, spare, unowned(brackets), addresses[0])
+    group = group_of(given)
+    at, work, call = group.at, group.work, functions_at(group.call)
     book, room = unowned(book), np.empty((2, book.shape[1]), np.int64)
-    wanted = Wanted(rows[rows < at.rows], eights(rows), room[0], room[1], np.empty(spare.shape))
+    wanted = Wanted(
+        rows[rows < at.rows], eights(rows), room[0], room[1], np.empty(group.spare.shape)
+    )
     p, present = 0, 0
     for first in range(0, len(steps), work.shape[1]):
-        count = read_steps(steps, first, runs, at, work)
+        count = read_steps(steps, first, group.runs, at, work)
         call.right_hand_side(work)
         for lane in range(work.shape[1]):
             remember_start(step_of(lane, group))
