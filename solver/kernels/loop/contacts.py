@@ -29,7 +29,7 @@ def land(s: Step) -> bool:
     1. Find the pair whose contact begins first inside the step, and when (`earliest_onset`).
     2. Redo the step so that it ends there. The redone step differs from the dense output that
        gave the time, so its end misses the onset by a little: from here on the pair is the target.
-    3. Take the step once the target's penetration at its end is as good as zero (`has_landed`);
+    3. Take the step once the target's penetration at its end is as good as zero (`LANDED`);
        until then move the end by Newton's rule (`corrected_share`), unless another contact begins
        before: then that is the target.
     4. After `MOST_LANDINGS` redone steps, approach in steps of a quarter (`approach`); after
@@ -48,12 +48,12 @@ def land(s: Step) -> bool:
     if target != NO_PAIR:
         alone = pair in (NO_PAIR, target)
         last = run.landings >= MOST_LANDINGS
-        if alone and has_landed(target, last, s):
+        gap, rate = work[at.gap + target, lane], work[at.gap_rate + target, lane]
+        if alone and abs(gap) <= (LANDED_AT_LAST if last else LANDED):
             return True
         if last:
             approach(s)
             return False
-        gap, rate = work[at.gap + target, lane], work[at.gap_rate + target, lane]
         if gap < 0.0 and rate <= 0.0 and pair == NO_PAIR:
             run.landing = NO_PAIR
             return True
@@ -117,13 +117,6 @@ def lands_beside(j: int, s: Step) -> bool:
     lane, at, work = s.lane, s.at, s.work
     apart = work[at.mode + j, lane] <= 0.0 < work[at.gap_rate + j, lane]
     return bool(apart and abs(work[at.gap + j, lane]) <= LANDED)
-
-
-@inner_kernel()
-def has_landed(target: int, last: bool, s: Step) -> bool:
-    """Whether a target's gap is as good as zero at the end of the step."""
-    depth = abs(s.work[s.at.gap + target, s.lane])
-    return depth <= LANDED or (last and depth <= LANDED_AT_LAST)
 
 
 @inner_kernel()

@@ -29,20 +29,16 @@ class Part(NamedTuple):
 
 
 @inner_kernel()
-def count_each(r: int, part: Part, s: Step, book: np.ndarray) -> None:
-    """Let the values of a row between the ends count as they are."""
-    for i in range(1, INSTANTS - 1):
-        count_value(book, r, s.spare[s.at.channel + r, i], part.begin + part.spacing * i)
+def count_each(r: int, smooth: bool, part: Part, s: Step, book: np.ndarray) -> None:
+    """Let the values of a row between the ends count.
 
-
-@inner_kernel()
-def count_smooth(r: int, part: Part, s: Step, book: np.ndarray) -> None:
-    """Let extremes of a function of time alone count: by parabolas through three instants."""
+    As they are, or where a row is `smooth`, a function of time alone, the tops of parabolas.
+    """
     values = s.spare[s.at.channel + r]
     for i in range(1, INSTANTS - 1):
         value, time = values[i], part.begin + part.spacing * i
         rise, fall = value - values[i - 1], value - values[i + 1]
-        if rise * fall > 0.0:
+        if smooth and rise * fall > 0.0:
             abscissa = 0.5 * (rise - fall) / (rise + fall)
             value += 0.25 * (rise - fall) * abscissa
             time += part.spacing * abscissa
@@ -93,12 +89,12 @@ def find_suspects(
                     functions_at(s.call).channels_within(s.work, close, s.lane)
                     looked = True
                 if is_rounding(r, s, close, book):
-                    count_each(r, part, s, book)
+                    count_each(r, False, part, s, book)
                     continue
             if mark >> ONE_BY_ONE & 1:
-                count_each(r, part, s, book)
+                count_each(r, False, part, s, book)
             elif mark & 1 and r >= at.rows:
-                count_smooth(r, part, s, book)
+                count_each(r, True, part, s, book)
             elif mark & 1 and not (
                 sharp > 0.0 and count_if_polynomial(r, begin, spacing, s, book, powers)
             ):
