@@ -48,6 +48,11 @@ class Operation:
     (`solver.quantities.elementary`), whose node and one argument the tracer knows."""
 
 
+def _arithmetic(instruction: str) -> Callable[..., Vector]:
+    """Return what writes an instruction on two vectors."""
+    return lambda lanes, x, y: lanes.arithmetic(instruction, x, y)
+
+
 def _nothing(node: Node, _rates: Rates) -> Node:
     return node.tracer.constant(0.0)
 
@@ -145,27 +150,11 @@ def _quarter_turns(lanes: Lanes, n: Vector, sine: Vector, cosine: Vector) -> Vec
 
 
 OPERATIONS: dict[str, Operation] = {
-    "add": Operation(
-        operator.add,
-        lambda _node, rates: rates[0] + rates[1],
-        lambda lanes, x, y: lanes.arithmetic("fadd", x, y),
-    ),
-    "sub": Operation(
-        operator.sub,
-        lambda _node, rates: rates[0] - rates[1],
-        lambda lanes, x, y: lanes.arithmetic("fsub", x, y),
-    ),
-    "mul": Operation(
-        operator.mul, _product_rate, lambda lanes, x, y: lanes.arithmetic("fmul", x, y)
-    ),
-    "div": Operation(
-        operator.truediv, _quotient_rate, lambda lanes, x, y: lanes.arithmetic("fdiv", x, y)
-    ),
-    "neg": Operation(
-        operator.neg,
-        lambda _node, rates: -rates[0],
-        lambda lanes, x: lanes.negative(x),
-    ),
+    "add": Operation(operator.add, lambda _, rates: rates[0] + rates[1], _arithmetic("fadd")),
+    "sub": Operation(operator.sub, lambda _, rates: rates[0] - rates[1], _arithmetic("fsub")),
+    "mul": Operation(operator.mul, _product_rate, _arithmetic("fmul")),
+    "div": Operation(operator.truediv, _quotient_rate, _arithmetic("fdiv")),
+    "neg": Operation(operator.neg, lambda _, rates: -rates[0], lambda lanes, x: lanes.negative(x)),
     "abs": Operation(
         abs,
         lambda node, rates: node.arguments[0].select_positive(rates[0], -rates[0]),
