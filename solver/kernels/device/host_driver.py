@@ -23,6 +23,9 @@ NAMES = {
     LOST: b"CUDA_ERROR_LAUNCH_FAILED",
 }
 ATTRIBUTES = {PROCESSORS: 1, RATIO: 2}
+OPENING = ("cuInit", "cuDeviceGet", "cuDevicePrimaryCtxRetain", "cuCtxSetCurrent")
+NOTHING = (*OPENING, "cuStreamQuery", "cuCtxSynchronize")
+"""Functions that have nothing to do here."""
 MEMORY = 2**30
 """Bytes."""
 FAILING = "JOINTPLAY_HOST_FAILS"
@@ -39,8 +42,8 @@ class HostDriver:
         self._engines: list[Any] = []
 
     def __getattr__(self, name: str) -> Any:
-        """Return what does nothing, for functions that open a device."""
-        if name in ("cuInit", "cuDeviceGet", "cuDevicePrimaryCtxRetain", "cuCtxSetCurrent"):
+        """Return what does nothing, for functions that open a device or wait for it."""
+        if name in NOTHING:
             return lambda *_: 0
         raise AttributeError(name)
 
@@ -123,14 +126,6 @@ class HostDriver:
         kind = ctypes.CFUNCTYPE(None, *[ctypes.c_uint64] * 9)
         for lane in range(min(blocks * threads, words[6])):
             kind(function.value)(*words, lane)
-        return 0
-
-    def cuStreamQuery(self, _stream: None) -> int:  # noqa: N802
-        """Say that all is done."""
-        return 0
-
-    def cuCtxSynchronize(self) -> int:  # noqa: N802
-        """Wait for nothing."""
         return 0
 
 
