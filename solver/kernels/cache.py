@@ -126,28 +126,24 @@ def load_file(path: Path) -> ModuleType:
 
     Only one process compiles a file; others wait for it, and find that it is done.
     """
-    with nullcontext() if is_compiled(path) else FileLock(path.with_suffix(".lock")):
-        return _load_file(path)
-
-
-def _load_file(path: Path) -> ModuleType:
     name = path.stem
     specification = importlib.util.spec_from_file_location(name, path)
     if specification is None or specification.loader is None:
         raise ImportError(f"cannot load {path}")
     module = importlib.util.module_from_spec(specification)
-    begun = time.process_time()
-    sys.modules[name] = module  # before it runs, or Numba's cache does not load
-    try:
-        with without_collection():
-            specification.loader.exec_module(module)
-    except BaseException:
-        del sys.modules[name]
-        raise
-    if not is_compiled(path):
-        seconds = time.process_time() - begun
-        SPENT.seconds += seconds
-        _mark(path).write_text(f"{seconds:.3f} s of processor\n")
+    with nullcontext() if is_compiled(path) else FileLock(path.with_suffix(".lock")):
+        begun = time.process_time()
+        sys.modules[name] = module  # before it runs, or Numba's cache does not load
+        try:
+            with without_collection():
+                specification.loader.exec_module(module)
+        except BaseException:
+            del sys.modules[name]
+            raise
+        if not is_compiled(path):
+            seconds = time.process_time() - begun
+            SPENT.seconds += seconds
+            _mark(path).write_text(f"{seconds:.3f} s of processor\n")
     return module
 
 
