@@ -3,11 +3,12 @@
 The folder is all that `FOLDER/run.py` needs on a machine with a device, beside Python and NumPy.
 """
 
+import dataclasses
 import itertools
 import shutil
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,9 @@ from jointplay.solver.kernels import device
 from jointplay.solver.kernels.device.compiled import ptx
 from jointplay.solver.kernels.device.kernel_text import kernel_text
 from jointplay.solver.kernels.device.one_lane import Sizes
-from jointplay.solver.kernels.device.trimmed import slots_of_energies, with_constants, without
+from jointplay.solver.kernels.device.trimmed import slots_of_energies, without
 from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -141,6 +143,26 @@ def texts(kernel: Kernel, sizes: Sizes, work: Any, on_host: bool) -> dict[str, s
         'define void @"slopes"(ptr %W, i64 %index) noinline',
     )
     return {"": text(sources), "_constant": text(constant), "_called": called}
+
+
+def with_constants(numbers: Mapping[int, float], sources: Iterable[Source]) -> Iterator[Source]:
+    """Yield tapes that have the numbers of some slots, into which nothing is stored, written in."""
+    for one in sources:
+        known: dict[str, str] = {}
+        lines = []
+        for line in one.tape.splitlines():
+            words = line.split()
+            slot = _loaded(words)
+            if slot in numbers:
+                known[words[0]] = repr(numbers[slot])
+            else:
+                lines.append(" ".join(words[:1] + [known.get(word, word) for word in words[1:]]))
+        yield dataclasses.replace(one, tape="\n".join(lines))
+
+
+def _loaded(words: list[str]) -> int:
+    plain = len(words) == 4 and words[2] in ("load", "spread") and words[3].isdigit()
+    return int(words[3]) if plain else -1
 
 
 def main(arguments: Sequence[str]) -> None:

@@ -1,7 +1,7 @@
-"""Tapes of a job that asks for less, or whose lanes have numbers in common."""
+"""Tapes of a job that asks for less."""
 
 import dataclasses
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator
 
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tapes import Source
@@ -30,26 +30,6 @@ def without(slots: Collection[int], sources: Iterable[Source]) -> Iterator[Sourc
         yield dataclasses.replace(one, tape="\n".join(lines))
 
 
-def with_constants(numbers: Mapping[int, float], sources: Iterable[Source]) -> Iterator[Source]:
-    """Yield tapes that have the numbers of some slots, into which nothing is stored, written in."""
-    for one in sources:
-        known: dict[str, str] = {}
-        lines = []
-        for line in one.tape.splitlines():
-            words = line.split()
-            slot = _loaded(words)
-            if slot in numbers:
-                known[words[0]] = repr(numbers[slot])
-            else:
-                lines.append(" ".join(words[:1] + [known.get(word, word) for word in words[1:]]))
-        yield dataclasses.replace(one, tape="\n".join(lines))
-
-
 def _stored(line: str) -> int:
     words = line.split()
     return int(words[1].rstrip("+")) if words[:1] == ["store"] else -1
-
-
-def _loaded(words: list[str]) -> int:
-    plain = len(words) == 4 and words[2] in ("load", "spread") and words[3].isdigit()
-    return int(words[3]) if plain else -1
