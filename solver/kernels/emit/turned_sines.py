@@ -55,12 +55,16 @@ def turned_in_slopes(equations: Equations) -> list[Angle]:
 
 @dataclass(frozen=True)
 class TurnedSines:
-    """Writes them on tapes; ``angle_start``, ``sine_start``, ``cosine_start`` are the start's."""
+    """Writes them on tapes; ``angle_start``, ``sine_start``, ``cosine_start`` are the start's.
+
+    ``sines_known`` is 0 in a lane that has none yet.
+    """
 
     angles: Sequence[Angle]
 
     def allocate(self, layout: Layout) -> None:
         """Give slots to sines where the step starts."""
+        layout.add("sines_known")
         for name in ("angle_start", "sine_start", "cosine_start"):
             layout.add_block(name, len(self.angles))
 
@@ -81,8 +85,9 @@ class TurnedSines:
 
         tape = Tape(layout, fixed, fetch=at_start)
         apart = [abs(one.angle - self._start("angle", n)) for n, one in enumerate(self.angles)]
-        tape.go_on_where(reduce(maximum, apart))
-        tape.store(self.at_end())
+        known = apart[0].tracer.variable("sines_known")
+        tape.go_on_where(reduce(maximum, apart, 0.5 - known))
+        tape.store([*self.at_end(), ("sines_known", known.tracer.constant(1.0))])
         return tape.function("sines_at_start")
 
     def turn(self, tape: Tape) -> None:
