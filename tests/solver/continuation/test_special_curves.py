@@ -60,7 +60,8 @@ def test_a_curve_has_the_special_orbit_of_its_branch_at_the_value_of_the_scene()
     first = branch.special[0]
     assert (branch.of, first.label, first.row) == ("PD", "PD", 0)
     assert first.second == pytest.approx(5e-3, rel=1e-12)
-    assert first.value == pytest.approx(19.203200693, abs=1e-8)  # as the branch alone has it
+    # as the branch alone has it; runs of other last bits move it by 4e-8, a bound that it has, too
+    assert first.value == pytest.approx(19.20320071, abs=8e-8)
     assert branch.column(SECOND_BOUND)[0] == first.second_bound
     assert {one.note for one in branch.special[1:]} <= {
         "end of the range",
