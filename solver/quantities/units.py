@@ -6,7 +6,7 @@ Hertz exponent): the compiler writes these into a kernel. Every other number is 
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -35,6 +35,20 @@ def quantity(unit: str, *, structural: list[float] | None = None, **bounds: Any)
     extra: dict[str, Any] = {} if structural is None else {"structural": structural}
     return Field(json_schema_extra={"unit": unit, **extra}, **bounds)
 
+
+NOT_COHERENT: Final = {
+    **dict.fromkeys(("mm", "um", "µm", "cm", "km", "in"), "m"),
+    **dict.fromkeys(("mm/s", "km/h"), "m/s"),
+    **dict.fromkeys(("ms", "us", "µs", "min"), "s"),
+    **dict.fromkeys(("deg", "°"), "rad"),
+    **dict.fromkeys(("deg/s", "°/s", "rpm", "Hz"), "rad/s"),
+    **dict.fromkeys(("kPa", "MPa", "GPa"), "Pa"),
+    "g": "kg",
+    "kN": "N",
+    "N/mm": "N/m",
+    "N mm": "N m",
+}
+"""Units that authors of scenes may have in mind, and the SI unit in which a number counts."""
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,31}$")]
 PointReference = Annotated[

@@ -9,6 +9,7 @@ from jointplay.records.suggestions import unknown
 from jointplay.solver.joints import Gear
 from jointplay.solver.joints.starts import GuideStart
 from jointplay.solver.laws.friction.law import InnerState
+from jointplay.solver.quantities.units import NOT_COHERENT
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
 from jointplay.solver.scene.pairs import contact_pairs
@@ -144,6 +145,13 @@ def _parameters(scene: Scene) -> Iterator[Problem]:
         if low is not None and high is not None and low > high:
             yield Problem(
                 f"/parameters/{name}/minimum", f"The minimum {low:g} is above the maximum {high:g}."
+            )
+        known = NOT_COHERENT.get(parameter.unit)
+        if known and any(target.factor == 1.0 for target in parameter.targets):
+            yield Problem(
+                f"/parameters/{name}/unit",
+                f"Numbers count in {known}, not {parameter.unit}: give the unit {known} and values"
+                " in it, or each target the factor that converts them.",
             )
         for index, target in enumerate(parameter.targets):
             if not leads_to_value(document, target.path):

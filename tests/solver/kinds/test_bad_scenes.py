@@ -119,6 +119,11 @@ BAD_SCENES: dict[str, Refused] = {
         "/scene/joints",
         "over-constrained",
     ),
+    "a parameter in millimetres that count as metres": (
+        at("/scene/parameters/clearance/unit", "mm"),
+        "/scene/parameters/clearance/unit",
+        "count in m",
+    ),
     "links that do not reach": (
         at("/scene/bodies/link2/points/C", [3.0, 0.0]),
         "/scene/start/angles",
@@ -131,6 +136,14 @@ BAD_SCENES: dict[str, Refused] = {
 def test_a_bad_scene_is_refused_at_its_field(case: str) -> None:
     change, pointer, words = BAD_SCENES[case]
     assert_refused(changed(SCENE, change), pointer, words)
+
+
+def test_a_parameter_may_have_millimetres_that_a_factor_converts() -> None:
+    scene = presets.document("slider-crank")
+    parameter = scene["parameters"]["clearance"]
+    parameter |= {"unit": "mm", "default": 0.5, "maximum": 10.0}
+    parameter["targets"][0]["factor"] = 1e-3
+    admit(of_scene(scene))
 
 
 def of_scene(scene: dict[str, Any]) -> dict[str, Any]:
