@@ -6,6 +6,7 @@ from jointplay.figures import marks, page, study_facts
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
+from jointplay.records.branch import VALUE
 from jointplay.records.channel import by_name
 from jointplay.records.study import StudySource
 
@@ -112,6 +113,8 @@ def _with_offset(axis: page.Axis, label: str) -> str:
 
 def _of_point(source: StudySource, point: int) -> str:
     """Say the parameters of a point, how many sections it has, and the ground of its verdict."""
+    if "labels" in source.attributes:
+        return _of_branch(source, point)
     shown = []
     for parameter, value in zip(source.parameters, source.values[point], strict=True):
         unit = scale(parameter.unit, np.array([value]))
@@ -119,6 +122,16 @@ def _of_point(source: StudySource, point: int) -> str:
     shown.append(f"{int(source.counts[point])} sections")
     reason = source.reasons.get(point, "")
     return ", ".join(shown) + (f". {reason[:1].upper()}{reason[1:]}" if reason else "")
+
+
+def _of_branch(source: StudySource, point: int) -> str:
+    """Say over which values of its parameter a branch has its orbits; each has one section here."""
+    values = marks.sections(source, VALUE, slice(point, point + 1))
+    unit = scale(source.parameters[0].unit, values)
+    low, high = np.nanmin(values) / unit.factor, np.nanmax(values) / unit.factor
+    count = int(source.counts[point])
+    name = source.parameters[0].name
+    return f"{name} = {low:.6g} to {high:.6g} {unit.unit}".rstrip() + f", {count} orbits"
 
 
 def _short(name: str) -> str:

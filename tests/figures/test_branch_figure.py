@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from branches import HEIGHTS, NOTE, folded, over_two_parameters
-from drawn import drawn_with
+from drawn import drawn_with, visible_texts
 
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection
@@ -36,6 +36,13 @@ def test_special_orbits_have_their_notes_and_ends_what_their_label_says():
     ]
     assert (first.special[1].value, first.special[1].bound) == (-1.0, 1e-6)
     assert (len(second.column("value")), second.special) == (0, ())
+
+
+def test_sections_of_a_branch_are_of_all_values_of_its_parameter():
+    names = ("state.mass.s", "multiplier_1.real")
+    figure = drawn_with(folded(), "section", Selection(channels=names, start=0, stop=1))
+    shown = [text.get_text() for text in visible_texts(figure)]
+    assert "speed = -1 to 3 rad/s, 5 orbits" in shown
 
 
 def test_what_has_no_branch_is_not_drawn():
