@@ -78,7 +78,8 @@ COSINE = (
 """Minimax coefficients on [-pi/4, pi/4] (fdlibm, Sun Microsystems 1993)."""
 
 
-def _polynomial(x: Any, coefficients: tuple[float, ...]) -> Any:
+def polynomial(x: Any, coefficients: tuple[float, ...]) -> Any:
+    """Return the sum of coefficients times powers of x, the lowest first."""
     total: Any = coefficients[-1]
     for coefficient in reversed(coefficients[:-1]):
         total = total * x + coefficient
@@ -132,13 +133,13 @@ def log2(x: Any) -> Any:
     mantissa = _chosen(upper, 0.5 * mantissa, mantissa)
     exponent = _chosen(upper, exponent + 1.0, exponent)
     f = (mantissa - 1.0) / (mantissa + 1.0)
-    return exponent + (2.0 * LOG2_E) * f * _polynomial(f * f, ATANH_SERIES)
+    return exponent + (2.0 * LOG2_E) * f * polynomial(f * f, ATANH_SERIES)
 
 
 def exp2(x: Any) -> Any:
     """2 ** x, relative error within 4e-16 for |x| < 1000."""
     whole = operate("floor", x + 0.5)
-    fraction = _polynomial((x - whole) * LN_2, EXPONENTIAL_SERIES)
+    fraction = polynomial((x - whole) * LN_2, EXPONENTIAL_SERIES)
     return fraction * operate("power_of_two", whole)
 
 

@@ -20,10 +20,14 @@ from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations, slopes
 from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import Expression
+from jointplay.solver.quantities.elementary import polynomial
 from jointplay.solver.quantities.scalars import maximum, select_positive
 
 FARTHEST = 2.0**-5
-"""Largest angle, rad, by which sines are turned on: the next terms are below 2e-17 there."""
+"""Largest angle, rad, by which sines are turned on: the next terms are 2.3e-17 there at most."""
+SINE = (-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0)
+LESS = (-1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0)
+"""Coefficients of (sin d - d) / d^3 and of (cos d - 1) / d^2 in d^2."""
 
 
 @dataclass(frozen=True)
@@ -99,8 +103,8 @@ class TurnedSines:
             square = turn * turn
             far = square - FARTHEST**2
             farthest.append(far)
-            sine = turn + (turn * square) * _series(square, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0)
-            less = square * _series(square, -1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0)
+            sine = turn + (turn * square) * polynomial(square, SINE)
+            less = square * polynomial(square, LESS)
             first, other = self._start("sine", n), self._start("cosine", n)
             near = first + (first * less + other * sine), other + (other * less - first * sine)
             for exact, turned in zip((one.sine, one.cosine), near, strict=True):
@@ -110,8 +114,3 @@ class TurnedSines:
 
     def _start(self, name: str, n: int) -> Expression:
         return self.angles[n].angle.tracer.variable(f"{name}_start{n}")
-
-
-def _series(x: Expression, *coefficients: float) -> Expression:
-    first, second, third = coefficients
-    return (x * third + second) * x + first

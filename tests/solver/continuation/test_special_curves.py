@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.continuation import scene
+from benchmarks.continuation import branch_job, scene
 from benchmarks.rigid_stop import grazing
-from benchmarks.special_curves import apart, curve
+from benchmarks.special_curves import BRANCHES, apart, curve
 from jointplay.local import run
 from jointplay.records.branch import SECOND, SECOND_BOUND, VALUE, Branch, branches
 
@@ -60,7 +60,13 @@ def test_a_curve_has_the_special_orbit_of_its_branch_at_the_value_of_the_scene()
     first = branch.special[0]
     assert (branch.of, first.label, first.row) == ("PD", "PD", 0)
     assert first.second == pytest.approx(5e-3, rel=1e-12)
-    # as the branch alone has it; runs of other last bits move it by 4e-8, a bound that it has, too
+    job = branch_job(1e11, **(BRANCHES["PD"] | NEAR["PD"]))
+    (alone,) = branches(run(job, processes=1).study())
+    (doubling,) = (one for one in alone.special if one.label == "PD")
+    assert first.value == pytest.approx(
+        doubling.value, abs=1e-8
+    )  # the same orbits by the same runs
+    # runs of other last bits move it by 4e-8, a bound that it has, too
     assert first.value == pytest.approx(19.20320071, abs=8e-8)
     assert branch.column(SECOND_BOUND)[0] == first.second_bound
     assert {one.note for one in branch.special[1:]} <= {

@@ -9,6 +9,7 @@ import pytest
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, module_source
+from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.emit.turned_sines import FARTHEST, Angle, TurnedSines
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import Layout
@@ -92,3 +93,13 @@ def test_sines_that_a_step_leaves_are_those_where_the_next_one_starts() -> None:
         kernel.module.sines_at_start(work)
         assert np.array_equal(work[rows], kept)
         assert (kept != 0.0).all()
+
+
+def test_slopes_of_a_press_and_of_its_tangents_take_turned_sines() -> None:
+    kernel = ready_kernel(preset("seven-bar-press"), "reduced", "tsitouras")
+    for module, name in (
+        (kernel.module, "slopes"),
+        (compile_tangents(kernel).module, "carried_slopes"),
+    ):
+        (tape,) = (one.tape for one in module.tapes.sources if one.name == name)
+        assert tape.count(" either ") == 2 * 5  # two cranks, three links
