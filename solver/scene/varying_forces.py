@@ -18,9 +18,16 @@ WHOLE = 1e-9
 def varying_problems(scene: Scene) -> Iterator[Problem]:
     """Yield what is wrong with the courses of forces; pointers begin at the scene."""
     for name, element in scene.forces.items():
+        if not isinstance(element, Varying):
+            continue
         over = element.follows()
-        if isinstance(element, Varying) and over is not None:
+        if over is not None:
             yield from _over(scene, f"/forces/{name}", element, over)
+        elif element.over is not None:
+            yield Problem(
+                f"/forces/{name}/over",
+                "A force without 'course' and 'only' does not vary; give one, or leave this out.",
+            )
 
 
 def _over(scene: Scene, pointer: str, element: Varying, over: Over) -> Iterator[Problem]:
@@ -32,7 +39,7 @@ def _over(scene: Scene, pointer: str, element: Varying, over: Over) -> Iterator[
     if element.only is not None and (over.quantity == "time" or over.rate):
         yield Problem(
             f"{pointer}/only",
-            f"What acts while something {element.only[:-3]}s is a function of that: a driver's"
+            f"What acts while something is {element.only} is a function of that: a driver's"
             " position, or how two points lie; say of which in 'over'.",
         )
     if over.quantity == "time" and over.rate:
