@@ -21,15 +21,7 @@ from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
 from jointplay.solver.quantities.frames import Pair, dot, left, plus, scaled, turned, unit
 from jointplay.solver.quantities.scalars import Scalar, direction_angle
-from jointplay.solver.quantities.units import Direction, Rule
-
-FACE = (
-    Rule(
-        "normal",
-        lambda joint: (joint.normal[0] == 0.0) & (joint.normal[1] == 0.0),
-        lambda _joint: "The normal has no direction; give e.g. [0, 1].",
-    ),
-)
+from jointplay.solver.quantities.units import Direction, Rule, no_length
 
 HALF = 0.615
 """Half the length of a face that is drawn, in means of the profile."""
@@ -43,7 +35,7 @@ class FlatFollower(CamJoint):
     """
 
     drawing: ClassVar[Drawing] = Drawing(picture="surface", caption=CAPTION)
-    rules: ClassVar[tuple[Rule, ...]] = FACE
+    rules: ClassVar[tuple[Rule, ...]] = (no_length("normal"),)
     type: Literal["flat-follower"]
     normal: Direction
 

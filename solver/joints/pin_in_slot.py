@@ -7,7 +7,7 @@ from jointplay.solver.joints.contact import Contact, Touch
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint
-from jointplay.solver.joints.wall import AXIS, WALL, Wall, at_wall, wall_normal
+from jointplay.solver.joints.wall import WALL, Wall, at_wall, wall_normal
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.force import Ends
@@ -23,6 +23,7 @@ from jointplay.solver.quantities.units import (
     RadialClearance,
     Radius,
     Rule,
+    no_length,
 )
 
 WALLS = {"wall_1": 1.0, "wall_2": -1.0}
@@ -63,7 +64,7 @@ class PinInSlot(Joint):
         caption="Pin of joint {} in its slot",
     )
     parts: ClassVar[tuple[str, ...]] = (*WALLS,)
-    rules: ClassVar[tuple[Rule, ...]] = AXIS
+    rules: ClassVar[tuple[Rule, ...]] = (no_length("axis"),)
     type: Literal["pin-in-slot"]
     slot: PointReference
     pin: PointReference

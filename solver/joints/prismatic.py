@@ -10,7 +10,7 @@ from jointplay.solver.joints.contact import Contact, Touch
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Freedom, Joint
-from jointplay.solver.joints.wall import AXIS, WALL, Wall, at_wall, wall_normal
+from jointplay.solver.joints.wall import WALL, Wall, at_wall, wall_normal
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.force import Ends
@@ -27,6 +27,7 @@ from jointplay.solver.quantities.units import (
     RadialClearance,
     Radius,
     Rule,
+    no_length,
 )
 
 CORNERS = {"corner_1": (1.0, 1.0), "corner_2": (-1.0, 1.0)}
@@ -91,7 +92,7 @@ class Prismatic(Joint):
     freedom: ClassVar[Freedom] = "slide"
     holds_angle: ClassVar[bool] = True
     parts: ClassVar[tuple[str, ...]] = (*CORNERS,)
-    rules: ClassVar[tuple[Rule, ...]] = AXIS
+    rules: ClassVar[tuple[Rule, ...]] = (no_length("axis"),)
     type: Literal["prismatic"]
     guide: PointReference
     slider: PointReference

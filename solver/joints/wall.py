@@ -15,13 +15,6 @@ from jointplay.solver.quantities.frames import WORLD, Pair, dot, left, plus, sca
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import Rule
 
-AXIS = (
-    Rule(
-        "axis",
-        lambda joint: (joint.axis[0] == 0.0) & (joint.axis[1] == 0.0),
-        lambda _joint: "The axis has no direction; give e.g. [1, 0].",
-    ),
-)
 WALL = (
     Rule(
         "contact",

@@ -30,6 +30,16 @@ class Rule:
     sentence: Callable[[Any], str]
 
 
+def no_length(field: str) -> Rule:
+    """Return the rule that a field, a `Direction`, is not too short to have one."""
+
+    def is_short(part: Any) -> Any:
+        x, y = getattr(part, field)
+        return (abs(x) < SHORTEST) & (abs(y) < SHORTEST)
+
+    return Rule(field, is_short, lambda _part: f"The {field} has no length; give e.g. [0, 1].")
+
+
 def quantity(unit: str, *, structural: list[float] | None = None, **bounds: Any) -> Any:
     """Return the `Field` of a number with a unit; `bounds` are what a field takes."""
     extra: dict[str, Any] = {} if structural is None else {"structural": structural}
@@ -61,6 +71,8 @@ Direction = Annotated[
     list[Annotated[float, quantity("1", ge=-1e6, le=1e6, structural=[0.0])]],
     Field(min_length=2, max_length=2),
 ]
+SHORTEST = 1e-100
+"""Length below which a direction is none: the squares of its parts are hardly numbers."""
 Acceleration = Annotated[float, quantity("m/s^2", ge=-1e6, le=1e6)]
 Angle = Annotated[float, quantity("rad", ge=-1e4, le=1e4)]
 AngularVelocity = Annotated[float, quantity("rad/s", ge=-1e5, le=1e5)]

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Literal
 from jointplay.solver.laws.force.law import Effect, Ends
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.quantities.scalars import sqrt
-from jointplay.solver.quantities.units import Direction, Rule, quantity
+from jointplay.solver.quantities.units import Direction, Rule, no_length, quantity
 
 
 class Force(Varying):
@@ -24,13 +24,7 @@ class Force(Varying):
     magnitude: Annotated[float, quantity("N", ge=-1e12, le=1e12)]
     direction: Direction
     axes: Literal["world", "first", "second"] = "world"
-    rules: ClassVar[tuple[Rule, ...]] = (
-        Rule(
-            "direction",
-            lambda element: (element.direction[0] == 0.0) & (element.direction[1] == 0.0),
-            lambda _element: "The direction has no length; give e.g. [0, -1].",
-        ),
-    )
+    rules: ClassVar[tuple[Rule, ...]] = (no_length("direction"),)
     channels: ClassVar[tuple[tuple[str, str, str], ...]] = (
         ("force", "N", "force along its direction on the second point"),
     )

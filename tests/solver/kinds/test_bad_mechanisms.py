@@ -155,7 +155,12 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
     "a slot without direction": (
         {"/joints/guide": SLOT | {"axis": [0.0, 0.0]}},
         "/joints/guide/axis",
-        ["The axis has no direction"],
+        ["The axis has no length; give e.g. [0, 1]."],
+    ),
+    "a slot whose axis is too short to divide by its square": (
+        {"/joints/guide": SLOT | {"axis": [0.0, 1e-200]}},
+        "/joints/guide/axis",
+        ["The axis has no length"],
     ),
     "a driven pin in a slot": (
         {"/joints/guide": SLOT, "/drivers/second": {"joint": "guide", "speed": 1.0}},
