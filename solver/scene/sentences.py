@@ -46,6 +46,8 @@ SENTENCES = {
         "'{field}' must lead to a number of the start, for example /start/joints/stop/rate/0, or to"
         " the position of a driver: /drivers/motor/position."
     ),
+    "pointer": "'{field}' must be a JSON pointer into the scene, for example /drivers/motor/speed.",
+    "onset": "'{field}' must be a joint or a contact of one, for example A or guide.corner_1.",
     "reference": "'{field}' must be body.point, for example crank.pin or ground.O.",
 }
 """Sentences by pydantic's type of error, with its context; a reference is a string with a point."""
@@ -87,9 +89,14 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
     kind, context = item["type"], item.get("ctx", {})
     if kind not in SENTENCES:
         return f"{item['msg']}."
-    if context.get("pattern") == start_numbers.PATTERN:
+    pattern = context.get("pattern", "")
+    if pattern == start_numbers.PATTERN:
         kind = "start number"
-    elif r"\." in context.get("pattern", ""):
+    elif pattern.startswith("^(/"):
+        kind = "pointer"
+    elif pattern.endswith("?$"):
+        kind = "onset"
+    elif r"\." in pattern:
         kind = "reference"
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
     more = units | {"meant": _meant_word(item)}

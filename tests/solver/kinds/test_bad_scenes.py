@@ -75,6 +75,11 @@ BAD_SCENES: dict[str, Refused] = {
         "/scene/parameters/clearance/targets/0/path",
         "nowhere",
     ),
+    "parameter to what is no pointer": (
+        at("/scene/parameters/clearance/targets/0/path", "joints/A/clearance/radial_clearance"),
+        "/scene/parameters/clearance/targets/0/path",
+        "must be a JSON pointer into the scene",
+    ),
     "start of an unknown body": (
         at("/scene/start/angles/link9", 0.0),
         "/scene/start/angles/link9",

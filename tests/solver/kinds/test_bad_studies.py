@@ -133,6 +133,12 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         "does not go with the others here",
     ),
     "onset at no joint": (P, {"section": {"onset": "Q"}}, "/section/onset", "no joint 'Q'"),
+    "onset at what is no name": (
+        P,
+        {"section": {"onset": "A B"}},
+        "/section/onset",
+        "a joint or a contact of one, for example A or guide.corner_1",
+    ),
     "onset at an ideal joint": (
         P,
         {"section": {"onset": "C2"}},
