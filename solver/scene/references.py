@@ -140,7 +140,9 @@ def _guided(scene: Scene, pointer: str, name: str, start: GuideStart) -> Iterato
 
 def _parameters(scene: Scene) -> Iterator[Problem]:
     document = scene.model_dump()
+    setting: dict[str, str] = {}  # by path the first parameter that sets it
     for name, parameter in scene.parameters.items():
+        always = parameter.required or parameter.default is not None
         low, high = parameter.minimum, parameter.maximum
         if low is not None and high is not None and low > high:
             yield Problem(
@@ -154,10 +156,16 @@ def _parameters(scene: Scene) -> Iterator[Problem]:
                 " in it, or each target the factor that converts them.",
             )
         for index, target in enumerate(parameter.targets):
+            pointer = f"/parameters/{name}/targets/{index}/path"
             if not leads_to_value(document, target.path):
+                sentence = f"'{target.path}' leads nowhere in this scene; name a single value."
+                yield Problem(pointer, sentence)
+            other = setting.setdefault(target.path, name)
+            if always and other != name:
                 yield Problem(
-                    f"/parameters/{name}/targets/{index}/path",
-                    f"'{target.path}' leads nowhere in this scene; name a single value.",
+                    pointer,
+                    f"'{name}' always has a value, so what '{other}' before it sets here has no"
+                    f" effect; drop one of the two, or the default of '{name}'.",
                 )
 
 

@@ -80,6 +80,11 @@ BAD_SCENES: dict[str, Refused] = {
         "/scene/parameters/clearance/targets/0/path",
         "must be a JSON pointer into the scene",
     ),
+    "parameter that a later one always overrides": (
+        at("/scene/parameters/speed_crank4/default", 3.0),
+        "/scene/parameters/speed_crank4/targets/0/path",
+        "what 'speed' before it sets here has no effect",
+    ),
     "start of an unknown body": (
         at("/scene/start/angles/link9", 0.0),
         "/scene/start/angles/link9",
