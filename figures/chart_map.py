@@ -69,12 +69,12 @@ class ChartMap:
             values[places] = {**source.statistics, **source.indicators}[name]
             filled_values = averaged(filled_in(values, known), stride)
             _paint_values(figure, axes, edges, filled_values, _described(source, name))
-        for axis, parameter in ((axes.xaxis, across), (axes.yaxis, up)):
-            parameter.ticks(axis, 5)
         if across.logarithmic:
-            axes.set_xscale("log")
+            axes.set_xscale("log")  # which numbers the axis anew
         if up.logarithmic:
             axes.set_yscale("log")
+        for axis, parameter in ((axes.xaxis, across), (axes.yaxis, up)):
+            parameter.ticks(axis, 5)
         axes.tick_params(which="both", direction="out", top=False, right=False)
         axes.set_xlabel(across.label)
         axes.set_ylabel(up.label)
@@ -169,6 +169,8 @@ def _paint_values(
     values = table / shown.factor
     known = values[np.isfinite(values)]
     low, high = np.percentile(known, (_SHARE, 100.0 - _SHARE)) if len(known) else (0.0, 1.0)
+    ends = {(False, False): "neither", (True, False): "min", (False, True): "max"}
+    beyond = bool((known < low).any()), bool((known > high).any())
     drawn = axes.pcolormesh(
         *edges,
         np.ma.masked_invalid(values),
@@ -177,7 +179,9 @@ def _paint_values(
         vmax=high,
         rasterized=True,
     )
-    bar = figure.colorbar(drawn, ax=axes, location="top", aspect=25.0, extend="both")
+    bar = figure.colorbar(
+        drawn, ax=axes, location="top", aspect=25.0, extend=ends.get(beyond, "both")
+    )
     bar.ax.set_gid(page.WITHOUT_SCALE)
     bar.set_label(shown.label(described.long_name))
 

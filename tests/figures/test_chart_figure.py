@@ -1,5 +1,7 @@
 """The figure of a chart that is still computed: points that wait show the next coarser one."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from drawn import drawn_with
@@ -52,3 +54,26 @@ def test_quantities_are_chosen_by_their_names():
     assert select(running(), ["motion"]) == Selection(channels=("motion",))
     with pytest.raises(NoSuchChannel, match="did you mean lyapunov"):
         select(running(), ["lyapunow"])
+
+
+def test_a_logarithmic_axis_has_the_numbers_of_its_parameter():
+    spaced = running()
+    values = spaced.values * [1.0, 0.0] + [0.0, 20.0] * 1.1**spaced.values
+    (axes, *_) = drawn_with(replace(spaced, values=values), "chart", None).axes
+    assert axes.get_xscale() == "log"
+    numbers = {label.get_text() for label in axes.get_xticklabels()}
+    assert numbers >= {"20", "25", "30", "35"}
+
+
+@pytest.mark.parametrize(("odd", "ends"), [(0.0, "neither"), (1e3, "max"), (-1e3, "min")])
+def test_colours_are_said_to_go_on_only_where_values_lie_beyond_them(odd, ends):
+    found = running()
+    values = np.repeat([0.0, 1.0], found.points // 2)
+    values[0] += odd
+    known = replace(
+        found,
+        status=np.full(found.points, PointStatus.done, np.uint8),
+        indicators=found.indicators | {"lyapunov": values},
+    )
+    figure = drawn_with(known, "chart", select(known, ["lyapunov"]))
+    assert figure.axes[0].collections[0].colorbar.extend == ends
