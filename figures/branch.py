@@ -9,6 +9,7 @@ from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.over_chart import OverChart, halo
 from jointplay.figures.over_diagram import KIND, OverDiagram
 from jointplay.figures.quantity import alike, scale
+from jointplay.figures.special_names import name_special
 from jointplay.records.arrays import Floats
 from jointplay.records.branch import LENGTH, UNSTABLE, VALUE, Branch, branches
 from jointplay.records.channel import by_name
@@ -17,11 +18,6 @@ from jointplay.records.study import StudySource
 _MOST_PANELS = 6
 _HEIGHT, _SINGLE_HEIGHT = 40.0, 65.0  # mm
 _FULL, _DASHED = "-", (0.0, (4.0, 2.0))
-_NEAR = 0.03
-"""Share of a panel within which special orbits of a label share their name."""
-_BESIDE = 0.15
-"""Share of a panel's width at its right end where names stand on the left of their orbits."""
-_UNNAMED = "EP"
 
 
 def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
@@ -63,12 +59,13 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     for axes, name, unit in zip(
         panels, names, alike([units[name].unit for name in names], values), strict=True
     ):
-        for branch in found:
-            x, y = branch.column(VALUE) / across.factor, branch.column(name) / unit.factor
+        placed = [
+            (one, one.column(VALUE) / across.factor, one.column(name) / unit.factor)
+            for one in found
+        ]
+        for branch, x, y in placed:
             _curve(axes, branch, x, y)
-        for branch in found:
-            x, y = branch.column(VALUE) / across.factor, branch.column(name) / unit.factor
-            name_special(axes, branch, x, y)
+        name_special(axes, placed)
         axes.set_ylabel(page.in_two_lines(unit.label(name)))
     page.finish_stack(figure, panels, across.label(parameter.name), panels[0])
     return figure
@@ -80,8 +77,7 @@ def _draw_over(chart: OverChart, found: list[Branch]) -> page.Figure:
     for branch in found:
         look: page.Look = {"color": colours.GEOMETRY, "path_effects": halo()}
         _curve(axes, branch, *chart.places(branch), **look)
-    for branch in found:
-        name_special(axes, chart.inside(branch), *chart.places(branch))
+    name_special(axes, [(chart.inside(one), *chart.places(one)) for one in found])
     chart.explain(figure, axes)
     return figure
 
@@ -90,10 +86,10 @@ def _draw_over_diagram(diagram: OverDiagram, found: list[Branch]) -> page.Figure
     """Draw branches over the sections of a diagram, whose stable orbits lie on these."""
     figure, panels = diagram.panels(1)
     for panel, axes in enumerate(panels):
-        for branch in found:
-            _curve(axes, branch, *diagram.places(branch, panel))
-        for branch in found:
-            name_special(axes, branch, *diagram.places(branch, panel))
+        placed = [(one, *diagram.places(one, panel)) for one in found]
+        for branch, x, y in placed:
+            _curve(axes, branch, x, y)
+        name_special(axes, placed)
     diagram.finish(figure, panels)
     return figure
 
@@ -115,35 +111,6 @@ def _curve(axes: page.Axes, branch: Branch, x: Floats, y: Floats, **look: Any) -
             **style,
         )
         begin = end
-
-
-def name_special(axes: page.Axes, branch: Branch, x: Floats, y: Floats) -> None:
-    """Mark special orbits, and write their labels where these do not lie on one another."""
-    width, height = (np.ptp(limits) for limits in (axes.get_xlim(), axes.get_ylim()))
-    written: list[tuple[str, float, float]] = []
-    for one in branch.special:
-        if one.label == _UNNAMED:
-            continue
-        at, up = float(x[one.row]), float(y[one.row])
-        axes.plot(at, up, "o", color=colours.MARKED, markersize=2.5, zorder=3.0)
-        near = any(
-            one.label == label and abs(at - a) < _NEAR * width and abs(up - b) < _NEAR * height
-            for label, a, b in written
-        )
-        if not near:
-            crowd = sum(
-                abs(at - a) < _NEAR * width and abs(up - b) < _NEAR * height for _, a, b in written
-            )
-            side = -1.0 if at > axes.get_xlim()[1] - _BESIDE * width else 1.0
-            axes.annotate(
-                one.label,
-                (at, up),
-                xytext=(side * (3.0 + 13.0 * crowd), 3.0),
-                textcoords="offset points",
-                horizontalalignment="right" if side < 0.0 else "left",
-                fontsize=page.in_font(6.0),
-            )
-            written.append((one.label, at, up))
 
 
 BRANCH = StudyFigure(

@@ -6,10 +6,11 @@ from typing import Final
 import numpy as np
 
 from jointplay.figures import colours, page
-from jointplay.figures.branch import known_branches, name_special
+from jointplay.figures.branch import known_branches
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.over_chart import OverChart, halo
 from jointplay.figures.quantity import scale
+from jointplay.figures.special_names import name_special
 from jointplay.records.branch import CURVES, LENGTH, SECOND, VALUE, Branch
 from jointplay.records.study import StudySource
 
@@ -46,15 +47,15 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         for one, name in zip(source.parameters, (VALUE, SECOND), strict=True)
     )
     figure, (axes,) = page.stack([_HEIGHT], 1)
+    placed = []
     for curve in curves:
         order = np.argsort(curve.column(LENGTH), kind="stable")
         x, y = curve.column(VALUE) / across.factor, curve.column(SECOND) / up.factor
         colour, dashes, _ = _LOOKS[curve.of]
         (line,) = axes.plot(x[order], y[order], dashes, color=colour, linewidth=0.9)
         line.set_label(_NAMES[curve.of])
-    for curve in curves:
-        x, y = curve.column(VALUE) / across.factor, curve.column(SECOND) / up.factor
-        name_special(axes, replace(curve, special=curve.special[1:]), x, y)
+        placed.append((_behind_start(curve), x, y))
+    name_special(axes, placed)
     axes.set_ylabel(up.label(source.parameters[1].name))
     page.finish_stack(figure, [axes], across.label(source.parameters[0].name), axes)
     return figure
@@ -63,17 +64,22 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
 def _draw_over(chart: OverChart, curves: list[Branch]) -> page.Figure:
     """Draw curves over the map of a chart, black, so that its colours mean what they do alone."""
     figure, axes = chart.panel(len({curve.of for curve in curves}))
+    placed = []
     for curve in curves:
         order = np.argsort(curve.column(LENGTH), kind="stable")
         x, y = chart.places(curve)
         look: page.Look = {"color": colours.GEOMETRY, "linewidth": 0.9, "path_effects": halo()}
         (line,) = axes.plot(x[order], y[order], _LOOKS[curve.of][1], **look)
         line.set_label(_NAMES[curve.of])
-    for curve in curves:
-        named = chart.inside(replace(curve, special=curve.special[1:]))
-        name_special(axes, named, *chart.places(curve))
+        placed.append((chart.inside(_behind_start(curve)), x, y))
+    name_special(axes, placed)
     chart.explain(figure, axes)
     return figure
+
+
+def _behind_start(curve: Branch) -> Branch:
+    """Return a curve without the special orbit that it is of."""
+    return replace(curve, special=curve.special[1:])
 
 
 CURVES_FIGURE = StudyFigure(

@@ -92,3 +92,15 @@ def test_the_figure_of_branches_leaves_curves_out_and_without_curves_there_is_no
         figures.draw(folded(), "curves")
     with pytest.raises(NotDrawable, match="No curve"):
         figures.draw(over_two_parameters(), "curves", Selection(start=0, stop=1))
+
+
+def test_names_of_close_special_orbits_lie_apart_and_those_at_one_place_together():
+    crowded = folded()
+    rows = crowded.section_values
+    rows["state.mass.s"][0] = np.array([2.0, 0.16, 0.0, 0.02, -2.0])  # of 4: 4 and 0.5 % apart
+    rows["value"][0] = np.array([3.0, -1.0, -1.0, -1.0, 3.0])
+    rows["label"][0] = np.array([1.0, 2.0, 3.0, 2.0, 1.0])  # EP, MX, LP, MX, EP
+    (axes,) = drawn_with(crowded, "branch", None).axes
+    assert [one.get_text() for one in axes.texts] == ["MX", "LP, MX"]
+    first, second = (one.get_window_extent() for one in axes.texts)
+    assert not first.overlaps(second)
