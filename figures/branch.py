@@ -73,11 +73,12 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
 
 def _draw_over(chart: OverChart, found: list[Branch]) -> page.Figure:
     """Draw branches over the map of a chart, where parts of a branch may lie on one another."""
+    placed = chart.placed(found)
     figure, axes = chart.panel(2)
-    for branch in found:
+    for branch, x, y in placed:
         look: page.Look = {"color": colours.GEOMETRY, "path_effects": halo()}
-        _curve(axes, branch, *chart.places(branch), **look)
-    name_special(axes, [(chart.inside(one), *chart.places(one)) for one in found])
+        _curve(axes, branch, x, y, **look)
+    name_special(axes, placed)
     chart.explain(figure, axes)
     return figure
 
@@ -86,7 +87,7 @@ def _draw_over_diagram(diagram: OverDiagram, found: list[Branch]) -> page.Figure
     """Draw branches over the sections of a diagram, whose stable orbits lie on these."""
     figure, panels = diagram.panels(1)
     for panel, axes in enumerate(panels):
-        placed = [(one, *diagram.places(one, panel)) for one in found]
+        placed = diagram.placed(found, panel)
         for branch, x, y in placed:
             _curve(axes, branch, x, y)
         name_special(axes, placed)

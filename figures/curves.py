@@ -63,15 +63,13 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
 
 def _draw_over(chart: OverChart, curves: list[Branch]) -> page.Figure:
     """Draw curves over the map of a chart, black, so that its colours mean what they do alone."""
+    placed = chart.placed([_behind_start(curve) for curve in curves])
     figure, axes = chart.panel(len({curve.of for curve in curves}))
-    placed = []
-    for curve in curves:
+    for curve, (_, x, y) in zip(curves, placed, strict=True):
         order = np.argsort(curve.column(LENGTH), kind="stable")
-        x, y = chart.places(curve)
         look: page.Look = {"color": colours.GEOMETRY, "linewidth": 0.9, "path_effects": halo()}
         (line,) = axes.plot(x[order], y[order], _LOOKS[curve.of][1], **look)
         line.set_label(_NAMES[curve.of])
-        placed.append((chart.inside(_behind_start(curve)), x, y))
     name_special(axes, placed)
     chart.explain(figure, axes)
     return figure

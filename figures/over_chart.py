@@ -1,6 +1,6 @@
 """Branches and curves of periodic orbits over the map of a chart of the same parameters."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -9,6 +9,7 @@ import numpy as np
 from jointplay.figures import page
 from jointplay.figures.chart_map import KINDS, ChartMap, offered
 from jointplay.figures.kind import NotDrawable
+from jointplay.figures.special_names import Placed
 from jointplay.records.arrays import Floats
 from jointplay.records.branch import SECOND, VALUE, Branch
 from jointplay.records.study import StudySource
@@ -56,20 +57,31 @@ class OverChart:
         """Explain the map's colours, and the lines of the panel."""
         page.legend_of_marks(figure, self._map.legend, axes)
 
-    def places(self, branch: Branch) -> tuple[Floats, Floats]:
+    def placed(self, branches: Sequence[Branch]) -> list[Placed]:
+        """Return branches, without special orbits beyond the map, and where their orbits are.
+
+        NotDrawable: none of the orbits is on the map.
+        """
+        found, seen = [], False
+        for branch in branches:
+            across, up = self._places(branch)
+            (left, *_, right), (low, *_, high) = self._map.across.edges, self._map.up.edges
+            within = (left <= across) & (across <= right) & (low <= up) & (up <= high)
+            seen = seen or bool(within.any())
+            shown = tuple(one for one in branch.special if within[one.row])
+            found.append((replace(branch, special=shown), across, up))
+        if not seen:
+            sentence = "No orbit lies within the axes of the chart; take one of the same ranges."
+            raise NotDrawable(sentence, "over")
+        return found
+
+    def _places(self, branch: Branch) -> tuple[Floats, Floats]:
         """Return (orbits,) places of a branch's orbits along both axes."""
         values = {name: np.full(len(branch.column(VALUE)), at) for name, at in self._fixed.items()}
         for name, column in zip(self._names, (VALUE, SECOND), strict=False):
             values[name] = branch.column(column)
         across, up = (values[one.name] / one.factor for one in (self._map.across, self._map.up))
         return across, up
-
-    def inside(self, branch: Branch) -> Branch:
-        """Return a branch whose special orbits all lie on the map."""
-        across, up = self.places(branch)
-        (left, *_, right), (low, *_, high) = self._map.across.edges, self._map.up.edges
-        within = (left <= across) & (across <= right) & (low <= up) & (up <= high)
-        return replace(branch, special=tuple(one for one in branch.special if within[one.row]))
 
 
 def halo() -> list[Any]:

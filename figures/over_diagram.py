@@ -1,13 +1,15 @@
 """Branches of periodic orbits over a bifurcation diagram of the same parameter."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from jointplay.figures import colours, marks, page, study_facts
 from jointplay.figures.kind import NotDrawable, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import Scale, alike
+from jointplay.figures.special_names import Placed
 from jointplay.figures.turns import beside
-from jointplay.records.arrays import Floats
 from jointplay.records.branch import VALUE, Branch
 from jointplay.records.channel import by_name
 from jointplay.records.study import StudySource
@@ -54,13 +56,23 @@ class OverDiagram:
             self._axis.dress(axes)
         return figure, list(panels)
 
-    def places(self, branch: Branch, panel: int) -> tuple[Floats, Floats]:
-        """Return (orbits,) places of a branch's orbits in a panel."""
-        name, rows = self.names[panel], self._rows[panel]
-        values = branch.column(name)
-        if by_name(self._over.observables)[name].unit == "rad":
-            values = beside(values, rows)
-        return branch.column(VALUE) / self._axis.factor, values / self._scales[panel].factor
+    def placed(self, branches: Sequence[Branch], panel: int) -> list[Placed]:
+        """Return branches and where their orbits are in a panel.
+
+        NotDrawable: none of them has an orbit within the diagram's values.
+        """
+        name, rows, found, seen = self.names[panel], self._rows[panel], [], False
+        for branch in branches:
+            across, values = branch.column(VALUE) / self._axis.factor, branch.column(name)
+            low, *_, high = self._axis.edges
+            seen = seen or bool(((low <= across) & (across <= high)).any())
+            if by_name(self._over.observables)[name].unit == "rad":
+                values = beside(values, rows)
+            found.append((branch, across, values / self._scales[panel].factor))
+        if not seen:
+            sentence = "No orbit lies within the values of the diagram; take one of the same range."
+            raise NotDrawable(sentence, "over")
+        return found
 
     def finish(self, figure: page.Figure, panels: list[page.Axes]) -> None:
         """Explain the lines of the first panel, and name the parameter."""

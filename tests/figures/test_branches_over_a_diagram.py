@@ -80,3 +80,10 @@ def test_what_cannot_lie_beneath_is_said(over, channels, says, cause):
     with pytest.raises(NotDrawable, match=says) as refusal:
         figures.draw(seen(), "branch", Selection(channels=channels, over=over))
     assert refusal.value.cause == cause
+
+
+def test_orbits_that_all_lie_beyond_the_values_are_refused():
+    far = replace(diagram(), values=diagram().values + 100.0)
+    with pytest.raises(NotDrawable, match="No orbit lies within the values") as refused:
+        figures.draw(seen(), "branch", Selection(over=far))
+    assert refused.value.cause == "over"

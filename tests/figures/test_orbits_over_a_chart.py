@@ -111,3 +111,10 @@ def test_what_cannot_lie_beneath_is_said(source, name, over, says):
 def test_other_figures_have_nothing_beneath():
     with pytest.raises(NotDrawable, match="does not depend on over"):
         figures.draw(chart(), "chart", Selection(over=chart()))
+
+
+def test_orbits_that_all_lie_beyond_the_map_are_refused():
+    small = replace(chart(), values=chart().values * [1.0, 0.1] + [5.0, 0.0])
+    with pytest.raises(NotDrawable, match="No orbit lies within the axes") as refused:
+        figures.draw(over_two_parameters(), "curves", Selection(over=small))
+    assert refused.value.cause == "over"
