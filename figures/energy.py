@@ -7,9 +7,10 @@ import numpy as np
 
 from jointplay.figures import between_samples, colours, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
-from jointplay.figures.quantity import scale
+from jointplay.figures.quantity import largest_of, scale
 from jointplay.figures.time_axis import TimeAxis
 from jointplay.records.arrays import Floats
+from jointplay.records.joint_marks import play_of
 from jointplay.records.run import Source
 
 _HEIGHT: Final = 60.0  # mm
@@ -32,6 +33,9 @@ _LOSSES: Final = {
 }
 """Terms of the ledger by curve."""
 
+_ROUNDING: Final = 1e-13
+"""Changes of energy no larger than this share of the energies are the rounding of these."""
+
 Curves = dict[str, Floats]
 
 
@@ -46,7 +50,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     time, values = sampling.whole(source, names, selection)
     works = between_samples.works(source, time)
     curves = _curves(time, values, works)
-    parts = _parts(curves, works)
+    parts = _parts(curves, works) if _takes_energy(source) else {}
     ledger = _at_the_end(source, selection)
     across = TimeAxis(source, [time])
     residual = ledger.pop("residual", None)
@@ -95,7 +99,16 @@ def _curves(time: Floats, values: Mapping[str, Floats], works: Curves | None) ->
         drivers = works["driver_work"]
     rest = drivers + gravity - kinetic
     given = {_DRIVERS: drivers} if any(name.endswith(".power") for name in values) else {}
-    return {**given, _GRAVITY: gravity, _KINETIC: kinetic, _REST: rest}
+    found = {**given, _GRAVITY: gravity, _KINETIC: kinetic, _REST: rest}
+    energies = ("energy.kinetic", "energy.potential")
+    rounding = _ROUNDING * max(largest_of(values[name]) for name in energies)
+    return {name: curve * (largest_of(curve) > rounding) for name, curve in found.items()}
+
+
+def _takes_energy(source: Source) -> bool:
+    """Tell whether the scene has what loses or stores the rest of the balance."""
+    scene = scene_facts.scene(source)
+    return bool(scene.get("forces")) or any(map(play_of, scene["joints"].values()))
 
 
 def _parts(curves: Curves, works: Curves | None) -> Curves:

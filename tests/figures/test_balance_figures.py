@@ -101,6 +101,15 @@ def test_the_terms_of_the_energy_ledger_balance_at_every_time():
     np.testing.assert_allclose(curves["contacts, friction, elements"], lost, atol=1e-12)
 
 
+def test_rounding_of_energies_that_stay_is_no_curve():
+    noise = 1e-15 * np.sin(1e3 * MOTION.time)
+    still = {"energy.kinetic": 5.0 + noise, "energy.potential": -2.0 + noise}
+    at_rest = replace(MOTION, values=dict(MOTION.values) | still | {"motor.power": noise})
+    (axes,) = figures.draw(at_rest, "energy").axes
+    assert not any(np.any(line.get_ydata()) for line in axes.lines)
+    assert axes.get_ylabel() == "energy [J]"
+
+
 def test_the_ledger_at_the_end_is_marked_on_a_whole_run_only():
     energy = {"driver_work": 6.1, "gravity_work": -10.0, "kinetic_change": 0.2, "residual": -1e-7}
     scene = MOTION.attributes["scene"]

@@ -59,3 +59,10 @@ def test_without_steps_the_rest_is_one_curve(sources):
     assert "keeps no steps" in sources["not kept"].trajectory.works(0.0, 0.3).refused
     (axes,) = figures.draw(sources["not kept"], "energy").axes
     assert "contacts, friction, elements" in [line.get_label() for line in axes.lines]
+
+
+def test_a_mechanism_that_neither_loses_nor_stores_energy_has_no_panel_for_that(tmp_path):
+    job = jointplay.run("pendulum", duration=0.1, certificate=False, output=tmp_path / "RUN")
+    assert results_in(job._folder).trajectory.works(0.0, 0.1).values is not None
+    (axes,) = figures.draw(results_in(job._folder), "energy").axes
+    assert "stored" not in [line.get_label() for line in axes.lines]
