@@ -19,7 +19,10 @@ GROUND = "ground"
 WITH_CLEARANCE = "joint with clearance"
 _SAME_PLACE = 1e-6
 """Joints closer than this share of the extent are labelled together."""
-
+_FLAT = 1e-9
+"""Twice the area of a triangle that is a line, in squares of the largest distance."""
+_BESIDE = 0.03
+"""A centre of mass closer to the only point of a body than this share of the extent is in it."""
 
 _BEARINGS_ACROSS = 6.0
 """Width of the picture of a scene without extension, in bearing radii."""
@@ -71,15 +74,27 @@ class Geometry:
         (left, right), (low, high) = self.extent
         return max(right - left, high - low)
 
+    def corners_of(self, name: str) -> list[Point]:
+        """Corners of a body, at least one.
+
+        A body of one point that does not slide reaches to its centre of mass.
+        """
+        centre = self.centres[name]
+        corners = outline([*self.bodies[name].values()]) or [centre]
+        slides = any(joint.axis is not None and name in joint.bodies for joint in self.joints)
+        if len(corners) > 1 or slides or math.dist(corners[0], centre) < _BESIDE * self.size:
+            return corners
+        return [*corners, centre]
+
     def is_block(self, name: str) -> bool:
         """Tell whether this is a body without extension, drawn as a block or disc."""
-        return name in self.bodies and len(set(self.bodies[name].values())) < 2
+        return name in self.bodies and len(self.corners_of(name)) < 2
 
     def segments(self) -> list[tuple[str, Segment]]:
         """Edges of the bodies with the body's name; a body of one point is a single point."""
         found = []
-        for name, points in self.bodies.items():
-            corners = outline([*points.values()]) or [self.centres[name]]
+        for name in self.bodies:
+            corners = self.corners_of(name)
             following = corners[1:] + corners[:1] if len(corners) > 2 else corners[1:] or corners
             found += [(name, segment) for segment in zip(corners, following, strict=False)]
         return found
@@ -193,10 +208,19 @@ def placed(pose: tuple[float, float, float], point: tuple[float, float]) -> Poin
 
 
 def outline(points: list[Point]) -> list[Point]:
-    """Corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    """Corners of the convex hull, counter-clockwise (Andrew's monotone chain).
+
+    Of points in a line, to rounding, these are the ends.
+    """
     ordered = sorted(set(points))
     if len(ordered) < 3:
         return ordered
+    end = max(ordered, key=lambda point: math.dist(point, ordered[0]))
+    start = max(ordered, key=lambda point: math.dist(point, end))
+    if all(
+        abs(_turn(start, end, point)) <= _FLAT * math.dist(start, end) ** 2 for point in ordered
+    ):
+        return [start, end]
 
     def half(line: list[Point]) -> list[Point]:
         chain: list[Point] = []

@@ -14,7 +14,6 @@ from jointplay.figures.mechanism_geometry import (
     JointMark,
     Point,
     distance,
-    outline,
 )
 from jointplay.figures.mechanism_marks import BLOCK_SIZE
 
@@ -136,11 +135,14 @@ def _joint_places(shape: Geometry, point: Point, joints: list[JointMark]) -> Ite
 
 
 def _body_places(shape: Geometry, name: str) -> Iterator[_Place]:
-    """Above a block; along a long body on both sides, better where other bodies are far."""
-    corners = outline([*shape.bodies[name].values()])
+    """Beside a block and its rail; along a long body on both sides, better far from others."""
+    corners = shape.corners_of(name)
     if len(corners) < 2:
-        point = corners[0] if corners else shape.centres[name]
-        yield _Place(point, _UP, _BLOCK_DISTANCE, 0.0)
+        axes = (joint.axis for joint in shape.joints if name in joint.bodies)
+        rails = [axis for axis in axes if axis is not None]
+        for angle in (_UP, math.pi, 0.0):
+            free = min((abs(math.sin(angle - rail)) for rail in rails), default=1.0)
+            yield _Place(corners[0], angle, _BLOCK_DISTANCE, round(free, 6))
         return
     along = np.subtract(corners[1], corners[0])
     angle = math.atan2(along[1], along[0])

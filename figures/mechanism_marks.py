@@ -6,7 +6,7 @@ from itertools import cycle
 import numpy as np
 
 from jointplay.figures import colours, page
-from jointplay.figures.mechanism_geometry import WITH_CLEARANCE, Geometry, among, distance, outline
+from jointplay.figures.mechanism_geometry import WITH_CLEARANCE, Geometry, among, distance
 
 TINTS = ("#9CC9E8", "#A8DDC9", "#F5C99B", "#E3B8D2", "#CFCFCF", "#EFE59A")
 """Lighter Okabe-Ito colours, for the faces of bodies under black marks and text."""
@@ -38,7 +38,7 @@ def draw_bodies(axes: page.Axes, shape: Geometry, metre: float) -> None:
     """Draw each body through its points, and a dot at every point that no joint marks."""
     marked = [joint.place for joint in shape.joints]
     for tint, (name, points) in zip(cycle(TINTS), shape.bodies.items(), strict=False):
-        corners = np.array(outline([*points.values()])).reshape(-1, 2) / metre
+        corners = np.array(shape.corners_of(name)) / metre
         if len(corners) > 2:
             axes.fill(*corners.T, facecolor=tint, edgecolor=EDGE, linewidth=0.6, zorder=2)
         elif len(corners) == 2:

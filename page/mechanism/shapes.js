@@ -12,6 +12,8 @@ import { guides } from "./guides.js";
 import { GROUND, ends, heading, marks, placeOf, play, world } from "./placing.js";
 
 const BLOCK = [15, 9]; // half a slider's length and height, px
+const FLAT = 1e-9; // twice the area of a triangle that is a line, squares of the largest distance
+const BESIDE = 0.03; // a centre of mass closer to a body's only point is in it, extents
 
 /** Returns the shapes of a scene at a pose, from the back to the front. */
 export function shapes(scene, pose, { labels = false } = {}) {
@@ -27,7 +29,7 @@ export function shapes(scene, pose, { labels = false } = {}) {
       { kind: "polygon", points: slider, fill: "ground", stroke: "edge", width: 1.2 },
       ...walls.map((points) => ({ kind: "line", points, colour: "play", width: 3 })),
     ]),
-    ...Object.keys(scene.bodies).flatMap((name, i) => body(scene, pose, name, i)),
+    ...Object.keys(scene.bodies).flatMap((name, i) => body(scene, pose, name, i, size)),
     ...springs(scene, pose),
     ...drawn.filter(({ filled }) => !filled).map(({ points }) =>
       ({ kind: "line", points, colour: "edge", width: 2 })),
@@ -36,19 +38,30 @@ export function shapes(scene, pose, { labels = false } = {}) {
   ];
 }
 
-/** Returns corners of the convex hull, counter-clockwise (Andrew's monotone chain). */
+const apart = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
+
+/**
+ * Returns corners of the convex hull, counter-clockwise (Andrew's monotone chain); of points in a
+ * line, to rounding, the ends.
+ */
 export function hull(points) {
   const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
   const turn = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   const half = (list) => {
     const chain = [];
     for (const point of list) {
-      while (chain.length > 1 && turn(chain.at(-2), chain.at(-1), point) <= 1e-15) chain.pop();
+      while (chain.length > 1 && turn(chain.at(-2), chain.at(-1), point) <= 0) chain.pop();
       chain.push(point);
     }
     return chain.slice(0, -1);
   };
-  return sorted.length < 3 ? sorted : [...half(sorted), ...half(sorted.reverse())];
+  if (sorted.length < 3) return sorted;
+  const far = (from) => sorted.reduce((a, b) => (apart(from, b) > apart(from, a) ? b : a));
+  const end = far(sorted[0]);
+  const start = far(end);
+  const flat = FLAT * apart(start, end) ** 2;
+  if (sorted.every((point) => Math.abs(turn(start, end, point)) <= flat)) return [start, end];
+  return [...half(sorted), ...half(sorted.reverse())];
 }
 
 function rails(scene, pose, size) {
@@ -95,10 +108,17 @@ function supports(scene, pose) {
   return found;
 }
 
-function body(scene, pose, name, index) {
+function body(scene, pose, name, index, size) {
   const tint = `tint-${index % 6}`;
   const points = Object.values(scene.bodies[name].points ?? {}).map((at) => world(pose, name, at));
   const corners = hull(unique(points));
+  const rail = sliding(scene, pose).find((one) => one.body === name);
+  const [x, y] = corners[0] ?? pose[name];
+  // a body of one point that does not slide reaches to its centre of mass
+  const [right, up] = [pose[name][0] - x, pose[name][1] - y];
+  if (corners.length === 1 && !rail && Math.hypot(right, up) >= BESIDE * size) {
+    corners.push(pose[name].slice(0, 2));
+  }
   if (corners.length > 2) {
     return [{
       kind: "polygon", points: corners, fill: tint, stroke: "edge", width: 1.4, round: 6,
@@ -110,8 +130,6 @@ function body(scene, pose, name, index) {
       { kind: "line", points: corners, colour: tint, width: 8.4, cap: "round" },
     ];
   }
-  const [x, y] = corners[0] ?? pose[name];
-  const rail = sliding(scene, pose).find((one) => one.body === name);
   if (!rail) {
     const dot = [0, 1].map((i) => 8 * (i ? -Math.sin(pose[name][2]) : Math.cos(pose[name][2])));
     return [
