@@ -9,7 +9,7 @@ package does not load matplotlib; drawing does, without pyplot or a change of th
 """
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import Any, Final, NamedTuple
 
@@ -224,25 +224,26 @@ def _find(
     if name in roster:
         roster[name].check(selection)
         return roster[name], selection
-    found = _of_channel(source, name)
+    of_channels = _of_channels(source)
+    found = next((kind for kind, names in of_channels if name in names), None)
     if found is None:
-        raise UnknownFigure(name, [one for one, kind in roster.items() if _offered(kind, source)])
+        offered = [one for one, kind in roster.items() if _offered(kind, source)]
+        raise UnknownFigure(name, offered, [one for _, names in of_channels for one in names])
     if selection.channels:
         raise NotDrawable(f"The figure {name!r} is of one channel; leave channels out.", "channels")
     found.check(selection)
     return found, replace(selection, channels=(name,))
 
 
-def _of_channel(source: Source | StudySource, name: str) -> FigureKind[Any] | None:
-    """Give the figure that the name of a channel stands for."""
+def _of_channels(source: Source | StudySource) -> list[tuple[FigureKind[Any], Collection[str]]]:
+    """Give the figures that names of channels stand for, with these names; the first one counts."""
     if not is_study(source):
-        return TIME_HISTORY if name in by_name(source.channels) else None
-    if source.kind == "bifurcation" and name in by_name(source.observables):
-        return BIFURCATION
+        return [(TIME_HISTORY, by_name(source.channels))]
     if source.kind == "sensitivity":
-        return SENSITIVITY if name in {**by_name(source.channels), **outputs(source)} else None
-    over_points = (*source.channels, *study_facts.statistics(source))
-    return SWEEP if name in by_name(over_points) else None
+        return [(SENSITIVITY, {**by_name(source.channels), **outputs(source)})]
+    over_points = by_name((*source.channels, *study_facts.statistics(source)))
+    diagram = by_name(source.observables) if source.kind == "bifurcation" else {}
+    return [(BIFURCATION, diagram), (SWEEP, over_points)]
 
 
 def _roster(source: Source | StudySource) -> Mapping[str, FigureKind[Any]]:

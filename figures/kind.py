@@ -24,8 +24,8 @@ class FigureError(Exception):
 class UnknownFigure(FigureError):
     """There is no figure of that name."""
 
-    def __init__(self, name: str, known: Sequence[str]) -> None:
-        meant = did_you_mean(name, known)
+    def __init__(self, name: str, known: Sequence[str], channels: Sequence[str]) -> None:
+        meant = did_you_mean(name, [*known, *channels])
         super().__init__(
             f"There is no figure {name!r} of these results; {meant}{' ' if meant else ''}there are "
             f"{', '.join((*known, 'every stored channel'))}."

@@ -58,7 +58,14 @@ def test_titles_of_loops_stay_on_the_page_however_long_the_name():
     assert all(text.get_window_extent().x1 <= width for text in titles)
 
 
-@pytest.mark.parametrize(("name", "said"), [("orbt", "did you mean 'orbit'?"), ("x", "there are")])
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("orbt", "did you mean 'orbit'?"),
+        ("left.normal_forc", "did you mean 'left.normal_force'?"),
+        ("x", "there are"),
+    ],
+)
 def test_a_figure_that_there_is_not_is_answered_with_the_nearest(name, said):
     with pytest.raises(UnknownFigure) as caught:
         figures.draw(MOTION, name)
