@@ -119,6 +119,8 @@ def test_local_results_are_drawn(jointplay, press, tmp_path):
     assert one.read_bytes() == (tmp_path / "orbit.svg").read_bytes()
     several = jointplay("plot", press, "orbit", "energy", "-o", one)
     assert "is one file: name one figure, or a folder" in several.line()
+    picture = jointplay("plot", press, "orbit", "-o", tmp_path / "press.jpg")
+    assert "are written as png, svg" in picture.line()
     other = jointplay("plot", press, "orbit", "--format", "pdf", "-o", one)
     assert "--format pdf is not that of 'press.svg'" in other.line()
     wrong = jointplay("plot", press, "orbit", "--joints", "Z", "-o", tmp_path)

@@ -6,6 +6,9 @@ from typing import NamedTuple
 from jointplay.command_line.exits import Stopped
 from jointplay.records.figure_form import FILM_FORMS, FORMS
 
+_UNKNOWN_FORMS = ("jpg", "jpeg", "tif", "tiff", "bmp", "webp", "ps", "avi", "mov")
+"""Endings of files that are no figures: a folder of such a name is not meant."""
+
 
 class FigurePaths(NamedTuple):
     """A folder, and the name of the only file where that was given."""
@@ -30,6 +33,9 @@ def figure_paths(
         One file is named for several figures, or its ending is not the form that is asked for.
     """
     ending = output.suffix.removeprefix(".")
+    if ending.lower() in _UNKNOWN_FORMS and not output.is_dir():
+        known = ", ".join((*FORMS, *FILM_FORMS))
+        raise Stopped(f"--output {output}: figures are written as {known}, not as {ending}.")
     if output.is_dir() or ending not in (*FORMS, *FILM_FORMS):
         return FigurePaths(output), form
     if names is None or len(names) != 1:
