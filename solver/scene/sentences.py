@@ -89,6 +89,8 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
     kind, context = item["type"], item.get("ctx", {})
     if kind not in SENTENCES:
         return f"{item['msg']}."
+    if kind == "missing" and isinstance(item["loc"][-1], int):
+        return f"'{field}' has {item['loc'][-1]} entries, and needs more."
     pattern = context.get("pattern", "")
     if pattern == start_numbers.PATTERN:
         kind = "start number"

@@ -125,3 +125,9 @@ def test_what_cannot_be_posed_is_refused_at_its_field(http, resource, document, 
     answer = http.post(f"/v1/scenes/{resource}", json=document)
     assert answer.status_code == 422
     assert pointer in [one["pointer"] for one in answer.json()["errors"]]
+
+
+def test_a_place_of_one_coordinate_is_too_short(http):
+    document = {"scene": FOUR_BAR, "point": "crank.B", "place": [0]}
+    (problem,) = http.post("/v1/scenes/drag", json=document).json()["errors"]
+    assert problem == {"pointer": "/place/1", "detail": "'place' has 1 entries, and needs more."}
