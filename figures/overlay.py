@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from textwrap import fill
 
 from jointplay.figures import colours, page, saving
 from jointplay.figures.adjustment import drawn
@@ -12,6 +13,8 @@ from jointplay.records.figure_form import Form
 
 _PANEL_HEIGHT = 30.0  # mm
 MOST_CURVES = len(colours.COMPARED)
+_ROW, _LINE = 58, 8
+"""Letters in a row of the legend, and how many the line before a label takes the room of."""
 
 
 @dataclass(frozen=True)
@@ -44,20 +47,26 @@ def draw_overlay(
 
 
 def _draw(panels: Mapping[str, Sequence[Curve]]) -> page.Figure:
-    rows = max(page.legend_rows(curves) for curves in panels.values())
+    labels = [fill(curve.label, _ROW - _LINE) for curve in next(iter(panels.values()))]
+    longest = max(len(line) for label in labels for line in label.splitlines())
+    columns = min(_ROW // (longest + _LINE), page.LEGEND_COLUMNS)
+    rows = -(-len(labels) // columns) * max(label.count("\n") + 1 for label in labels)
     figure, stacked = page.stack([_PANEL_HEIGHT] * len(panels), rows)
     seconds = scale("s", *(curve.time for curves in panels.values() for curve in curves))
     for axes, (name, curves) in zip(stacked, panels.items(), strict=True):
         shown = scale(curves[0].unit, *(curve.values for curve in curves))
-        for curve, (colour, dashes, _) in zip(curves, colours.COMPARED, strict=False):
+        for curve, label, (colour, dashes, _) in zip(
+            curves, labels, colours.COMPARED, strict=False
+        ):
             axes.plot(
                 curve.time / seconds.factor,
                 curve.values / shown.factor,
                 color=colour,
                 linestyle=dashes,
-                label=curve.label,
+                label=label,
                 rasterized=len(curve.time) > page.MOST_VECTOR_POINTS,
             )
         axes.set_ylabel(shown.label(page.in_two_lines(name)))
-    page.finish_stack(figure, stacked, seconds.label("time"), stacked[0])
+    page.finish_stack(figure, stacked, seconds.label("time"))
+    page.legend(figure, stacked[0], ncols=columns)
     return figure
