@@ -9,11 +9,10 @@ from jointplay.records.suggestions import unknown
 from jointplay.solver.joints import Gear
 from jointplay.solver.joints.starts import GuideStart
 from jointplay.solver.laws.friction.law import InnerState
-from jointplay.solver.quantities.units import NOT_COHERENT
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.parameters import leads_to_value
+from jointplay.solver.scene.parameter_problems import parameter_problems
 from jointplay.solver.scene.sizes import size_problems
 from jointplay.solver.scene.varying_forces import varying_problems
 
@@ -38,7 +37,7 @@ def tangent_obstacle(scene: Scene) -> str:
 def reference_problems(scene: Scene) -> Iterator[Problem]:
     """Yield what is wrong between the parts of a scene; pointers begin at the scene."""
     yield from part_problems(scene)
-    yield from _parameters(scene)
+    yield from parameter_problems(scene)
 
 
 def part_problems(scene: Scene) -> Iterator[Problem]:
@@ -136,37 +135,6 @@ def _guided(scene: Scene, pointer: str, name: str, start: GuideStart) -> Iterato
             if getattr(start, field):
                 sentence = f"What joint '{name}' guides may turn; leave the {field} out."
                 yield Problem(f"{pointer}/{field}", sentence)
-
-
-def _parameters(scene: Scene) -> Iterator[Problem]:
-    document = scene.model_dump()
-    setting: dict[str, str] = {}  # by path the first parameter that sets it
-    for name, parameter in scene.parameters.items():
-        always = parameter.required or parameter.default is not None
-        low, high = parameter.minimum, parameter.maximum
-        if low is not None and high is not None and low > high:
-            yield Problem(
-                f"/parameters/{name}/minimum", f"The minimum {low:g} is above the maximum {high:g}."
-            )
-        known = NOT_COHERENT.get(parameter.unit)
-        if known and any(target.factor == 1.0 for target in parameter.targets):
-            yield Problem(
-                f"/parameters/{name}/unit",
-                f"Numbers count in {known}, not {parameter.unit}: give the unit {known} and values"
-                " in it, or each target the factor that converts them.",
-            )
-        for index, target in enumerate(parameter.targets):
-            pointer = f"/parameters/{name}/targets/{index}/path"
-            if not leads_to_value(document, target.path):
-                sentence = f"'{target.path}' leads nowhere in this scene; name a single value."
-                yield Problem(pointer, sentence)
-            other = setting.setdefault(target.path, name)
-            if always and other != name:
-                yield Problem(
-                    pointer,
-                    f"'{name}' always has a value, so what '{other}' before it sets here has no"
-                    f" effect; drop one of the two, or the default of '{name}'.",
-                )
 
 
 def _names(scene: Scene) -> Iterator[Problem]:
