@@ -2,7 +2,8 @@
 
 import json
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+import time
+from collections.abc import Callable, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +22,10 @@ if TYPE_CHECKING:
 Report = Callable[[float, str], None]
 STORE = "study"
 """Folder of the growing store, which all tries fill together."""
+_BEGINNING = 2.0
+"""Seconds that other processes take to begin."""
+_LOOK = 0.2
+"""Seconds of computing that tell how long the rest will take."""
 _DIED = "A process that computed a part of the study died; what others stored is kept."
 
 
@@ -69,8 +74,9 @@ def compute_study(
 
     def tell(fraction: float, note: str) -> None:
         nonlocal done
-        done = fraction
-        report(fraction, note)
+        if fraction >= done:  # processes first find out what is computed already
+            done = fraction
+            report(fraction, note)
 
     report(0.0, "preparing the kernels")
     layout, folder = layout_of_study(study), running / STORE
@@ -98,15 +104,40 @@ def _computed(
     asked_to_end: Callable[[], bool],
 ) -> "list[Outcome]":
     """Compute all blocks, and return how they ended; none if the end was asked for."""
-    begun = tries_in(folder)
-    tries = {index: begun.get(index, Try()) for index in range(len(study.blocks))}
     wanted = min(processes or (cores() if device is None else 1), len(study.blocks))
-    if wanted > 1:
-        calls = _calls(study, folder, tries, wanted, device)
-        return _spread(study, calls, wanted, report, asked_to_end)
-    if device is not None:
-        return [_on_device(study, folder, tries, device, report, asked_to_end)]
-    return _here(study, folder, tries, report, asked_to_end)
+    if device is None:
+        rest = _Rest()
+
+        def leaves(fraction: float) -> bool:
+            return asked_to_end() or (wanted > 1 and rest.is_long(fraction))
+
+        ends = _here(study, folder, report, leaves)
+        if wanted == 1 or ends[-1].state != "left" or asked_to_end():
+            return ends
+    elif wanted == 1:
+        return [_on_device(study, folder, device, report, asked_to_end)]
+    calls = _calls(study, folder, wanted, device)
+    return _spread(study, calls, wanted, report, asked_to_end)
+
+
+class _Rest:
+    """What is left of a study, by what was done since this was first asked."""
+
+    def __init__(self) -> None:
+        self._first: tuple[float, float] | None = None
+
+    def is_long(self, fraction: float) -> bool:
+        """Whether it takes longer than other processes take to begin; `fraction` is done."""
+        now = time.monotonic()
+        begun, before = self._first = self._first or (now, fraction)
+        seconds, done = now - begun, fraction - before
+        return seconds > _LOOK and seconds * (1.0 - fraction) > _BEGINNING * done
+
+
+def _tries(study: "Study", folder: Path) -> dict[int, Try]:
+    """Return the next try at each block."""
+    begun = tries_in(folder)
+    return {index: begun.get(index, Try()) for index in range(len(study.blocks))}
 
 
 def open_store(folder: Path, layout: "StudyLayout") -> None:
@@ -124,13 +155,16 @@ def open_store(folder: Path, layout: "StudyLayout") -> None:
 def _here(
     study: "Study",
     folder: Path,
-    tries: Mapping[int, Try],
     report: Report,
-    asked_to_end: Callable[[], bool],
+    leaves: Callable[[float], bool],
 ) -> "list[Outcome]":
-    """Compute all blocks in this process, one after the other, until one does not succeed."""
+    """Compute all blocks in this process, one after the other, until one does not succeed.
+
+    leaves : asked several times a second, with the fraction of the whole.
+    """
     from jointplay.worker.execute import Progress
 
+    tries = _tries(study, folder)
     ends: list[Outcome] = []
     for index, (first, count) in enumerate(study.blocks):
 
@@ -138,7 +172,7 @@ def _here(
             ended = first + done.watermark
             fraction = (first + count * done.fraction) / study.points
             report(fraction, f"{ended} of {study.points} points")
-            return not asked_to_end()
+            return not leaves(fraction)
 
         ends.append(compute_block(study, index, folder, tries[index], go_on))
         if ends[-1].state != "succeeded":
@@ -149,7 +183,6 @@ def _here(
 def _on_device(
     study: "Study",
     folder: Path,
-    tries: Mapping[int, Try],
     device: "Lanes",
     report: Report,
     asked_to_end: Callable[[], bool],
@@ -162,13 +195,12 @@ def _on_device(
 
     from jointplay.worker.local.pooled import compute_pooled
 
-    return compute_pooled(study, folder, tries, device, go_on)
+    return compute_pooled(study, folder, _tries(study, folder), device, go_on)
 
 
-def _calls(
-    study: "Study", folder: Path, tries: Mapping[int, Try], count: int, device: "Lanes | None"
-) -> list[Call]:
+def _calls(study: "Study", folder: Path, count: int, device: "Lanes | None") -> list[Call]:
     """Return calls that compute a block each, or, for a device, a part for each process."""
+    tries = _tries(study, folder)
     if device is not None:
         from jointplay.worker.local.pooled import calls_of_parts
 

@@ -21,7 +21,7 @@ from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
 from jointplay.solver.kernels.loop.periods import look_ahead, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes, make_ready
-from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SECTIONS, Buffers, Status
+from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, RUNNING, SECTIONS, Buffers, Status
 from jointplay.solver.kernels.loop.step import Workspace
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed
@@ -51,7 +51,7 @@ class Group:
     @property
     def runs_on(self) -> bool:
         """Whether a lane runs."""
-        return bool(np.any(self.runs["status"] == Status.RUNNING))
+        return bool((self.runs["status"] == RUNNING).any())
 
 
 class Bundle:
@@ -218,15 +218,13 @@ class Bundle:
         """
         for name in ("filled", "impacts", "growths", "kept"):
             self.runs[name] = 0
-        goal = self.attempts + budget
-        for group in self.groups:
-            if group.runs_on:
-                group.work[self.kernel.layout["seeks_extremes"]] = float(self.watch)
-                left = goal - group.attempts
-                group.attempts += advance(
-                    self.workspace(group), group.buffers, int(self.watch), left
-                )
-        return int(np.count_nonzero(self.runs["status"] == Status.RUNNING))
+        running = [group for group in self.groups if group.runs_on]
+        goal = min((group.attempts for group in running), default=0) + budget
+        for group in running:
+            group.work[self.kernel.layout["seeks_extremes"]] = float(self.watch)
+            left = goal - group.attempts
+            group.attempts += advance(self.workspace(group), group.buffers, int(self.watch), left)
+        return int(np.count_nonzero(self.runs["status"] == RUNNING))
 
     def workspace(self, group: Group) -> Workspace:
         """Return a group of lanes as kernels take it."""

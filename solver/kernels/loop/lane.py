@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.kernels.loop.runs import RUNNING, Status
 
 Floats = NDArray[np.float64]
 
@@ -50,7 +50,7 @@ class Lane:
     @property
     def running(self) -> bool:
         """Whether it has not come to its end."""
-        return bool(self.run["status"] == Status.RUNNING)
+        return bool(self.run["status"] == RUNNING)
 
     @property
     def time(self) -> float:

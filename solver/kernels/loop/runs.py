@@ -26,6 +26,10 @@ class Status(IntEnum):
     NO_PROGRESS = 6
 
 
+RUNNING = int(Status.RUNNING)
+"""As a number: NumPy takes ten microseconds to compare an array with a member of an enumeration."""
+
+
 class SectionKind(IntEnum):
     """Kind of event that makes a Poincare section."""
 

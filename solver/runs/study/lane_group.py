@@ -12,7 +12,7 @@ from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes
-from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.kernels.loop.runs import RUNNING, Status
 from jointplay.solver.runs.study.gathered import Gathered
 from jointplay.solver.runs.study.held_starts import end_of_start
 from jointplay.solver.runs.study.judge import judged, looks_again, looks_longer
@@ -160,7 +160,7 @@ class LaneGroup:
         runs = self.bundle.runs
         handed = [*HANDED, "impacts"] if self.study.statistics else HANDED
         counts = runs["filled"].sum(axis=1) + sum(runs[name] for name in handed)
-        found: Flags = (runs["status"] != Status.RUNNING) | (counts > 0)
+        found: Flags = (runs["status"] != RUNNING) | (counts > 0)
         return found
 
     def _take(self, lane: int, run: PointRun, gathered: Gathered) -> None:
@@ -170,7 +170,7 @@ class LaneGroup:
             gathered.rows += self.recording.take(lane, run)
         else:
             run.finer.append(self.bundle.growth(lane))
-        if status == Status.RUNNING or self._goes_on(lane, run, status, gathered.following):
+        if status == RUNNING or self._goes_on(lane, run, status, gathered.following):
             return
         end = judged(self.study, self.bundle.kernel, run)
         again = from_next_start(self.study, self.bundle.kernel, run, end)

@@ -2,6 +2,7 @@
 
 import errno
 import json
+import math
 import os
 import signal
 import subprocess
@@ -16,7 +17,7 @@ from jointplay.client import JobCancelled, JobFailed, NotFound
 from jointplay.solver.kinds import admit
 from jointplay.storage import durable
 from jointplay.storage.results.comparison import compared_arrays, differing_attributes
-from jointplay.worker.local import computing, keeping
+from jointplay.worker.local import computing, keeping, study
 from jointplay.worker.local.folder import holding
 from tests.waiting import descendants, is_alive, until
 
@@ -87,13 +88,31 @@ def test_a_signal_ends_a_study_which_goes_on_bit_for_bit(processes, whole, tmp_p
     assert_equal(folder, whole["bifurcation"])
 
 
+@pytest.mark.parametrize("beginning", [0.0, math.inf])
+def test_processes_begin_for_what_takes_longer_than_they_do(
+    beginning, whole, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(study, "_LOOK", 0.0)
+    monkeypatch.setattr(study, "_BEGINNING", beginning)
+    seen = set()
+    (tmp_path / "OUT").mkdir()
+    before = descendants(os.getpid()).keys()
+
+    def report(*_):
+        seen.update(descendants(os.getpid()).keys() - before)
+
+    outcome = computing.compute(admit(DIAGRAM), tmp_path / "OUT", 2, report)
+    assert (outcome.state, len(seen) > 1) == ("succeeded", beginning == 0.0)
+    assert_equal(tmp_path / "OUT", whole["bifurcation"])
+
+
 @pytest.mark.parametrize(("job", "processes"), [(CRANK, None), (DIAGRAM, 2)], ids=["run", "study"])
 def test_a_killed_run_goes_on_from_its_last_restart_point(job, processes, whole, tmp_path):
     folder = tmp_path / "OUT"
     program = (
         "import json, sys, jointplay\n"
-        "from jointplay.worker.local import keeping\n"
-        "keeping.PERIOD = keeping._MOST_OVERHEAD = 0\n"
+        "from jointplay.worker.local import keeping, study\n"
+        "keeping.PERIOD = keeping._MOST_OVERHEAD = study._LOOK = study._BEGINNING = 0\n"
         "job, folder, processes = sys.argv[1:]\n"
         "jointplay.run(json.loads(job), output=folder, processes=json.loads(processes))\n"
     )

@@ -113,9 +113,11 @@ def test_a_script_without_a_guard_runs_a_study_on_several_processes(tmp_path):
     script = tmp_path / "script.py"
     script.write_text(
         "import jointplay\n"
+        "from jointplay.worker.local import study\n"
+        "study._LOOK = study._BEGINNING = 0.0\n"
         "print('once')\n"
-        "study = jointplay.jobs.sweep('slider-crank', {'clearance': [1e-4] * 16}, periods=0.1)\n"
-        "job = jointplay.run(study, processes=2)\n"
+        "sweep = jointplay.jobs.sweep('slider-crank', {'clearance': [1e-4] * 16}, periods=0.1)\n"
+        "job = jointplay.run(sweep, processes=2)\n"
         "print(job.id, len(job.points))\n"
     )
     ended = subprocess.run([sys.executable, script], capture_output=True, text=True)
