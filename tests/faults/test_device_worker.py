@@ -21,7 +21,7 @@ from jointplay.solver.kinds import Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Block, BlockState
 from jointplay.storage.settings import Settings
-from tests.waiting import until
+from tests.waiting import is_alive, until
 
 CHART = {
     "kind": "chart",
@@ -87,8 +87,9 @@ def holders(catalogue: Catalogue, job: str) -> dict[int, list[Block]]:
 
 
 def with_device(catalogue: Catalogue) -> list[int]:
-    """Return the processes that have a device."""
-    return [int(one.name.split(":")[1]) for one in catalogue.workers_at_work() if one.device]
+    """Return the processes that have a device; of one that was killed this is known later."""
+    found = (int(one.name.split(":")[1]) for one in catalogue.workers_at_work() if one.device)
+    return [pid for pid in found if is_alive(pid)]
 
 
 @pytest.mark.parametrize("fault", ["killed", "lost", "memory"])
