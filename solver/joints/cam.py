@@ -208,11 +208,11 @@ class CamJoint(Joint):
                 " follower keeps away from the cam's centre; add a base radius.",
             )
             return
-        if self.clearance is not None and self.clearance.lash >= found.value[lowest]:
+        if self.clearance is not None and self.clearance.lash > found.value[lowest]:
             yield (
                 "clearance/lash",
                 f"A lash of {self.clearance.lash:g} m leaves nothing of a cam whose profile is"
-                f" {found.value[lowest]:.4g} m at {angles[lowest]:.3g} rad; it must be smaller.",
+                f" {found.value[lowest]:.4g} m at {angles[lowest]:.3g} rad; it must not be larger.",
             )
             return
         yield from self.unreached(angles, found)
