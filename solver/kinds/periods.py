@@ -6,12 +6,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from jointplay.records.arrays import Floats, Integers
+from jointplay.records.failure import InvalidInput
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.study.fields import distinct, geometry_columns
 from jointplay.solver.runs.study.scenes import PointScenes
-from jointplay.solver.scene.periods import characteristic_time, common_period, first_speed
+from jointplay.solver.scene.periods import (
+    characteristic_time,
+    common_period,
+    first_speed,
+    idle_period,
+)
 
-_SPEED = re.compile(r"/drivers/[^/]+/(speed|motion/.+)|/forces/[^/]+/(course/.+|no_load_speed)")
+_SPEED = re.compile(
+    r"/period|/drivers/[^/]+/(speed|motion/.+)|/forces/[^/]+/(course/.+|no_load_speed)"
+)
 _GRAVITY = re.compile(r"/gravity/\d")
 
 
@@ -30,7 +38,7 @@ class Periods:
 def periods(scenes: PointScenes) -> Periods:
     """Return the time units of all points."""
     count = len(scenes.values)
-    driven = [scenes.column(leaf) for leaf in scenes.leaves if _SPEED.fullmatch(leaf.path)]
+    driven = _driven(scenes)
     group = distinct(driven, count)
     seconds, speed = np.empty(count), np.empty(count)
     notes: dict[int, str] = {}
@@ -54,6 +62,18 @@ def periods(scenes: PointScenes) -> Periods:
                 scene = scenes.scene(int(same[0]))
                 seconds[same] = characteristic_time(scene, shortest_link(scene))
     return Periods(seconds, notes, speed)
+
+
+def check_period(scenes: PointScenes) -> None:
+    """Refuse (InvalidInput) a scene's own period that has an effect at no point."""
+    firsts = np.unique(distinct(_driven(scenes), len(scenes.values)), return_index=True)[1]
+    if all(idle_period(scenes.scene(point)) for point in firsts.tolist()):
+        raise InvalidInput.at("/scene/period", idle_period(scenes.base))
+
+
+def _driven(scenes: PointScenes) -> list[Floats]:
+    """Return the numbers on which periods depend, each (points,)."""
+    return [scenes.column(leaf) for leaf in scenes.leaves if _SPEED.fullmatch(leaf.path)]
 
 
 def _members(group: Integers) -> list[Integers]:

@@ -27,6 +27,7 @@ from jointplay.solver.scene.periods import (
     characteristic_time,
     common_period,
     drivers_period,
+    idle_period,
     quickest_driver,
     section_offset,
 )
@@ -107,6 +108,8 @@ class Simulate(Kind[SimulateJob]):
             raise InvalidInput.at("/settle", sentence)
         scene, scene_document, echo = resolve(job)
         _, assembly = check(scene, job.formulation)
+        if idle := idle_period(scene):
+            raise InvalidInput.at("/scene/period", idle)
         outside = list(domain_problems(scene, job.duration))
         if outside:
             raise InvalidInput(outside)

@@ -21,6 +21,9 @@ SLOWEST = 1e-9
 RATIO_TOLERANCE = 1e-12
 """Relative mismatch within which a ratio of speeds is taken as exact: rounding of the input."""
 
+AGREEING = 1e-6
+"""Relative mismatch up to which a scene gives the period that its drivers have: six digits."""
+
 
 @dataclass(frozen=True)
 class Period:
@@ -38,6 +41,17 @@ def common_period(scene: Scene) -> Period:
     if own.seconds is None and scene.period is not None:
         return Period(scene.period, own.note, given=True)
     return own
+
+
+def idle_period(scene: Scene) -> str:
+    """Return why the period that a scene gives has no effect; empty: it has, or there is none."""
+    own = drivers_period(scene).seconds
+    if scene.period is None or own is None or math.isclose(own, scene.period, rel_tol=AGREEING):
+        return ""
+    return (
+        f"What drives the scene repeats after {own:.9g} s, which is the time between sections; a"
+        f" period of {scene.period:g} s has no effect. Leave it out."
+    )
 
 
 @once_per_scene

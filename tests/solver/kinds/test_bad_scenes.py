@@ -134,6 +134,11 @@ BAD_SCENES: dict[str, Refused] = {
         "/scene/parameters/clearance/unit",
         "count in m",
     ),
+    "a period beside drivers that repeat": (
+        at("/scene/period", 0.5),
+        "/scene/period",
+        "repeats after 2 s",
+    ),
     "links that do not reach": (
         at("/scene/bodies/link2/points/C", [3.0, 0.0]),
         "/scene/start/angles",
