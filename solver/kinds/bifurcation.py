@@ -4,11 +4,13 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from jointplay.solver.kinds.idle_fields import check_idle
 from jointplay.solver.kinds.limits import check_count
 from jointplay.solver.kinds.points import Points, one_axis
 from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
 from jointplay.solver.kinds.values import Values, axis, count
 from jointplay.solver.quantities.units import Name, quantity
+from jointplay.solver.runs.study.plan import Study
 
 
 class BifurcationJob(SectionStudyJob):
@@ -47,6 +49,12 @@ class Bifurcation(SectionStudy[BifurcationJob]):
 
     document = BifurcationJob
     results: ClassVar = ("points", "bifurcation", "poincare", "figures", "zarr")
+
+    def admit(self, job: BifurcationJob) -> Study:
+        """Check and fill in; see `Kind.admit`."""
+        if job.continuation == "none":
+            check_idle(job, "a 'continuation'", "chains")
+        return super().admit(job)
 
     def points(self, job: BifurcationJob) -> Points:
         """Return the values."""

@@ -5,6 +5,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds.idle_fields import check_idle
 from jointplay.solver.kinds.map import AlongStart
 from jointplay.solver.kinds.motion_map import MotionMap, MotionMapJob
 from jointplay.solver.kinds.perturbed import Seed, spread_up_to
@@ -64,6 +65,8 @@ class Chart(MotionMap[ChartJob]):
             raise InvalidInput.at("/refine", sentence)
         if job.starts > 1:
             _check_starts(job)
+        else:
+            check_idle(job, "several 'starts'", "spread", "seed")
         return super().admit(job)
 
     def continuation(self, job: ChartJob) -> str:

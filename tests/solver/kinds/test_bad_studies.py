@@ -179,6 +179,7 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
     "unknown indicator": (P, {"indicators": ["chaos"]}, "/indicators/0", "'lyapunov'"),
     "indicators a word": (P, {"indicators": "some"}, "/indicators", "'all'"),
     "unknown continuation": (B, {"continuation": "up"}, "/continuation", "'forward'"),
+    "chains of nothing": (B, {"chains": 4}, "/chains", "no effect without a 'continuation'"),
     "no chains": (B, {"chains": 0}, "/chains", "at least 1"),
     "tolerance and accuracy": (
         P,

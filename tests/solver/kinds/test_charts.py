@@ -40,6 +40,8 @@ def across(count, parameter="speed"):
         ({"refine": 1, "indicators": []}, "/indicators", "where the motion differs"),
         ({"refine": 7}, "/refine", "at most 6"),
         ({"starts": 65}, "/starts", "at most 64"),
+        ({"spread": 0.1}, "/spread", "no effect without several 'starts'"),
+        ({"seed": 4}, "/seed", "no effect without several 'starts'"),
         ({"continuation": "both"}, "/continuation", "backward"),
         (
             {
