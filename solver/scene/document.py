@@ -87,7 +87,7 @@ class Parameter(Strict):
     required: Annotated[bool, Field(description="without a default, it must be given")] = False
     minimum: float | None = None
     maximum: float | None = None
-    choices: Annotated[list[str], Field(max_length=16)] | None = None
+    choices: Annotated[list[str], Field(min_length=1, max_length=16)] | None = None
     inferred: Annotated[
         bool, Field(description="the source does not print this default; it was inferred")
     ] = False

@@ -85,6 +85,39 @@ BAD_SCENES: dict[str, Refused] = {
         "/scene/parameters/speed_crank4/targets/0/path",
         "what 'speed' before it sets here has no effect",
     ),
+    "parameter that sets nought": (
+        at("/scene/parameters/clearance/targets/0/factor", 0.0),
+        "/scene/parameters/clearance/targets/0/factor",
+        "sets 0 whatever 'clearance' is",
+    ),
+    "parameter that sets one number twice": (
+        at(
+            "/scene/parameters/clearance/targets/1/path",
+            "/joints/A/clearance/radial_clearance",
+        ),
+        "/scene/parameters/clearance/targets/1/path",
+        "twice; name it once",
+    ),
+    "parameter that sets the default of another": (
+        at("/scene/parameters/friction/targets/0/path", "/parameters/clearance/default"),
+        "/scene/parameters/friction/targets/0/path",
+        "no effect on the mechanism",
+    ),
+    "least value of words": (
+        at("/scene/parameters/slip_velocity/minimum", 0.0),
+        "/scene/parameters/slip_velocity/minimum",
+        "are words",
+    ),
+    "factor of words": (
+        at("/scene/parameters/slip_velocity/targets/1/factor", 2.0),
+        "/scene/parameters/slip_velocity/targets/1/factor",
+        "are words",
+    ),
+    "no word to choose": (
+        at("/scene/parameters/slip_velocity/choices", []),
+        "/scene/parameters/slip_velocity/choices",
+        "at least 1",
+    ),
     "start of an unknown body": (
         at("/scene/start/angles/link9", 0.0),
         "/scene/start/angles/link9",
