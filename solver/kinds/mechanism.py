@@ -163,16 +163,23 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
 
 
 def _open(scene: Scene) -> list[Problem]:
-    """Return why a mechanism does not close: because of where its journals start, or anyway."""
-    centred = scene.start.model_copy(update={"joints": {}})
-    if scene.start.joints and closes(scene.model_copy(update={"start": centred})):
+    """Return why a mechanism does not close: because of where its joints start, or anyway."""
+    start = scene.start
+    places = {
+        f"joints/{name}/eccentricity": any(one.eccentricity) for name, one in start.joints.items()
+    }
+    for name, guided in start.guides.items():
+        places |= {f"guides/{name}/{field}": getattr(guided, field) for field in ("offset", "tilt")}
+    centred = start.model_copy(update={"joints": {}, "guides": {}})
+    if any(places.values()) and closes(scene.model_copy(update={"start": centred})):
         return [
             Problem(
-                f"/scene/start/joints/{name}/eccentricity",
-                "The mechanism closes with its journals centred, but does not reach this"
-                " eccentricity; give a smaller one, or another direction.",
+                f"/scene/start/{place}",
+                "The mechanism closes with its play centred, but does not reach this"
+                f" {place.rpartition('/')[2]}; give a smaller one, or another direction.",
             )
-            for name in scene.start.joints
+            for place, off in places.items()
+            if off
         ]
     sentence = (
         f"The mechanism does not close: {_left_open(scene)}. Check lengths and driver positions,"

@@ -99,6 +99,17 @@ def test_an_eccentricity_that_the_links_do_not_reach_is_refused() -> None:
     assert refused.value.problems[0].pointer == "/scene/start/joints/P/eccentricity"
 
 
+def test_an_offset_that_the_links_do_not_reach_is_refused_at_its_field() -> None:
+    document = scene("slider-crank", {})
+    document["joints"]["guide"]["clearance"]["wall_clearance"] = 1e-3
+    document["start"]["guides"] = {"guide": {"offset": 1.0}}  # m; the links are half as long
+    with pytest.raises(InvalidInput) as refused:
+        admit({"kind": "simulate", "scene": document, "duration": 1e-3})
+    (problem,) = refused.value.problems
+    assert problem.pointer == "/scene/start/guides/guide/offset"
+    assert "does not reach this offset" in problem.detail
+
+
 def test_a_sweep_over_starts_refuses_the_one_out_of_reach() -> None:
     job = {
         "kind": "sweep",
