@@ -9,18 +9,23 @@ from jointplay.solver.linear_algebra.spectral_radius import spectral_radius
 SQUARINGS = 10
 """Squarings of a Jacobian whose eigenvectors' condition may be 1e6: the rate is known to 1.5 %."""
 
+COARSEST = 256.0
+"""Roundings of a state that a step has at least: its slopes' differences are known to 0.4 %."""
+
 
 def fastest_rate(bundle: Bundle, i: int) -> float:
     """Return the largest magnitude of an eigenvalue of the Jacobian at a lane's state, 1/s.
 
-    The slopes are differentiated by steps of the error that a state may have. 0: not known.
+    The slopes are differentiated by steps of the error that a state may have, or of `COARSEST`
+    roundings where that is less: of small clearances at tight tolerances. 0: not known.
     """
     lane, kernel, lanes = bundle.lane(i), bundle.kernel, bundle.width
     size = kernel.layout.size
     work = aligned_zeros(size, lanes)
     work[:] = lane.work[:size, lane.index, None]
     stage, slope = kernel.layout.block("stage"), kernel.layout.block("slope")
-    y, moves = lane["y"].copy(), 1.0 / lane["weight"]
+    y = lane["y"].copy()
+    moves = np.maximum(1.0 / lane["weight"], COARSEST * np.spacing(np.abs(y)))
     states = len(y)
     work[kernel.layout["stage_time"]] = lane.number("time")
     jacobian = np.empty((states, states))

@@ -8,11 +8,16 @@ import pytest
 from numpy.typing import NDArray
 
 from jointplay.records.failure import SimulationFailed
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kinds import admit
 from jointplay.solver.kinds.simulate import Admission
 from jointplay.solver.runs.results import Summary
+from jointplay.solver.runs.run_kernel import run_kernel
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.stiff_method import EARLIER, MOST_REASONS, with_reason
+from jointplay.solver.runs.stiffness import fastest_rate
+from jointplay.solver.scene import presets
 from tests.solver.held_part import CREEP, FRICTION, PUSH, held_part
 
 CHATTER = {"friction": 0.3, "static_velocity": 1e-7, "dynamic_velocity": 1e-6}
@@ -54,6 +59,26 @@ def test_a_run_that_is_not_stiff_has_the_bits_of_the_explicit_method() -> None:
     automatic, _ = history(Simulation(job("seven-bar-press", 3.0, {})))
     asked, _ = history(Simulation(job("seven-bar-press", 3.0, {}, method="tsitouras")))
     assert np.array_equal(automatic, asked)
+
+
+def rate_in_contact(tolerance: float) -> float:
+    """Return the fastest rate of a rod that starts pressed against its bearing, 1/s."""
+    scene = presets.document("slider-crank") | {"parameters": {}}
+    scene["joints"]["P"]["clearance"]["radial_clearance"] = 1e-8
+    scene["start"] = {"joints": {"P": {"eccentricity": [2e-8, 0.0]}}}
+    document = {"kind": "simulate", "scene": scene, "duration": 1.0, "tolerance": tolerance}
+    admission = admit(document)
+    assert isinstance(admission, Admission)
+    problem = LaneProblem(admission.scene, 1.0, tolerance, 1.0, 0, 0, 0.0)
+    return fastest_rate(Bundle(run_kernel(admission, "tsitouras"), [problem]), 0)
+
+
+def test_the_fastest_rate_is_known_where_errors_are_below_the_rounding_of_states() -> None:
+    """At 1e-10 the rod may be 1e-18 m off its place, 0.1 m from the origin: it was 0 there."""
+    known = rate_in_contact(1e-6)
+    # a step is 256 roundings, so that differences of two are known to 1/128
+    assert rate_in_contact(1e-10) == pytest.approx(known, rel=1 / 128)
+    assert known > 0.0
 
 
 def held(duration: float, speed: float = 0.0, **fields: Any) -> Simulation:
