@@ -166,6 +166,16 @@ def test_a_parameter_set_in_a_wrong_file_says_what_is_wrong_with_the_file(
     assert "/scene/parameters" in ended.err
 
 
+@pytest.mark.parametrize("setting", [["--set", "friction=0.1,0.2"], ["--set=friction=0.1,0.2"]])
+def test_a_value_that_is_none_is_refused_as_it_was_typed(jointplay, tmp_path, setting):
+    (tmp_path / "own.json").write_text(json.dumps(presets.document("slider-crank")))
+    timed = ["--duration", "1", "-o", tmp_path / "OUT"]
+    ended = jointplay("run", tmp_path / "own.json", *timed, *setting)
+    assert ended.line() == "jointplay: --set friction: 'friction' is a number."
+    checked = jointplay("scene", "check", tmp_path / "own.json", *setting)
+    assert checked.line() == "jointplay: --set friction: 'friction' is a number."
+
+
 SERVING = {
     "not a number": ({"JOINTPLAY_LEASE": "abc"}, [], "JOINTPLAY_LEASE: "),
     "impossible together": ({"JOINTPLAY_LEASE": "1"}, [], "JOINTPLAY_HEARTBEAT"),

@@ -2,7 +2,9 @@
 
 import errno
 import gc
+import re
 import sys
+from collections.abc import Sequence
 from importlib import import_module
 from typing import Annotated, Final
 
@@ -128,6 +130,9 @@ EXITS: Final = {
 }
 """By class of exception; by its name, so that nothing is loaded only to be compared with."""
 
+SET_VALUE: Final = re.compile(r"(?:/scene)?/parameters/([^/]+)/default")
+"""Place of a value that `--set` gave, in a scene given whole."""
+
 COMMANDS_FOR: Final = {
     "GET /v1/jobs": "`jointplay ls`",
     "GET /v1/scenes": "`jointplay scene list`",
@@ -147,7 +152,7 @@ def run(arguments: list[str] | None = None) -> int:
     except Stopped as error:
         return _reported(error.code, str(error))
     except Exception as error:
-        lines = _lines_of(error)
+        lines = _lines_of(error, sys.argv[1:] if arguments is None else arguments)
         code = _exit_of(error)
         if not lines or code is None:
             raise  # a fault of ours: the traceback is what helps
@@ -177,7 +182,7 @@ def _exit_of(error: Exception) -> Exit | None:
     return None
 
 
-def _lines_of(error: Exception) -> list[str]:
+def _lines_of(error: Exception, arguments: Sequence[str] = ()) -> list[str]:
     """Return what is said of a failure; nothing where the system failed without naming a file."""
     if isinstance(error, OSError) and error.errno is not None:
         if error.errno in (errno.ENOSPC, errno.EDQUOT):
@@ -185,8 +190,16 @@ def _lines_of(error: Exception) -> list[str]:
         return [] if error.filename is None else [f"{error.filename}: {error.strerror}."]
     kinds = ("problems", "flaws", "fields")
     problems = next((found for kind in kinds if (found := getattr(error, kind, ()))), ())
-    listed = [f"{place}: {detail}" if place else detail for place, detail in problems]
+    typed = [(_option_of(place, arguments), detail) for place, detail in problems]
+    listed = [f"{place}: {detail}" if place else detail for place, detail in typed]
     return [_as_typed(line) for line in listed or [str(error)]]
+
+
+def _option_of(place: str, arguments: Sequence[str]) -> str:
+    """Return the option by which a refused value was typed; where none was, its place."""
+    found = SET_VALUE.fullmatch(place)
+    typed = " ".join(arguments).replace("--set=", "--set ")
+    return f"--set {found[1]}" if found and f"--set {found[1]}=" in typed else place
 
 
 def _as_typed(line: str) -> str:

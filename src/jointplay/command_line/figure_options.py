@@ -1,7 +1,6 @@
 """Options of a figure's page, as `jointplay.figures` describes them."""
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from inspect import Parameter, signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
@@ -16,7 +15,8 @@ if TYPE_CHECKING:
     from jointplay.figures import Options
 
 Command = TypeVar("Command", bound=Callable[..., Any])
-_CHOICES = ("channels", "joints", "start", "stop", "over")
+SHOWN = ("channels", "joints", "start", "stop", "over", *OPTIONS)
+"""Names of the options that say what a figure shows, and how."""
 _METAVARS = {"mm": "MM", "pt": "POINTS", "": "VALUE"}
 
 
@@ -51,22 +51,6 @@ def page_of(options: Mapping[str, Any]) -> "Options":
         return chosen_options(options)
     except NotDrawable as error:
         raise Stopped(f"--{error.cause.replace('_', '-')}: {error}") from None
-
-
-@contextmanager
-def refused_as_typed() -> Iterator[None]:
-    """Say which option is refused; a figure's own name needs no word before the sentence."""
-    from jointplay.client import FieldProblem, Refused
-
-    places = {name: f"--{name.replace('_', '-')}" for name in (*_CHOICES, *OPTIONS)}
-    try:
-        yield
-    except Refused as error:
-        error.fields = tuple(
-            FieldProblem(places.get(place, "" if place == "name" else place), detail)
-            for place, detail in error.fields
-        )
-        raise
 
 
 def _option(option: Option) -> Any:

@@ -78,6 +78,21 @@ def job_of(results: str, url: str) -> Iterator["Job"]:
         yield client.job(results)
 
 
+@contextmanager
+def refused_as_typed(*names: str) -> Iterator[None]:
+    """Say which of these options is refused; a figure's own name needs no word before."""
+    from jointplay.client import FieldProblem, Refused
+
+    places = {"name": ""} | {name: f"--{name.replace('_', '-')}" for name in names}
+    try:
+        yield
+    except Refused as error:
+        error.fields = tuple(
+            FieldProblem(places.get(place, place), detail) for place, detail in error.fields
+        )
+        raise
+
+
 def wait_for(job: "Job") -> None:
     """Wait until a job is finished; Ctrl-C stops the waiting, not the job."""
     try:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, cast
 import typer
 
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.figure_options import page_of, refused_as_typed, with_figure_options
+from jointplay.command_line.figure_options import SHOWN, page_of, with_figure_options
 from jointplay.command_line.figure_paths import FigurePaths, figure_paths
 from jointplay.command_line.film import draw_film, is_film
 from jointplay.command_line.options import (
@@ -19,6 +19,7 @@ from jointplay.command_line.options import (
     URL,
     job_of,
     listed,
+    refused_as_typed,
 )
 from jointplay.command_line.output import tell
 from jointplay.command_line.typed_window import check_ends, check_start
@@ -101,7 +102,7 @@ def plot(
     with ExitStack() as stack:
         job = stack.enter_context(job_of(results, url))
         beneath = None if over is None else stack.enter_context(job_of(over, url))
-        stack.enter_context(refused_as_typed())
+        stack.enter_context(refused_as_typed(*SHOWN))
         check_start(job, start)
         if is_film(names, ending, pace):
             for name, it in (("channels", "them"), ("over", "it")):

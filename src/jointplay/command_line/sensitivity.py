@@ -5,7 +5,14 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
-from jointplay.command_line.options import AS_JSON, DEFAULT_URL, RESULTS, URL, job_of
+from jointplay.command_line.options import (
+    AS_JSON,
+    DEFAULT_URL,
+    RESULTS,
+    URL,
+    job_of,
+    refused_as_typed,
+)
 from jointplay.command_line.output import aligned, tell
 
 if TYPE_CHECKING:
@@ -37,7 +44,8 @@ def sensitivity(
 
     Example: `jointplay sensitivity OUT --output A.normal_force.maximum --limit 2000`
     """
-    with job_of(results, url) as job:
+    options = ("output", "limit", "failing", "confidence")
+    with job_of(results, url) as job, refused_as_typed(*options):
         side = cast("Side", failing)
         found = job.sensitivity(output, limit, failing=side, confidence=confidence)
     tell(found, sensitivity_lines(found), as_json=as_json)
