@@ -55,7 +55,8 @@ def _draw(scene: Mapping[str, Any], pose: Pose) -> page.Figure:
     view.frame(axes)
     metre = view.metres.factor
     draw_placed(axes, placed, metre)
-    draw_labels(axes, placed.shape, metre, view.points_a_metre)
+    lines = [curve.points for curve in placed.curves]
+    draw_labels(axes, placed.shape, lines, metre, view.points_a_metre)
     draw_gravity(axes, placed.shape)
     page.legend(figure, axes)
     return figure

@@ -1,7 +1,7 @@
 """Names beside bodies and joints, where they cover neither, nor each other."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +16,7 @@ from jointplay.figures.mechanism_geometry import (
     distance,
 )
 from jointplay.figures.mechanism_marks import BLOCK_SIZE
+from jointplay.records.arrays import Floats
 
 _DISTANCE = 7.0  # points from the middle of a mark to its name
 _BLOCK_DISTANCE = BLOCK_SIZE / 2.0 + 2.0
@@ -26,6 +27,8 @@ _NEAR = 0.03
 _UP, _DOWN = math.pi / 2.0, -math.pi / 2.0
 # straight down first: a support apart, the space below a joint is where one looks for its name
 _DIRECTIONS = (_DOWN, _UP, *(math.pi * quarter / 4.0 for quarter in (-1, -3, 1, 3, 0, 4)))
+_BESIDE = (_UP, math.pi, 0.0, *(math.pi * quarter / 4.0 for quarter in (3, 1, -3, -1)))
+"""Directions of a block's name from the block."""
 _ALONG = (0.0, 0.15, -0.15, 0.3, -0.3)
 """Places of a name along its body, from the middle, in lengths of the body."""
 
@@ -63,17 +66,26 @@ class _Place:
         return left, low, left + width, low + height
 
 
-def draw_labels(axes: page.Axes, shape: Geometry, metre: float, points_per_metre: float) -> None:
+def draw_labels(
+    axes: page.Axes,
+    shape: Geometry,
+    curves: Iterable[Floats],
+    metre: float,
+    points_per_metre: float,
+) -> None:
     """Name every joint, those in one place together, and every body in italics.
 
     Parameters
     ----------
+    curves
+        Each (n, 2) m, of lines that names had better not cross.
     metre
         Metres in one unit of the axes.
     points_per_metre
         Printer's points that one metre of the mechanism takes.
     """
     written: list[_Box] = []
+    lines = [_dots(points * points_per_metre) for points in curves]
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     points = metre * points_per_metre
     frame = (left * points, low * points, right * points, high * points)
@@ -82,6 +94,7 @@ def draw_labels(axes: page.Axes, shape: Geometry, metre: float, points_per_metre
         def merit(place: _Place) -> tuple[int, float]:
             box = place.box(text, points_per_metre)
             faults = sum(_overlap(box, other) for other in written) + (not _within(box, frame))
+            faults += sum(_is_crossed(box, line) for line in lines)
             return -faults, place.merit
 
         best = max(places, key=merit)
@@ -140,7 +153,7 @@ def _body_places(shape: Geometry, name: str) -> Iterator[_Place]:
     if len(corners) < 2:
         axes = (joint.axis for joint in shape.joints if name in joint.bodies)
         rails = [axis for axis in axes if axis is not None]
-        for angle in (_UP, math.pi, 0.0):
+        for angle in _BESIDE:
             free = min((abs(math.sin(angle - rail)) for rail in rails), default=1.0)
             yield _Place(corners[0], angle, _BLOCK_DISTANCE, round(free, 6))
         return
@@ -155,6 +168,18 @@ def _body_places(shape: Geometry, name: str) -> Iterator[_Place]:
             room = min((distance(beside, segment) for segment in others), default=math.inf)
             enough = min(room / shape.size, 2.0 * _NEAR)
             yield _Place((x, y), side, _DISTANCE, round(enough, 3))
+
+
+def _dots(points: Floats) -> Floats:
+    """Return places (n, 2) along a curve, a printer's point from one to the next."""
+    along = np.append(0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T)))
+    places = np.arange(0.0, along[-1], 1.0)
+    return np.stack([np.interp(places, along, one) for one in points.T], axis=1)
+
+
+def _is_crossed(box: _Box, line: Floats) -> bool:
+    low, high = box[:2], box[2:]
+    return bool(((low < line) & (line < high)).all(axis=1).any())
 
 
 def _within(box: _Box, frame: _Box) -> bool:

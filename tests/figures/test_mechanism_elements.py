@@ -103,6 +103,20 @@ def test_the_outline_of_an_eccentric_cam_is_its_circle(shape: str) -> None:
     np.testing.assert_allclose(moved.mean(axis=0), [0.0, 0.03], atol=1e-3)
 
 
+def test_names_beside_a_flat_face_do_not_lie_on_it() -> None:
+    guide = {"type": "prismatic", "guide": "ground.S", "slider": "tappet.F", "axis": [0.0, 1.0]}
+    scene = on_cam("flat")
+    scene |= {"joints": scene["joints"] | {"guide": guide}, "gears": {}, "forces": {}}
+    figure = figures.draw_mechanism(scene, POSE)
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    (face,) = [line for line in axes.lines if line.get_linewidth() == 1.2]
+    (right, level), (left, _) = axes.transData.transform(face.get_xydata())
+    for box in (text.get_window_extent() for text in axes.texts):
+        beside = box.x1 < left or right < box.x0
+        assert beside or box.y1 < level or level < box.y0
+
+
 def test_elements_stand_where_their_points_are() -> None:
     spring, push, pull, motor = elements(SCENE, POSE)
     assert (spring.first, spring.second) == ((0.0, 0.2), (0.0, pytest.approx(0.03)))
