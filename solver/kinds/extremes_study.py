@@ -106,8 +106,7 @@ class ExtremesStudy(Kind[J]):
         names = [channel.name for channel in channels]
         filled = documents.filled(job, checked.document, checked.echo, channels=names)
         study = _study(job, filled, checked, units)
-        if job.statistics:
-            check_samples(study, job.samples_per_period)
+        check_samples(job, study)
         longest = float((study.duration / study.period).max())
         check_size(study, longest, "/periods" if job.periods is not None else "/duration")
         return study

@@ -145,8 +145,7 @@ class Motions(Kind[J]):
             job, checked.document, checked.echo, channels=names or None, indicators=list(indicators)
         )
         study = self._study(job, filled, checked, units)
-        if job.statistics:
-            check_samples(study, job.samples_per_period)
+        check_samples(job, study)
         settle, recording = most_periods(job)
         pointer = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
         check_size(study, self.starts(job) * (settle + recording), pointer, MOST_PERIODS_OF_A_CHART)

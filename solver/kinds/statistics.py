@@ -6,6 +6,8 @@ from typing import Annotated
 from pydantic import Field
 
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
+from jointplay.solver.kinds.idle_fields import check_idle
+from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATISTICS
 from jointplay.solver.quantities.roster import NameIn
 from jointplay.solver.quantities.units import quantity
@@ -58,11 +60,11 @@ def statistic_outputs(study: Study) -> dict[str, Output]:
 
 
 def check_statistics(names: Sequence[str], pairs: Collection[str], channels: int) -> None:
-    """Refuse statistics that cannot be had of these contact pairs, or are too many.
+    """Refuse statistics that cannot be had of these pairs and so many channels, or are too many.
 
     The first with InvalidInput, as what is asked for twice, the second with LimitExceeded.
     """
-    if problems := list(_problems(names, pairs)):
+    if problems := list(_problems(names, pairs, channels)):
         raise InvalidInput(problems)
     count = statistic_count(names, channels, len(pairs))
     if count > MOST_STATISTICS:
@@ -75,11 +77,15 @@ def check_statistics(names: Sequence[str], pairs: Collection[str], channels: int
         raise LimitExceeded.at("/statistics", sentence)
 
 
-def check_samples(study: Study, per_period: int) -> None:
+def check_samples(job: MechanismJob, study: Study) -> None:
     """Refuse less than two samples of a point (InvalidInput), and too many (LimitExceeded).
 
-    Statistics of contacts alone take none.
+    Statistics of contacts take none: beside them alone their number is refused (InvalidInput).
     """
+    if OF_CHANNELS.keys().isdisjoint(study.statistics):
+        check_idle(job, "'statistics' of channels", "samples_per_period")
+        return
+    per_period = study.job["samples_per_period"]
     left = study.duration - study.settle
     samples = left / study.period * per_period
     pointer = "/samples_per_period"
@@ -92,7 +98,7 @@ def check_samples(study: Study, per_period: int) -> None:
         )
         raise InvalidInput.at(pointer, sentence)
     total = float(samples.sum())
-    if total > MOST_SAMPLES_OF_STATISTICS and not OF_CHANNELS.keys().isdisjoint(study.statistics):
+    if total > MOST_SAMPLES_OF_STATISTICS:
         sentence = (
             f"{per_period} samples a period are {total:.3g} samples of all points; the"
             f" limit is {MOST_SAMPLES_OF_STATISTICS:g}. Ask for fewer, or for fewer periods."
@@ -100,7 +106,7 @@ def check_samples(study: Study, per_period: int) -> None:
         raise LimitExceeded.at(pointer, sentence)
 
 
-def _problems(names: Sequence[str], pairs: Collection[str]) -> Iterator[Problem]:
+def _problems(names: Sequence[str], pairs: Collection[str], channels: int) -> Iterator[Problem]:
     for index, name in enumerate(names):
         pointer = f"/statistics/{index}"
         if name in names[:index]:
@@ -108,3 +114,5 @@ def _problems(names: Sequence[str], pairs: Collection[str]) -> Iterator[Problem]
         if name in OF_CONTACTS and not pairs:
             sentence = f"'{name}' is of joints with clearance, and this scene has none."
             yield Problem(pointer, sentence)
+        if name in OF_CHANNELS and not channels:
+            yield Problem(pointer, f"'{name}' is of channels; name them in 'channels'.")

@@ -43,6 +43,12 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         "/samples_per_period",
         "at least 16",
     ),
+    "samples of nothing": (
+        S,
+        {"samples_per_period": 64, "statistics": ["impacts"]},
+        "/samples_per_period",
+        "no effect without 'statistics' of channels",
+    ),
     "less than two samples": (
         S,
         {"statistics": ["mean"], "settle": 1.9999},

@@ -32,6 +32,7 @@ def across(count, parameter="speed"):
         ({"settle": "auto", "statistics": ["impacts"]}, "/settle", "not 'auto'"),
         ({"settle": "auto", "channels": ["*.x"]}, "/settle", "not 'auto'"),
         ({"statistics": ["impact"]}, "/statistics/0", "impacts"),
+        ({"statistics": ["mean"]}, "/statistics/0", "name them in 'channels'"),
         ({"observables": ["*"]}, "/observables", "no field 'observables'"),
         ({"starts": 2, "continuation": "forward"}, "/starts", "neighbour or from several"),
         ({"starts": 2, "formulation": "lagrange"}, "/formulation", "reduced"),

@@ -35,7 +35,6 @@ def test_statistics_are_those_of_each_wall(clearance: float) -> None:
                 "points": [{"play": clearance}],
                 "channels": ["slot.wall_1.normal_force"],
                 "statistics": ["impacts", "contact_share"],
-                "samples_per_period": 64,
                 "duration": 5.0 * cycle(clearance),
                 "tolerance": 1e-8,
             }
