@@ -3,12 +3,14 @@
 from typing import Annotated, ClassVar, Literal
 
 from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds.idle_fields import check_idle
 from jointplay.solver.kinds.limits import check_count
 from jointplay.solver.kinds.perturbed import Seed, spread_up_to
 from jointplay.solver.kinds.points import Points, one_point
 from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
+from jointplay.solver.runs.study.plan import Study
 
 
 class EnsembleJob(SectionStudyJob):
@@ -25,6 +27,12 @@ class Ensemble(SectionStudy[EnsembleJob]):
 
     document = EnsembleJob
     results: ClassVar = ("points", "poincare", "figures", "zarr")
+
+    def admit(self, job: EnsembleJob) -> Study:
+        """Check and fill in; see `Kind.admit`."""
+        if job.members == 1:
+            check_idle(job, "several 'members'", "spread", "seed")
+        return super().admit(job)
 
     def points(self, job: EnsembleJob) -> Points:
         """Return the members."""

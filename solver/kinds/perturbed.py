@@ -9,7 +9,7 @@ def spread_up_to(most: float) -> Any:
     """Return the field of how far starts lie apart, which may be as large as this."""
     return quantity(
         "1",
-        ge=0.0,
+        gt=0.0,
         le=most,
         description=(
             "standard deviation of the starts' perturbation: positions relative to the finest"
