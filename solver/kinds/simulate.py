@@ -110,6 +110,10 @@ class Simulate(Kind[SimulateJob]):
         _, assembly = check(scene, job.formulation)
         if idle := idle_period(scene):
             raise InvalidInput.at("/scene/period", idle)
+        period = common_period(scene)
+        if job.section.crank_angle and period.seconds is None:
+            sentence = f"{period.note} Sections need one; leave this out, or give a 'period'."
+            raise InvalidInput.at("/section/crank_angle", sentence)
         outside = list(domain_problems(scene, job.duration))
         if outside:
             raise InvalidInput(outside)

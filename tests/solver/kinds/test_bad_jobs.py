@@ -71,6 +71,11 @@ BAD_JOBS: dict[str, Refused] = {
     "no channel": (at("/channels", []), "/channels", "at least 1"),
     "unknown formulation": (at("/formulation", "hamilton"), "/formulation", "lagrange"),
     "section angle": (at("/section", {"crank_angle": 7.0}), "/section/crank_angle", "less than"),
+    "section angle without a period": (
+        both(at("/scene/preset", "pendulum"), at("/section", {"crank_angle": 1.0})),
+        "/section/crank_angle",
+        "No driver turns, so there is no period. Sections need one",
+    ),
     "long label": (at("/label", "x" * 201), "/label", "200"),
 }
 
