@@ -95,10 +95,6 @@ def crossing_problems(
     output = next((o for o in checked.declared.outputs if o.name == channel.name), None)
     seen = _Seen(channel, section.value)
     if output is not None:
-        if output.factor == 0.0:
-            sentence = f"'{channel.name}' is always {output.offset:g}; take another channel."
-            yield Problem("/section/channel", sentence)
-            return
         seen = _Seen(channel, section.value, output.channel, output.factor, output.offset)
     if channel.unit == "rad" and abs(section.value) > LARGEST_ANGLE:
         sentence = (

@@ -158,6 +158,9 @@ def _names(scene: Scene) -> Iterator[Problem]:
                 )
     outputs = Counter(output.name for output in scene.outputs)
     for index, output in enumerate(scene.outputs):
+        if output.factor == 0.0:
+            sentence = f"'{output.name}' would always be {output.offset:g}; give another factor."
+            yield Problem(f"/outputs/{index}/factor", sentence)
         if output.name in RESERVED_OUTPUTS:
             sentence = f"The name '{output.name}' is reserved; take another."
             yield Problem(f"/outputs/{index}/name", sentence)

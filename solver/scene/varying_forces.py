@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.laws.force import Over
-from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.laws.force.varying import FULL_RATE, Varying
 from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Scene
 
@@ -20,6 +20,11 @@ def varying_problems(scene: Scene) -> Iterator[Problem]:
     for name, element in scene.forces.items():
         if not isinstance(element, Varying):
             continue
+        if element.only is None and element.full_rate != FULL_RATE:
+            sentence = (
+                "A force that acts at all rates has no 'full_rate'; give 'only', or leave it out."
+            )
+            yield Problem(f"/forces/{name}/full_rate", sentence)
         over = element.follows()
         if over is not None:
             yield from _over(scene, f"/forces/{name}", element, over)

@@ -7,8 +7,8 @@ from jointplay.solver.laws.function.uses import Course
 from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, knotted
 from jointplay.solver.quantities.units import quantity
 
-TIME = Over()
-"""Argument where nothing else is said."""
+TIME, FULL_RATE = Over(), 1e-3
+"""Argument and full rate where nothing else is said."""
 
 
 class Varying(ForceElement):
@@ -21,7 +21,7 @@ class Varying(ForceElement):
     course: Course | None = None
     over: Over | None = None
     only: Literal["rising", "falling"] | None = None
-    full_rate: Annotated[float, quantity("unit of `over` per s", gt=0.0, le=1e6)] = 1e-3
+    full_rate: Annotated[float, quantity("unit of `over` per s", gt=0.0, le=1e6)] = FULL_RATE
 
     def follows(self) -> Over | None:
         """Return what it is a function of, if it varies."""

@@ -30,7 +30,8 @@ FOUR_BAR: dict[str, Any] = {
     "drivers": {"motor": {"joint": "O", "speed": 10.0}},
     "start": {"angles": {"coupler": 0.6, "rocker": 1.5}},
 }
-SPRING = {"type": "spring-damper", "first": "ground.C", "second": "crank.b", "stiffness": 1e3}
+PAIR = {"first": "ground.C", "second": "crank.b"}
+SPRING = {"type": "spring-damper", **PAIR, "stiffness": 1e3}
 PLAY = {
     "radial_clearance": 1e-4,
     "bearing_radius": 1e-2,
@@ -136,6 +137,16 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
         {"/forces": {"spring": SPRING | {"moment": 1.0}}},
         "/forces/spring/moment",
         ["there are: damping, first, free_length, second, stiffness, type."],
+    ),
+    "an output that is always the same": (
+        {"/outputs": [{"name": "angle", "channel": "crank.theta", "factor": 0.0, "offset": 2.0}]},
+        "/outputs/0/factor",
+        ["'angle' would always be 2"],
+    ),
+    "a full rate at all rates": (
+        {"/forces": {"push": {**PAIR, "type": "torque", "moment": 1.0, "full_rate": 0.1}}},
+        "/forces/push/full_rate",
+        ["give 'only'"],
     ),
     "a guide whose law needs radii": (
         {"/joints/guide": GUIDE | {"clearance": WALLS | {"contact": {"law": LAW}}}},
