@@ -121,7 +121,7 @@ def _computed(
 
 
 class _Rest:
-    """What is left of a study, by what was done since this was first asked."""
+    """Rest of a study, by what was done since this was first asked."""
 
     def __init__(self) -> None:
         self._first: tuple[float, float] | None = None

@@ -217,9 +217,9 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
         ["The profile is -0.01 m at 4.71 rad", "add a base radius"],
     ),
     "a lash that leaves no cam": (
-        {"/joints/cam": FACE | {"clearance": {"lash": 0.02, "contact": WALLS["contact"]}}},
+        {"/joints/cam": FACE | {"clearance": {"lash": 0.03, "contact": WALLS["contact"]}}},
         "/joints/cam/clearance/lash",
-        ["A lash of 0.02 m leaves nothing", "whose profile is 0.02 m at 4.71 rad", "smaller"],
+        ["A lash of 0.03 m leaves nothing", "whose profile is 0.02 m at 4.71 rad", "larger"],
     ),
     "a cam whose law needs radii": (
         {"/joints/cam": FACE | {"clearance": {"lash": 1e-4, "contact": {"law": LAW}}}},
