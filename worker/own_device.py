@@ -57,12 +57,12 @@ def tried_device(name: str, processes: int = 1) -> OwnDevice | None:
 def _tried(name: str, processes: int) -> OwnDevice:
     from jointplay.solver.kernels.device.driver import DeviceError
     from jointplay.solver.kernels.device.lanes import BLOCK
-    from jointplay.solver.kernels.device.named import device_named, written_for
+    from jointplay.solver.kernels.device.named import device_named
     from jointplay.solver.runs.device_trial import try_device
 
     device = device_named(name)
     try:
-        trial = try_device(device, [*trial_scenes()], write=written_for(name))
+        trial = try_device(device, [*trial_scenes()])
     except DeviceError as error:
         raise InvalidInput.at("/device", f"{name!r} does not go on: {error}.") from error
     return of_trial(name, trial, BLOCK * device.processors, processes)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.solver.kernels.device.driver import LOCAL, REGISTERS, Code, Device, DeviceError
-from jointplay.solver.kernels.device.lanes import BLOCK, DeviceLanes, Shape
+from jointplay.solver.kernels.device.lanes import BLOCK, ENTRY, DeviceLanes, Shape
 
 COUNTED = ("filled", "impacts", "growths", "kept")
 """Fields of a run that tell what a launch handed out."""
@@ -74,7 +74,7 @@ def equal(given: Given, device: Device, code: Code, which: str) -> int:
     while left.any():
         lanes.launch(int(min(left[left > 0].min(), EACH)))
         device.finish()
-        left -= lanes.made()
+        left -= lanes.made.read()
         runs = lanes.runs.read()
         filled = runs["filled"][:, 1]
         handed = lanes.rows(int(filled.max()))
@@ -102,7 +102,7 @@ def rate(
     lanes.launch(TIMED)
     device.finish()
     seconds = time.perf_counter() - begun
-    made, after = lanes.made().sum(), lanes.runs.read()
+    made, after = lanes.made.read().sum(), lanes.runs.read()
     revolved = given.revolutions(lanes.columns.read(), after) - before
     attended = (after["attended"].sum() - runs["attended"].sum()) / made
     lanes.release()
@@ -114,7 +114,7 @@ def main(arguments: Sequence[str]) -> None:
     folder = Path(__file__).parent
     device = Device()
     print(
-        f"{device.name}: {device.processors} multiprocessors, {device.free / 2**30:.0f} GiB free,"
+        f"{device.name}: {device.processors} multiprocessors,"
         f" single precision {device.ratio} times as fast as double",
         flush=True,
     )
@@ -138,10 +138,10 @@ def measure(given: Given, device: Device, path: Path, variant: str, counts: Sequ
         behind = behind.replace(")\n{", f")\n.maxnreg {registers}\n{{", 1)
         text = before + entry + behind
     begun = time.perf_counter()
-    code = Code(device, text, "advance")
+    code = Code(device, text)
     print(
         f" {variant or 'whole'}: loaded in {time.perf_counter() - begun:.1f} s,"
-        f" {code.attribute(REGISTERS)} registers, {code.attribute(LOCAL)} bytes",
+        f" {code.attribute(ENTRY, REGISTERS)} registers, {code.attribute(ENTRY, LOCAL)} bytes",
         flush=True,
     )
     if not registers:

@@ -1,18 +1,14 @@
 """Whether a device serves: a mechanism's bits there and here, and how fast they come."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.device.bundle import DeviceBundle
-from jointplay.solver.kernels.device.compiled import code
 from jointplay.solver.kernels.device.driver import Device
-from jointplay.solver.kernels.device.one_lane import Sizes
-from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -44,20 +40,15 @@ class Trial:
         return self.same_bits and self.ratio <= HIGHEST_RATIO
 
 
-def try_device(
-    device: Device,
-    scenes: Sequence[Scene],
-    lanes: int | None = None,
-    write: Callable[[Sequence[Source], NDArray[np.void], Sizes], str] = code,
-) -> Trial:
+def try_device(device: Device, scenes: Sequence[Scene], lanes: int | None = None) -> Trial:
     """Run a mechanism on a device and here; some seconds, and the time that compiling takes.
 
     Parameters
     ----------
     scenes
         Of one structure, as many as a bundle has lanes.
-    lanes, write
-        See `DeviceBundle`; by default as many lanes as the device is good for.
+    lanes
+        By default as many as the device is good for.
 
     Raises
     ------
@@ -68,7 +59,7 @@ def try_device(
     problems = trial_problems(scenes)
     kernel = ready_kernel(problems[0].scene, "reduced")
     here = Bundle(kernel, problems, watch=False)
-    there = DeviceBundle(device, kernel, lanes, write=write)
+    there = DeviceBundle(device, kernel, lanes)
     try:
         for i, problem in enumerate(problems):
             there.load(i, problem)

@@ -53,7 +53,7 @@ def opener(name: str) -> Lanes:
 
 
 def _opened(name: str, study: "Study") -> "Make":
-    from jointplay.solver.kernels.device.named import device_named, written_for
+    from jointplay.solver.kernels.device.named import device_named
     from jointplay.solver.runs.study.device_lanes import device_lanes
 
-    return device_lanes(device_named(name), study, written_for(name))
+    return device_lanes(device_named(name), study)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -15,13 +15,11 @@ from jointplay.records.impact import IMPACT
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.device.compiled import code
 from jointplay.solver.kernels.device.driver import Code, Device, DeviceError
-from jointplay.solver.kernels.device.kernel_text import ENTRY
 from jointplay.solver.kernels.device.lanes import DeviceLanes, Shape
 from jointplay.solver.kernels.device.one_lane import Sizes
 from jointplay.solver.kernels.device.trimmed import slots_of_energies, without
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.loop.bundle import Bundle, Group, LaneState
 from jointplay.solver.kernels.loop.ready_lanes import ENERGIES
 from jointplay.solver.kernels.loop.runs import (
@@ -33,10 +31,8 @@ from jointplay.solver.kernels.loop.runs import (
     Status,
 )
 
-Write = Callable[[Sequence[Source], NDArray[np.void], Sizes], str]
 HANDED = ("filled", "impacts", "growths", "kept")
 """Fields of a run that say how much it has handed out."""
-NO_CROSSINGS = "A device takes sections of drivers and onsets."
 ROWS, IMPACTS, GROWTHS = 80, 64, 16
 """That a lane hands out in a launch at most. Sections at events want room for a step's."""
 
@@ -57,14 +53,11 @@ class DeviceBundle(Bundle):
         *,
         tangents: Tangents | None = None,
         energies: bool = True,
-        write: Write = code,
-        handed: tuple[int, int, int] = (ROWS, IMPACTS, GROWTHS),
     ) -> None:
         """Take room for so many lanes, and have the driver make code of the kernel; seconds.
 
         `energies` : whether works and energies are of use; without them steps take three quarters
-        of the time. `write` : what writes a kernel's code for the driver. `handed` : rows of each
-        kind, contacts and growths of a tangent that a lane hands out in a launch at most.
+        of the time.
 
         Raises
         ------
@@ -90,13 +83,12 @@ class DeviceBundle(Bundle):
         work = np.zeros((rows, count))
         none = Buffers.of(0, 0, kernel.row.width, tangents=False, steps=(0, 0, 0))
         self.groups = [Group(work, self.runs, none)]
-        sizes = Sizes(0, rows, *handed[:2], 0 if tangents is None else handed[2])
-        loaded = Code(device, write(sources, slots, sizes), ENTRY)
+        sizes = Sizes(0, rows, ROWS, IMPACTS, 0 if tangents is None else GROWTHS)
+        loaded = Code(device, code(sources, slots, sizes, on_host=device.on_host))
         shape = Shape(rows, kernel.row.width, *sizes[2:], DTYPE, IMPACT, GROWTH)
         self._lanes = DeviceLanes(device, loaded, shape, count)
         self._changed = np.ones(count, np.bool_)
         self._stale = np.zeros(count, np.bool_)
-        self._launched = np.zeros(count, np.bool_)
 
     def take_up(self, i: int, column: Floats, run: Any, first_energy: Floats) -> None:
         """Give a lane that does not run the state of another, as `Bundle.take_up` does.
@@ -107,7 +99,7 @@ class DeviceBundle(Bundle):
             Its sections are where a channel crosses a value, which no device looks for.
         """
         if run["section_kind"] == SectionKind.CROSSING:
-            raise InvalidInput.at("section", NO_CROSSINGS)
+            raise InvalidInput.at("section", "A device takes sections of drivers and onsets.")
         self.groups[0].work[:, i] = column
         self.runs[i] = run
         self.first_energy[:, i] = first_energy
@@ -140,50 +132,43 @@ class DeviceBundle(Bundle):
 
         Returns how many lanes still run. Rows are handed out once.
         """
-        self.launch(budget)
-        return self.land()
-
-    def launch(self, budget: int) -> None:
-        """Send what was changed, and begin so many attempts of the lanes that run."""
-        work, lanes = self.groups[0].work, self._lanes
-        self._launched = self.runs["status"] == Status.RUNNING
-        if self._changed.all():
-            lanes.columns.write(work)
-            lanes.runs.write(self.runs)
-        else:
-            changed = np.flatnonzero(self._changed)
-            lanes.send(changed, work[:, changed], self.runs[changed])
-        self._changed[:] = False
-        self._stale |= self._launched
+        (group,), lanes = self.groups, self._lanes
+        launched = self.runs["status"] == Status.RUNNING
+        self._send()
+        self._stale |= launched
         lanes.launch(budget)
-
-    def land(self) -> int:
-        """Wait for what was launched, fetch what is new of it.
-
-        Returns how many of its lanes still run.
-        """
-        (group,), lanes, launched = self.groups, self._lanes, self._launched
         lanes.device.finish()
-        group.attempts += int(lanes.made().max(initial=0))
+        group.attempts += int(lanes.made.read().max(initial=0))
         for name in HANDED:
             self.runs[name] = 0
         self.runs[launched] = lanes.runs.read()[launched]
         group.buffers = group.buffers._replace(
             rows=lanes.rows(int(self.runs["filled"].max(initial=0))).swapaxes(0, 1),
-            impacts=lanes.impacts(int(self.runs["impacts"].max(initial=0))),
-            growths=lanes.growths(int(self.runs["growths"].max(initial=0))),
+            impacts=lanes.impacts.read(int(self.runs["impacts"].max(initial=0))),
+            growths=lanes.growths.read(int(self.runs["growths"].max(initial=0))),
         )
         running = self.runs["status"] == Status.RUNNING
         self._fetch(launched & ~running)
         for name in ("time", "steps"):
             slot = self.kernel.layout[name]
-            group.work[slot, launched] = lanes.columns.row(slot)[launched]
+            reached = lanes.columns.part((self.width,), slot * self.width)
+            group.work[slot, launched] = reached[launched]
         return int(np.count_nonzero(launched & running))
+
+    def _send(self) -> None:
+        """Send the numbers of lanes that were changed here."""
+        work, changed = self.groups[0].work, np.flatnonzero(self._changed)
+        if len(changed) == self.width:
+            self._lanes.columns.write(work)
+            self._lanes.runs.write(self.runs)
+        else:
+            self._lanes.send(changed, work[:, changed], self.runs[changed])
+        self._changed[:] = False
 
     def _fetch(self, wanted: Flags) -> None:
         """Bring the numbers of lanes here, where they are not."""
         lanes = np.flatnonzero(wanted & self._stale)
-        self.groups[0].work[:, lanes], _ = self._lanes.fetch(lanes)
+        self.groups[0].work[:, lanes] = self._lanes.fetch(lanes)
         self._stale[lanes] = False
 
     def observe(self, i: int, rows: Floats, columns: NDArray[np.int64]) -> Floats:

@@ -6,9 +6,8 @@ https://docs.nvidia.com/cuda/cuda-driver-api.
 
 import ctypes
 from collections.abc import Sequence
-from copy import copy
 from functools import cached_property
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +22,6 @@ ON_HOST, ON_DEVICE = 1, 2
 LOG = 8192
 """Bytes of what the driver says about code that it does not take."""
 ERROR_LOG, ERROR_LOG_SIZE = 5, 6
-NOT_READY = "CUDA_ERROR_NOT_READY"
 
 
 class DeviceError(OSError):
@@ -52,15 +50,16 @@ class Device:
     """A device, and the context of this process on it."""
 
     def __init__(self, number: int = 0, *, name: str = LIBRARY, library: Any = None) -> None:
-        """Open it, by the library of this name, or one that is loaded.
+        """Open it, by the library of this name, or by what stands in for one: a `HostDriver`.
 
         Raises
         ------
         DeviceError
             There is no driver, or no such device.
         """
+        self.on_host = library is not None
         try:
-            self._library = ctypes.CDLL(name) if library is None else library
+            self._library = library or ctypes.CDLL(name)
         except OSError as error:
             raise DeviceError(f"there is no driver of a device: {error}") from error
         self._device, context = ctypes.c_int(), ctypes.c_void_p()
@@ -100,28 +99,10 @@ class Device:
         """Operations in single precision that it makes in the time of one in double."""
         return self._attribute(RATIO)
 
-    @property
-    def free(self) -> int:
-        """Bytes of memory that are free."""
-        free, whole = ctypes.c_size_t(), ctypes.c_size_t()
-        self.call("cuMemGetInfo_v2", ctypes.byref(free), ctypes.byref(whole))
-        return free.value
-
     def _attribute(self, which: int) -> int:
         value = ctypes.c_int()
         self.call("cuDeviceGetAttribute", ctypes.byref(value), which, self._device)
         return value.value
-
-    @property
-    def idle(self) -> bool:
-        """Whether all launches are done."""
-        try:
-            self.call("cuStreamQuery", None)
-        except DeviceError as error:
-            if str(error).startswith(f"cuStreamQuery: {NOT_READY}"):
-                return False
-            raise
-        return True
 
     def finish(self) -> None:
         """Wait until all launches are done."""
@@ -129,10 +110,10 @@ class Device:
 
 
 class Code:
-    """A kernel, loaded."""
+    """Kernels, loaded, by their names."""
 
-    def __init__(self, device: Device, text: str, name: str) -> None:
-        """Have the driver make code of its text in PTX; seconds.
+    def __init__(self, device: Device, text: str) -> None:
+        """Have the driver make code of their text in PTX; seconds.
 
         Raises
         ------
@@ -148,33 +129,25 @@ class Code:
             device.call("cuModuleLoadDataEx", ctypes.byref(self._module), code, 2, options, values)
         except DeviceError as error:
             raise DeviceError(f"{error}: {log.value.decode(errors='replace')}") from error
-        self._find(name)
 
-    def _find(self, name: str) -> None:
-        self._function = function = ctypes.c_void_p()
-        self._device.call(
-            "cuModuleGetFunction", ctypes.byref(function), self._module, name.encode()
-        )
-
-    def other(self, name: str) -> Self:
-        """Return another kernel of the same text."""
-        found = copy(self)
-        found._find(name)
+    def _kernel(self, name: str) -> ctypes.c_void_p:
+        found = ctypes.c_void_p()
+        self._device.call("cuModuleGetFunction", ctypes.byref(found), self._module, name.encode())
         return found
 
-    def attribute(self, which: int) -> int:
-        """Return `REGISTERS` or `LOCAL` of it."""
+    def attribute(self, name: str, which: int) -> int:
+        """Return `REGISTERS` or `LOCAL` of a kernel."""
         value = ctypes.c_int()
-        self._device.call("cuFuncGetAttribute", ctypes.byref(value), which, self._function)
+        self._device.call("cuFuncGetAttribute", ctypes.byref(value), which, self._kernel(name))
         return value.value
 
-    def launch(self, threads: int, block: int, arguments: Sequence[int]) -> None:
+    def launch(self, name: str, threads: int, block: int, arguments: Sequence[int]) -> None:
         """Begin at least so many threads in blocks of so many; arguments are words."""
         words = [ctypes.c_uint64(argument) for argument in arguments]
         given = (ctypes.c_void_p * len(words))(*map(ctypes.addressof, words))
         blocks = -(-threads // block)
         grid = (blocks, 1, 1, block, 1, 1)
-        self._device.call("cuLaunchKernel", self._function, *grid, 0, None, given, None)
+        self._device.call("cuLaunchKernel", self._kernel(name), *grid, 0, None, given, None)
 
 
 class Memory:
@@ -190,13 +163,7 @@ class Memory:
         self.address = address.value
 
     def write(self, array: NDArray[Any]) -> None:
-        """Set all of it."""
-        if array.shape != self._shape:
-            raise ValueError(f"an array {self._shape} cannot be set to one {array.shape}")
-        self.begin_with(array)
-
-    def begin_with(self, array: NDArray[Any]) -> None:
-        """Set its first numbers, in their order."""
+        """Set its first numbers, in their order: all of it, or as many as there are."""
         array = np.ascontiguousarray(array, self._kind)
         if array.size > np.prod(self._shape):
             raise ValueError(f"an array {self._shape} has no room for one {array.shape}")
@@ -214,17 +181,12 @@ class Memory:
             self._copy(found, self.address, pitch, found.size // count)
         return found
 
-    def first(self, shape: tuple[int, ...]) -> NDArray[Any]:
-        """Return a copy of its first numbers, in their order."""
+    def part(self, shape: tuple[int, ...], first: int = 0) -> NDArray[Any]:
+        """Return a copy of some of its numbers, in their order, from this one on."""
         found = np.empty(shape, self._kind)
         if found.size:
-            self._copy(found, self.address, found.nbytes, 1)
-        return found
-
-    def row(self, i: int) -> NDArray[Any]:
-        """Return a copy of a row of it, where it has rows."""
-        found = np.empty(self._shape[1:], self._kind)
-        self._copy(found, self.address + i * found.nbytes, found.nbytes, 1)
+            address = self.address + first * self._kind.itemsize
+            self._copy(found, address, found.nbytes, 1)
         return found
 
     def _copy(self, found: NDArray[Any], address: int, pitch: int, height: int) -> None:

@@ -16,15 +16,11 @@ from jointplay.solver.kernels.device.compiled import host_code
 from jointplay.solver.kernels.device.driver import PROCESSORS, RATIO
 from jointplay.solver.kernels.device.kernel_text import PARTS
 
-OUT_OF_MEMORY, NOT_FOUND, LOST = 2, 500, 719
-NAMES = {
-    OUT_OF_MEMORY: b"CUDA_ERROR_OUT_OF_MEMORY",
-    NOT_FOUND: b"CUDA_ERROR_NOT_FOUND",
-    LOST: b"CUDA_ERROR_LAUNCH_FAILED",
-}
+OUT_OF_MEMORY, LOST = 2, 719
+NAMES = {OUT_OF_MEMORY: b"CUDA_ERROR_OUT_OF_MEMORY", LOST: b"CUDA_ERROR_LAUNCH_FAILED"}
 ATTRIBUTES = {PROCESSORS: 1, RATIO: 2}
 OPENING = ("cuInit", "cuDeviceGet", "cuDevicePrimaryCtxRetain", "cuCtxSetCurrent")
-NOTHING = (*OPENING, "cuStreamQuery", "cuCtxSynchronize")
+NOTHING = (*OPENING, "cuCtxSynchronize")
 """Functions that have nothing to do here."""
 MEMORY = 2**30
 """Bytes."""
@@ -60,12 +56,6 @@ class HostDriver:
     def cuDeviceGetAttribute(self, value: Any, which: int, _device: Any) -> int:  # noqa: N802
         """Give how many multiprocessors there are, or how fast double precision is."""
         value._obj.value = ATTRIBUTES[which]
-        return 0
-
-    def cuMemGetInfo_v2(self, free: Any, whole: Any) -> int:  # noqa: N802
-        """Give how much memory is free, and is there."""
-        whole._obj.value = self.memory
-        free._obj.value = self.memory - sum(one.nbytes for one in self.held.values())
         return 0
 
     def cuMemAlloc_v2(self, address: Any, size: Any) -> int:  # noqa: N802

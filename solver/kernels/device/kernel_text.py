@@ -1,12 +1,12 @@
 """The kernel of a device in LLVM's language: tapes for one lane, and what has the loop run."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.device.lanes import MOVE
-from jointplay.solver.kernels.device.one_lane import Lanes, Sizes
+from jointplay.solver.kernels.device.lanes import ENTRY, MOVE
+from jointplay.solver.kernels.device.one_lane import GlobalMemory, Sizes
 from jointplay.solver.kernels.emit import functions
 from jointplay.solver.kernels.emit.function import OF_ARRAYS
 from jointplay.solver.kernels.emit.lane_arithmetic import declared
@@ -14,9 +14,9 @@ from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop import runs
 
-ENTRY, LOOP, LANE, MEET = "advance", "one_lane", "lane", "meet"
-"""Names of functions: the kernel, the loop, a lane's part of a launch, and where threads of a block
-meet, attempt by attempt: they share what they fetch of the code."""
+LOOP, LANE, MEET = "one_lane", "lane", "meet"
+"""Names of functions: the loop, a lane's part of a launch, and where threads of a block meet,
+attempt by attempt: they share what they fetch of the code."""
 MOVE_ONE = "move_one"
 """A thread's part of what brings numbers of some lanes together, or back to them."""
 PARTS = {ENTRY: LANE, MOVE: MOVE_ONE}
@@ -48,7 +48,7 @@ define double @numba_frexp(double %x, ptr %exponent) nounwind {
 """Functions that the loop calls and a host has elsewhere: references are not counted here, roots
 are the processor's own, and numbers whose exponent is asked for are positive and not tiny."""
 PARAMETERS = ", ".join(
-    [*(f"ptr %{name}" for name in Lanes._fields), "i64 %size.lanes", "i64 %budget"]
+    [*(f"ptr %{name}" for name in GlobalMemory._fields), "i64 %size.lanes", "i64 %budget"]
 )
 """Those of the kernel, and, with the lane behind them, of the lane's part."""
 MOVE_PARAMETERS = (
@@ -109,7 +109,7 @@ def kernel_text(
             declared(1),
             LIBRARY,
             *_functions(sources),
-            _words("slots", slots.view(np.int64).reshape(-1)),
+            _words("slots", [f"i64 {word}" for word in slots.view(np.int64).reshape(-1)]),
             _lane(sizes, spare_rows(sources, sizes.slots) * INSTANTS),
             MOVED,
             *([ON_HOST] if on_host else [ON_DEVICE, _kernel(ENTRY), _kernel(MOVE)]),
@@ -164,16 +164,15 @@ def _functions(sources: Sequence[Source]) -> Iterator[str]:
         f"i64 ptrtoint (ptr {_symbol(name + OF_ARRAYS)} to i64)" if name in there else "i64 0"
         for name in functions.SIGNATURES
     ]
-    yield f"@functions = internal constant [{len(addresses)} x i64] [{', '.join(addresses)}]"
+    yield _words("functions", addresses)
 
 
 def _symbol(name: str) -> str:
     return f'@"{name}"'
 
 
-def _words(name: str, words: Collection[int]) -> str:
-    values = ", ".join(f"i64 {word}" for word in words)
-    return f"@{name} = internal constant [{len(words)} x i64] [{values}]"
+def _words(name: str, words: Sequence[str]) -> str:
+    return f"@{name} = internal constant [{len(words)} x i64] [{', '.join(words)}]"
 
 
 def _lane(sizes: Sizes, spare: int) -> str:
@@ -181,7 +180,7 @@ def _lane(sizes: Sizes, spare: int) -> str:
     given = ", ".join(
         [
             "ptr %value, ptr %failure, ptr @functions, ptr @slots",
-            *(f"ptr %{name}" for name in Lanes._fields),
+            *(f"ptr %{name}" for name in GlobalMemory._fields),
             "ptr %work, ptr %spare, ptr %run, i64 %size.lanes",
             *(f"i64 {size}" for size in sizes[1:]),
             "i64 %lane, i64 %budget",

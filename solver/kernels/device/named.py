@@ -1,14 +1,10 @@
 """Devices by their names: `cuda:0` is the first graphics processor."""
 
 import re
-from functools import partial
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kernels.device.bundle import Write
-from jointplay.solver.kernels.device.compiled import code
 from jointplay.solver.kernels.device.driver import Device, DeviceError
 from jointplay.solver.kernels.device.host_driver import HostDriver
-from jointplay.solver.kernels.device.kernel_text import kernel_text
 
 HOST = "host"
 """This processor in the place of a device, to try without a card what needs one."""
@@ -36,8 +32,3 @@ def device_named(name: str) -> Device:
     except DeviceError as error:
         detail = f"{name!r} cannot be opened: {error}. Leave it out to compute on the processor."
         raise InvalidInput.at("/device", detail) from error
-
-
-def written_for(name: str) -> Write:
-    """Return what writes the code of kernels for the device of a name."""
-    return partial(kernel_text, on_host=True) if name == HOST else code

@@ -18,7 +18,7 @@ from jointplay.solver.kernels.loop.step import Group
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
 
-class Lanes(NamedTuple):
+class GlobalMemory(NamedTuple):
     """Addresses of what all lanes have, one behind the other."""
 
     columns: Any
@@ -34,7 +34,7 @@ class Lanes(NamedTuple):
     """Attempts in this launch."""
 
 
-class Room(NamedTuple):
+class LocalMemory(NamedTuple):
     """Addresses of a thread's own memory."""
 
     work: Any
@@ -70,9 +70,9 @@ SIGNATURE = void(
             _at(from_dtype(runs.GROWTH)),
             _at(types.int64),
         ],
-        Lanes,
+        GlobalMemory,
     ),
-    types.NamedTuple([_NUMBERS, _NUMBERS, _RUN], Room),
+    types.NamedTuple([_NUMBERS, _NUMBERS, _RUN], LocalMemory),
     types.NamedUniTuple(int64, len(Sizes._fields), Sizes),
     int64,
     int64,
@@ -81,7 +81,13 @@ SIGNATURE = void(
 
 @inner_kernel()
 def advance_one_lane(
-    addresses: Any, slots: Any, lanes: Lanes, room: Room, sizes: Sizes, lane: int, budget: int
+    addresses: Any,
+    slots: Any,
+    lanes: GlobalMemory,
+    room: LocalMemory,
+    sizes: Sizes,
+    lane: int,
+    budget: int,
 ) -> None:
     """Make at most `budget` attempts at a step, as `loop.advance` does for lanes side by side.
 

@@ -7,19 +7,18 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tapes import Source
 
 ENERGIES = ("potential", "stored", "potential_start", "stored_start", "gross")
-LEDGER = ("total", "ledger", "kledger")
-"""Beginnings of names of blocks with the ledger's terms; the pairs' impulses, which contacts have,
-are the last ones of each."""
 
 
 def slots_of_energies(kernel: Kernel) -> set[int]:
-    """Return the slots that energies and works alone need."""
-    layout, terms = kernel.layout, len(kernel.equations.ledger)
+    """Return the slots that energies and works alone need.
+
+    Of the ledger's terms the last ones are the pairs' impulses, which contacts have.
+    """
+    layout, stages = kernel.layout, range(1, kernel.tableau.stages + 1)
     found = {layout[name] for name in ENERGIES}
-    for name in (*LEDGER[:2], *(f"{LEDGER[2]}{k}_" for k in range(1, kernel.tableau.stages + 1))):
-        if f"{name}0" in layout:
-            first = layout[f"{name}0"]
-            found |= set(range(first, first + terms - len(kernel.pairs)))
+    for name in ("total", "ledger", *(f"kledger{k}_" for k in stages)):
+        terms = layout.block(name)
+        found |= set(range(terms.start, terms.stop - len(kernel.pairs)))
     return found
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from jointplay.solver.kernels.device.bundle import DeviceBundle, Write
-from jointplay.solver.kernels.device.compiled import code
+from jointplay.solver.kernels.device.bundle import DeviceBundle
 from jointplay.solver.kernels.device.driver import Device, DeviceError
 from jointplay.solver.kernels.device.lanes import BLOCK
 from jointplay.solver.kernels.emit.kernel import Kernel
@@ -16,18 +15,14 @@ from jointplay.solver.runs.study.plan import Study
 NO_MEMORY = "CUDA_ERROR_OUT_OF_MEMORY"
 
 
-def device_lanes(device: Device, study: Study, write: Write = code) -> Make:
-    """Return what has the lanes of a study that `required_study` returned. See `LaneGroup`.
-
-    `write` : see `DeviceBundle`.
-    """
-    return partial(_lanes, device, study, write)
+def device_lanes(device: Device, study: Study) -> Make:
+    """Return what has the lanes of a study that `required_study` returned. See `LaneGroup`."""
+    return partial(_lanes, device, study)
 
 
 def _lanes(
     device: Device,
     study: Study,
-    write: Write,
     kernel: Kernel,
     *,
     watch: bool,
@@ -43,9 +38,7 @@ def _lanes(
     count, energies = min(BLOCK * device.processors, study.points), study.keeps_ledger
     while True:
         try:
-            return DeviceBundle(
-                device, kernel, count, tangents=tangents, energies=energies, write=write
-            )
+            return DeviceBundle(device, kernel, count, tangents=tangents, energies=energies)
         except DeviceError as error:
             if NO_MEMORY not in str(error) or count == 1:
                 raise

@@ -10,7 +10,6 @@ from one_block import run
 
 import jointplay
 from jointplay.solver.kernels.device.driver import Device, DeviceError
-from jointplay.solver.kernels.device.kernel_text import kernel_text
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs.study.device_lanes import device_lanes
 from jointplay.solver.runs.study.lane_group import Make
@@ -34,7 +33,7 @@ JOB = jointplay.jobs.bifurcation("slider-crank", "clearance", CLEARANCES, settle
 
 
 def by_host(driver: DriverByHost, study: Study) -> Make:
-    return device_lanes(Device(library=driver), study, partial(kernel_text, on_host=True))
+    return device_lanes(Device(library=driver), study)
 
 
 class Launches(DriverByHost):

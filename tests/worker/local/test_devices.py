@@ -13,7 +13,6 @@ import jointplay
 from jointplay import jobs
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kernels.device.driver import Device
-from jointplay.solver.kernels.device.kernel_text import kernel_text
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.study.device_lanes import device_lanes
@@ -45,7 +44,7 @@ REFUSED = {
 
 
 def by_host(driver: DriverByHost, study: Study) -> Make:
-    return device_lanes(Device(library=driver), study, partial(kernel_text, on_host=True))
+    return device_lanes(Device(library=driver), study)
 
 
 def by_a_host_of_its_own(study: Study) -> Make:

@@ -1,7 +1,6 @@
 """Lanes of a device have the bits of eight lanes here: this processor does what the driver does."""
 
 from collections.abc import Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,6 @@ import pytest
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kernels.device.bundle import DeviceBundle
 from jointplay.solver.kernels.device.driver import Device, DeviceError
-from jointplay.solver.kernels.device.kernel_text import kernel_text
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
@@ -21,7 +19,6 @@ from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, SectionKind, S
 from tests.solver.kernels.device.driver_by_host import DriverByHost
 from tests.solver.readable_mechanics import preset
 
-ON_HOST = partial(kernel_text, on_host=True)
 MOVING = {"seven-bar-press": 0.3, "slider-crank": 0.1, "four-bar": 0.2}
 """Seconds in which each makes more attempts than `FIRST`, and has contacts."""
 FIRST = 600
@@ -44,7 +41,7 @@ def kernel_of(name: str) -> Kernel:
 
 def on_device(kernel: Kernel, count: int = BUNDLE, **more: Any) -> DeviceBundle:
     device = Device(library=more.pop("library", None) or DriverByHost())
-    return DeviceBundle(device, kernel, count, write=ON_HOST, **more)
+    return DeviceBundle(device, kernel, count, **more)
 
 
 def handed_out(bundle: Bundle, budget: int) -> list[list[bytes]]:
