@@ -33,10 +33,8 @@ from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.trace.equations import (
     KEEPS_LEDGER,
     Equations,
-    ledger_slopes,
     needed_again,
     right_hand_side,
-    slopes,
     trace,
 )
 from jointplay.solver.kernels.trace.fixed_numbers import FixedNumbers
@@ -193,10 +191,9 @@ def _slope_function(
     held = equations.tracer.held.values()
     tape = Tape(layout, fixed, {node: f"inverse_rate{j}" for j, node in enumerate(held)})
     turned.turn(tape)
-    tape.store_rows([(name.replace("slope", "k1_"), rate) for name, rate in slopes(equations)])
+    tape.store_rows([(f"k1_{i}", rate) for i, rate in equations.slopes])
     tape.go_on_where(equations.tracer.variable(KEEPS_LEDGER))
-    rates = ledger_slopes(equations)
-    tape.store_rows([(name.replace("ledger", "kledger1_"), rate) for name, rate in rates])
+    tape.store_rows([(f"kledger1_{i}", rate) for i, rate in enumerate(equations.ledger)])
     return tape.function("slopes", "row")
 
 
@@ -207,5 +204,5 @@ def _right_hand_side(
     tape = Tape(layout, fixed)
     tape.store(outputs)
     tape.go_on_where(equations.tracer.variable(KEEPS_LEDGER))
-    tape.store(ledger_slopes(equations))
+    tape.store([(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)])
     return tape.function("right_hand_side")

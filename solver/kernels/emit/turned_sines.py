@@ -17,7 +17,7 @@ from functools import reduce
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Tape
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.trace.equations import Equations, slopes
+from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.elementary import polynomial
@@ -48,7 +48,7 @@ def turned_in_slopes(equations: Equations) -> list[Angle]:
         return []
     functions = equations.tracer.functions
     found = []
-    for node in reachable(rate for _, rate in slopes(equations)):
+    for node in reachable(rate for _, rate in equations.slopes):
         known = functions.get(node.index)
         if known is not None and known.name == "sin":
             inner = reachable([known.argument])

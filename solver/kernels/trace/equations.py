@@ -1,8 +1,12 @@
 """Records a scene's equations of motion: once, from the readable mechanics."""
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
+from types import MappingProxyType
+from typing import NamedTuple
 
+from jointplay.solver.joints.contact import Contact
 from jointplay.solver.kernels.trace.derivative import Derivative
 from jointplay.solver.kernels.trace.knots import KnotsOnPath, knots_on_path
 from jointplay.solver.kernels.trace.reachable import reachable
@@ -11,11 +15,11 @@ from jointplay.solver.mechanics.closing_rows import closing_rows
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
 from jointplay.solver.mechanics.loops import Loops
+from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates, stored_energy
 from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import view
-from jointplay.solver.quantities.frames import Pair
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
@@ -87,62 +91,21 @@ def trace(scene: Scene, tree: Tree, formulation: str, tracer: Tracer | None = No
         The scene's equations are too long to compile.
     """
     tracer = tracer or Tracer()
-    numbers = view(scene, tracer.number)
-    lagrange = formulation == "lagrange"
-    coordinates = (
-        tuple(f"{body}.{axis}" for body in scene.bodies for axis in ("x", "y", "theta"))
-        if lagrange
-        else tree.coordinates
-    )
-    count = len(coordinates)
-    speeds = slice(count, 2 * count)
-    laws = inner_states(scene)
-    states = 2 * count + sum(len(states) for states in laws.values())
-    stage = [tracer.variable(f"stage{i}") for i in range(states)]
-    own = iter(stage[2 * count :])
-    inner = {name: list(islice(own, len(states))) for name, states in laws.items()}
-    time = tracer.variable("stage_time")
-    driven = {
-        name: tracer.variable(f"phase{k}") + numbers.drivers[name].clock_rate * time
-        for k, name in enumerate(scene.drivers)
-    }
-    for k, name in islice(enumerate(clocks(scene)), len(scene.drivers), None):
-        driven[name] = tracer.variable(f"phase{k}") + time
-    if lagrange:  # here a driven angle is a coordinate, which goes on turning
-        for k, (name, driver) in enumerate(scene.drivers.items()):
-            if isinstance(driver, SteadyDriver):
-                driven[name] = driven[name] + tracer.variable(f"wound{k}")
-    modes = {name: tracer.variable(f"mode{j}") for j, name in enumerate(tree.pairs)}
-    rates = {name: tracer.hold(f"impact_rate{j}") for j, name in enumerate(tree.pairs)}
-
-    mechanism: LagrangeMechanism | ReducedMechanism
-    loops, corrections = None, []
-    windings: dict[str, Expression] = {}
-    if lagrange:
-        mechanism = LagrangeMechanism(scene, numbers, stage[:count], stage[speeds], driven)
-        motion = observed = mechanism.motion(modes, rates, inner)
-    else:
-        position = dict(zip(coordinates, stage[:count], strict=True))
-        speed = dict(zip(coordinates, stage[speeds], strict=True))
-        windings = _windings(scene, tree, tracer)
-        mechanism = ReducedMechanism(tree, numbers, position, speed, driven, windings)
-        motion = mechanism.motion(modes, rates, inner)
-        known = [tracer.variable(f"slope{count + i}") for i in range(count)]
-        observed = mechanism.motion(modes, rates, inner, known)
-        if tree.closing:
-            loops = mechanism.loops()
-            corrections = _corrections(mechanism, loops)
+    coordinates = tree.coordinates
+    if formulation == "lagrange":
+        axes = ("x", "y", "theta")
+        coordinates = tuple(f"{body}.{axis}" for body in scene.bodies for axis in axes)
+    traced = _traced(scene, tree, formulation, tracer, coordinates)
+    motion, contacts = traced.motion, traced.motion.contacts.values()
     lift = tracer.lift
-    channels = {name: lift(value) for name, value in channel_values(numbers, observed).items()}
-    for body, wound in windings.items():
+    channels = {n: lift(c) for n, c in channel_values(traced.numbers, traced.observed).items()}
+    for body, wound in traced.windings.items():
         channels[f"{body}.theta"] = channels[f"{body}.theta"] + wound
-    channels["stored"] = lift(stored_energy(observed))
-    accelerations = tuple(lift(a) for a in motion.accelerations)
-    inner_rates = tuple(lift(r) for found in motion.contacts.values() for r in found.inner_rates)
-    along = {f"stage{i}": stage[count + i] for i in range(count)}
-    along |= {f"stage{count + i}": a for i, a in enumerate(accelerations)}
-    derivative = Derivative(along | {"stage_time": tracer.constant(1.0)})
-    slips = [lift(found.rubbing_slip) for found in motion.contacts.values()]
+    channels["stored"] = lift(stored_energy(traced.observed))
+    accelerations = tuple(map(lift, motion.accelerations))
+    inner_rates = tuple(lift(rate) for found in contacts for rate in found.inner_rates)
+    derivative = _along_motion(tracer, accelerations)
+    slips = [lift(found.rubbing_slip) for found in contacts]
     return Equations(
         tracer,
         coordinates,
@@ -151,23 +114,82 @@ def trace(scene: Scene, tree: Tree, formulation: str, tracer: Tracer | None = No
         tree.pairs,
         accelerations,
         inner_rates,
-        tuple(lift(rate) for rate in ledger_rates(numbers, motion).values()),
-        tuple(
-            (lift(found.penetration), lift(found.penetration_rate))
-            for found in motion.contacts.values()
-        ),
+        tuple(map(lift, ledger_rates(traced.numbers, motion).values())),
+        tuple((lift(found.penetration), lift(found.penetration_rate)) for found in contacts),
         tuple((slip, derivative(slip)) for slip in slips),
-        tuple(
-            _path(tracer, found.eccentricity, found.eccentricity_rate, derivative)
-            for found in motion.contacts.values()
-        ),
-        tuple(found.enclosure for found in motion.contacts.values()),
+        tuple(_path(found, lift, derivative) for found in contacts),
+        tuple(found.enclosure for found in contacts),
         channels,
-        loops,
-        tuple(lift(multiplier) for multiplier in motion.multipliers),
-        tuple(lift(correction) for correction in corrections),
+        traced.loops,
+        tuple(map(lift, motion.multipliers)),
+        tuple(map(lift, traced.corrections)),
         knots_on_path([*accelerations, *inner_rates], derivative),
     )
+
+
+class _Traced(NamedTuple):
+    """The mechanics of expressions."""
+
+    numbers: Scene
+    """The scene, of expressions in place of its numbers."""
+    motion: Motion
+    observed: Motion
+    """The same, of accelerations that the lanes have already."""
+    windings: Mapping[str, Expression] = MappingProxyType({})
+    loops: Loops | None = None
+    corrections: Sequence[Scalar] = ()
+
+
+def _traced(
+    scene: Scene, tree: Tree, formulation: str, tracer: Tracer, coordinates: Sequence[str]
+) -> _Traced:
+    """Run the mechanics on variables of a tracer; see `Equations`."""
+    numbers, count = view(scene, tracer.number), len(coordinates)
+    laws = {pair: len(states) for pair, states in inner_states(scene).items()}
+    stage = [tracer.variable(f"stage{i}") for i in range(2 * count + sum(laws.values()))]
+    position, speed, own = stage[:count], stage[count : 2 * count], iter(stage[2 * count :])
+    driven = _driven(scene, numbers, tracer, turning=formulation == "lagrange")
+    contact = (
+        {pair: tracer.variable(f"mode{j}") for j, pair in enumerate(tree.pairs)},
+        {pair: tracer.hold(f"impact_rate{j}") for j, pair in enumerate(tree.pairs)},
+        {pair: list(islice(own, states)) for pair, states in laws.items()},
+    )
+    if formulation == "lagrange":
+        motion = LagrangeMechanism(scene, numbers, position, speed, driven).motion(*contact)
+        return _Traced(numbers, motion, motion)
+    windings = _windings(scene, tree, tracer)
+    positions = dict(zip(coordinates, position, strict=True))
+    speeds = dict(zip(coordinates, speed, strict=True))
+    mechanism = ReducedMechanism(tree, numbers, positions, speeds, driven, windings)
+    motion = mechanism.motion(*contact)
+    known: list[Scalar] = [tracer.variable(f"slope{count + i}") for i in range(count)]
+    observed = mechanism.motion(*contact, known)
+    loops = mechanism.loops() if tree.closing else None
+    corrections = () if loops is None else _corrections(mechanism, loops)
+    return _Traced(numbers, motion, observed, windings, loops, corrections)
+
+
+def _driven(
+    scene: Scene, numbers: Scene, tracer: Tracer, *, turning: bool
+) -> dict[str, Expression]:
+    """Return where clocks are; where driven angles are coordinates, these go on `turning`."""
+    time = tracer.variable("stage_time")
+    driven: dict[str, Expression] = {}
+    for k, name in enumerate(clocks(scene)):
+        start, driver = tracer.variable(f"phase{k}"), numbers.drivers.get(name)
+        driven[name] = start + (time if driver is None else driver.clock_rate * time)
+    for k, (name, driver) in enumerate(scene.drivers.items()):
+        if turning and isinstance(driver, SteadyDriver):
+            driven[name] = driven[name] + tracer.variable(f"wound{k}")
+    return driven
+
+
+def _along_motion(tracer: Tracer, accelerations: Sequence[Expression]) -> Derivative:
+    """Return the derivative in time, along the motion."""
+    count = len(accelerations)
+    along = {f"stage{i}": tracer.variable(f"stage{count + i}") for i in range(count)}
+    along |= {f"stage{count + i}": a for i, a in enumerate(accelerations)}
+    return Derivative(along | {"stage_time": tracer.constant(1.0)})
 
 
 def _corrections(mechanism: ReducedMechanism, loops: Loops) -> list[Scalar]:
@@ -185,12 +207,11 @@ def _corrections(mechanism: ReducedMechanism, loops: Loops) -> list[Scalar]:
 
 
 def _path(
-    tracer: Tracer, position: Pair, rate: Pair, derivative: Derivative
+    found: Contact, lift: Callable[[Scalar], Expression], derivative: Derivative
 ) -> tuple[Expression, ...]:
     """Return position, rate and acceleration of a journal's centre."""
-    rates = [tracer.lift(part) for part in rate]
-    positions = [tracer.lift(part) for part in position]
-    return (*positions, *rates, *(derivative(part) for part in rates))
+    rates = [*map(lift, found.eccentricity_rate)]
+    return (*map(lift, found.eccentricity), *rates, *map(derivative, rates))
 
 
 def _windings(scene: Scene, tree: Tree, tracer: Tracer) -> dict[str, Expression]:
@@ -214,24 +235,11 @@ def _windings(scene: Scene, tree: Tree, tracer: Tracer) -> dict[str, Expression]
     return found
 
 
-def slopes(equations: Equations) -> list[tuple[str, Expression]]:
-    """Return what every stage of a step needs: (slot name, expression).
-
-    The slopes of the coordinates are the stage's speeds and need not be written.
-    """
-    return [(f"slope{i}", rate) for i, rate in equations.slopes]
-
-
-def ledger_slopes(equations: Equations) -> list[tuple[str, Expression]]:
-    """Return the rates of the ledger's terms, which the lanes of `KEEPS_LEDGER` need."""
-    return [(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)]
-
-
 def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
     """Return what is needed where a step ends: slopes, gaps, slips, journals."""
     count = len(equations.coordinates)
     speeds = [equations.tracer.variable(f"stage{count + i}") for i in range(count)]
-    outputs = [(f"slope{i}", speed) for i, speed in enumerate(speeds)] + slopes(equations)
+    outputs = [(f"slope{i}", rate) for i, rate in (*enumerate(speeds), *equations.slopes)]
     for j, (gap, rate) in enumerate(equations.gaps):
         outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
     for j, (slip, rate) in enumerate(equations.slips):

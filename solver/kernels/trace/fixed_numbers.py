@@ -1,12 +1,13 @@
 """Expressions of a scene's numbers alone, evaluated for one scene after the other."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
 
 from jointplay.solver.kernels.trace.operations import operate
+from jointplay.solver.kernels.trace.reachable import with_arguments
 from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
@@ -18,7 +19,7 @@ class FixedNumbers:
     def __init__(self, nodes: dict[int, Expression]) -> None:
         """List what is to be evaluated, by slot."""
         self.slots = list(nodes)
-        self._nodes = _in_order(nodes.values())
+        self._nodes = with_arguments(nodes.values())
         order = {node.index: i for i, node in enumerate(self._nodes)}
         self._wanted = [order[node.index] for node in nodes.values()]
         self._pointers = [
@@ -43,18 +44,6 @@ class FixedNumbers:
             else:
                 found.append(operate(node.operation, [found[i] for i in arguments]))
         return [found[i] for i in self._wanted]
-
-
-def _in_order(nodes: Iterable[Expression]) -> list[Expression]:
-    """Return nodes and all that they need, each behind its arguments."""
-    found: dict[int, Expression] = {}
-    waiting = list(nodes)
-    while waiting:
-        node = waiting.pop()
-        if node.index not in found:
-            found[node.index] = node
-            waiting.extend(node.arguments)
-    return [found[index] for index in sorted(found)]  # nodes come behind their arguments
 
 
 def _number_at(scene: Scene, pointer: Sequence[str]) -> Scalar:

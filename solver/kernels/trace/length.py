@@ -1,7 +1,7 @@
 """Length of equations in traced statements, known before they are compiled."""
 
 from jointplay.records.failure import LimitExceeded
-from jointplay.solver.kernels.trace.equations import ledger_slopes, needed_again, slopes, trace
+from jointplay.solver.kernels.trace.equations import needed_again, trace
 from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import MOST_STATEMENTS, Tracer, too_many
 from jointplay.solver.mechanics.tree import Tree
@@ -44,7 +44,7 @@ def _counted(scene: Scene, tree: Tree, formulation: str) -> int:
     found = frozenset(needed_again(equations)) if tree.closing else frozenset()
     total = len(reachable(equations.corrections))
     for expressions, known in (
-        ([e for _, e in (*slopes(equations), *ledger_slopes(equations))], frozenset()),
+        ([*(rate for _, rate in equations.slopes), *equations.ledger], frozenset()),
         (equations.channels.values(), found),
     ):
         count = len(reachable(expressions, known))

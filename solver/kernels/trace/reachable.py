@@ -1,6 +1,6 @@
 """Nodes of a trace that outputs need, in the order of evaluation."""
 
-from collections.abc import Container, Iterable
+from collections.abc import Callable, Container, Iterable
 
 from jointplay.solver.kernels.trace.tracer import Expression
 
@@ -14,20 +14,27 @@ def reachable(outputs: Iterable[Expression], known: Container[Expression] = ()) 
     depend on what the scene's numbers are computed from.
     """
     wanted = list(outputs)
-    found: dict[int, Expression] = {}
-    waiting = list(wanted)
-    while waiting:
-        node = waiting.pop()
-        if node.index in found:
-            continue
-        found[node.index] = node
-        if not (node.fixed or node in known):
-            waiting.extend(node.arguments)
     ordered: dict[int, Expression] = {}
-    for node in (found[index] for index in sorted(found) if not found[index].fixed):
-        needed = () if node in known else node.arguments
-        for argument in (*needed, node):
-            ordered.setdefault(argument.index, argument)
+    for node in with_arguments(wanted, lambda node: node.fixed or node in known):
+        if not node.fixed:
+            needed = () if node in known else node.arguments
+            for argument in (*needed, node):
+                ordered.setdefault(argument.index, argument)
     for node in wanted:
         ordered.setdefault(node.index, node)
     return list(ordered.values())
+
+
+def with_arguments(
+    outputs: Iterable[Expression], is_leaf: Callable[[Expression], bool] = lambda _: False
+) -> list[Expression]:
+    """Return nodes and all that they need, down to leaves, each behind its arguments."""
+    found: dict[int, Expression] = {}
+    waiting = list(outputs)
+    while waiting:
+        node = waiting.pop()
+        if node.index not in found:
+            found[node.index] = node
+            if not is_leaf(node):
+                waiting.extend(node.arguments)
+    return [found[index] for index in sorted(found)]  # nodes come behind their arguments

@@ -181,9 +181,7 @@ class Expression:
 
     def __truediv__(self, other: object) -> Expression:
         b = self.tracer.lift(other)
-        if self.is_literal(0.0):
-            return self
-        if b.is_literal(1.0):
+        if self.is_literal(0.0) or b.is_literal(1.0):
             return self
         if b in self.tracer.held:
             return self * self.tracer.held[b]

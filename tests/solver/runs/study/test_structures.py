@@ -4,7 +4,7 @@ from itertools import product
 
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.trace.equations import slopes, trace
+from jointplay.solver.kernels.trace.equations import trace
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
 from tests.solver.runs.study.jobs_of_studies import PRESS, SWEEP, study
@@ -14,14 +14,15 @@ def right_hand_side(scene: Scene) -> str:
     """Return the generated source of a scene's right-hand side."""
     layout = Layout()
     equations = trace(scene, spanning_tree(scene), "reduced")
-    names = dict.fromkeys(name for name, _ in slopes(equations))
+    slopes = [(f"slope{i}", rate) for i, rate in equations.slopes]
+    names = dict.fromkeys(name for name, _ in slopes)
     variables = [f"stage{i}" for i in range(2 * len(equations.coordinates))]
     play = range(len(equations.pairs))
     modes = [name for j in play for name in (f"mode{j}", f"impact_rate{j}")]
     phases = [f"phase{k}" for k in range(len(equations.drivers))]
     for name in (*names, *variables, *modes, *phases, "stage_time"):
         layout.add(name)
-    return HEADER + lane_function("f", slopes(equations), layout, FixedNodes(layout))
+    return HEADER + lane_function("f", slopes, layout, FixedNodes(layout))
 
 
 def test_points_have_the_same_source_if_and_only_if_they_have_the_same_structure() -> None:
