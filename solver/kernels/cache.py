@@ -91,9 +91,7 @@ def load(source: str) -> ModuleType:
         return sys.modules[name]
     path = cache_folder() / f"{name}.py"
     if not path.exists():
-        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False) as partial:
-            partial.write(source)
-        os.replace(partial.name, path)
+        write_whole(path, source.encode())
     if not is_compiled(path):
         begun = time.monotonic()
         try:
@@ -101,6 +99,13 @@ def load(source: str) -> ModuleType:
         finally:
             SPENT.elsewhere += time.monotonic() - begun
     return load_file(path)
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file that other processes find whole or not at all."""
+    with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as partial:
+        partial.write(content)
+    os.replace(partial.name, path)
 
 
 @dataclass

@@ -11,18 +11,13 @@ from jointplay.solver.kernels.cache import cache_folder
 cache_folder()  # names Numba's cache before any kernel is declared
 
 
+COMPILED: dict[str, Any] = {"cache": True, "error_model": "numpy"}
+INNER = COMPILED | {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+
 def kernel() -> Callable[[Any], Any]:
     """Compile a function when another kernel or Python first uses it."""
-    decorator: Callable[[Any], Any] = numba.njit(cache=True, error_model="numpy")
-    return decorator
-
-
-INNER: dict[str, Any] = {
-    "cache": True,
-    "error_model": "numpy",
-    "no_cpython_wrapper": True,
-    "no_cfunc_wrapper": True,
-}
+    return numba.njit(**COMPILED)
 
 
 def inner_kernel(*, forceinline: bool = False, borrows: bool = False) -> Callable[[Any], Any]:
@@ -33,14 +28,12 @@ def inner_kernel(*, forceinline: bool = False, borrows: bool = False) -> Callabl
     `borrows` : it makes no array and counts no references, which takes longer than short work does.
     """
     options: dict[str, Any] = INNER | {"forceinline": forceinline, "_nrt": not borrows}
-    decorator: Callable[[Any], Any] = numba.njit(**options)
-    return decorator
+    return numba.njit(**options)
 
 
 def written_out() -> Callable[[Any], Any]:
     """Write a function into those that call it: only so may it return a tuple with a structure."""
-    decorator: Callable[[Any], Any] = numba.njit(inline="always", **INNER)
-    return decorator
+    return numba.njit(inline="always", **INNER)
 
 
 class Deferred:
@@ -54,7 +47,7 @@ class Deferred:
     @cached_property
     def dispatcher(self) -> Any:
         """The compiled function, as Numba manages it."""
-        return numba.njit(self.signature, cache=True, error_model="numpy")(self.function)
+        return numba.njit(self.signature, **COMPILED)(self.function)
 
     def compile(self) -> Callable[..., Any]:
         """Return the compiled function; seconds when it is not in the cache.

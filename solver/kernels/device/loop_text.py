@@ -16,7 +16,7 @@ from typing import Any
 import numba
 from filelock import FileLock
 
-from jointplay.solver.kernels.cache import cache_folder, without_collection
+from jointplay.solver.kernels.cache import cache_folder, without_collection, write_whole
 from jointplay.solver.kernels.device.kernel_text import LOOP
 from jointplay.solver.kernels.device.one_lane import SIGNATURE, advance_one_lane
 from jointplay.solver.kernels.jit import INNER
@@ -35,13 +35,11 @@ def loop_text() -> str:
     path = cache_folder() / f"device-loop-{numba.__version__}.ll"
     with FileLock(path.with_suffix(".lock")):
         if not path.exists():
-            partial = path.with_suffix(".partial")
             subprocess.run(  # noqa: S603 - our own program
-                [sys.executable, "-P", "-m", __name__, str(partial)],
+                [sys.executable, "-P", "-m", __name__, str(path)],
                 env=os.environ | SETTINGS,
                 check=True,
             )
-            os.replace(partial, path)
     return path.read_text()
 
 
@@ -53,7 +51,8 @@ def main(path: Path) -> None:
     overload: Any
     (overload,) = compiled.overloads.values()
     text = overload.library.get_llvm_str()
-    path.write_text(text.replace(f"@{overload.fndesc.llvm_func_name}(", f"@{LOOP}("))
+    text = text.replace(f"@{overload.fndesc.llvm_func_name}(", f"@{LOOP}(")
+    write_whole(path, text.encode())
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from functools import reduce
 from operator import add
 
-from jointplay.solver.kernels.emit.emit import lane_function, nothing
+from jointplay.solver.kernels.emit.emit import lane_function, statements
 from jointplay.solver.kernels.layout import BENDS, Layout
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive, sqrt
@@ -35,7 +35,7 @@ def allocate(layout: Layout, pairs: int) -> None:
 def source(layout: Layout, pairs: int) -> str:
     """Return the source of foresee_bends(W), which says so by positive numbers."""
     if pairs == 0:
-        return nothing("foresee_bends")
+        return statements("foresee_bends", [])
     tracer = Tracer()
     passes = [_passes(tracer.variable, j) for j in range(pairs)]
     return lane_function("foresee_bends", [("may_pass_bend", reduce(maximum, passes))], layout)
@@ -48,8 +48,7 @@ def comes_near(v: Callable[[str], Expression], j: int) -> Expression:
     middle = 0.5 * abs(before + now)  # the same either way
     distances = (abs(middle - v(f"bend{k}")) for k in range(BENDS * j, BENDS * (j + 1)))
     reach = 0.5 * abs(now - before) + NEAR * rates + ROUNDING * (abs(before) + abs(now))
-    found: Expression = select_positive(v(f"mode{j}"), reach - reduce(minimum, distances), 0.0)
-    return found
+    return select_positive(v(f"mode{j}"), reach - reduce(minimum, distances), 0.0)
 
 
 def _passes(v: Callable[[str], Expression], j: int) -> Expression:
@@ -64,9 +63,8 @@ def _passes(v: Callable[[str], Expression], j: int) -> Expression:
     bends = [v(f"bend{k}") for k in range(BENDS * j, BENDS * (j + 1))]
     first, last = _bends_below(low, bends), _bends_below(high, bends)
     beneath, beyond = first - _bends_below(least, bends), _bends_below(most, bends) - last
-    passes: Expression = maximum(last - first - 1.0 - HALF, maximum(beneath, beyond) - HALF)
-    found: Expression = select_positive(v(f"mode{j}"), passes, 0.0)
-    return found
+    passes = maximum(last - first - 1.0 - HALF, maximum(beneath, beyond) - HALF)
+    return select_positive(v(f"mode{j}"), passes, 0.0)
 
 
 def _beyond_ends(
@@ -80,8 +78,7 @@ def _beyond_ends(
     root = curving * curving - 4.0 * bending * begin  # of the cubic's slope, a parabola
     spread = sqrt(maximum(root, 0.0))
     q = -0.5 * (curving + select_positive(curving, spread, -spread))
-    least: Expression | float = 0.0
-    most: Expression | float = 0.0
+    least = most = 0.0
     for above_line, below_line in ((q, bending), (begin, q)):
         both = above_line * below_line
         inside = minimum(root, minimum(both, below_line * below_line - both))
@@ -89,13 +86,11 @@ def _beyond_ends(
         value = share * (begin + share * (0.5 * curving + share * bending / 3.0))
         value = select_positive(inside, value, 0.0)  # its value where it begins
         least, most = minimum(least, value), maximum(most, value)
-    return minimum(change, 0.0) - minimum(least, change), maximum(most, change) - maximum(
-        change, 0.0
-    )
+    below = minimum(change, 0.0) - minimum(least, change)
+    return below, maximum(most, change) - maximum(change, 0.0)
 
 
 def _bends_below(slip: Expression, bends: Sequence[Expression]) -> Expression:
     """Return how many bends, either way, a slip is above."""
     ways = [way for bend in bends for way in (slip - bend, slip + bend)]
-    counts: Expression = reduce(add, (select_positive(way, 1.0, 0.0) for way in ways))
-    return counts
+    return reduce(add, (select_positive(way, 1.0, 0.0) for way in ways))

@@ -4,14 +4,12 @@ It is asked after each attempt, of all lanes at once, and mostly answered by no:
 lanes took longer than to scan all channels. What has a lane looked after by itself is not asked.
 """
 
-from functools import reduce
-
 from jointplay.solver.kernels.emit import bends
-from jointplay.solver.kernels.emit.emit import Tape
+from jointplay.solver.kernels.emit.emit import Tape, statements
 from jointplay.solver.kernels.emit.judging import PASSING
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.trace.tracer import Expression, Tracer
-from jointplay.solver.quantities.scalars import floor, maximum
+from jointplay.solver.kernels.trace.tracer import Tracer
+from jointplay.solver.quantities.scalars import floor, greatest, maximum
 
 EVERY = 256
 """Steps from one look inside to the next, and those that are looked at after a rough one."""
@@ -22,20 +20,12 @@ def source(layout: Layout, pairs: int, *, always: bool) -> str:
 
     `always` : of methods and scenes whose steps are all looked at.
     """
-    tracer = Tracer()
-    tape = Tape(layout)
     if always:
-        tape.give(tracer.constant(1.0))
-        return tape.function("foresee_looks")
-    v = tracer.variable
+        return statements("foresee_looks", ["return 1.0"])
+    tape, v = Tape(layout), Tracer().variable
     rounds = (v("steps") + 1.0) * (1.0 / EVERY)
     due = maximum(v("rough_until") - v("steps"), 0.5 / EVERY - (rounds - floor(rounds)))
     inside = v("flag") - (PASSING - 0.5)  # the flags of `INSIDE` are the largest
     near = (bends.comes_near(v, j) for j in range(pairs))
-    tape.give(reduce(maximum, near, _larger(inside, due)))
+    tape.give(greatest(near, maximum(inside, due)))
     return tape.function("foresee_looks")
-
-
-def _larger(x: Expression, y: Expression) -> Expression:
-    larger: Expression = maximum(x, y)
-    return larger

@@ -9,11 +9,7 @@ from types import MappingProxyType
 
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.reachable import reachable
-from jointplay.solver.kernels.trace.tracer import (
-    MOST_STATEMENTS,
-    Expression,
-    too_many,
-)
+from jointplay.solver.kernels.trace.tracer import MOST_STATEMENTS, Expression, too_many
 from jointplay.solver.kernels.watched import require_wanted
 
 HEADER = '''"""A generated kernel: see jointplay.solver.kernels.emit."""
@@ -40,13 +36,14 @@ class FixedNodes:
     def __init__(self, layout: Layout) -> None:
         self.layout = layout
         self.nodes: dict[int, Expression] = {}
+        """By slot."""
 
     def slot(self, node: Expression) -> str:
         """Return the name of the slot that holds the node's value, giving it one on first use."""
         name = f"fixed{node.index}"
         if name not in self.layout:
             self.layout.add(name)
-            self.nodes[node.index] = node
+            self.nodes[self.layout[name]] = node
         return name
 
 
@@ -75,7 +72,7 @@ class Tape:
     def carry(self, outputs: Outputs) -> None:
         """Evaluate what later statements shall find in slots, though it is not stored there."""
         for name, expression in outputs:
-            self.carried[name] = self._evaluate(expression)
+            self.carried[name] = self.evaluate(expression)
 
     def store(self, outputs: Outputs) -> None:
         """Evaluate outputs, of what slots hold before any is stored, and store each at once.
@@ -87,10 +84,10 @@ class Tape:
         for i, (_, expression) in enumerate(outputs):
             for node in reachable([expression], seen):
                 if node.operation == "variable" and order.get(str(node.data), i) < i:
-                    self._evaluate(node)
+                    self.evaluate(node)
                 seen.add(node)
         for name, expression in outputs:
-            value = self._evaluate(expression)
+            value = self.evaluate(expression)
             self.lines.append(f"store {self.layout[name]} {value}")
 
     def keep(self, names: Iterable[str]) -> None:
@@ -99,15 +96,15 @@ class Tape:
 
     def give(self, expression: Expression) -> None:
         """End with the largest of an expression's lanes as the function's value."""
-        self.lines.append(f"return {self._evaluate(expression)}")
+        self.lines.append(f"return {self.evaluate(expression)}")
 
     def mark(self, name: str, expression: Expression) -> None:
         """Note the lanes in which an expression is positive, in the row's byte of a block."""
-        self.lines.append(f"mark {self.layout[name]} {self._evaluate(expression)}")
+        self.lines.append(f"mark {self.layout[name]} {self.evaluate(expression)}")
 
     def go_on_where(self, expression: Expression) -> None:
         """Have what follows done only if an expression is positive in any lane."""
-        self.lines.append(f"where {self._evaluate(expression)}")
+        self.lines.append(f"where {self.evaluate(expression)}")
 
     def take_unless(
         self, condition: Expression, choices: Iterable[tuple[Expression, Expression, Expression]]
@@ -118,36 +115,28 @@ class Tape:
         on the expression itself. Each choice is an expression and its two values.
         """
         wanted = list(choices)
-        firsts = [self._evaluate(first) for _, first, _ in wanted]
-        self.lines.append(f"if {self._evaluate(condition)}")
+        firsts = [self.evaluate(first) for _, first, _ in wanted]
+        self.lines.append(f"if {self.evaluate(condition)}")
         values, found = dict(self.values), set(self._found)
-        seconds = [self._evaluate(second) for _, _, second in wanted]
+        seconds = [self.evaluate(second) for _, _, second in wanted]
         self.values, self._found = values, found
         self.lines.append("end")
         for (node, _, _), first, second in zip(wanted, firsts, seconds, strict=True):
             self._define(node, f"either {second} {first}")
 
-    def store_and_go_on_where(self, expression: Expression, outputs: Outputs) -> None:
-        """Store in rows; have what follows done only if an expression is positive in any lane.
-
-        The expression is of what the rows hold before.
-        """
-        found = self._evaluate(expression)
-        self.store_rows(outputs)
-        self.lines.append(f"where {found}")
-
     def store_rows(self, outputs: Outputs) -> None:
         """Evaluate outputs, then store them in the row of blocks, given by their first slots."""
-        values = [self._evaluate(expression) for _, expression in outputs]
+        values = [self.evaluate(expression) for _, expression in outputs]
         for (name, _), value in zip(outputs, values, strict=True):
             self.lines.append(f"store {self.layout[name]}+ {value}")
 
     def function(self, name: str, over: str = "lanes", rows: int = 0) -> str:
         """Return the source of a function; see `straight_line` for what it goes over."""
         require_wanted()
-        return _function(name, self.lines, over, rows)
+        return statements(name, self.lines, over, rows)
 
-    def _evaluate(self, expression: Expression) -> str:
+    def evaluate(self, expression: Expression) -> str:
+        """Have an expression evaluated here, if it is not yet. Returns the value's name."""
         if expression not in self.values:
             for node in reachable([expression], self._found):
                 if node not in self.values:
@@ -199,20 +188,11 @@ def lane_function(
     return tape.function(name)
 
 
-def statements(name: str, lines: Iterable[str]) -> str:
-    """Return the source of a function of W of these lines of a tape."""
-    return _function(name, lines, "lanes", 0)
-
-
-def nothing(name: str) -> str:
-    """Return the source of a function W -> W that does nothing."""
-    return statements(name, [])
+def statements(name: str, lines: Iterable[str], over: str = "lanes", rows: int = 0) -> str:
+    """Return the source of a function of these lines of a tape; see `straight_line`."""
+    return "\n".join([f'tapes.add("{name}", """', *lines, f'""", "{over}", {rows})', ""])
 
 
 def module_source(parts: Iterable[str], lanes: int) -> str:
     """Return the source of a module of these functions' sources, for so many lanes at once."""
     return "\n\n".join([HEADER, *parts, FOOTER.format(lanes=lanes)])
-
-
-def _function(name: str, lines: Iterable[str], over: str, rows: int) -> str:
-    return "\n".join([f'tapes.add("{name}", """', *lines, f'""", "{over}", {rows})', ""])

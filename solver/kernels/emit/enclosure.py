@@ -23,7 +23,7 @@ from operator import add
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import MOTION
 from jointplay.solver.kernels.trace.tracer import Expression
-from jointplay.solver.quantities.scalars import maximum, minimum, sine_cosine, sqrt
+from jointplay.solver.quantities.scalars import greatest, maximum, minimum, sine_cosine, sqrt
 
 TURN = 0.5
 """Largest angle by which a body may turn in a step, rad."""
@@ -59,11 +59,8 @@ def longest(v: Callable[[str], Expression], speeds: Iterable[str]) -> Expression
 
     speeds : slots of the angular speeds of all bodies that no driver turns.
     """
-    fastest: Expression = v("driven_speed") * 0.0
-    for name in speeds:
-        fastest = maximum(fastest, abs(v(name)))
-    step: Expression = TURN / (fastest + v("driven_speed") + SLIGHT)
-    return step
+    fastest = greatest((abs(v(name)) for name in speeds), v("driven_speed") * 0.0)
+    return TURN / (fastest + v("driven_speed") + SLIGHT)
 
 
 def remainder(
@@ -76,16 +73,11 @@ def remainder(
     speeds, accelerations
         Slots of those of angles, at both ends of the step.
     """
-    tried = v("tried")
-    fastest = v("driven_speed")
-    hardest = v("driven_speed") * 0.0
-    for name in speeds:
-        fastest = maximum(fastest, abs(v(name)) + v("driven_speed"))
-    for name in accelerations:
-        hardest = maximum(hardest, abs(v(name)))
+    tried, driven, none = v("tried"), v("driven_speed"), v("driven_speed") * 0.0
+    fastest = greatest((abs(v(name)) + driven for name in speeds), driven)
+    hardest = greatest((abs(v(name)) for name in accelerations), none)
     square = tried * tried * maximum(fastest * fastest, hardest)
-    away: Expression = REMAINDER * v("lever") * square * square * square
-    return away
+    return REMAINDER * v("lever") * square * square * square
 
 
 def beyond(v: Callable[[str], Expression], j: int, away: Expression, enclosure: str) -> Expression:
@@ -104,14 +96,10 @@ def beyond(v: Callable[[str], Expression], j: int, away: Expression, enclosure: 
         return v("tried")
     points = _between(v, j)
     if enclosure == "wall":
-        farthest: Expression = reduce(maximum, points[0]) + away - v(f"inner{j}")
-        return farthest
-    square: Expression | float = 0.0
-    for x, y in zip(*points, strict=True):
-        square = maximum(square, x * x + y * y)
+        return reduce(maximum, points[0]) + away - v(f"inner{j}")
+    square = greatest(x * x + y * y for x, y in zip(*points, strict=True))
     inner = maximum(v(f"inner{j}") - away, 0.0)
-    distance: Expression = square - inner * inner
-    return distance
+    return square - inner * inner
 
 
 def may_open(
@@ -126,14 +114,12 @@ def may_open(
         return v("tried")
     points, outer = _between(v, j), v(f"outer{j}") + away
     if enclosure == "wall":
-        missing: Expression = outer - reduce(minimum, points[0])
-        return missing
+        return outer - reduce(minimum, points[0])
     ends = [[v(f"{block}{len(MOTION) * j + axis}") for block in PATHS] for axis in range(2)]
     x, y = (first + last for first, last in ends)
     along = [x * px + y * py for px, py in zip(*map(add, ends, points), strict=True)]
     nearest = maximum(reduce(minimum, along), 0.0)
-    short: Expression = outer * outer * (x * x + y * y) - nearest * nearest
-    return short
+    return outer * outer * (x * x + y * y) - nearest * nearest
 
 
 def _between(v: Callable[[str], Expression], j: int) -> list[list[Expression]]:
@@ -155,5 +141,4 @@ def whips_round(v: Callable[[str], Expression], j: int) -> Expression:
     start, end = ([v(f"{block}{len(MOTION) * j + axis}") for axis in range(2)] for block in PATHS)
     together = start[0] * end[0] + start[1] * end[1]
     first, last = (x * x + y * y for x, y in (start, end))
-    turned: Expression = COSINE * sqrt(first * last) - together
-    return turned
+    return COSINE * sqrt(first * last) - together

@@ -8,7 +8,7 @@ import numpy as np
 from numba import float64, int64, types
 
 from jointplay.solver.kernels.emit.functions import WORK
-from jointplay.solver.kernels.emit.machine_code import address_of_number, address_of_symbol
+from jointplay.solver.kernels.emit.machine_code import address_of_symbol
 
 ARRAY, INDEX = "ptr", "i64"
 """LLVM's types of arguments."""
@@ -53,7 +53,7 @@ class Function:
     @property
     def calls(self) -> int:
         """Number of calls by loops of this process: work is counted, for times depend on cores."""
-        return ctypes.c_int64.from_address(address_of_number(f"{self._symbol}{CALLS}")).value
+        return ctypes.c_int64.from_address(address_of_symbol(f"{self._symbol}{CALLS}")).value
 
     @cached_property
     def _entry(self) -> Any:

@@ -7,19 +7,17 @@ which nothing feeds back on, is integrated by Lobatto's formula on the dense out
 import math
 
 from jointplay.solver.integrators.method import Rosenbrock
-from jointplay.solver.kernels.emit.emit import FixedNodes, Known, lane_function, statements
+from jointplay.solver.kernels.emit.elimination import VECTORS
+from jointplay.solver.kernels.emit.emit import lane_function, statements
 from jointplay.solver.kernels.emit.stepping import StepTracer
 from jointplay.solver.kernels.emit.turned_sines import Angle
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.derivative import Derivative
-from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression
 
 INNER = (0.5 - math.sqrt(0.05), 0.5 + math.sqrt(0.05))
 """Nodes of Lobatto's formula of order six between the ends of a step."""
 LOBATTO = (1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0)
-VECTORS = ("direction", "product", "drift", "right", "pivot")
-"""Blocks of a number a state, of the linear equations of a step."""
 
 
 def allocate(layout: Layout, states: int) -> None:
@@ -27,28 +25,17 @@ def allocate(layout: Layout, states: int) -> None:
     layout.add("direction_time")
     for name in VECTORS:
         layout.add_block(name, states)
-    layout.add_block("factor", states * states)
+    layout.add_block("factor", states**2)
 
 
 class RosenbrockTracer(StepTracer):
     """Records the functions of a Rosenbrock method's step."""
 
     unweighed = 1
-
-    def __init__(
-        self,
-        method: Rosenbrock,
-        equations: Equations,
-        fixed: FixedNodes,
-        ledger: int,
-        layout: Layout,
-        known: Known,
-    ) -> None:
-        super().__init__(method, equations, ledger, layout, known)
-        self.method, self.fixed = method, fixed
+    tableau: Rosenbrock
 
     def _steps(self) -> list[str]:
-        stages = range(1, len(self.method.nodes) + 1)
+        stages = range(1, len(self.tableau.nodes) + 1)
         parts = [self._start(), self._product(), self._linear()]
         parts += [self._point(s) for s in stages if s > 1]
         parts += [self._right(s) for s in stages]
@@ -78,14 +65,11 @@ class RosenbrockTracer(StepTracer):
 
     def _linear(self) -> str:
         """Write jacobian(W), which leaves the factors of I - h γ J, and solve(W)."""
-        firsts = (self.layout.block(name).start for name in (*VECTORS, "factor"))
-        direction, product, drift, right, pivot, factor = firsts
-        n, time, tried = self.states, self.layout["direction_time"], self.layout["tried"]
-        numbers = (n, self.method.gamma, time, tried, direction, product, drift, pivot, factor)
+        n, tried, first = self.states, self.layout["tried"], self.layout["direction_time"]
         return "\n\n".join(
             [
-                statements("jacobian", [f"jacobian {' '.join(map(repr, numbers))}"]),
-                statements("solve", [f"solve {n} {right} {pivot} {factor}"]),
+                statements("jacobian", [f"jacobian {n} {self.tableau.gamma!r} {tried} {first}"]),
+                statements("solve", [f"solve {n} {first}"]),
             ]
         )
 
@@ -102,19 +86,19 @@ class RosenbrockTracer(StepTracer):
 
     def _point(self, s: int) -> str:
         """Go where stage s evaluates the slope; keep the stage before."""
-        v, weights = self.variable, self.method.matrix[s - 1]
+        v, weights = self.variable, self.tableau.matrix[s - 1]
         outputs = [(f"stage{i}", self._moved(weights, i, s - 1)) for i in range(self.states)]
-        outputs.append(("stage_time", v("time") + self.method.nodes[s - 1] * v("tried")))
+        outputs.append(("stage_time", v("time") + self.tableau.nodes[s - 1] * v("tried")))
         return self._function(f"point_{s}", [*outputs, *self._stored(s - 1)])
 
     def _right(self, s: int) -> str:
         """Set the right side of stage s."""
-        v, gamma = self.variable, self.method.gamma
+        v, gamma = self.variable, self.tableau.gamma
         outputs: list[tuple[str, Expression]] = []
         for i in range(self.states):
             total = v(f"k1_{i}") if s == 1 else self._inner_slope(i)
-            total = total + (self.method.drifts[s - 1] * v("tried")) * v(f"drift{i}")
-            for j, c in enumerate(self.method.couplings[s - 1], start=1):
+            total = total + (self.tableau.drifts[s - 1] * v("tried")) * v(f"drift{i}")
+            for j, c in enumerate(self.tableau.couplings[s - 1], start=1):
                 total = total + c * v(f"k{j + 1}_{i}")
             outputs.append((f"right{i}", gamma * total))
         return self._function(f"right_{s}", outputs)
@@ -124,20 +108,20 @@ class RosenbrockTracer(StepTracer):
         v, theta = self.variable, INNER[number - 1]
         weights = tuple(
             sum(c * math.prod([theta] * (k + 1)) for k, c in enumerate(row))
-            for row in self.method.dense[1:]
+            for row in self.tableau.dense[1:]
         )
-        newest = len(self.method.nodes) if number == 1 else 0
+        newest = len(self.tableau.nodes) if number == 1 else 0
         outputs = [(f"stage{i}", self._moved(weights, i, newest)) for i in range(self.states)]
         outputs.append(("stage_time", v("time") + theta * v("tried")))
         if number == 1:
-            outputs += self._stored(len(self.method.nodes))
+            outputs += self._stored(len(self.tableau.nodes))
         else:
             outputs += self._kept_ledger(2)
         return self._function(f"inner_{number}", outputs)
 
     def _finish(self) -> str:
         v = self.variable
-        outputs = [(f"stage{i}", self._moved(self.method.weights, i)) for i in range(self.states)]
+        outputs = [(f"stage{i}", self._moved(self.tableau.weights, i)) for i in range(self.states)]
         outputs += [("stage_time", v("time") + v("tried")), ("arrival", v("time") + v("tried"))]
         return self._function("finish", outputs + self._kept_ledger(3))
 
@@ -161,7 +145,7 @@ class RosenbrockTracer(StepTracer):
     def _calls(self) -> list[str]:
         offset = self.layout["slope0"] - self.layout["k1_0"]
         calls = ["start", "jacobian", "right_1", "solve"]
-        for s in range(2, len(self.method.nodes) + 1):
+        for s in range(2, len(self.tableau.nodes) + 1):
             calls += [f"point_{s}", f"slopes {offset}", f"right_{s}", "solve"]
         for name in ("inner_1", "inner_2", "finish"):
             calls += [name, "right_hand_side"]

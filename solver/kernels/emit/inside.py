@@ -4,7 +4,7 @@ They read one lane of W, where it is the same for all instants, and write S. `th
 where in the step the instants are.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Outputs, Tape
 from jointplay.solver.kernels.emit.judged_step import before
@@ -36,27 +36,26 @@ def source(
     ]
     slips = [(f"slip{j}", slip) for j, (slip, _) in enumerate(equations.slips)]
 
-    states = Tape(layout, fixed, fetch=within)
-    states.store(dense)
-    approaches = Tape(layout, fixed, fetch=within)
-    approaches.carry(dense)
-    approaches.store([*gaps, *slips])
-    channels = Tape(layout, fixed, fetch=within)
-    channels.carry(dense)
-    channels.carry(accelerations)
-    channels.store([*scanned, *rest])
-    channels.keep(name for name, _ in dense)
-    surroundings = Tape(layout, fixed, fetch=around)
-    surroundings.carry(dense)
-    surroundings.carry(accelerations)
-    surroundings.store(scanned)
-    surroundings.keep(["stage_time"])
+    def looking(
+        name: str,
+        fetch: Callable[[str], str],
+        carried: Outputs,
+        stored: Outputs,
+        kept: Iterable[str] = (),
+    ) -> str:
+        tape = Tape(layout, fixed, fetch=fetch)
+        tape.carry(carried)
+        tape.store(stored)
+        tape.keep(kept)
+        return tape.function(name, "instants")
+
+    moving, everywhere = [*dense, *accelerations], [name for name, _ in dense]
     return "\n\n".join(
         [
-            states.function("states_within", "instants"),
-            approaches.function("gaps_within", "instants"),
-            channels.function("channels_within", "instants"),
-            surroundings.function("channels_around", "instants"),
+            looking("states_within", within, [], dense),
+            looking("gaps_within", within, dense, [*gaps, *slips]),
+            looking("channels_within", within, moving, [*scanned, *rest], everywhere),
+            looking("channels_around", around, moving, scanned, ["stage_time"]),
         ]
     )
 

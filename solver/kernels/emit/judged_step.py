@@ -41,12 +41,12 @@ class JudgedStep:
     unweighed = 0
     """Slopes kept before those that the error weighs."""
 
-    def __init__(self, tableau: Method, equations: Equations, ledger: int, layout: Layout) -> None:
+    def __init__(self, tableau: Method, equations: Equations, layout: Layout) -> None:
         self.tableau, self.equations = tableau, equations
         # fixed steps end where they end
         self.knots = KnotTracer(equations.knots if tableau.error else (), layout)
         self.states, self.coordinates = equations.states, len(equations.coordinates)
-        self.ledger, self.pairs = ledger, len(equations.pairs)
+        self.ledger, self.pairs = len(equations.ledger), len(equations.pairs)
         self.angles = [i for i, name in enumerate(equations.coordinates) if name.endswith(".theta")]
         self.layout = layout
         self.tracer = Tracer()
@@ -157,8 +157,7 @@ class JudgedStep:
         late = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
         due = maximum(late, v("tried") - GROWN * v("looked_into"))
         wanted = minimum(v("seeks_extremes"), minimum(most, due))
-        flag: Expression = select_positive(wanted, self.tracer.constant(SWINGING), 0.0)
-        return flag, most
+        return select_positive(wanted, self.tracer.constant(SWINGING), 0.0), most
 
     def _enclosures(self) -> list[tuple[str, str]]:
         """Return what encloses each pair apart, and in contact.

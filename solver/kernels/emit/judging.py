@@ -38,11 +38,10 @@ def growth(order: float, good: Expression, magnitude: Expression, memory: Expres
     smooth = exponent - 0.75 * PROPORTIONAL
     onwards = PROPORTIONAL * memory - smooth * magnitude
     again = -exponent * magnitude
-    factor: Expression = coarse_exp2(log2(SAFETY) + select_positive(good, onwards, again))
+    factor = coarse_exp2(log2(SAFETY) + select_positive(good, onwards, again))
     factor = select_positive(good, factor, minimum(factor, 1.0))
     factor = select_positive(factor - LARGEST_CUT, factor, LARGEST_CUT)
-    limited: Expression = minimum(factor, LARGEST_GROWTH)
-    return limited
+    return minimum(factor, LARGEST_GROWTH)
 
 
 def swings(first: Scalar, inside: Scalar, last: Scalar, share: float, weighed: Scalar) -> Scalar:
@@ -78,15 +77,13 @@ def contact_flags(
     """
     gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
     start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
-    perhaps: Expression | float = 0.0
-    dip: Expression | float = 0.0
+    perhaps = dip = passing = 0.0
     if shortened:
         perhaps = _where(ONSET, beyond(v, j, away, enclosure))
         dip = _where(RELEASE, may_open(v, j, away, held))
     onset = select_positive(gap, ONSET, perhaps)
     opened = _where(RELEASE, maximum(-rate, start - LANDED))
     release = select_positive(gap, dip, opened)
-    passing: Expression | float = 0.0
     if enclosure == "circle":
         passing = _where(PASSING, whips_round(v, j), rate, -start_rate)
     touching = v(f"mode{j}")
@@ -97,8 +94,8 @@ def contact_flags(
     )
 
 
-def _where(value: Expression | float, *positive: Expression) -> Expression:
+def _where(value: Scalar, *positive: Expression) -> Scalar:
     """Return a value where all of some expressions are positive, else 0."""
     for condition in positive:
         value = select_positive(condition, value, 0.0)
-    return value  # type: ignore[return-value]
+    return value

@@ -18,13 +18,7 @@ from jointplay.solver.kernels.emit import (
     scanning,
     stepping,
 )
-from jointplay.solver.kernels.emit.emit import (
-    FixedNodes,
-    Outputs,
-    Tape,
-    lane_function,
-    module_source,
-)
+from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function, module_source
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.slots import DenseRow, StepRow, slots_of
 from jointplay.solver.kernels.emit.turned_sines import TurnedSines
@@ -97,68 +91,22 @@ def compile_kernel(
         The scene's equations are too long to compile.
     """
     equations = trace(scene, tree, formulation)
-    layout = Layout()
-    states, pairs = equations.states, len(equations.pairs)
-    clocks = len(equations.clocks)
-    ledger = len(equations.ledger)
-    stepping.allocate(layout, states, ledger, pairs, tableau.stages)
-    again = needed_again(equations)
-    layout.add_block("again", len(again))
+    rows, again = arrange(scene, equations), dict.fromkeys(needed_again(equations))
+    fixed = FixedNodes(_layout(equations, rows, tableau, len(again)))
+    tracer = implicit.RosenbrockTracer if isinstance(tableau, Rosenbrock) else stepping.StepTracer
     known = {node: f"again{i}" for i, node in enumerate(again)}
-    layout.add_block("correction", len(equations.corrections))
-    if isinstance(tableau, Rosenbrock):
-        implicit.allocate(layout, states)
-    rows = arrange(scene, equations)
-    scanning.allocate(layout, rows.scanned, len(rows.rest))
-    layout.add_block("slip_row", pairs)
-    layout.add_block("penetration_row", pairs)
-    layout.add_block("normal_row", pairs)
-    inner = states - 2 * len(equations.coordinates)
-    layout.add_block("inner_row", inner)
-    bends.allocate(layout, pairs)
-    for name in ("clock_start", "clock_travel", "clock_turn"):
-        layout.add_block(name, clocks)
-    layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
-    layout.add_block("phase", clocks)
-    layout.add_block("wound", clocks)
-    fixed = FixedNodes(layout)
-    steps = (
-        implicit.RosenbrockTracer(tableau, equations, fixed, ledger, layout, known)
-        if isinstance(tableau, Rosenbrock)
-        else stepping.StepTracer(tableau, equations, ledger, layout, known)
-    )
-    observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
-    energies = [
-        ("potential", equations.channels["energy.potential"]),
-        ("stored", equations.channels["stored"]),
-    ]
-    evaluated = right_hand_side(equations) + [(known[node], node) for node in again]
-    evaluated += steps.knots.at_end()
-    scanned, rest = observed[: rows.scanned], observed[rows.scanned :]
+    steps = tracer(tableau, equations, fixed, known)
     lanes = lanes or own_target().lanes
-    source = module_source(
-        [
-            _slope_function(equations, layout, fixed, steps.turned),
-            _right_hand_side(equations, evaluated, layout, fixed),
-            lane_function("observe", scanned, layout, fixed, known),
-            lane_function("observe_rest", rest, layout, fixed, known),
-            lane_function("weigh", energies, layout, fixed, known),
-            steps.source(energies, fixed),
-            scanning.source(layout, rows.scanned),
-            bends.source(layout, pairs),
-            closer_looks.source(layout, pairs, always=tableau.watched_closely or inner > 0),
-            inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
-        ],
-        lanes,
-    )
-    row = DenseRow.of(clocks, states, pairs)
+    source = module_source(_functions(steps, rows), lanes)
+    layout, states, pairs = fixed.layout, equations.states, len(equations.pairs)
+    row = DenseRow.of(len(equations.clocks), states, pairs)
     step_row = StepRow.of(len(equations.coordinates), states, pairs)
     counts = {
         "states": states,
-        "inner_states": inner,
-        "ledger": ledger,
+        "inner_states": len(equations.inner_rates),
+        "ledger": len(equations.ledger),
         "pairs": pairs,
-        "clocks": clocks,
+        "clocks": len(equations.clocks),
         "rows": rows.scanned,
         "watched_closely": int(tableau.watched_closely),
     }
@@ -174,35 +122,80 @@ def compile_kernel(
         equations.clocks,
         equations.pairs,
         rows,
-        FixedNumbers({layout[f"fixed{index}"]: node for index, node in fixed.nodes.items()}),
+        FixedNumbers(fixed.nodes),
         equations,
         tableau,
         steps.turned,
     )
 
 
-def _slope_function(
-    equations: Equations, layout: Layout, fixed: FixedNodes, turned: TurnedSines
-) -> str:
+def _layout(equations: Equations, rows: Rows, tableau: Method, again: int) -> Layout:
+    """Give slots to all but a scene's numbers; `again` : number of values needed again."""
+    layout, pairs = Layout(), len(equations.pairs)
+    stepping.allocate(layout, equations.states, len(equations.ledger), pairs, tableau.stages)
+    layout.add_block("again", again)
+    layout.add_block("correction", len(equations.corrections))
+    if isinstance(tableau, Rosenbrock):
+        implicit.allocate(layout, equations.states)
+    scanning.allocate(layout, rows.scanned, len(rows.rest))
+    for name in ("slip_row", "penetration_row", "normal_row"):
+        layout.add_block(name, pairs)
+    layout.add_block("inner_row", len(equations.inner_rates))
+    bends.allocate(layout, pairs)
+    for name in ("clock_start", "clock_travel", "clock_turn"):
+        layout.add_block(name, len(equations.clocks))
+    layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
+    for name in ("phase", "wound"):
+        layout.add_block(name, len(equations.clocks))
+    return layout
+
+
+def _functions(steps: stepping.StepTracer, rows: Rows) -> list[str]:
+    """Return the sources of a kernel's functions."""
+    equations, layout, fixed, known = steps.equations, steps.layout, steps.fixed, steps.known
+    observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
+    scanned, rest = observed[: rows.scanned], observed[rows.scanned :]
+    energies = [
+        ("potential", equations.channels["energy.potential"]),
+        ("stored", equations.channels["stored"]),
+    ]
+    closely = steps.tableau.watched_closely or bool(equations.inner_rates)
+    return [
+        _slope_function(steps),
+        _right_hand_side(steps),
+        lane_function("observe", scanned, layout, fixed, known),
+        lane_function("observe_rest", rest, layout, fixed, known),
+        lane_function("weigh", energies, layout, fixed, known),
+        steps.source(energies),
+        scanning.source(layout, rows.scanned),
+        bends.source(layout, steps.pairs),
+        closer_looks.source(layout, steps.pairs, always=closely),
+        inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
+    ]
+
+
+def _slope_function(steps: stepping.StepTracer) -> str:
     """Return the source of slopes(W, row), which writes slopes where a stage's are kept.
 
     `row` : slots from those of the first stage.
     """
+    equations = steps.equations
     held = equations.tracer.held.values()
-    tape = Tape(layout, fixed, {node: f"inverse_rate{j}" for j, node in enumerate(held)})
-    turned.turn(tape)
+    known = {node: f"inverse_rate{j}" for j, node in enumerate(held)}
+    tape = Tape(steps.layout, steps.fixed, known)
+    steps.turned.turn(tape)
     tape.store_rows([(f"k1_{i}", rate) for i, rate in equations.slopes])
     tape.go_on_where(equations.tracer.variable(KEEPS_LEDGER))
     tape.store_rows([(f"kledger1_{i}", rate) for i, rate in enumerate(equations.ledger)])
     return tape.function("slopes", "row")
 
 
-def _right_hand_side(
-    equations: Equations, outputs: Outputs, layout: Layout, fixed: FixedNodes
-) -> str:
+def _right_hand_side(steps: stepping.StepTracer) -> str:
     """Return the source of right_hand_side(W); the ledger's rates only where they are wanted."""
-    tape = Tape(layout, fixed)
-    tape.store(outputs)
+    equations = steps.equations
+    again = [(slot, node) for node, slot in steps.known.items()]
+    tape = Tape(steps.layout, steps.fixed)
+    tape.store([*right_hand_side(equations), *again, *steps.knots.at_end()])
     tape.go_on_where(equations.tracer.variable(KEEPS_LEDGER))
     tape.store([(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)])
     return tape.function("right_hand_side")

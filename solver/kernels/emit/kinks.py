@@ -8,7 +8,7 @@ jump (equal limit velocities), if its argument goes on through the jump; where f
 slip at the jump, the mean slope grows beyond bounds and no tangent can be carried.
 """
 
-from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, nothing
+from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, statements
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.derivative import Derivative
 from jointplay.solver.kernels.trace.equations import Equations
@@ -45,7 +45,7 @@ def kink_function(kinks: Kinks, layout: Layout, fixed: FixedNodes) -> str:
     Its end is the state to come, in the base's stage; its start was the end of the step before.
     """
     if not kinks:
-        return nothing("kinks")
+        return statements("kinks", [])
     outputs: list[tuple[str, Expression]] = []
     for q, (value, argument) in enumerate(kinks):
         tracer = value.tracer

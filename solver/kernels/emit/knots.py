@@ -165,8 +165,7 @@ def _share(
     met = select_positive(within, _root(first, last, distance / length), 2.0)
     inside = minimum(turn - AT_END, 1.0 - AT_END - turn)
     turning = select_positive(minimum(beyond, inside), turn, 2.0)
-    share: Expression = minimum(met, turning)
-    return share
+    return minimum(met, turning)
 
 
 def _cubic(first: Expression, last: Expression, theta: Expression) -> Expression:

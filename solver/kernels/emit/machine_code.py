@@ -4,8 +4,6 @@ Numba, which compiles the loops that call it, would optimise such a module three
 and keep an entry to each function for itself: more than half of the compilation of a press.
 """
 
-import os
-import tempfile
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -13,6 +11,7 @@ from typing import Any
 
 from llvmlite import binding
 
+from jointplay.solver.kernels.cache import write_whole
 from jointplay.solver.kernels.compiler import order_instructions
 from jointplay.solver.kernels.target import Target, own_target
 
@@ -35,25 +34,15 @@ def load_code(text: Callable[[], str], target: Target, source: Path | None) -> N
     else:
         code = _compiled(text(), target)
         if path is not None:
-            with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as partial:
-                partial.write(code)
-            os.replace(partial.name, path)
+            write_whole(path, code)
     _engine().add_object_file(binding.ObjectFileRef.from_data(code))
 
 
 def address_of_symbol(name: str) -> int:
-    """Return the address of a loaded function."""
-    address = int(_engine().get_function_address(name))
-    if address == 0:
-        raise LookupError(f"no code is loaded of '{name}'")
-    return address
-
-
-def address_of_number(name: str) -> int:
-    """Return the address of a number that loaded code keeps."""
+    """Return the address of a loaded function, or of a number that loaded code keeps."""
     address = int(_engine().get_global_value_address(name))
     if address == 0:
-        raise LookupError(f"no code is loaded that keeps '{name}'")
+        raise LookupError(f"no code is loaded of '{name}'")
     return address
 
 

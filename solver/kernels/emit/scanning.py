@@ -77,6 +77,8 @@ def _scan(name: str, layout: Layout, rows: int) -> str:
     blocks = {f"{block}0" for block in BLOCKS}
     tape = Tape(layout, fetch=lambda name: f"load {layout[name]}{'+' * (name in blocks)}")
     tape.mark("marked0", tracer.constant(0.0))
-    tape.store_and_go_on_where(near, [("previous0", value), ("change0", change)])
+    tape.evaluate(near)  # of what the rows hold before
+    tape.store_rows([("previous0", value), ("change0", change)])
+    tape.go_on_where(near)
     tape.mark("marked0", found)
     return tape.function(name, "rows", rows)

@@ -44,7 +44,7 @@ class DenseRow:
         return cls(*map(int, ends))
 
     def times(self, rows: Floats, period: float) -> Floats:
-        """Return the simulated times (...,) of rows (..., width), s."""
+        """Return the simulated times (...,) of rows (..., width), s; of steps, where they begin."""
         return rows[..., PERIOD] * period + rows[..., TIME]
 
     def states(self, rows: Floats) -> Floats:
@@ -76,10 +76,6 @@ class StepRow:
         """Arrange the blocks one behind the other."""
         ends = np.cumsum([LENGTH + 1, states, states - coordinates, pairs, pairs])
         return cls(coordinates, *map(int, ends))
-
-    def begins(self, rows: Floats, period: float) -> Floats:
-        """Return the simulated times at which the steps of rows (..., width) begin, s."""
-        return rows[..., PERIOD] * period + rows[..., TIME]
 
 
 COUNTS = ("states", "inner_states", "ledger", "pairs", "clocks", "rows", "watched_closely")

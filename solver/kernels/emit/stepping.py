@@ -8,13 +8,7 @@ from itertools import count
 
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit import closing, enclosure
-from jointplay.solver.kernels.emit.emit import (
-    FixedNodes,
-    Known,
-    Outputs,
-    Tape,
-    statements,
-)
+from jointplay.solver.kernels.emit.emit import FixedNodes, Known, Outputs, Tape, statements
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
 from jointplay.solver.kernels.emit.turned_sines import Angle, TurnedSines, turned_in_slopes
 from jointplay.solver.kernels.layout import Layout
@@ -25,6 +19,9 @@ from jointplay.solver.quantities.scalars import maximum, minimum, select_positiv
 
 ENDS = ("gap", "gap_rate", "slip", "slip_rate")
 """Quantities of a contact pair that are known at both ends of a step."""
+CONTACT = ("mode", "impact_rate", "inverse_rate", "impact_floor", "restart")
+ONSET = ("onset_time", "approach", "onset_total", "opened", "abrupt")
+"""Further ones: of its law, and of how its contact began and ended."""
 
 
 def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) -> None:
@@ -48,18 +45,7 @@ def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) 
     for name in ENDS:
         layout.add_block(name, pairs)
         layout.add_block(f"{name}_start", pairs)
-    layout.add_block("mode", pairs)
-    layout.add_block("impact_rate", pairs)
-    layout.add_block("inverse_rate", pairs)
-    for name in (
-        "impact_floor",
-        "restart",
-        "onset_time",
-        "approach",
-        "onset_total",
-        "opened",
-        "abrupt",
-    ):
+    for name in (*CONTACT, *ONSET):
         layout.add_block(name, pairs)
     enclosure.allocate(layout, pairs)
 
@@ -68,32 +54,28 @@ class StepTracer(JudgedStep):
     """Records the functions of one method for the equations of a scene."""
 
     def __init__(
-        self,
-        tableau: Method,
-        equations: Equations,
-        ledger: int,
-        layout: Layout,
-        known: Known,
+        self, tableau: Method, equations: Equations, fixed: FixedNodes, known: Known
     ) -> None:
         """`known` : what the right-hand side leaves in slots."""
-        super().__init__(tableau, equations, ledger, layout)
-        self.known = known
+        layout = fixed.layout
+        super().__init__(tableau, equations, layout)
+        self.fixed, self.known = fixed, known
         self.turned = TurnedSines(self._turned())
         self.turned.allocate(layout)
         layout.add(*(before(name) for name in self._remembered()))
 
-    def source(self, energies: Outputs, fixed: FixedNodes) -> str:
+    def source(self, energies: Outputs) -> str:
         """Return the source of all functions of a step.
 
         `energies` : what gravity and contacts store, at the stage.
         """
-        parts = [*self._steps(), *self.knots.source(fixed)]
+        parts = [*self._steps(), *self.knots.source(self.fixed)]
         parts += [self._look_inside(), self._judge(), self._attempt(), *self._remember()]
         if self.turned.angles:
-            parts.insert(0, self.turned.source(self.layout, fixed))
+            parts.insert(0, self.turned.source(self.layout, self.fixed))
         if self.equations.corrections:
-            parts.insert(0, closing.source(self.equations, self.layout, fixed))
-        return "\n\n".join([*parts, self._take(energies, fixed)])
+            parts.insert(0, closing.source(self.equations, self.layout, self.fixed))
+        return "\n\n".join([*parts, self._take(energies)])
 
     def _turned(self) -> list[Angle]:
         return turned_in_slopes(self.equations)
@@ -128,7 +110,7 @@ class StepTracer(JudgedStep):
         """Return the length of the step but for knots: as the last one says, within all bounds."""
         v = self.variable
         remaining = v("end") - v("time")
-        limited: Expression = minimum(minimum(v("step"), v("largest_step")), remaining)
+        limited = minimum(minimum(v("step"), v("largest_step")), remaining)
         if self.tableau.error:
             speeds = [f"y{self.coordinates + i}" for i in self.angles]
             limited = minimum(limited, enclosure.longest(v, speeds))
@@ -169,7 +151,7 @@ class StepTracer(JudgedStep):
         calls = [*self.knots.calls_before, *calls, *self.knots.calls_after, "look_inside"]
         return statements("attempt", [f"call {each}" for each in calls] + ["return call judge"])
 
-    def _take(self, energies: Outputs, fixed: FixedNodes) -> str:
+    def _take(self, energies: Outputs) -> str:
         """Take the step in the lanes that accept it."""
         v = self.variable
         running = v("active")
@@ -193,7 +175,7 @@ class StepTracer(JudgedStep):
         for i in range(self.states):
             outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
         outputs = self._where_accepted(outputs)
-        tape = Tape(self.layout, fixed, self.known)
+        tape = Tape(self.layout, self.fixed, self.known)
         tape.store([*outputs, ("step", v("next_step"))])
         tape.go_on_where(v(KEEPS_LEDGER))
         tape.carry(energies)

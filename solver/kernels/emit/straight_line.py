@@ -31,8 +31,8 @@ A step is a tape that calls others of its module, and has equations solved::
     call stage_2            a function of W
     call slopes 42          a function of W and a row
     return call judge       its value
-    jacobian 12 0.25 ...    see `solver.kernels.emit.elimination`
-    solve 12 ...
+    jacobian 6 0.25 2 42    see `solver.kernels.emit.elimination`
+    solve 6 42
 
 As Python's arithmetic in a loop over the lanes, which Numba compiled, it took five times as long to
 compile and ran no faster.
@@ -145,8 +145,7 @@ class _Tape:
             return self.lanes.either(self.ways, *map(self._value, operands))
         on_lanes = OPERATIONS[what].on_lanes
         assert on_lanes is not None  # noqa: S101  (tapes have no others)
-        found: str = on_lanes(self.lanes, *map(self._value, operands))
-        return found
+        return on_lanes(self.lanes, *map(self._value, operands))
 
     def _do(self, words: list[str]) -> None:
         """Write what is no value."""

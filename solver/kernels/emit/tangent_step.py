@@ -12,7 +12,8 @@ Source: Ralston 1962, Mathematics of Computation 16:431 (minimum error bound of 
 same nodes and weights as in Bogacki and Shampine 1989, Applied Mathematics Letters 2:321.
 """
 
-from collections.abc import Sequence
+from functools import reduce
+from operator import add, mul
 
 from jointplay.solver.kernels.emit.emit import lane_function, statements
 from jointplay.solver.kernels.emit.kinks import MEMORY
@@ -102,7 +103,7 @@ class TangentTracer:
     def _after_half(self, begun: Expression, i: int) -> Expression:
         v = self.tracer.variable
         slopes = [v(f"first_slope{i}"), v(f"second_slope{i}"), self._slope(i)]
-        return begun + 0.5 * v("tried") * _sum(WEIGHTS, slopes)
+        return begun + 0.5 * v("tried") * reduce(add, map(mul, WEIGHTS, slopes))
 
     def _arrive(self) -> str:
         """Bring the tangent to the end of the step, in the lanes that take it."""
@@ -111,10 +112,3 @@ class TangentTracer:
         moved += [(f"kink_start{i}", v(f"kink_end{i}")) for i in range(MEMORY * self.kinks)]
         taken = [(name, select_positive(v("accept"), new, v(name))) for name, new in moved]
         return lane_function("arrive", taken, self.layout)
-
-
-def _sum(weights: Sequence[float], terms: Sequence[Expression]) -> Expression:
-    total = weights[0] * terms[0]
-    for weight, term in zip(weights[1:], terms[1:], strict=True):
-        total = total + weight * term
-    return total

@@ -23,7 +23,7 @@ from jointplay.solver.kernels.emit.emit import (
     Tape,
     lane_function,
     module_source,
-    nothing,
+    statements,
 )
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.kernel import Kernel
@@ -81,16 +81,15 @@ def compile_tangents(kernel: Kernel) -> Tangents:
         module,
         layout,
         slots,
-        FixedNumbers({layout[f"fixed{index}"]: node for index, node in fixed.nodes.items()}),
+        FixedNumbers(fixed.nodes),
         addresses_of(kernel.module, module),
     )
 
 
 def allocate(layout: Layout, states: int, pairs: int, bends: int) -> None:
     """Give slots to tangents, behind all that the kernel has."""
-    layout.add_block("tangent", states)
-    for name in ("tangent_impact_rate", "tangent_gap", "tangent_gap_rate", "gap_acceleration"):
-        layout.add_block(name, pairs)
+    for name in OF_TANGENTS:
+        layout.add_block(name, states if name == "tangent" else pairs)
     kinks.allocate(layout, bends)
     tangent_step.allocate(layout, states)
 
@@ -144,7 +143,7 @@ def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str
     its rate along the tangent, and the derivative of the rate in time along the motion.
     """
     if not equations.gaps:
-        return nothing("tangent_gaps")
+        return statements("tangent_gaps", [])
     tracer = equations.tracer
     states = equations.states
     tangent = Derivative({f"stage{i}": tracer.variable(f"tangent{i}") for i in range(states)})

@@ -50,9 +50,7 @@ class Derivative:
         if all(rate.is_literal(0.0) for rate in rates):
             return node.tracer.constant(0.0)
         known = node.tracer.functions.get(node.index)
-        operation = OPERATIONS[known.name if known else node.operation]
-        rate: Expression = operation.rate(node, rates)
-        return rate
+        return OPERATIONS[known.name if known else node.operation].rate(node, rates)
 
 
 def _differentiated(node: Expression) -> tuple[Expression, ...]:

@@ -216,7 +216,7 @@ ON_ARRAYS: dict[str, Callable[..., Any]] = {
 
 def operate(name: str, operands: Sequence[Any]) -> Any:
     """Return what an operation gives of numbers, of which some may be arrays, (points,)."""
-    function: Callable[..., Any] = OPERATIONS[name].on_floats
+    function = OPERATIONS[name].on_floats
     if any(isinstance(operand, np.ndarray) for operand in operands):
         function = ON_ARRAYS.get(name, function)
     return function(*operands)

@@ -60,26 +60,25 @@ class Rows:
 def arrange(scene: Scene, equations: Equations) -> Rows:
     """Sort the channels of a scene into rows."""
     watched: dict[int, str] = {}
-    rest: list[str] = []
     multiples: dict[str, tuple[str, float, float]] = {}
     linear = {o.name: (o.channel, o.factor, o.offset) for o in scene.outputs}
     moving = _moving(equations.channels.values())
     for name, expression in equations.channels.items():
         if name == "stored" or expression not in moving:
-            rest.append(name)
-        elif expression.index in watched:
-            rest.append(name)
+            continue
+        if expression.index in watched:
             multiples[name] = (watched[expression.index], 1.0, 0.0)
         elif name in linear and linear[name][0] in watched.values():
-            rest.append(name)
             multiples[name] = linear[name]
         else:
             watched[expression.index] = name
+    names = tuple(watched.values())
+    rest = tuple(name for name in equations.channels if name not in names)
     contacts = tuple(f"{name}.normal_force" for name in equations.pairs)
     kinds = {channel.name: _kind(channel.unit) for channel in channels(scene)}
-    scanned = [kinds[name] for name in (*watched.values(), *contacts)]
+    scanned = [kinds[name] for name in (*names, *contacts)]
     alike = tuple(map(scanned.index, scanned))
-    return Rows(tuple(watched.values()), contacts, tuple(rest), multiples, alike)
+    return Rows(names, contacts, rest, multiples, alike)
 
 
 def _kind(unit: str) -> str:

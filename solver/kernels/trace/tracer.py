@@ -243,7 +243,7 @@ class Expression:
         lifted = self.tracer.lift(exponent)
         if self.fixed and lifted.fixed:
             return self.tracer.apply("pow", self, lifted)
-        result: Expression = elementary.power(self, lifted)
+        result = elementary.power(self, lifted)
         if lifted.fixed:
             self.tracer.functions[result.index] = Function("pow", self, lifted)
         return result

@@ -59,7 +59,7 @@ class ProblemReplay:
 
     def begins(self, steps: Floats) -> Floats:
         """Return the times at which steps (n, width) begin, s."""
-        return self.kernel.step_row.begins(steps, self.period)
+        return self.kernel.row.times(steps, self.period)
 
     def ends(self, steps: Floats) -> Floats:
         """Return the times at which steps (n, width) end, s."""

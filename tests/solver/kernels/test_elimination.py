@@ -8,7 +8,7 @@ from jointplay.solver.kernels.target import own_target
 LANES = own_target().lanes
 
 N, GAMMA = 4, 0.25
-TIME, TRIED, DIRECTION, PRODUCT, DRIFT, RIGHT, PIVOT, FACTOR = 0, 1, 2, 6, 10, 14, 18, 22
+TRIED, TIME, DIRECTION, PRODUCT, DRIFT, RIGHT, PIVOT, FACTOR = 0, 1, 2, 6, 10, 14, 18, 22
 SLOTS = FACTOR + N * N
 MATRIX = np.array([[1.0, -2, 0, 4], [3, 5, -1, 0], [0, 2, 7, 1], [1, 0, 2, -6]])
 DRIFTS = np.array([0.5, -1.5, 2.5, -3.5])
@@ -29,9 +29,8 @@ def multiplying() -> str:
 def test_each_lane_solves_its_own_equations() -> None:
     tapes = Tapes()
     tapes.add("product", multiplying())
-    places = f"{TIME} {TRIED} {DIRECTION} {PRODUCT} {DRIFT} {PIVOT} {FACTOR}"
-    tapes.add("factorise", f"jacobian {N} {GAMMA} {places}")
-    tapes.add("solve", f"solve {N} {RIGHT} {PIVOT} {FACTOR}")
+    tapes.add("factorise", f"jacobian {N} {GAMMA} {TRIED} {TIME}")
+    tapes.add("solve", f"solve {N} {TIME}")
     functions = tapes.compiled()
     work = np.full((SLOTS, LANES), np.nan)
     steps = work[TRIED] = 0.01 * np.arange(1.0, LANES + 1.0)
