@@ -19,7 +19,7 @@ from jointplay.records.impact import IMPACT
 from jointplay.solver.kernels import device
 from jointplay.solver.kernels.device.compiled import ptx
 from jointplay.solver.kernels.device.kernel_text import kernel_text
-from jointplay.solver.kernels.device.one_lane import Sizes
+from jointplay.solver.kernels.device.lanes import Sizes
 from jointplay.solver.kernels.device.trimmed import slots_of_energies, without
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tapes import Source

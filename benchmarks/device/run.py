@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.solver.kernels.device.driver import LOCAL, REGISTERS, Code, Device, DeviceError
-from jointplay.solver.kernels.device.lanes import BLOCK, ENTRY, DeviceLanes, Shape
+from jointplay.solver.kernels.device.lanes import BLOCK, ENTRY, DeviceLanes, Sizes
 
 COUNTED = ("filled", "impacts", "growths", "kept")
 """Fields of a run that tell what a launch handed out."""
@@ -43,18 +43,21 @@ class Given:
     def __init__(self, folder: Path, name: str) -> None:
         with np.load(folder / f"{name}.npz") as saved:
             self.saved = dict(saved)
-        kinds = [np.dtype(ast.literal_eval(str(kind))) for kind in self.saved["kinds"]]
+        run, impact, growth = (
+            np.dtype(ast.literal_eval(str(kind))) for kind in self.saved["kinds"]
+        )
+        self.kinds = run, impact, growth
         self.points = self.saved["numbers"].shape[1]
         self.columns = np.repeat(self.saved["first"][:, None], self.points, axis=1)
         self.columns[self.saved["varied"]] = self.saved["numbers"]
-        self.runs = self.saved["runs"].view(kinds[0])
-        _, slots, rows, impacts, growths = map(int, self.saved["sizes"])
-        self.shape = Shape(slots, int(self.saved["width"]), rows, impacts, growths, *kinds)
+        self.runs = self.saved["runs"].view(run)
+        self.sizes, self.width = Sizes(*map(int, self.saved["sizes"])), int(self.saved["width"])
         self.attempts = int(self.saved["attempts"])
 
     def lanes(self, device: Device, code: Code, count: int, block: int = BLOCK) -> DeviceLanes:
         """Return so many lanes at the start of points, one after the other and again."""
-        lanes = DeviceLanes(device, code, self.shape, count, block)
+        sizes = self.sizes._replace(lanes=count)
+        lanes = DeviceLanes(device, code, sizes, self.width, self.kinds, block)
         points = np.arange(count) % self.points
         lanes.columns.write(self.columns[:, points])
         lanes.runs.write(self.runs[points])
@@ -84,8 +87,7 @@ def equal(given: Given, device: Device, code: Code, which: str) -> int:
             raise SystemExit(f"lanes made {left.min()} to {left.max()} attempts: a buffer is full")
     columns = lanes.columns.read()[given.saved[f"slots_{which}"]]
     lanes.release()
-    width = given.shape.width
-    joined = [np.concatenate(one) if one else np.zeros((0, width)) for one in rows]
+    joined = [np.concatenate(one) if one else np.zeros((0, given.width)) for one in rows]
     found = digests(columns, runs, joined)
     return int((found == given.saved[f"digests_{which}"]).sum())
 

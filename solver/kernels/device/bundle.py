@@ -15,8 +15,7 @@ from jointplay.records.impact import IMPACT
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.device.compiled import code
 from jointplay.solver.kernels.device.driver import Code, Device, DeviceError
-from jointplay.solver.kernels.device.lanes import DeviceLanes, Shape
-from jointplay.solver.kernels.device.one_lane import Sizes
+from jointplay.solver.kernels.device.lanes import DeviceLanes, Sizes
 from jointplay.solver.kernels.device.trimmed import slots_of_energies, without
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
@@ -75,18 +74,16 @@ class DeviceBundle(Bundle):
         self.runs["status"], self.runs["landing"] = Status.IDLE, NO_PAIR
         self.first_energy = np.zeros((len(ENERGIES), count))
         unused = () if energies else slots_of_energies(kernel)
-        sources, slots = list(without(unused, kernel.module.tapes.sources)), kernel.slots
-        rows = kernel.layout.size
+        sources, of = list(without(unused, kernel.module.tapes.sources)), tangents or kernel
         if tangents is not None:
-            sources = [*sources, *tangents.module.tapes.sources]
-            slots, rows = tangents.slots, tangents.layout.size
-        work = np.zeros((rows, count))
+            sources += tangents.module.tapes.sources
+        work = np.zeros((of.layout.size, count))
         none = Buffers.of(0, 0, kernel.row.width, tangents=False, steps=(0, 0, 0))
         self.groups = [Group(work, self.runs, none)]
-        sizes = Sizes(0, rows, ROWS, IMPACTS, 0 if tangents is None else GROWTHS)
-        loaded = Code(device, code(sources, slots, sizes, on_host=device.on_host))
-        shape = Shape(rows, kernel.row.width, *sizes[2:], DTYPE, IMPACT, GROWTH)
-        self._lanes = DeviceLanes(device, loaded, shape, count)
+        sizes = Sizes(count, len(work), ROWS, IMPACTS, 0 if tangents is None else GROWTHS)
+        loaded = Code(device, code(sources, of.slots, sizes, on_host=device.on_host))
+        kinds = DTYPE, IMPACT, GROWTH
+        self._lanes = DeviceLanes(device, loaded, sizes, kernel.row.width, kinds)
         self._changed = np.ones(count, np.bool_)
         self._stale = np.zeros(count, np.bool_)
 

@@ -10,8 +10,8 @@ from llvmlite import binding
 from numpy.typing import NDArray
 
 from jointplay.solver.kernels.device.kernel_text import LOOP, PARTS, kernel_text
+from jointplay.solver.kernels.device.lanes import Sizes
 from jointplay.solver.kernels.device.loop_text import loop_text
-from jointplay.solver.kernels.device.one_lane import Sizes
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.target import own_target
 
@@ -61,8 +61,7 @@ def _linked(text: str, machine: Any, triple: str, entries: Collection[str]) -> A
         if one.name not in entries and not one.is_declaration:
             one.linkage = "internal"
     module.verify()
-    options = binding.create_pipeline_tuning_options()
-    options.speed_level = LEVEL
+    options = binding.create_pipeline_tuning_options(LEVEL)
     options.loop_vectorization = options.slp_vectorization = False
     for _ in range(ROUNDS):
         builder = binding.create_pass_builder(machine, options)

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.device.lanes import ENTRY, MOVE
-from jointplay.solver.kernels.device.one_lane import GlobalMemory, Sizes
+from jointplay.solver.kernels.device.lanes import ENTRY, MOVE, Sizes
+from jointplay.solver.kernels.device.one_lane import GlobalMemory
 from jointplay.solver.kernels.emit import functions
 from jointplay.solver.kernels.emit.function import OF_ARRAYS
 from jointplay.solver.kernels.emit.lane_arithmetic import declared

@@ -1,7 +1,6 @@
 """Lanes on a device: their numbers there, launches, and what these hand out."""
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,51 +16,56 @@ PACKED = 1024
 """Lanes of which numbers are brought together at once."""
 
 
-@dataclass(frozen=True)
-class Shape:
-    """Sizes of a lane's parts, and their types."""
+class Sizes(NamedTuple):
+    """Number of lanes, and how much each has."""
 
+    lanes: int
     slots: int
-    width: int
-    """Numbers of a row."""
     rows: int
-    """That a launch hands out at most; further ones in the next."""
+    """That a launch hands out at most; further ones in the next. Of the others, too."""
     impacts: int
     growths: int
-    run: Any
-    impact: Any
-    growth: Any
-    """Types of these structures."""
+    """0: there are no tangents."""
 
 
 class DeviceLanes:
-    """So many lanes of one kernel on a device."""
+    """Lanes of one kernel on a device."""
 
     def __init__(
-        self, device: Device, code: Code, shape: Shape, count: int, block: int = BLOCK
+        self,
+        device: Device,
+        code: Code,
+        sizes: Sizes,
+        width: int,
+        kinds: tuple[Any, Any, Any],
+        block: int = BLOCK,
     ) -> None:
-        """Take memory for them; so many threads keep together.
+        """Take memory for them.
+
+        `width` : numbers of a row; `kinds` : types of a run, an impact and a growth; `block` :
+        threads that keep together.
 
         Raises
         ------
         DeviceError
             There is not enough.
         """
-        self.device, self.code, self.shape, self.count = device, code, shape, count
-        self._block = block
-        self._words = int(np.dtype(shape.run).itemsize // WORD)
+        self.device, self.code, self.sizes = device, code, sizes
+        self._width, self._block = width, block
+        (count, slots, rows, impacts, growths), (run, impact, growth) = sizes, kinds
+        self._words = int(np.dtype(run).itemsize // WORD)
         self._all: list[Memory] = []
         try:
-            self.columns = self._memory((shape.slots, count), np.float64)
-            self.runs = self._memory((count,), shape.run)
-            self._rows = self._memory((count, 2, shape.rows * shape.width), np.float64)
-            self.impacts = self._memory((count, shape.impacts), shape.impact)
-            self.growths = self._memory((count, shape.growths), shape.growth)
+            self.columns = self._memory((slots, count), np.float64)
+            self.runs = self._memory((count,), run)
+            self._rows = self._memory((count, 2, rows * width), np.float64)
+            self.impacts = self._memory((count, impacts), impact)
+            self.growths = self._memory((count, growths), growth)
             self.made = self._memory((count,), np.int64)
             """Attempts of each lane in the last launch, once that is done."""
             self._arguments = [memory.address for memory in self._all]
             self._which = self._memory((PACKED,), np.int64)
-            words = max(shape.slots, self._words)
+            words = max(slots, self._words)
             self._packed = self._memory((words * min(count, PACKED),), np.int64)
         except BaseException:
             self.release()
@@ -73,16 +77,16 @@ class DeviceLanes:
 
     def launch(self, budget: int) -> None:
         """Begin at most so many attempts of each lane."""
-        arguments = [*self._arguments, self.count, budget]
-        self.code.launch(ENTRY, self.count, self._block, arguments)
+        count = self.sizes.lanes
+        self.code.launch(ENTRY, count, self._block, [*self._arguments, count, budget])
 
     def fetch(self, lanes: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return numbers (slots, lanes) of some lanes."""
-        slots = self.shape.slots
+        slots = self.sizes.slots
         columns = np.empty((slots, len(lanes)))
         for first in range(0, len(lanes), PACKED):
             some = lanes[first : first + PACKED]
-            self._move(self.columns, some, (self.count, 1), slots * len(some), into=0)
+            self._move(self.columns, some, (self.sizes.lanes, 1), slots * len(some), into=0)
             packed = self._packed.part((slots, len(some)))
             columns[:, first : first + len(some)] = packed.view(np.float64)
         return columns
@@ -97,7 +101,7 @@ class DeviceLanes:
             part = slice(first, first + len(some))
             own = np.ascontiguousarray(columns[:, part])
             self._packed.write(own.view(np.int64))
-            self._move(self.columns, some, (self.count, 1), own.size, into=1)
+            self._move(self.columns, some, (self.sizes.lanes, 1), own.size, into=1)
             packed = np.ascontiguousarray(runs[part]).view(np.int64).reshape(len(some), words)
             self._packed.write(packed.T)
             self._move(self.runs, some, (1, words), packed.size, into=1)
@@ -117,8 +121,7 @@ class DeviceLanes:
 
     def rows(self, most: int) -> NDArray[np.float64]:
         """Return the first samples and sections of all lanes, (lanes, 2, most, width)."""
-        width = self.shape.width
-        return self._rows.read(most * width).reshape(self.count, 2, most, width)
+        return self._rows.read(most * self._width).reshape(self.sizes.lanes, 2, most, self._width)
 
     def release(self) -> None:
         """Give the memory back."""

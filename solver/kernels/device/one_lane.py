@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from numba import carray, from_dtype, int64, types, void
 
 from jointplay.records.impact import IMPACT
+from jointplay.solver.kernels.device.lanes import Sizes
 from jointplay.solver.kernels.emit import functions, slots
 from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import inner_kernel
@@ -40,17 +41,6 @@ class LocalMemory(NamedTuple):
     work: Any
     spare: Any
     run: Any
-
-
-class Sizes(NamedTuple):
-    """Number of lanes, and how much each has."""
-
-    lanes: int
-    slots: int
-    rows: int
-    impacts: int
-    growths: int
-    """0: there are no tangents."""
 
 
 def _at(kind: Any) -> Any:

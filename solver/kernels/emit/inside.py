@@ -26,7 +26,6 @@ def source(
     channels, of the state, its time and its accelerations: those whose extremes are sought, and
     others, at which sections may be taken.
     """
-    within, around = _within(layout), _around(layout)
     count = len(equations.coordinates)
     accelerations = [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
     gaps = [
@@ -35,6 +34,16 @@ def source(
         for name, expression in zip(("gap", "gap_rate"), pair, strict=True)
     ]
     slips = [(f"slip{j}", slip) for j, (slip, _) in enumerate(equations.slips)]
+
+    def within(name: str) -> str:
+        """Read this step, at the instants that S gives."""
+        return f"{'given' if name == 'theta' else 'spread'} {layout[name]}"
+
+    def around(name: str) -> str:
+        """Read the step before at the first four instants, this one at the others."""
+        if before(name) in layout:
+            return f"spread {layout[before(name)]} {layout[name]}"
+        return within(name)
 
     def looking(
         name: str,
@@ -58,21 +67,3 @@ def source(
             looking("channels_around", around, moving, scanned, ["stage_time"]),
         ]
     )
-
-
-def _within(layout: Layout) -> Callable[[str], str]:
-    """Read this step, at the instants that S gives."""
-    return lambda name: f"{'given' if name == 'theta' else 'spread'} {layout[name]}"
-
-
-def _around(layout: Layout) -> Callable[[str], str]:
-    """Read the step before at the first four instants, this one at the others; S gives them."""
-
-    def fetch(name: str) -> str:
-        if name == "theta":
-            return f"given {layout[name]}"
-        if before(name) in layout:
-            return f"spread {layout[before(name)]} {layout[name]}"
-        return f"spread {layout[name]}"
-
-    return fetch

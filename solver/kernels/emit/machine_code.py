@@ -61,8 +61,7 @@ def _compiled(text: str, target: Target) -> bytes:
 
 
 def _passes(machine: Any, level: int) -> Any:
-    options = binding.create_pipeline_tuning_options()
-    options.speed_level = level
+    options = binding.create_pipeline_tuning_options(level)
     return binding.create_pass_builder(machine, options)
 
 

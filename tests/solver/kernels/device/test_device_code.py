@@ -9,8 +9,8 @@ import pytest
 
 from jointplay.solver.kernels.device.compiled import code
 from jointplay.solver.kernels.device.kernel_text import spare_rows
+from jointplay.solver.kernels.device.lanes import Sizes
 from jointplay.solver.kernels.device.loop_text import loop_text
-from jointplay.solver.kernels.device.one_lane import Sizes
 from jointplay.solver.kernels.device.trimmed import slots_of_energies, without
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import compile_tangents
