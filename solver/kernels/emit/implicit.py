@@ -73,12 +73,12 @@ class RosenbrockTracer(StepTracer):
             ]
         )
 
-    def _moved(self, weights: tuple[float, ...], i: int, newest: int = 0) -> Expression:
-        """State i after h times a weighted sum of stages; the newest is in `right` still."""
-        v = self.variable
-        total: Expression = self.tracer.constant(0.0)
-        for s, weight in enumerate(weights, start=1):
-            total = total + weight * v(f"right{i}" if s == newest else f"k{s + 1}_{i}")
+    def _moved(self, weights: tuple[float, ...], i: int, *, fresh: bool = False) -> Expression:
+        """State i after h times a weighted sum of stages; the `fresh` last is in `right` still."""
+        v, stages = self.variable, [f"k{s}_{i}" for s in range(2, len(weights) + 2)]
+        if fresh:
+            stages[-1] = f"right{i}"
+        total = self._sum(weights, stages)
         return v(f"y{i}") + v("tried") * total
 
     def _stored(self, s: int) -> list[tuple[str, Expression]]:
@@ -87,7 +87,7 @@ class RosenbrockTracer(StepTracer):
     def _point(self, s: int) -> str:
         """Go where stage s evaluates the slope; keep the stage before."""
         v, weights = self.variable, self.tableau.matrix[s - 1]
-        outputs = [(f"stage{i}", self._moved(weights, i, s - 1)) for i in range(self.states)]
+        outputs = [(f"stage{i}", self._moved(weights, i, fresh=True)) for i in range(self.states)]
         outputs.append(("stage_time", v("time") + self.tableau.nodes[s - 1] * v("tried")))
         return self._function(f"point_{s}", [*outputs, *self._stored(s - 1)])
 
@@ -110,10 +110,10 @@ class RosenbrockTracer(StepTracer):
             sum(c * math.prod([theta] * (k + 1)) for k, c in enumerate(row))
             for row in self.tableau.dense[1:]
         )
-        newest = len(self.tableau.nodes) if number == 1 else 0
-        outputs = [(f"stage{i}", self._moved(weights, i, newest)) for i in range(self.states)]
+        first = number == 1
+        outputs = [(f"stage{i}", self._moved(weights, i, fresh=first)) for i in range(self.states)]
         outputs.append(("stage_time", v("time") + theta * v("tried")))
-        if number == 1:
+        if first:
             outputs += self._stored(len(self.tableau.nodes))
         else:
             outputs += self._kept_ledger(2)

@@ -23,7 +23,7 @@ def word(value: int) -> str:
     return f"splat (i64 {value})"
 
 
-class Lanes:
+class Builder:
     """Body of a function, line by line; a value is its name there, or a constant."""
 
     same, word = staticmethod(same), staticmethod(word)
@@ -179,37 +179,37 @@ def declared(count: int) -> str:
     )
 
 
-def mask(lanes: Lanes, x: str) -> str:
+def mask(build: Builder, x: str) -> str:
     """Return bit k of eight for each lane k whose number is positive."""
-    count = lanes.count
-    where = lanes.greater(x, same(0.0))
-    bits = lanes.new(f"bitcast <{count} x i1> {where} to i{count}")
-    return bits if count == 8 else lanes.new(f"zext i{count} {bits} to i8")
+    count = build.count
+    where = build.greater(x, same(0.0))
+    bits = build.new(f"bitcast <{count} x i1> {where} to i{count}")
+    return bits if count == 8 else build.new(f"zext i{count} {bits} to i8")
 
 
-def everywhere(lanes: Lanes, number: str) -> str:
+def everywhere(build: Builder, number: str) -> str:
     """Return a number in every lane."""
-    alone = lanes.new(f"insertelement {lanes.numbers_type} undef, double {number}, i32 0")
-    return _shuffled(lanes, alone, alone, [0] * lanes.count)
+    alone = build.new(f"insertelement {build.numbers_type} undef, double {number}, i32 0")
+    return _shuffled(build, alone, alone, [0] * build.count)
 
 
-def lower_and_upper(lanes: Lanes, lower: str, upper: str) -> str:
+def lower_and_upper(build: Builder, lower: str, upper: str) -> str:
     """Return the lower half of one and the upper half of the other."""
-    count, half = lanes.count, lanes.count // 2
-    return _shuffled(lanes, lower, upper, [*range(half), *range(count + half, 2 * count)])
+    count, half = build.count, build.count // 2
+    return _shuffled(build, lower, upper, [*range(half), *range(count + half, 2 * count)])
 
 
-def largest(lanes: Lanes, x: str) -> str:
+def largest(build: Builder, x: str) -> str:
     """Return the largest of the lanes' numbers, which are all numbers."""
-    count, width = lanes.count, lanes.count // 2
+    count, width = build.count, build.count // 2
     while width:
-        other = _shuffled(lanes, x, x, [(k + width) % count for k in range(count)])
-        x = lanes.choose(lanes.greater(x, other), x, other)
+        other = _shuffled(build, x, x, [(k + width) % count for k in range(count)])
+        x = build.choose(build.greater(x, other), x, other)
         width //= 2
-    return lanes.new(f"extractelement {lanes.numbers_type} {x}, i32 0")
+    return build.new(f"extractelement {build.numbers_type} {x}, i32 0")
 
 
-def _shuffled(lanes: Lanes, x: str, y: str, order: list[int]) -> str:
-    chosen, numbers = ", ".join(f"i32 {one}" for one in order), lanes.numbers_type
-    mask = f"<{lanes.count} x i32> <{chosen}>"
-    return lanes.new(f"shufflevector {numbers} {x}, {numbers} {y}, {mask}")
+def _shuffled(build: Builder, x: str, y: str, order: list[int]) -> str:
+    chosen, numbers = ", ".join(f"i32 {one}" for one in order), build.numbers_type
+    mask = f"<{build.count} x i32> <{chosen}>"
+    return build.new(f"shufflevector {numbers} {x}, {numbers} {y}, {mask}")

@@ -42,7 +42,7 @@ from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.elimination import factorise, substitute
 from jointplay.solver.kernels.emit.lane_arithmetic import (
-    Lanes,
+    Builder,
     everywhere,
     largest,
     lower_and_upper,
@@ -83,32 +83,32 @@ def write(tape: str, over: str, rows: int, value: str, symbol: Symbol, count: in
     count
         Number of lanes.
     """
-    lanes, parts = Lanes(count), INSTANTS // count
+    build, parts = Builder(count), INSTANTS // count
     if over == "rows":
-        lanes.lines += ["%marks = alloca i8", "store i8 0, ptr %marks"]
-        with lanes.loop("0", str(rows)) as row:
-            _Tape(lanes, symbol, row=row).run(tape)
-        found = lanes.new("load i8, ptr %marks")
-        lanes.lines.append(f"ret i64 {lanes.new(f'zext i8 {found} to i64')}")
+        build.lines += ["%marks = alloca i8", "store i8 0, ptr %marks"]
+        with build.loop("0", str(rows)) as row:
+            _Tape(build, symbol, row=row).run(tape)
+        found = build.new("load i8, ptr %marks")
+        build.lines.append(f"ret i64 {build.new(f'zext i8 {found} to i64')}")
     elif over == "instants" and parts > 1:
-        with lanes.loop("0", str(parts)) as part:
-            _Tape(lanes, symbol, target="%S", part=part).run(tape)
+        with build.loop("0", str(parts)) as part:
+            _Tape(build, symbol, target="%S", part=part).run(tape)
     elif over == "instants":
-        _Tape(lanes, symbol, target="%S").run(tape)
+        _Tape(build, symbol, target="%S").run(tape)
     else:
-        _Tape(lanes, symbol, row="%index").run(tape)
+        _Tape(build, symbol, row="%index").run(tape)
     if value == "void":
-        lanes.lines.append("ret void")
-    return lanes.lines
+        build.lines.append("ret void")
+    return build.lines
 
 
 class _Tape:
     """The arrays that a tape works on, and the values that it has made so far."""
 
     def __init__(
-        self, lanes: Lanes, symbol: Symbol, *, target: str = "%W", row: str = "", part: str = ""
+        self, build: Builder, symbol: Symbol, *, target: str = "%W", row: str = "", part: str = ""
     ) -> None:
-        self.lanes, self.symbol = lanes, symbol
+        self.build, self.symbol = build, symbol
         self.target, self.row, self.part = target, row, part
         self.values: dict[str, str] = {}
         self.ways: list[str] = []
@@ -119,12 +119,12 @@ class _Tape:
         for i, line in enumerate(lines):
             words = line.split()
             if words[0] == "where":
-                with self.lanes.where(self._value(words[1])):
+                with self.build.where(self._value(words[1])):
                     self.run("\n".join(lines[i + 1 :]))
                 return
             if words[0] == "if":
                 end = lines.index("end")
-                with self.lanes.where(self._value(words[1])) as self.ways:
+                with self.build.where(self._value(words[1])) as self.ways:
                     self.run("\n".join(lines[i + 1 : end]))
                 self.run("\n".join(lines[end + 1 :]))
                 return
@@ -142,71 +142,71 @@ class _Tape:
         if what == "spread":
             return self._spread(*operands)
         if what == "either":
-            return self.lanes.either(self.ways, *map(self._value, operands))
+            return self.build.either(self.ways, *map(self._value, operands))
         on_lanes = OPERATIONS[what].on_lanes
         assert on_lanes is not None  # noqa: S101  (tapes have no others)
-        return on_lanes(self.lanes, *map(self._value, operands))
+        return on_lanes(self.build, *map(self._value, operands))
 
     def _do(self, words: list[str]) -> None:
         """Write what is no value."""
-        lanes = self.lanes
+        build = self.build
         match words:
             case ["store", slot, value]:
                 self._store(slot, self._value(value))
             case ["mark", slot, value]:
                 self._mark(slot, self._value(value))
             case ["return", "call", name]:
-                found = lanes.new(f"call double {self.symbol(name)}(ptr %W)")
-                lanes.lines.append(f"ret double {found}")
+                found = build.new(f"call double {self.symbol(name)}(ptr %W)")
+                build.lines.append(f"ret double {found}")
             case ["return", value]:
-                lanes.lines.append(f"ret double {largest(lanes, self._value(value))}")
+                build.lines.append(f"ret double {largest(build, self._value(value))}")
             case ["call", name]:
-                lanes.lines.append(f"call void {self.symbol(name)}(ptr %W)")
+                build.lines.append(f"call void {self.symbol(name)}(ptr %W)")
             case ["call", name, row]:
-                lanes.lines.append(f"call void {self.symbol(name)}(ptr %W, i64 {row})")
+                build.lines.append(f"call void {self.symbol(name)}(ptr %W, i64 {row})")
             case ["jacobian", *numbers]:
-                factorise(lanes, self.symbol("product"), *numbers)
+                factorise(build, self.symbol("product"), *numbers)
             case ["solve", *numbers]:
-                substitute(lanes, *numbers)
+                substitute(build, *numbers)
 
     def _value(self, text: str) -> str:
         return self.values[text] if text in self.values else same(float(text))
 
     def _load(self, array: str, slot: str) -> str:
-        return self.lanes.load(self._place(array, slot))
+        return self.build.load(self._place(array, slot))
 
     def _store(self, slot: str, value: str) -> None:
-        self.lanes.store(value, self._place(self.target, slot))
+        self.build.store(value, self._place(self.target, slot))
 
     def _mark(self, slot: str, value: str) -> None:
-        lanes, bits = self.lanes, mask(self.lanes, value)
-        marked = lanes.new("load i8, ptr %marks")
-        lanes.lines.append(f"store i8 {lanes.new(f'or i8 {marked}, {bits}')}, ptr %marks")
+        build, bits = self.build, mask(self.build, value)
+        marked = build.new("load i8, ptr %marks")
+        build.lines.append(f"store i8 {build.new(f'or i8 {marked}, {bits}')}, ptr %marks")
         first = self._place(self.target, slot)
-        address = lanes.new(f"getelementptr i8, ptr {first}, i64 {self.row}")
-        lanes.lines.append(f"store i8 {bits}, ptr {address}")
+        address = build.new(f"getelementptr i8, ptr {first}, i64 {self.row}")
+        build.lines.append(f"store i8 {bits}, ptr {address}")
 
     def _spread(self, slot: str, later_slot: str = "") -> str:
-        lanes, early = self.lanes, self._spread_one(slot)
+        build, early = self.build, self._spread_one(slot)
         if not later_slot:
             return early
         late = self._spread_one(later_slot)
         if not self.part:
-            return lower_and_upper(lanes, early, late)
-        is_early = lanes.new(f"icmp ult i64 {self.part}, {INSTANTS // lanes.count // 2}")
-        numbers = lanes.numbers_type
-        return lanes.new(f"select i1 {is_early}, {numbers} {early}, {numbers} {late}")
+            return lower_and_upper(build, early, late)
+        is_early = build.new(f"icmp ult i64 {self.part}, {INSTANTS // build.count // 2}")
+        numbers = build.numbers_type
+        return build.new(f"select i1 {is_early}, {numbers} {early}, {numbers} {late}")
 
     def _place(self, array: str, slot: str) -> str:
         offset = slot.removesuffix("+")
         if slot.endswith("+"):
-            offset = self.lanes.new(f"add i64 {offset}, {self.row}")
+            offset = self.build.new(f"add i64 {offset}, {self.row}")
         if self.part:  # only S is loaded from or stored to
-            whole = self.lanes.new(f"mul i64 {offset}, {INSTANTS // self.lanes.count}")
-            offset = self.lanes.new(f"add i64 {whole}, {self.part}")
-        return self.lanes.new(f"getelementptr {self.lanes.numbers_type}, ptr {array}, i64 {offset}")
+            whole = self.build.new(f"mul i64 {offset}, {INSTANTS // self.build.count}")
+            offset = self.build.new(f"add i64 {whole}, {self.part}")
+        return self.build.new(f"getelementptr {self.build.numbers_type}, ptr {array}, i64 {offset}")
 
     def _spread_one(self, slot: str) -> str:
-        offset = self.lanes.new(f"add i64 {int(slot) * self.lanes.count}, %index")
-        address = self.lanes.new(f"getelementptr double, ptr %W, i64 {offset}")
-        return everywhere(self.lanes, self.lanes.new(f"load double, ptr {address}"))
+        offset = self.build.new(f"add i64 {int(slot) * self.build.count}, %index")
+        address = self.build.new(f"getelementptr double, ptr %W, i64 {offset}")
+        return everywhere(self.build, self.build.new(f"load double, ptr {address}"))

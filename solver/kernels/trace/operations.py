@@ -23,8 +23,8 @@ Node = Any
 """An expression of `solver.kernels.trace.tracer`, which uses this table."""
 Rates = tuple[Node, ...]
 """Derivatives of a node's arguments."""
-Lanes = Any
-"""Builder of code for vectors: `solver.kernels.emit.lane_arithmetic.Lanes`."""
+Builder = Any
+"""Writes code for vectors: `solver.kernels.emit.lane_arithmetic.Builder`."""
 Vector = Any
 """A vector of that code, a number a lane."""
 
@@ -50,7 +50,7 @@ class Operation:
 
 def _arithmetic(instruction: str) -> Callable[..., Vector]:
     """Return what writes an instruction on two vectors."""
-    return lambda lanes, x, y: lanes.arithmetic(instruction, x, y)
+    return lambda build, x, y: build.arithmetic(instruction, x, y)
 
 
 def _nothing(node: Node, _rates: Rates) -> Node:
@@ -110,43 +110,43 @@ def _power_rate(node: Node, rates: Rates) -> Node:
     return known.argument.select_positive(slope * rates[0], 0.0)
 
 
-def _select(lanes: Lanes, x: Vector, a: Vector, b: Vector) -> Vector:
+def _select(build: Builder, x: Vector, a: Vector, b: Vector) -> Vector:
     """Return a where x > 0, else b."""
-    return lanes.choose(lanes.positive(x), a, b)
+    return build.choose(build.positive(x), a, b)
 
 
-def _exponent(lanes: Lanes, x: Vector) -> Vector:
+def _exponent(build: Builder, x: Vector) -> Vector:
     """Return e with x = m 2^e, 1 <= m < 2, for a normal positive x."""
-    shifted = lanes.on_words("lshr", lanes.bits(x), lanes.word(MANTISSA_BITS))
-    return lanes.from_whole(lanes.on_words("sub", shifted, lanes.word(BIAS)))
+    shifted = build.on_words("lshr", build.bits(x), build.word(MANTISSA_BITS))
+    return build.from_whole(build.on_words("sub", shifted, build.word(BIAS)))
 
 
-def _mantissa(lanes: Lanes, x: Vector) -> Vector:
+def _mantissa(build: Builder, x: Vector) -> Vector:
     """Return m with x = m 2^e, 1 <= m < 2, for a normal positive x."""
-    kept = lanes.on_words("and", lanes.bits(x), lanes.word(MANTISSA_MASK))
-    return lanes.numbers(lanes.on_words("or", kept, lanes.word(BIAS << MANTISSA_BITS)))
+    kept = build.on_words("and", build.bits(x), build.word(MANTISSA_MASK))
+    return build.numbers(build.on_words("or", kept, build.word(BIAS << MANTISSA_BITS)))
 
 
-def _power_of_two(lanes: Lanes, x: Vector) -> Vector:
+def _power_of_two(build: Builder, x: Vector) -> Vector:
     """Return 2^x for a whole x, limited to -1022..1023; NaN gives the lower limit."""
-    low, high = lanes.same(LOWEST), lanes.same(HIGHEST)
-    x = lanes.choose(lanes.greater(x, low), x, low)
-    x = lanes.choose(lanes.greater(high, x), x, high)
-    bits = lanes.on_words("add", lanes.whole(x), lanes.word(BIAS))
-    return lanes.numbers(lanes.on_words("shl", bits, lanes.word(MANTISSA_BITS)))
+    low, high = build.same(LOWEST), build.same(HIGHEST)
+    x = build.choose(build.greater(x, low), x, low)
+    x = build.choose(build.greater(high, x), x, high)
+    bits = build.on_words("add", build.whole(x), build.word(BIAS))
+    return build.numbers(build.on_words("shl", bits, build.word(MANTISSA_BITS)))
 
 
-def _quarter_turns(lanes: Lanes, n: Vector, sine: Vector, cosine: Vector) -> Vector:
+def _quarter_turns(build: Builder, n: Vector, sine: Vector, cosine: Vector) -> Vector:
     """Return the sine of an angle n quarter turns on; |n| < 2^50.
 
     The lowest bits of n swap both and change the sign, which takes no multiplication.
     """
-    on_words, word = lanes.on_words, lanes.word
-    bits = lanes.bits(lanes.arithmetic("fadd", n, lanes.same(WHOLE)))
+    on_words, word = build.on_words, build.word
+    bits = build.bits(build.arithmetic("fadd", n, build.same(WHOLE)))
     odd = on_words("icmp ne", on_words("and", bits, word(1)), word(0))
     sign = on_words("and", on_words("shl", bits, word(SIGN_BIT - 1)), word(1 << SIGN_BIT))
-    turned = lanes.bits(lanes.choose(odd, cosine, sine))
-    return lanes.numbers(on_words("xor", turned, sign))
+    turned = build.bits(build.choose(odd, cosine, sine))
+    return build.numbers(on_words("xor", turned, sign))
 
 
 OPERATIONS: dict[str, Operation] = {
@@ -154,14 +154,14 @@ OPERATIONS: dict[str, Operation] = {
     "sub": Operation(operator.sub, lambda _, rates: rates[0] - rates[1], _arithmetic("fsub")),
     "mul": Operation(operator.mul, _product_rate, _arithmetic("fmul")),
     "div": Operation(operator.truediv, _quotient_rate, _arithmetic("fdiv")),
-    "neg": Operation(operator.neg, lambda _, rates: -rates[0], lambda lanes, x: lanes.negative(x)),
+    "neg": Operation(operator.neg, lambda _, rates: -rates[0], lambda build, x: build.negative(x)),
     "abs": Operation(
         abs,
         lambda node, rates: node.arguments[0].select_positive(rates[0], -rates[0]),
-        lambda lanes, x: lanes.call("fabs", x),
+        lambda build, x: build.call("fabs", x),
     ),
-    "sqrt": Operation(math.sqrt, _root_rate, lambda lanes, x: lanes.call("sqrt", x)),
-    "floor": Operation(ON_FLOATS["floor"], _nothing, lambda lanes, x: lanes.call("floor", x)),
+    "sqrt": Operation(math.sqrt, _root_rate, lambda build, x: build.call("sqrt", x)),
+    "floor": Operation(ON_FLOATS["floor"], _nothing, lambda build, x: build.call("floor", x)),
     "select": Operation(
         ON_FLOATS["select"],
         lambda node, rates: node.arguments[0].select_positive(rates[1], rates[2]),
