@@ -8,7 +8,7 @@ import { element } from "./element.js";
  * @param label what a screen reader calls it
  * @param titles of the columns
  * @param rows lists of cells, as long as `titles`
- * @param look class of the table
+ * @param look classes of the table; `explained`: its last column has sentences
  */
 export function table(label, titles, rows, look = "") {
   return element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": label },

@@ -30,6 +30,9 @@ def test_a_branch_is_drawn_beside_a_table_of_its_special_orbits(browsing, url, a
         expect(told).to_contain_text("multipliers 1,")
         page.screenshot(path=artifacts / "branch.png", full_page=True)
         assert barriers(page) == []
+        page.set_viewport_size({"width": 700, "height": 900})  # sentences in one line would not fit
+        table = page.get_by_role("group", name="Special orbits").element_handle()
+        page.wait_for_function("table => table.scrollWidth === table.clientWidth", arg=table)
 
 
 def test_an_orbit_is_opened_as_the_simulation_that_starts_on_it(browsing, url):

@@ -86,7 +86,7 @@ function specialOrbits({ parameter, unit, second, second_unit }, branches, pick)
     ...(second ? shown(orbit.second, orbit.second_bound, second_unit) : []), orbit.note,
   ]));
   const names = second ? [parameter, "±", second, "±"] : [parameter, "±"];
-  return table("Special orbits", ["Orbit", ...names, "there"], rows, "small");
+  return table("Special orbits", ["Orbit", ...names, "there"], rows, "small explained");
 }
 
 /** Tells of an orbit, and offers the simulation that starts on it: its section is the state at time 0. */
