@@ -11,6 +11,7 @@ from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.attractors import attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
+from jointplay.records.extremes import extreme, extremes
 from jointplay.records.inherited import inheriting
 from jointplay.records.motion import (
     ATTRACTOR,
@@ -66,7 +67,7 @@ class ChartMap:
             _paint_labels(axes, edges, filled, self._labelled.colour_of)
         else:
             values = np.full(shape, np.nan)
-            values[places] = {**source.statistics, **source.indicators}[name]
+            values[places] = _values(source, name)
             filled_values = averaged(filled_in(values, known), stride)
             _paint_values(figure, axes, edges, filled_values, _described(source, name))
         if across.logarithmic:
@@ -85,7 +86,7 @@ def offered(source: StudySource) -> list[str]:
     told = [] if source.verdicts is None else [MOTION]
     motion = [ATTRACTOR, *told] if told and "states" in source.attributes else told
     numbers = [name for name in (*source.indicators, *source.statistics) if name != "verdict"]
-    return [*motion, *numbers]
+    return [*motion, *numbers, *extremes(source)]
 
 
 def _inherited(source: StudySource) -> str:
@@ -186,7 +187,16 @@ def _paint_values(
     bar.set_label(shown.label(described.long_name))
 
 
+def _values(source: StudySource, name: str) -> Floats:
+    """Return (points,) numbers of a quantity."""
+    if name in extremes(source):
+        return extreme(source, name)
+    return {**source.statistics, **source.indicators}[name]
+
+
 def _described(source: StudySource, name: str) -> Channel:
+    if found := extremes(source).get(name):
+        return found
     meanings = source.attributes.get("meanings", {})
     unit, long_name = meanings.get(name) or UNITS.get(name, ("1", name.replace("_", " ")))
     return Channel(name, unit, long_name)

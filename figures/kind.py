@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from jointplay.figures import page
 from jointplay.records.channel_choice import choose
+from jointplay.records.extremes import extremes
 from jointplay.records.motion import LABELS
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
@@ -163,4 +164,6 @@ def _names(source: Source | StudySource) -> list[str]:
     if not is_study(source):
         return [channel.name for channel in source.channels]
     names = [channel.name for channel in (*source.observables, *source.channels)]
-    return [*names, *source.indicators, *source.statistics, *LABELS]
+    numbers = [*source.indicators, *source.statistics]
+    on_maps = [*extremes(source), *LABELS] if len(source.shape) == 2 else LABELS
+    return [*names, *numbers, *on_maps]

@@ -17,6 +17,7 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.records.attractors import Attractors, attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import over_axes
+from jointplay.records.extremes import extreme, extremes
 from jointplay.records.motion import (
     ATTRACTOR,
     MOTION,
@@ -32,7 +33,6 @@ from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies.reader import StudyReader
 
 _VERDICT = "verdict"
-_EXTREMES = ("minimum", "maximum")
 _MOST_BYTES = 128_000_000
 _TURNS = 16
 _TOLD_APART: WeakKeyDictionary[StudyReader, Attractors] = WeakKeyDictionary()
@@ -50,11 +50,7 @@ def quantities(store: StudyReader) -> dict[str, Channel]:
     for name in (*store.indicators, *store.statistics):
         if name != _VERDICT:
             found[name] = Channel(name, *outputs.get(name, ("1", name)))
-    for one in store.channels:
-        for end in _EXTREMES:
-            name = f"{one.name}.{end}"
-            found[name] = Channel(name, one.unit, f"{end} of {one.long_name}")
-    return found
+    return found | extremes(store)
 
 
 def tells_attractors(store: StudyReader) -> bool:
@@ -87,9 +83,8 @@ def column(store: StudyReader, name: str) -> NDArray[Any]:
         period = store.indicators.get("period", np.full(store.points, np.nan))
         verdict = store.indicators[_VERDICT]
         return motions(store.status, verdict, period, store.verdict_names)
-    channel, _, end = name.rpartition(".")
-    if end in _EXTREMES and channel in {one.name for one in store.channels}:
-        return np.asarray(getattr(store.peaks(channel), end))
+    if name in extremes(store):
+        return extreme(store, name)
     return {**store.statistics, **store.indicators}[name]
 
 

@@ -9,6 +9,7 @@ from drawn import drawn_with
 from jointplay.figures import Selection, select
 from jointplay.records.channel import Channel
 from jointplay.records.channel_choice import NoSuchChannel
+from jointplay.records.peak import PeakColumns
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudyDataset
 
@@ -40,6 +41,18 @@ def running():
     )
 
 
+def finished():
+    """Return it with all points, and extremes of a channel: they grow with the speed, along x."""
+    chart = running()
+    speed = chart.values[:, 1]
+    return replace(
+        chart,
+        status=np.full(chart.points, PointStatus.done, np.uint8),
+        channels=(Channel("stroke", "m", "stroke"),),
+        extremes={"stroke": PeakColumns(-speed, speed, 2.0 * speed, speed)},
+    )
+
+
 @pytest.mark.parametrize("selection", [None, select(running(), ["lyapunov"])])
 def test_points_that_wait_show_the_next_coarser_one(selection):
     mesh = drawn_with(running(), "chart", selection).axes[0].collections[0]
@@ -54,6 +67,15 @@ def test_quantities_are_chosen_by_their_names():
     assert select(running(), ["motion"]) == Selection(channels=("motion",))
     with pytest.raises(NoSuchChannel, match="did you mean lyapunov"):
         select(running(), ["lyapunow"])
+
+
+@pytest.mark.parametrize(("name", "factor"), [("stroke.minimum", -1.0), ("stroke.maximum", 2.0)])
+def test_an_extreme_is_a_quantity_of_a_chart(name, factor):
+    chart = finished()
+    axes = drawn_with(chart, "chart", select(chart, [name])).axes
+    table = np.ma.asarray(axes[0].collections[0].get_array()).reshape(SIDE, SIDE)
+    np.testing.assert_array_equal(table, [factor * np.arange(SIDE)] * SIDE)
+    assert axes[1].get_xlabel() == f"{name.split('.')[1]} of stroke [m]"
 
 
 def test_a_logarithmic_axis_has_the_numbers_of_its_parameter():
