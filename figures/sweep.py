@@ -40,10 +40,11 @@ _MOST_NUMBERS = 60
 
 
 def _varying(source: StudySource, points: slice) -> list[int]:
-    """Give the columns of the parameters that differ among the points."""
+    """Give the columns of the parameters that differ among the points, that along x first."""
     values = source.values[points]
     columns = range(values.shape[1])
-    return [column for column in columns if len(np.unique(values[:, column])) > 1] or [0]
+    varying = [column for column in columns if len(np.unique(values[:, column])) > 1] or [0]
+    return varying[::-1] if len(source.shape) > 1 else varying
 
 
 def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:

@@ -78,6 +78,12 @@ def test_an_extreme_is_a_quantity_of_a_chart(name, factor):
     assert axes[1].get_xlabel() == f"{name.split('.')[1]} of stroke [m]"
 
 
+def test_extremes_of_a_chart_have_its_axes():
+    chart, *_ = drawn_with(finished(), "chart", None).axes
+    sweep, *_ = drawn_with(finished(), "sweep", None).axes
+    assert (sweep.get_xlabel(), sweep.get_ylabel()) == (chart.get_xlabel(), chart.get_ylabel())
+
+
 def test_a_logarithmic_axis_has_the_numbers_of_its_parameter():
     spaced = running()
     values = spaced.values * [1.0, 0.0] + [0.0, 20.0] * 1.1**spaced.values
