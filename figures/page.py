@@ -239,7 +239,9 @@ def legend_of_marks(
         drawn, labels = lines.get_legend_handles_labels()
         handles += dict(zip(labels, drawn, strict=True)).values()
     if handles:
-        look: Look = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2, "handletextpad": 0.1}
+        look: Look = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2}
+        if lines is None:
+            look["handletextpad"] = 0.1  # a mark is in the middle of the room of a line
         figure.legend(handles=handles, loc="outside upper center", **look)
 
 

@@ -62,6 +62,14 @@ def test_curves_lie_over_the_map_at_the_parameters_of_their_orbits():
     assert len(named) == 3
 
 
+def test_no_line_of_the_legend_touches_its_name():
+    figure, _ = drawn(over_two_parameters(), "curves", over=chart())
+    (legend,) = figure.legends
+    line, name = legend.get_lines()[-1], legend.get_texts()[-1]
+    gap = name.get_window_extent().x0 - line.get_window_extent().x1
+    assert gap > 0.3 * name.get_size() * figure.dpi / 72.0  # half an em, less half the line
+
+
 def test_axes_are_found_by_their_names():
     _, axes = drawn(over_two_parameters(), "curves", over=chart(SPEED, WIDTH))
     assert axes.lines[0].get_ydata() == pytest.approx(HEIGHTS[[4, 3, 0, 1, 2]] ** 3)
