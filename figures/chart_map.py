@@ -48,7 +48,7 @@ class ChartMap:
         self._labelled = _labelled(source, name)
         self.legend = _legend(self._labelled)
         """Marker and colour by label."""
-        self.caption = _inherited(source)
+        self.caption = " ".join(filter(None, (_waiting(source), _inherited(source))))
 
     def draw(self, figure: page.Figure, axes: page.Axes) -> None:
         """Draw the cells, and give the panel their axes."""
@@ -87,6 +87,16 @@ def offered(source: StudySource) -> list[str]:
     motion = [ATTRACTOR, *told] if told and "states" in source.attributes else told
     numbers = [name for name in (*source.indicators, *source.statistics) if name != "verdict"]
     return [*motion, *numbers, *extremes(source)]
+
+
+def _waiting(source: StudySource) -> str:
+    """Return how many points of a chart have not ended, as a sentence; empty: none."""
+    ended = int(_has_ended(source).sum())
+    if ended == source.points:
+        return ""
+    return (
+        f"{ended} of {source.points} points are computed; the others look as the nearest of these."
+    )
 
 
 def _inherited(source: StudySource) -> str:

@@ -63,6 +63,15 @@ def test_points_that_wait_show_the_next_coarser_one(selection):
     assert table[0, 0] != table[0, 7]
 
 
+@pytest.mark.parametrize("name", ["motion", "lyapunov"])
+def test_the_caption_says_how_many_points_are_computed_as_long_as_others_wait(name):
+    told = [
+        drawn_with(chart, "chart", select(chart, [name])).get_supxlabel()
+        for chart in (running(), finished())
+    ]
+    assert told == ["4 of 64 points are computed; the others look as the nearest of these.", ""]
+
+
 def test_quantities_are_chosen_by_their_names():
     assert select(running(), ["motion"]) == Selection(channels=("motion",))
     with pytest.raises(NoSuchChannel, match="did you mean lyapunov"):
