@@ -103,6 +103,13 @@ def _json_body(largest: int, patience: float = PATIENCE) -> Callable[[Request], 
                 f"The body was sent as {media_type or 'nothing'!r}; send it as application/json "
                 "(curl: --json @job.json).",
             )
+        coding = request.headers.get("content-encoding", "identity").strip().lower()
+        if coding not in ("", "identity"):
+            raise RequestRefused(
+                kinds.NOT_JSON,
+                f"The body was sent as {coding!r}; send it without a Content-Encoding.",
+                headers={"Accept-Encoding": "identity"},
+            )
         return body
 
     return read

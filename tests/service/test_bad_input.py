@@ -1,6 +1,7 @@
 """Everything that a client can get wrong in a job: a 4xx problem document that names the field."""
 
 import copy
+import gzip
 import json
 from collections.abc import Callable
 from typing import Any
@@ -214,6 +215,16 @@ def test_another_media_type_is_refused(http: httpx.Client) -> None:
     answer = http.post("/v1/jobs", content=b"{}", headers={"Content-Type": "text/plain"})
     assert answer.status_code == 415
     assert "application/json" in answer.json()["detail"]
+
+
+def test_a_compressed_body_is_refused_as_such(http: httpx.Client) -> None:
+    sent = {"Content-Type": "application/json", "Content-Encoding": "gzip"}
+    answer = http.post("/v1/jobs", content=gzip.compress(b" " * 10_000_000), headers=sent)
+    assert answer.status_code == 415
+    assert "without a Content-Encoding" in answer.json()["detail"]
+    assert answer.headers["Accept-Encoding"] == "identity"
+    sent["Content-Encoding"] = "identity"
+    assert http.post("/v1/jobs", content=b"{}", headers=sent).status_code == 422
 
 
 def test_what_was_refused_was_not_queued(http: httpx.Client) -> None:
