@@ -31,10 +31,7 @@ def of_the_application(name: str) -> Any:
 
 async def _no_parameters(request: Request) -> None:
     """Refuse query parameters where there are none, in the words for unknown ones elsewhere."""
-    errors = [
-        {"loc": ("query", name), "msg": "Extra inputs are not permitted"}
-        for name in request.query_params
-    ]
+    errors = [{"type": "extra_forbidden", "loc": ("query", name)} for name in request.query_params]
     if errors:
         raise RequestValidationError(errors)
 

@@ -20,6 +20,7 @@ from jointplay.service.problems import (
     clipped,
     kinds,
 )
+from jointplay.service.problems.parameters import sentence
 from jointplay.service.problems.refusals import refusal
 from jointplay.service.problems.repeated import Repeated
 
@@ -88,7 +89,7 @@ def _methods_at(request: Request) -> set[str]:
 def _(error: RequestValidationError) -> RequestRefused:
     """Name the parameters; the input is not echoed, as JSON could not carry all of it."""
     errors = [
-        ErrorDetail(parameter=clipped(str(one["loc"][-1])), detail=_sentence(one["msg"]))
+        ErrorDetail(parameter=clipped(str(one["loc"][-1])), detail=sentence(one))
         for one in error.errors()
     ]
     names = ", ".join(str(one.parameter) for one in errors)
@@ -106,8 +107,3 @@ def _(error: HTTPException) -> RequestRefused:
 def _(_: ClientDisconnect) -> RequestRefused:
     """Nobody reads it: the client has gone before its body was here."""
     return RequestRefused(kinds.INVALID_REQUEST, "The body ended before it was whole.")
-
-
-def _sentence(message: str) -> str:
-    sentence = message.replace("Extra inputs are not permitted", "There is no such parameter")
-    return clipped(sentence.rstrip(".") + ".")
