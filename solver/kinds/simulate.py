@@ -223,6 +223,12 @@ def _check_limits(admission: Admission, duration: float, *, endless: bool) -> No
                 f" limit is {longest:g} periods ({longest * unit:.3g} s).",
             )
         )
+    if (fixed := admission.job["step"]) and duration > limits.MOST_FIXED_STEPS * fixed:
+        sentence = (
+            f"{duration:g} s are {duration / fixed:.3g} steps of {fixed:g} s; the limit is"
+            f" {limits.MOST_FIXED_STEPS:g} steps ({limits.MOST_FIXED_STEPS * fixed:.3g} s)."
+        )
+        problems.append(Problem("/step", sentence))
     step = f"a larger output_step than {admission.job['output_step']:g} s"
     for pointer, what, count, remedy in (
         ("/output_step", "samples", admission.samples, step),
