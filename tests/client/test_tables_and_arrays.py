@@ -14,7 +14,7 @@ from jointplay.records.channel import Channel
 from jointplay.records.job import JobError
 from jointplay.records.study import StudyDataset
 from jointplay.storage.catalogue.records import BlockState
-from tests.worker_by_hand import BIFURCATION, known_section
+from tests.worker_by_hand import BIFURCATION, CHART, known_section
 
 
 def test_the_history_is_lazy_and_carries_units(client, finished_job):
@@ -93,6 +93,12 @@ def test_a_diagram_has_sections_besides(client, finished_study):
     assert sections.sizes == {"clearance": 20, "section": 6}
     np.testing.assert_array_equal(sections, study.sections("A.eccentricity_rate_x"))
     assert found["verdict"].values[:3].tolist() == ["undecided", "periodic", "quasi-periodic"]
+
+
+def test_a_chart_has_both_axes_and_no_sections(client, worker):
+    job = client.job(worker.finished_study(**CHART))
+    assert job.dataset["steps"].sizes == {"friction": 5, "clearance": 300}
+    assert len(job.points) == 1500
 
 
 def test_points_in_two_directions_or_in_no_grid_keep_their_values():

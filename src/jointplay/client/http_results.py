@@ -113,7 +113,7 @@ class HttpResults:
         self, observables: Names, channels: Names, sections: tuple[int, int] | None
     ) -> StudyDataset:
         """Return the points of a study, fetched as they are now."""
-        record = int(self._job.job.get("record", 0))
+        record = int(self._job.job.get("record", 0)) if self._job.job.get("observables") else 0
         taken = (observables or ["*"]) if record else None
         kept = channels if self._job.job.get("channels") else None
         fetch = partial(self._get, "points", channels=kept, observables=taken)
