@@ -125,6 +125,9 @@ def test_local_results_are_drawn(jointplay, press, tmp_path):
     assert "--format pdf is not that of 'press.svg'" in other.line()
     wrong = jointplay("plot", press, "orbit", "--joints", "Z", "-o", tmp_path)
     assert wrong.line().startswith("jointplay: --joints: ")
+    some = jointplay("plot", press, "time-history", "orbit", "-o", tmp_path)
+    assert "jointplay: time-history: Say which channels" in some.err
+    assert some.out.split() == [str(tmp_path / "orbit.png")]
 
 
 def test_a_film_is_drawn_of_a_local_run(jointplay, press, tmp_path):

@@ -144,9 +144,12 @@ def draw_all(
             try:
                 content = job.figure(name, form=form, **shown).content
             except Refused as error:
-                if error.problem != "not-drawable" or error.fields[0].pointer != "name":
+                if error.problem != "not-drawable":
                     raise
-                drawn.refused.append(f"{name}: {error.fields[0].detail}")
+                cause, sentence = error.fields[0]
+                if cause != "name" and len(wanted) == 1:
+                    raise
+                drawn.refused.append(f"{name}: {sentence}")
                 continue
             path.write_bytes(content)
             drawn.written.append({"name": name, "path": str(path)})
