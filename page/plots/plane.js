@@ -53,10 +53,21 @@ export class Plane {
   }
 }
 
-/** Returns two channels to begin with: those of the address, else declared outputs, else the first. */
+/** Returns two channels to begin with: those of the address, else declared outputs, else `moving`. */
 export function firstPlane(names, query) {
   const outputs = names.filter((name) => !name.includes("."));
-  const likely = outputs.length > 1 ? outputs : names;
+  const likely = outputs.length > 1 ? outputs : moving(names);
   const known = (name) => (names.includes(name) ? name : null);
   return [known(query.get("x")) ?? likely[0], known(query.get("y")) ?? likely[1] ?? likely[0]];
+}
+
+/** Returns two channels that move in most mechanisms: of a joint with play, or of the last body; else all. */
+function moving(names) {
+  for (const [across, up] of [["eccentricity_x", "eccentricity_y"], ["penetration", "penetration_rate"],
+    ["theta", "omega"]]) {
+    const found = names.filter((name) => name.endsWith(`.${across}`)).at(across === "theta" ? -1 : 0);
+    const other = found?.slice(0, -across.length) + up;
+    if (names.includes(other)) return [found, other];
+  }
+  return names;
 }
