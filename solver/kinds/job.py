@@ -56,9 +56,9 @@ class PresetScene(Strict):
 def _form_of_scene(value: Any) -> str | None:
     if has(value, "preset"):
         return "preset"
-    if has(value, "bodies"):
+    if any(has(value, field) for field in Scene.model_fields if field != "parameters"):
         return "scene"
-    return "preset" if isinstance(value, dict) else None
+    return "preset" if isinstance(value, dict) and value else None
 
 
 SceneChoice = Annotated[

@@ -21,6 +21,8 @@ BAD_JOBS: dict[str, Refused] = {
     "no scene": (without("/scene"), "/scene", "required"),
     "no duration": (without("/duration"), "/duration", "required"),
     "unknown field": (at("/durations", 1.0), "/durations", "did you mean 'duration'"),
+    "scene without anything": (at("/scene", {}), "/scene", "or an object with a 'preset'"),
+    "scene of a name": (at("/scene", {"name": "x"}), "/scene/bodies", "'bodies' is required"),
     "unknown preset": (at("/scene/preset", "seven-bar"), "/scene/preset", "seven-bar-press"),
     "unknown parameter": (at(f"{P}/clearence", 1e-4), f"{P}/clearence", "clearance"),
     "parameter of the wrong type": (at(f"{P}/clearance", "big"), f"{P}/clearance", "number"),
