@@ -3,8 +3,10 @@
 from dataclasses import replace
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import Field
 
+from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_POINTS, check_count
 from jointplay.solver.kinds.points import Axis, Points, plane
@@ -81,6 +83,7 @@ class MapJob(MechanismJob):
 
 def points_of_map(job: MapJob, most: int = MOST_POINTS) -> Points:
     """Return the points of a map, coarse to fine; see `Kind.admit` for how they are refused."""
+    check_count(count(job.along.values), "/along/values", most)
     check_count(count(job.by.values) * count(job.along.values), "/by/values", most)
     document = job.model_dump(include={"continuation", "refine"})
     return plane(_axis(job.by, "/by"), _axis(job.along, "/along"), "/by", document)
@@ -89,6 +92,9 @@ def points_of_map(job: MapJob, most: int = MOST_POINTS) -> Points:
 def _axis(one: Along | AlongStart, pointer: str) -> Axis:
     start = one.start if isinstance(one, AlongStart) else ""
     field = "start" if start else "parameter"
-    return replace(
-        axis(one.name, one.values, f"{pointer}/{field}", f"{pointer}/values"), start=start
-    )
+    found = axis(one.name, one.values, f"{pointer}/{field}", f"{pointer}/values")
+    values, times = np.unique(found.values, return_counts=True)
+    if times.max() > 1:
+        sentence = f"{values[times.argmax()]:g} is there twice, and a map has it once; drop one."
+        raise InvalidInput.at(f"{pointer}/values", sentence)
+    return replace(found, start=start)

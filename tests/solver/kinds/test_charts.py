@@ -29,6 +29,11 @@ def across(count, parameter="speed"):
         ({"along": across(0)}, "/along/values/count", "at least 1"),
         ({"along": across(1)}, "/along/values/count", "cannot reach"),
         ({"along": {"parameter": "speed", "values": []}}, "/along/values", "at least 1"),
+        (
+            {"along": {"parameter": "speed", "values": [9, 8, 9]}},
+            "/along/values",
+            "9 is there twice",
+        ),
         ({"settle": "auto", "statistics": ["impacts"]}, "/settle", "not 'auto'"),
         ({"settle": "auto", "channels": ["*.x"]}, "/settle", "not 'auto'"),
         ({"statistics": ["impact"]}, "/statistics/0", "impacts"),
@@ -65,6 +70,7 @@ def test_a_chart_that_cannot_be_is_refused_at_its_field(changes, pointer, words)
 @pytest.mark.parametrize(
     ("changes", "pointer", "words"),
     [
+        ({"along": across(4_000_001)}, "/along/values", "the limit is 4000000"),
         ({"along": across(600_000)}, "/by/values", "4200000 points; the limit is 4000000"),
         ({"along": across(1000), "record": 900_000}, "/record", "the limit is 4e+09"),
         ({"along": across(1000), "record": 20_000, "starts": 30}, "/record", "limit is 4e+09"),
