@@ -20,6 +20,7 @@ from jointplay.solver.kinds import KINDS
 from jointplay.solver.kinds.limits import (
     LONGEST_RUN,
     MOST_BYTES,
+    MOST_FIXED_STEPS,
     MOST_PERIODS,
     MOST_POINTS,
     MOST_SAMPLES,
@@ -161,8 +162,9 @@ def test_the_documentation_gives_the_limits_that_hold():
     assert f"| its JSON | {DEEPEST} levels" in documentation
     assert MOST_VALUES == 1_000_000
     assert "one million values" in documentation
-    assert (LONGEST_RUN, MOST_SAMPLES, MOST_BYTES) == (1e6, 10**8, 10**10)
-    assert "a million periods, 10⁸ samples, 10 GB" in documentation
+    assert (LONGEST_RUN, MOST_FIXED_STEPS, MOST_SAMPLES) == (1e6, 1e10, 10**8)
+    assert MOST_BYTES == 10**10
+    assert "a million periods, 10¹⁰ steps of `rk4`, 10⁸ samples, 10 GB" in documentation
     assert (MOST_POINTS, MOST_PERIODS) == (100_000, 1e8)
     assert "100 000 points, 10⁸ periods" in documentation
 
