@@ -162,7 +162,7 @@ def test_a_block_that_was_cut_short_goes_on_to_the_same_bits(tmp_path: Path) -> 
         ({"along": {"parameter": "slack", "values": [1.0]}}, "/along/parameter"),
         ({"by": {"parameter": "friction", "values": [0.1, -1.0]}}, "/by/values/1"),
         ({"by": {"parameter": "friction"}}, "/by/values"),
-        ({"along": {"parameter": "clearance", "values": MANY}}, "/by/values"),
+        ({"along": {"parameter": "clearance", "values": MANY}}, "/along/values"),
     ],
 )
 def test_what_is_no_map_is_refused_at_its_field(

@@ -97,9 +97,9 @@ def test_a_phase_moves_the_driver():
 
 def test_a_point_whose_joints_do_not_allow_its_start_fails_by_itself():
     """The pin's rate along the guide is the only one that the mass can have."""
-    study = admit(chart(by="/start/velocities/mass/1", ys=(0.0, 0.0, 0.0)))
+    study = admit(chart(by="/start/velocities/mass/1", ys=(0.0,)))
     assert not any(end.code for end in ends(study).values())
-    study = admit(chart(by="/start/velocities/mass/1", ys=(0.0, 0.3, 0.0)))
+    study = admit(chart(by="/start/velocities/mass/1", ys=(0.0, 0.3)))
     found = ends(study)
     assert {place[0]: end.code for place, end in found.items()} == {0.0: "", 0.3: "start-not-held"}
     assert "/start/velocities/mass" in next(end.detail for end in found.values() if end.code)
