@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, shown
+from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, deepest, shown
 from jointplay.figures.mechanism_geometry import Pose, angle_of, turned, world
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.records.arrays import Floats
@@ -40,7 +40,7 @@ class Follower:
         self._scene = scene
         self._depth, self._force = (columns[f"{name}.{one}"] for one in self.QUANTITIES)
         self._lash = play_of(scene["joints"][name])
-        self._deepest = max(float(np.nanmax(self._depth, initial=0.0)), 1e-9)
+        self._deepest = deepest(self._depth)
         self._strongest = float(np.nanmax(self._force, initial=0.0)) or 1.0
         cam, follower = (one for one in scene["curves"] if one["joint"] == name)
         self._ends = cam["about"], follower["about"]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.figures import colours, page
-from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, shown
+from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, deepest, shown
 from jointplay.figures.mechanism_geometry import Pose
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.records.arrays import Floats
@@ -39,7 +39,7 @@ class Journal:
         self._centre = np.stack([x, y], axis=1)
         self._play = float(joint["clearance"]["radial_clearance"])
         depth = np.hypot(x, y) - self._play
-        self._deepest = max(float(np.nanmax(depth, initial=0.0)), 1e-9)
+        self._deepest = deepest(depth)
         self._strongest = float(np.nanmax(self._force, initial=0.0)) or 1.0
         radius = float(joint["clearance"]["bearing_radius"])
         self.magnified = GAP * radius / self._play, DEEPEST * radius / self._deepest

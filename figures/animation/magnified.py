@@ -5,6 +5,8 @@ Lengths of a picture are in radii of its bearing, or about that, whatever the jo
 
 from typing import Final
 
+import numpy as np
+
 from jointplay.figures import colours, page
 from jointplay.records.arrays import Floats
 
@@ -16,13 +18,21 @@ DEEPEST: Final = 0.154
 """Depth that the largest penetration is drawn with."""
 LONGEST: Final = 0.564
 """Length of the largest force's arrow."""
+SHALLOWEST: Final = 1e-9
+"""Penetration [m] up to which there is hardly one."""
 WALL: Final = "#DDDDDD"
+
+
+def deepest(depth: Floats) -> float:
+    """Return the largest penetration [m]; infinite where there is none that is worth drawing."""
+    found = float(np.nanmax(depth, initial=0.0))
+    return found if found > SHALLOWEST else np.inf
 
 
 def shown(distance: float, play: float, deepest: float) -> float:
     """Return how far from the middle something is drawn that is `distance` [m] from there.
 
-    `play` is where it touches, `deepest` the largest penetration [m], which is above zero.
+    `play` is where it touches, `deepest` the largest penetration [m].
     """
     inside = min(distance / play, 1.0) * GAP
     return inside + min(max(distance - play, 0.0) / deepest, 1.4) * DEEPEST

@@ -74,8 +74,9 @@ class Reel:
         for (name, inset), panel in zip(self._insets.items(), self._panels, strict=True):
             inset.draw(panel, at, self._poses[frame])
             gap, depth = inset.magnified
-            words = (f"{name}, {_newtons(inset.force(at))}", f"gap {_times(gap)}")
-            page.corner_text(panel, "\n".join((*words, f"penetration {_times(depth)}")))
+            words = [f"{name}, {_newtons(inset.force(at))}", f"gap {_times(gap)}"]
+            words += [f"penetration {_times(depth)}"] if depth > 0.0 else []
+            page.corner_text(panel, "\n".join(words))
         drawn = [artist for axes in self.figure.axes for artist in axes.get_children()]
         self._passing = [artist.remove for artist in drawn if artist not in before]
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, shown
+from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, deepest, shown
 from jointplay.figures.mechanism_geometry import Pose, heading, turned
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.records.arrays import Floats
@@ -39,7 +39,7 @@ class BetweenWalls:
         self._depth = np.stack([columns[f"{name}.{part}.penetration"] for part in parts])
         self._force = np.stack([columns[f"{name}.{part}.normal_force"] for part in parts])
         self._play = play_of(joint)
-        self._deepest = max(float(np.nanmax(self._depth, initial=0.0)), 1e-9)
+        self._deepest = deepest(self._depth)
         self._strongest = float(np.nanmax(self._force, initial=0.0)) or 1.0
         self._is_pin = marks["block"] is None
         if marks["block"] is None:

@@ -6,7 +6,7 @@ import { bearing } from "./bearing.js";
 import { paint, prepared } from "./canvas.js";
 import { follower } from "./follower.js";
 import { frame } from "./frame.js";
-import { REACH } from "./magnified.js";
+import { REACH, SHALLOWEST } from "./magnified.js";
 import { magnifiable, pairs } from "./motion.js";
 import { palette } from "./palette.js";
 import { heading, marks } from "./placing.js";
@@ -53,14 +53,16 @@ export class Insets {
       const joint = scene.joints[name];
       const found = pairs(scene, name).map((pair) => contacts[pair]);
       if (!found.every(Boolean)) return [];
+      const deepest = this.peak(name, "penetration");
       const limits = {
         strongest: this.peak(name, "normal_force") || 1,
-        deepest: Math.max(this.peak(name, "penetration"), 1e-9),
+        deepest: deepest > SHALLOWEST ? deepest : Infinity,
       };
       const { shapes, exaggerated, deeper } = this.magnified(name, time, pose, found, limits);
       const sum = found.reduce((total, { normal_force: one }) => total + one, 0);
       const force = sum > 0 ? withUnit(sum, "N", 3) : "no contact";
-      const factors = `gap ×${short(exaggerated, 2)}, penetration ×${short(deeper, 2)}`;
+      const inside = deeper > 0 ? `, penetration ×${short(deeper, 2)}` : "";
+      const factors = `gap ×${short(exaggerated, 2)}${inside}`;
       return [{ name, force, factors, shapes }];
     });
   }

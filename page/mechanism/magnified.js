@@ -3,6 +3,7 @@
 export const REACH = 140; // half the width of a picture, px
 export const GAP = 30; // width that play is drawn with, px
 export const DEEPEST = 12; // of the largest penetration, px
+export const SHALLOWEST = 1e-9; // penetration up to which there is hardly one, m
 const LONGEST = 44; // arrow of the largest force, px
 
 /** Returns how far from the middle, in px, something is drawn that is `distance` from there, in m. */

@@ -59,6 +59,14 @@ def centre_of(axes):
     return float(dot.get_xdata()[0]), float(dot.get_ydata()[0])
 
 
+def test_a_factor_of_penetration_is_told_where_there_is_one(motion):
+    told = []
+    for start in (0.0, START):  # the journal begins in the middle of its bearing
+        inset, _ = figures.draw(motion, "animation", replace(CHOSEN, start=start)).axes
+        told.append("penetration ×" in inset.get_title("left"))
+    assert told == [False, True]
+
+
 @pytest.mark.parametrize(("distance", "shown"), [(0.0, 0.0), (2e-4, 0.5 * GAP), (4e-4, GAP)])
 def test_a_journal_moves_through_its_gap_and_goes_deeper_in_the_wall(distance, shown):
     joint = {"clearance": {"radial_clearance": 4e-4, "bearing_radius": 0.01}}
