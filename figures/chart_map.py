@@ -176,6 +176,8 @@ def _paint_values(
     table: Floats,
     described: Channel,
 ) -> None:
+    from matplotlib.ticker import MaxNLocator
+
     shown = scale(described.unit, table[np.isfinite(table)])
     values = table / shown.factor
     known = values[np.isfinite(values)]
@@ -193,6 +195,8 @@ def _paint_values(
     bar = figure.colorbar(
         drawn, ax=axes, location="top", aspect=25.0, extend=ends.get(beyond, "both")
     )
+    if (known == np.round(known)).all():  # such as periods, which are counted
+        bar.locator = MaxNLocator("auto", integer=True)
     bar.ax.set_gid(page.WITHOUT_SCALE)
     bar.set_label(shown.label(described.long_name))
 

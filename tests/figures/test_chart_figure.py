@@ -93,6 +93,12 @@ def test_extremes_of_a_chart_have_its_axes():
     assert (sweep.get_xlabel(), sweep.get_ylabel()) == (chart.get_xlabel(), chart.get_ylabel())
 
 
+def test_what_is_counted_has_whole_numbers_beside_its_colours():
+    figure = drawn_with(running(), "chart", select(running(), ["period"]))
+    (bar,) = (axes for axes in figure.axes if axes.get_label() == "<colorbar>")
+    assert bar.get_xticks().tolist() == [0.0, 1.0]
+
+
 def test_a_logarithmic_axis_has_the_numbers_of_its_parameter():
     spaced = running()
     values = spaced.values * [1.0, 0.0] + [0.0, 20.0] * 1.1**spaced.values
