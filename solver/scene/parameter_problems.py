@@ -59,17 +59,19 @@ def _of_words(name: str, parameter: Parameter) -> Iterator[Problem]:
 
 
 def _set_twice(name: str, parameter: Parameter, setting: dict[str, str]) -> Iterator[Problem]:
-    """Yield what a parameter sets again, and what it always sets in place of those before it."""
-    always = parameter.required or parameter.default is not None
+    """Yield what a parameter sets again, and what it must set in place of those before it.
+
+    A default may: in a scene given whole it is how a value is given.
+    """
     own = [target.path for target in parameter.targets]
     for index, path in enumerate(own):
         pointer = f"/parameters/{name}/targets/{index}/path"
         other = setting.setdefault(path, name)
         if path in own[:index]:
             yield Problem(pointer, f"'{name}' sets '{path}' twice; name it once.")
-        elif always and other != name:
+        elif parameter.required and other != name:
             yield Problem(
                 pointer,
-                f"'{name}' always has a value, so what '{other}' before it sets here has no"
-                f" effect; drop one of the two, or the default of '{name}'.",
+                f"'{name}' must be given, so what '{other}' before it sets here has no effect;"
+                f" drop one of the two, or do not require '{name}'.",
             )

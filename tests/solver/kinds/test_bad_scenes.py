@@ -80,8 +80,8 @@ BAD_SCENES: dict[str, Refused] = {
         "/scene/parameters/clearance/targets/0/path",
         "must be a JSON pointer into the scene",
     ),
-    "parameter that a later one always overrides": (
-        at("/scene/parameters/speed_crank4/default", 3.0),
+    "parameter that a required one overrides": (
+        at("/scene/parameters/speed_crank4/required", True),
         "/scene/parameters/speed_crank4/targets/0/path",
         "what 'speed' before it sets here has no effect",
     ),

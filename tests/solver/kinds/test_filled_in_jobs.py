@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+from jointplay.scene_choice import with_parameters
 from jointplay.solver.kinds import admit, documents
 from jointplay.solver.scene import presets
 from tests.presets_given import given
@@ -63,3 +64,12 @@ def test_a_parameter_overrides_and_follows_as_declared() -> None:
         2.0,
         3.0,
     ]
+
+
+def test_values_put_into_a_whole_scene_override_as_those_of_its_preset() -> None:
+    values = {"clearance": 1e-4, "clearance_A": 2e-4, "clearance_B": 3e-4, "speed_crank4": 3.0}
+    preset, whole = (
+        admit({**JOB, "scene": with_parameters(scene, values)}).scene
+        for scene in ({"preset": "seven-bar-press"}, presets.document("seven-bar-press"))
+    )
+    assert (whole.joints, whole.drivers) == (preset.joints, preset.drivers)
