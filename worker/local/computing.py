@@ -45,7 +45,7 @@ def compute(
     folder
         Where job, store and outcome go; it is there, and empty, or has such a rest.
     processes
-        Of a study; by default one for each core, or one beside a device.
+        Of a study, at most; by default one for each core, or one beside a device.
     report
         Called several times a second with the fraction of the whole, and a few words.
     device

@@ -51,7 +51,8 @@ def compute_study(
     target
         Where the sealed store goes.
     processes
-        How many; by default one for each core, or one beside a device.
+        How many at most; by default one for each core, or one beside a device. What takes no longer
+        than others take to begin is computed in this one.
     report
         Called several times a second with the fraction of the whole, and a few words.
     asked_to_end
