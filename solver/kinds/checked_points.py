@@ -16,7 +16,7 @@ from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_GEOMETRIES
 from jointplay.solver.kinds.mechanism import Echo, check, declared, with_parameters
-from jointplay.solver.kinds.periods import check_period
+from jointplay.solver.kinds.periods import check_period, differently_driven
 from jointplay.solver.kinds.points import MOST_NAMED, Points, check_parameters, with_rest
 from jointplay.solver.kinds.studies import PlacedPoints, of_parameters
 from jointplay.solver.runs.study.fields import (
@@ -53,7 +53,7 @@ def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
     one.refuse(inadmissible(scenes) | ill_sized(base, columns, points.count))
     placed = PlacedPoints(points, scene, scenes, kept, of_parameters(echo, points))
     _check_mechanisms(job, one, scenes, placed.structure)
-    check_period(scenes)
+    check_period(scene, differently_driven(scenes))
     return placed
 
 

@@ -1,6 +1,7 @@
 """The unit of time of each point of a study: the period of its drivers."""
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ from jointplay.records.failure import InvalidInput
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.study.fields import distinct, geometry_columns
 from jointplay.solver.runs.study.scenes import PointScenes
+from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import (
     characteristic_time,
     common_period,
@@ -64,11 +66,16 @@ def periods(scenes: PointScenes) -> Periods:
     return Periods(seconds, notes, speed)
 
 
-def check_period(scenes: PointScenes) -> None:
-    """Refuse (InvalidInput) a scene's own period that has an effect at no point."""
+def check_period(written: Scene, scenes: Iterable[Scene]) -> None:
+    """Refuse (InvalidInput) a period that is not that of the scene as written, nor of any other."""
+    if (idle := idle_period(written)) and all(map(idle_period, scenes)):
+        raise InvalidInput.at("/scene/period", idle)
+
+
+def differently_driven(scenes: PointScenes) -> Iterable[Scene]:
+    """Return the scene of a first point of each period that points may have."""
     firsts = np.unique(distinct(_driven(scenes), len(scenes.values)), return_index=True)[1]
-    if all(idle_period(scenes.scene(point)) for point in firsts.tolist()):
-        raise InvalidInput.at("/scene/period", idle_period(scenes.base))
+    return map(scenes.scene, firsts.tolist())
 
 
 def _driven(scenes: PointScenes) -> list[Floats]:

@@ -12,6 +12,7 @@ from jointplay.solver.kinds.job import ChannelChoice, Job
 from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.mechanism import check, resolve, written
 from jointplay.solver.kinds.methods import chosen
+from jointplay.solver.kinds.periods import check_period
 from jointplay.solver.kinds.section import CrankSection
 from jointplay.solver.kinds.start_state import StartState, check_state
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
@@ -27,7 +28,6 @@ from jointplay.solver.scene.periods import (
     characteristic_time,
     common_period,
     drivers_period,
-    idle_period,
     quickest_driver,
     section_offset,
 )
@@ -108,8 +108,7 @@ class Simulate(Kind[SimulateJob]):
             raise InvalidInput.at("/settle", sentence)
         scene, scene_document, echo = resolve(job)
         _, assembly = check(scene, job.formulation)
-        if idle := idle_period(scene):
-            raise InvalidInput.at("/scene/period", idle)
+        check_period(written(job)[1], [scene])
         period = common_period(scene)
         if job.section.crank_angle and period.seconds is None:
             sentence = f"{period.note} Sections need one; leave this out, or give a 'period'."

@@ -27,6 +27,13 @@ def test_it_is_refused_where_drivers_repeat_at_every_point_with_another() -> Non
     assert len(admit(press(2.0000001, [-math.pi, math.pi])).period) == 2
 
 
+def test_that_of_the_scene_as_written_may_stand_beside_other_speeds() -> None:
+    assert len(admit(press(2.0, [-math.pi / 2, math.pi / 2])).period) == 2
+    scene = press(2.0, [])["scene"]
+    scene["parameters"]["speed_crank4"]["default"] = math.pi / 2  # as `--set` gives it
+    assert admit({"kind": "simulate", "scene": scene, "duration": 1.0}).period == 4.0
+
+
 def test_it_may_vary_from_point_to_point() -> None:
     scene = presets.document("impact-oscillator")
     start_up = {"type": "start-up", "speed": 25.0, "length": 1.0}
