@@ -126,7 +126,7 @@ def test_local_results_are_drawn(jointplay, press, tmp_path):
     wrong = jointplay("plot", press, "orbit", "--joints", "Z", "-o", tmp_path)
     assert wrong.line().startswith("jointplay: --joints: ")
     some = jointplay("plot", press, "time-history", "orbit", "-o", tmp_path)
-    assert "jointplay: time-history: Say which channels" in some.err
+    assert "jointplay: time-history: --channels: Say which channels" in some.err
     assert some.out.split() == [str(tmp_path / "orbit.png")]
 
 

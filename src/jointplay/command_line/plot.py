@@ -149,7 +149,8 @@ def draw_all(
                 cause, sentence = error.fields[0]
                 if cause != "name" and len(wanted) == 1:
                     raise
-                drawn.refused.append(f"{name}: {sentence}")
+                option = "" if cause == "name" else f"--{cause.replace('_', '-')}: "
+                drawn.refused.append(f"{name}: {option}{sentence}")
                 continue
             path.write_bytes(content)
             drawn.written.append({"name": name, "path": str(path)})
