@@ -31,6 +31,9 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import POINTER, set_parameters
 from jointplay.solver.scene.sizes import ill_sized
 
+LASH = "/clearance/lash"
+"""Place of numbers of which the largest is looked at: it may leave nothing of its cam."""
+
 
 def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
     """Return the points of a job once every one can be simulated.
@@ -50,7 +53,10 @@ def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
     scenes = PointScenes(base, leaves_of(scene, points.parameters, echo), points.values())
     _check_effect(points, scenes, scene, echo)
     columns = {leaf.path: scenes.column(leaf) for leaf in scenes.leaves}
-    one.refuse(inadmissible(scenes) | ill_sized(base, columns, points.count))
+    suspects = inadmissible(scenes) | ill_sized(base, columns, points.count)
+    for path, column in columns.items():
+        suspects[column.argmax()] |= path.endswith(LASH)
+    one.refuse(suspects)
     placed = PlacedPoints(points, scene, scenes, kept, of_parameters(echo, points))
     _check_mechanisms(job, one, scenes, placed.structure)
     check_period(scene, differently_driven(scenes))

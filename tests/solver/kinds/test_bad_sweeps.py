@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+from tests.solver.cams import CIRCLE, follower, valve
 from tests.solver.kinds.refusals import assert_refused
 from tests.solver.runs.study.jobs_of_studies import SWEEP
 
@@ -103,6 +104,14 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
     ),
     "unknown channel of a sweep": (S, {"channels": ["displacment"]}, "/channels/0", "displacement"),
 }
+
+
+def test_the_largest_lash_of_a_sweep_leaves_something_of_its_cam() -> None:
+    scene = valve(follower("flat", CIRCLE))
+    target = {"path": "/joints/cam/clearance/lash"}
+    scene["parameters"] = {"lash": {"help": "Lash.", "unit": "m", "targets": [target]}}
+    job = {"kind": "sweep", "scene": scene, "grid": {"lash": [1e-4, 0.5, 2e-4]}, "periods": 1}
+    assert_refused(job, "/grid/lash/1", "leaves nothing of a cam")
 
 
 @pytest.mark.parametrize("case", BAD)
