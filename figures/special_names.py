@@ -21,6 +21,7 @@ _SIDES = ((1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0))
 _OFFSETS = [apart * np.array(side) for apart, side in product(_APART, _SIDES)]
 
 _LINE = {"arrowstyle": "-", "linewidth": 0.3, "patchA": None, "shrinkA": 0.0, "shrinkB": 1.0}
+"""Look of the line that leads from a mark to its name."""
 
 Placed = tuple[Branch, Floats, Floats]
 """A branch, and where a panel has its orbits along both axes."""
