@@ -1,14 +1,17 @@
 """Functions of tapes: they call one another, are kept in a file, and take work arrays alone."""
 
+import os
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from llvmlite import binding
 from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import WORK
 from jointplay.solver.kernels.emit.tapes import Tapes
-from jointplay.solver.kernels.target import own_target
+from jointplay.solver.kernels.target import Target, own_target
 
 LANES = own_target().lanes
 
@@ -74,3 +77,18 @@ def test_code_is_compiled_once_and_the_same_each_time(tmp_path: Path) -> None:
 def test_what_is_no_work_array_is_not_taken(work: np.ndarray) -> None:
     with pytest.raises(TypeError, match="contiguous arrays of floats"):
         step().compiled()["square"](work)
+
+
+@pytest.mark.skipif(os.uname().machine != "x86_64", reason="registers and stack of x86-64")
+def test_vectors_on_the_stack_lie_in_one_line_of_the_cache() -> None:
+    """Forty vectors that are needed in the end, of which 32 registers cannot hold all."""
+    numbers = range(40)
+    lines = [f"v{i} = load {i}" for i in numbers]
+    lines += [f"w{i} = mul v{i} v{(7 * i + 1) % 40}\nstore {40 + i} w{i}" for i in numbers]
+    tapes, target = Tapes(), Target(8, "x86-64-v4", "")
+    tapes.add("crowded", "\n".join(lines))
+    text = tapes.sources[0].of_numbers(lambda name: f"@{name}", target.lanes)
+    code = target.machine().emit_assembly(binding.parse_assembly(text))
+    moved = re.findall(r"(vmov\w+) .*%rsp\)", code.replace("\t", " "))
+    assert moved  # by instructions that ask for such a place
+    assert set(moved) <= {"vmovaps", "vmovapd"}
