@@ -19,7 +19,7 @@ from jointplay.solver.kernels.device.lanes import DeviceLanes, Sizes
 from jointplay.solver.kernels.device.trimmed import slots_of_energies, without
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.loop.bundle import Bundle, Group, LaneState
+from jointplay.solver.kernels.loop.bundle import Bundle, GroupState, LaneState
 from jointplay.solver.kernels.loop.ready_lanes import ENERGIES
 from jointplay.solver.kernels.loop.runs import (
     DTYPE,
@@ -79,7 +79,7 @@ class DeviceBundle(Bundle):
             sources += tangents.module.tapes.sources
         work = np.zeros((of.layout.size, count))
         none = Buffers.of(0, 0, kernel.row.width, tangents=False, steps=(0, 0, 0))
-        self.groups = [Group(work, self.runs, none)]
+        self.groups = [GroupState(work, self.runs, none)]
         sizes = Sizes(count, len(work), ROWS, IMPACTS, 0 if tangents is None else GROWTHS)
         loaded = Code(device, code(sources, of.slots, sizes, on_host=device.on_host))
         kinds = DTYPE, IMPACT, GROWTH

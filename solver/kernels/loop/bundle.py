@@ -37,8 +37,8 @@ STEPS_AT_ONCE = 32_768
 
 
 @dataclass
-class Group:
-    """Lanes that a kernel advances at once."""
+class GroupState:
+    """State of the lanes that a kernel advances at once, of which `workspace` makes a group."""
 
     work: Floats
     """(slots, lanes)."""
@@ -86,7 +86,7 @@ class Bundle:
         self.runs["landing"] = NO_PAIR
         self.first_energy = np.zeros((len(ENERGIES), BUNDLE))
         self.groups = [
-            Group(
+            GroupState(
                 aligned_zeros(size, width),
                 self.runs[first : first + width],
                 Buffers.of(
@@ -226,7 +226,7 @@ class Bundle:
             group.attempts += advance(self.workspace(group), group.buffers, int(self.watch), left)
         return int(np.count_nonzero(self.runs["status"] == RUNNING))
 
-    def workspace(self, group: Group) -> Workspace:
+    def workspace(self, group: GroupState) -> Workspace:
         """Return a group of lanes as kernels take it."""
         of = self.kernel if self.tangents is None else self.tangents
         arrays = group.work, self.spare, group.runs, self.brackets
