@@ -5,8 +5,8 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.records.branch import branch_document
 from jointplay.records.channel import Channel, by_name
 from jointplay.records.peak import PeakColumns
@@ -26,7 +26,6 @@ from jointplay.service.studies.queries import (
 from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies.reader import StudyReader
 
-Floats = NDArray[np.float64]
 UNKNOWN = ("1", "")
 TIME = Channel("time", "s", "time since the start of the point's run")
 VERDICT = "verdict"

@@ -7,12 +7,12 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import shards
 from jointplay.storage.results.metadata import DOUBLE, FILE
 from jointplay.storage.results.pyramid import ARRAY, GROUP
 
-Floats = NDArray[np.float64]
 Column = Callable[[int, int], Floats]
 """Samples [first, last) of one column."""
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
@@ -26,7 +27,6 @@ from jointplay.solver.kernels.loop.step import Workspace
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed
 
-Floats = NDArray[np.float64]
 LaneState = tuple[Floats, Any, Floats]
 """A lane's numbers (slots,), its run, and its first energies (3,), J."""
 

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.slots import PERIOD, TIME, DenseRow
 from jointplay.solver.kernels.loop.runs import SectionKind
 from jointplay.solver.scene.document import Scene
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

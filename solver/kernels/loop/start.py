@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.absolute_holding import world_axis
 from jointplay.solver.mechanics.tree import spanning_tree
@@ -14,8 +14,6 @@ from jointplay.solver.mechanics.view import view
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import inner_states
-
-Floats = NDArray[np.float64]
 
 
 def start_state(scene: Scene, coordinates: Sequence[str], pose: Floats, velocity: Floats) -> Floats:
