@@ -21,8 +21,8 @@ from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.periods import stop
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
-from jointplay.solver.kernels.loop.start import start_state
 from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.mechanics.start.states import start_state
 from jointplay.solver.runs.lane_results import peaks_of
 from jointplay.solver.runs.study.fields import geometry_columns, structure_columns
 from jointplay.solver.runs.study.scenes import PointScenes

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.kernels.loop.start import mechanism_size
 from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.mechanics.start.states import mechanism_size
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.references import inner_states

@@ -8,8 +8,8 @@ import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from jointplay.solver.kernels.loop.start import start_state
 from jointplay.solver.mechanics.reduced import ReducedMechanism
+from jointplay.solver.mechanics.start.states import start_state
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from jointplay.solver.kernels.loop.start import start_state
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.impact_floors import resting_rate
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.mechanics.reduced import ReducedMechanism
+from jointplay.solver.mechanics.start.states import start_state
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene import presets

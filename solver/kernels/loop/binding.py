@@ -17,10 +17,10 @@ from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.periods import PACE_STEPS
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, SectionKind
-from jointplay.solver.kernels.loop.start import mechanism_size, start_state
 from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER
 from jointplay.solver.mechanics.assembly import assemble, shortest_link, start_of
 from jointplay.solver.mechanics.impact_floors import impact_floor
+from jointplay.solver.mechanics.start.states import mechanism_size, start_state
 from jointplay.solver.quantities.scalars import greatest, least, minimum, sqrt
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene

@@ -1,4 +1,4 @@
-"""The start of a run: the states of the assembled mechanism."""
+"""States at the start of a run, from the pose and the velocity of the assembled mechanism."""
 
 import math
 from collections.abc import Sequence
