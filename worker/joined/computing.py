@@ -3,8 +3,8 @@
 import logging
 import tempfile
 import threading
-import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
@@ -61,6 +61,7 @@ class JoinedBlocks:
             self._connection.tell(block, "put-off", Activity(activity=waits_for(fault)))
 
     def _compute(self, claim: Claim) -> None:
+        block = claim.block
         with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
             settings = Settings(
                 data=Path(folder),
@@ -70,28 +71,15 @@ class JoinedBlocks:
                 redis_url=None,
                 **self._customs.model_dump(),
             )
-            files = FilesOfService(self._connection, self._bucket, claim.block)
-            scratch = Scratch(files, settings, claim.block)
+            files = FilesOfService(self._connection, self._bucket, block)
+            scratch = Scratch(files, settings, block)
             attempt = JoinedAttempt(self._connection, claim, scratch)
-            self._fetch(scratch, attempt, claim, settings)
+            beat = partial(attempt.heartbeat, block.id, block.attempt, settings.lease)
+            try:
+                scratch.fetch(beat)
+            except Fenced:  # lost before it began: the claim was answered late
+                attempt.tell_if_cut_off()
+                raise
             sent = SentAttempt(attempt, scratch)
             with scratch.sending_rows(), sent.sending():
                 BlockRun(sent, settings, claim, self._draining).run()
-
-    def _fetch(
-        self, scratch: Scratch, attempt: JoinedAttempt, claim: Claim, settings: Settings
-    ) -> None:
-        """Get what the attempt builds on, and hold the block meanwhile."""
-        next_beat = time.monotonic() + settings.heartbeat
-
-        def beat() -> None:
-            nonlocal next_beat
-            if time.monotonic() > next_beat:
-                attempt.heartbeat(claim.block.id, claim.block.attempt, settings.lease)
-                next_beat = time.monotonic() + settings.heartbeat
-
-        try:
-            scratch.fetch(beat)
-        except Fenced:  # lost before it began: the claim was answered late
-            attempt.tell_if_cut_off()
-            raise

@@ -3,7 +3,7 @@
 import logging
 import tempfile
 import threading
-import time
+from functools import partial
 from pathlib import Path
 
 from jointplay.records.log_lines import about
@@ -42,14 +42,7 @@ def _compute_in(
     block = claim.block
     here = settings.model_copy(update={"data": folder, "running": "data"})
     scratch = Scratch(AttemptFiles(settings, block), here, block)
-    next_beat = time.monotonic() + settings.heartbeat
-
-    def beat() -> None:
-        nonlocal next_beat
-        if time.monotonic() > next_beat:
-            catalogue.heartbeat(block.id, block.attempt, settings.lease)
-            next_beat = time.monotonic() + settings.heartbeat
-
+    beat = partial(catalogue.heartbeat, block.id, block.attempt, settings.lease)
     with about(job=block.job, block=block.id, attempt=block.attempt):
         try:
             scratch.fetch(beat)

@@ -80,19 +80,22 @@ class Scratch:
         self._folder = settings.running_folder(block.job)
         self._sends = block.count > 0
         """A block that seals a study sends nothing else: other files are those of its blocks."""
+        self._heartbeat = settings.heartbeat
+        self._next_beat = 0.0
         self._sent: dict[str, _Version] = {}
         self._sending = threading.Lock()
 
-    def fetch(self, beat: Callable[[], None]) -> None:
-        """Get what the attempt builds on; `beat` is called now and then, by several threads.
+    def fetch(self, beat: Callable[[], object]) -> None:
+        """Get what the attempt builds on; `beat` holds the block meanwhile, from several threads.
 
         The block that seals a study needs many small files, which come a few at a time.
         """
+        self._next_beat = time.monotonic() + self._heartbeat
         with ThreadPoolExecutor(_AT_ONCE, "fetching") as pool:
             for _ in pool.map(lambda file: self._fetch(file[0], beat), self._elsewhere.needed()):
                 pass
 
-    def _fetch(self, name: str, beat: Callable[[], None]) -> None:
+    def _fetch(self, name: str, beat: Callable[[], object]) -> None:
         sealed = self._files.sealed(name)
         if sealed is not None and sealed.exists():
             return
@@ -103,9 +106,11 @@ class Scratch:
         if sealed is None:
             self._sent[name] = _version(self._folder / name)
 
-    def _beating(self, name: str, beat: Callable[[], None]) -> Iterator[bytes]:
+    def _beating(self, name: str, beat: Callable[[], object]) -> Iterator[bytes]:
         for piece in self._elsewhere.read(name):
-            beat()
+            if time.monotonic() > self._next_beat:
+                beat()
+                self._next_beat = time.monotonic() + self._heartbeat
             yield piece
 
     @property
