@@ -5,7 +5,6 @@ given up. Longer ones share `MOST_TOGETHER` bytes until their requests are answe
 """
 
 import asyncio
-import errno
 import tempfile
 from collections.abc import Awaitable, Callable
 from typing import Annotated, Final
@@ -15,6 +14,7 @@ from fastapi.concurrency import run_in_threadpool
 
 from jointplay.service.problems import RequestRefused, kinds, unavailable
 from jointplay.service.together import RETRY, Together
+from jointplay.worker.passing import is_full
 
 LARGEST_BODY = 8 * 1024 * 1024  # bytes; a job of 100 000 points, each with three parameters
 LARGEST_BATCH = 32 * 1024 * 1024  # 10 000 jobs of 3 kilobytes
@@ -57,7 +57,7 @@ async def _bounded(request: Request, largest: int, patience: float) -> bytes:
 
 def _not_kept(fault: OSError) -> RequestRefused:
     """Return the refusal of a body that could not be written to the disk for passing bodies."""
-    if fault.errno in {errno.ENOSPC, errno.EDQUOT}:
+    if is_full(fault):
         sentence = "The disk on which the service keeps bodies that arrive is full."
         again = {"Retry-After": "30", "Connection": "close"}
         return RequestRefused(kinds.DISK_FULL, sentence, headers=again)

@@ -1,6 +1,5 @@
 """One job, computed here and now into a folder, or to its end from where it was cut short."""
 
-import errno
 import json
 import shutil
 from collections.abc import Callable
@@ -14,6 +13,7 @@ from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
 from jointplay.worker.local.folder import OUTCOME_FILE, STORE, holding, write_job
 from jointplay.worker.local.interruption import interruption
+from jointplay.worker.passing import is_full
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Admission, Study
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 Report = Callable[[float, str], None]
 NO_ROOM: Final = "no-room"
 """Code of the error of a run that found its disk full."""
-_FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 
 def compute(
@@ -79,7 +78,7 @@ def compute(
             else:
                 outcome = _simulation(admission, running, target, reached, asked_to_end)
         except OSError as fault:
-            if fault.errno not in _FULL:
+            if not is_full(fault):
                 raise
             outcome = reached.without_room(folder)
         _write_outcome(folder, begun, outcome)
@@ -152,5 +151,5 @@ def _write_outcome(folder: Path, begun: datetime, outcome: "Outcome") -> None:
     try:
         durable.write(folder / OUTCOME_FILE, [(json.dumps(document, indent=2) + "\n").encode()])
     except OSError as fault:
-        if fault.errno not in _FULL:
+        if not is_full(fault):
             raise

@@ -1,6 +1,5 @@
 """The command's parts put together, and its failures turned into a line each and an exit code."""
 
-import errno
 import gc
 import re
 import sys
@@ -12,6 +11,7 @@ import typer
 
 from jointplay.command_line import key, scene
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.worker.passing import is_full
 
 COMMANDS: Final = (
     "run",
@@ -185,7 +185,7 @@ def _exit_of(error: Exception) -> Exit | None:
 def _lines_of(error: Exception, arguments: Sequence[str] = ()) -> list[str]:
     """Return what is said of a failure; nothing where the system failed without naming a file."""
     if isinstance(error, OSError) and error.errno is not None:
-        if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        if is_full(error):
             return [f"{error.filename or 'a disk'} is full; make room and try again."]
         return [] if error.filename is None else [f"{error.filename}: {error.strerror}."]
     kinds = ("problems", "flaws", "fields")
