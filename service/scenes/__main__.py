@@ -1,33 +1,24 @@
 """`python -m jointplay.service.scenes FD`: looks at scenes that it receives, until it is idle."""
 
-import logging
 from typing import Any
 
 from jointplay.figures import NotDrawable, Options, render_mechanism
 from jointplay.records.figure_form import Form
 from jointplay.records.strict_json import parse
 from jointplay.service.problems import RequestRefused, kinds
-from jointplay.service.problems.refusals import refusal
+from jointplay.service.questions import answer_or_refuse
 from jointplay.service.scenes.findings import branches_of, findings_of
 from jointplay.solver.kinds.assembled import AssembledScene, assembled_scene
-from jointplay.worker.answering import answer_questions
 
 _IDLE = 60.0  # s
-_log = logging.getLogger(__name__)
 
 
-def _answer(body: bytes, form: Form | None, page: dict[str, Any]) -> object:
-    """Return findings of a scene, or its drawing if a form is given; or the refusal."""
-    try:
-        scene = assembled_scene(_scene_in(body), is_whole=True)
-        if form is None:
-            return findings_of(scene, branches_of(scene))
-        return _drawing(scene, form, page)
-    except Exception as error:  # noqa: BLE001 - as the API itself does with any
-        refused = refusal(error)
-        if refused.kind.status >= 500:
-            _log.exception("a scene of %d bytes could not be looked at", len(body))
-        return refused
+def look(body: bytes, form: Form | None, page: dict[str, Any]) -> object:
+    """Return findings of a scene, or its drawing if a form is given."""
+    scene = assembled_scene(_scene_in(body), is_whole=True)
+    if form is None:
+        return findings_of(scene, branches_of(scene))
+    return _drawing(scene, form, page)
 
 
 def _scene_in(body: bytes) -> Any:
@@ -46,4 +37,4 @@ def _drawing(scene: AssembledScene, form: Form, page: dict[str, Any]) -> bytes:
 
 
 if __name__ == "__main__":
-    answer_questions(lambda question: _answer(*question), _IDLE)
+    answer_or_refuse(look, _IDLE)

@@ -1,7 +1,6 @@
 """`python -m jointplay.service.scenes.posing FD`: poses scenes that it receives, until idle."""
 
 import json
-import logging
 from functools import lru_cache
 from typing import Annotated, Any, TypeVar
 
@@ -11,7 +10,7 @@ from pydantic import Field, ValidationError
 from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput
 from jointplay.records.strict_json import parse
-from jointplay.service.problems.refusals import refusal
+from jointplay.service.questions import answer_or_refuse
 from jointplay.solver.joints.curves import joint_curves
 from jointplay.solver.kinds.assembled import resolved_scene
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
@@ -21,13 +20,11 @@ from jointplay.solver.runs.ideal.following import follow
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers_time import drivers_time
 from jointplay.solver.scene.sentences import schema_problems
-from jointplay.worker.answering import answer_questions
 
 _IDLE = 300.0  # s; it is small, and a page that is open soon asks again
 MOST_TURNS = 20.0
 """Times of the quickest driver after which a slower one is not waited for, to be looked at."""
 _KEPT = 16  # scenes; somebody who drags a point asks about one again and again
-_log = logging.getLogger(__name__)
 _GIVEN = Field(description="A preset with parameters, or a scene document, as a job has it.")
 
 Pose = tuple[Coordinate, Coordinate, Angle]
@@ -126,16 +123,10 @@ def _by_body(scene: Scene, pose: Floats) -> dict[str, list[float]]:
 _ANSWERS = {"poses": poses, "drag": dragged}
 
 
-def _answer(what: str, body: bytes) -> object:
-    """Return what a question is answered, or the refusal."""
-    try:
-        return _ANSWERS[what](parse(body))
-    except Exception as error:  # noqa: BLE001 - as the API itself does with any
-        refused = refusal(error)
-        if refused.kind.status >= 500:
-            _log.exception("a scene of %d bytes could not be posed", len(body))
-        return refused
+def posed(what: str, body: bytes) -> object:
+    """Return what a question is answered."""
+    return _ANSWERS[what](parse(body))
 
 
 if __name__ == "__main__":
-    answer_questions(lambda question: _answer(*question), _IDLE)
+    answer_or_refuse(posed, _IDLE)
