@@ -11,7 +11,6 @@ from jointplay.records.branch import branch_document
 from jointplay.records.channel import Channel, by_name
 from jointplay.records.peak import PeakColumns
 from jointplay.records.point import PointStatus
-from jointplay.service.results.queries import chosen_channels
 from jointplay.service.results.schemas import Series
 from jointplay.service.studies import schemas
 from jointplay.service.studies.queries import (
@@ -21,6 +20,7 @@ from jointplay.service.studies.queries import (
     PointsQuery,
     SectionRange,
     SweepQuery,
+    chosen,
     page,
 )
 from jointplay.solver.runs.study.outputs import OUTPUTS
@@ -77,10 +77,9 @@ def bifurcation(store: StudyReader, query: BifurcationQuery) -> schemas.Bifurcat
     )
 
 
-def sections(store: StudyReader, query: SectionRange, chosen: str | None) -> schemas.Sections:
+def sections(store: StudyReader, query: SectionRange, names: str | None) -> schemas.Sections:
     """Return times and channels at the sections of points: a view of `points`."""
-    described = by_name(store.observables)
-    observables = [described[name] for name in chosen_channels(chosen, store.observables)]
+    observables = chosen(names, store.observables, "channels")
     found = _points(store, query, Shown((TIME, *observables), query.sections(store)))
     return schemas.Sections.model_construct(**vars(found) | {"channels": found.sections})
 

@@ -1,11 +1,19 @@
 """Queries of a study: a range of points and of their sections, within bounds."""
 
+from collections.abc import Sequence
+
 from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.records.channel import Channel, by_name
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.results.queries import MOST_VALUES, TimeOrPoints, chosen_channels
 from jointplay.storage.studies.reader import StudyReader
+
+
+def chosen(text: str | None, described: Sequence[Channel], parameter: str) -> tuple[Channel, ...]:
+    """Return the channels that a list of names and globs means, all without one, or refuse."""
+    known = by_name(described)
+    return tuple(known[name] for name in chosen_channels(text, described, parameter))
 
 
 class PointRange(BaseModel):
@@ -50,12 +58,12 @@ class BifurcationQuery(SectionRange):
 
     def taken(self, store: StudyReader) -> Channel:
         """Return the observable that is meant, or refuse one that was not recorded."""
-        described = by_name(store.observables)
         if self.observable is None:
             return store.observables[0]
+        described = by_name(store.observables)
         if self.observable in described:
             return described[self.observable]
-        return described[chosen_channels(self.observable, store.observables, "observable")[0]]
+        return chosen(self.observable, store.observables, "observable")[0]
 
 
 class BranchQuery(BaseModel):
@@ -71,17 +79,7 @@ class BranchQuery(BaseModel):
 
     def taken(self, store: StudyReader) -> tuple[Channel, ...]:
         """Return the columns that are meant, or refuse others."""
-        described = by_name(store.observables)
-        names = chosen_channels(self.columns, store.observables, "columns")
-        return tuple(described[name] for name in names)
-
-
-def _of_channels(store: StudyReader, names: str | None, parameter: str) -> tuple[Channel, ...]:
-    """Return the channels whose extremes are meant, or refuse others."""
-    described = by_name(store.channels)
-    if names is None:
-        return tuple(store.channels)
-    return tuple(described[name] for name in chosen_channels(names, store.channels, parameter))
+        return chosen(self.columns, store.observables, "columns")
 
 
 class SweepQuery(PointRange):
@@ -95,7 +93,7 @@ class SweepQuery(PointRange):
 
     def of_channels(self, store: StudyReader) -> tuple[Channel, ...]:
         """Return the channels that are meant, or refuse others."""
-        return _of_channels(store, self.channel, "channel")
+        return chosen(self.channel, store.channels, "channel")
 
 
 class PointsQuery(SectionRange):
@@ -115,15 +113,13 @@ class PointsQuery(SectionRange):
 
     def of_channels(self, store: StudyReader) -> tuple[Channel, ...]:
         """Return the channels whose extremes are meant, or refuse others."""
-        return _of_channels(store, self.channels, "channels")
+        return chosen(self.channels, store.channels, "channels")
 
     def taken(self, store: StudyReader) -> tuple[Channel, ...]:
         """Return the observables that are meant, or refuse others."""
         if self.observables is None:
             return ()
-        described = by_name(store.observables)
-        names = chosen_channels(self.observables, store.observables, "observables")
-        return tuple(described[name] for name in names)
+        return chosen(self.observables, store.observables, "observables")
 
 
 class PoincareQuery(TimeOrPoints):
