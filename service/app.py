@@ -2,6 +2,7 @@
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from functools import partial
 from importlib.metadata import version
 
 from fastapi import FastAPI
@@ -114,46 +115,11 @@ def create_app(settings: Settings | None = None, *, patient: bool = False) -> Fa
         Whether it also starts while the catalogue is out of reach, and refuses requests.
     """
     settings = settings or Settings()
-
-    @asynccontextmanager
-    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        settings.data.mkdir(parents=True, exist_ok=True)
-        if not isinstance(settings.place, Folder):
-            require_fit(settings.place)
-        catalogue = Catalogue(settings.catalogue_url)
-        migrating = await migrated(catalogue, patient=patient)
-        if not patient:
-            require_own_files(settings, catalogue)
-        app.state.catalogue = catalogue
-        app.state.door = Door(catalogue, settings)
-        app.state.readiness = Readiness(catalogue, settings)
-        app.state.registry = registry_of(catalogue)
-        app.state.watcher = Watcher(catalogue)
-        app.state.in_flight = {}
-        app.state.bell = bell = Bell()
-        app.state.uploads = Uploads()
-        app.state.prober = prober = Prober()
-        app.state.checker = checker = Checker(settings, catalogue)
-        app.state.queueing = Queueing(settings, catalogue, checker, bell)
-        app.state.windows = windows = WindowProcess()
-        app.state.looker = looker = scene_looker()
-        app.state.poser = poser = scene_poser()
-        try:
-            yield
-        finally:
-            prober.close()
-            checker.close()
-            windows.close()
-            looker.close()
-            poser.close()
-            migrating.cancel()
-            catalogue.close()
-
     app = FastAPI(
         title="jointplay",
         version=version("jointplay"),
         description=_DESCRIPTION,
-        lifespan=lifespan,
+        lifespan=partial(_running, patient=patient),
         openapi_url=None,  # theirs writes the document anew for each request
         docs_url=None,  # theirs loads its scripts from elsewhere; ours: service/page
         redoc_url=None,
@@ -169,6 +135,40 @@ def create_app(settings: Settings | None = None, *, patient: bool = False) -> Fa
         app.include_router(resource.router)
     describe(app)
     return app
+
+
+@asynccontextmanager
+async def _running(app: FastAPI, *, patient: bool) -> AsyncIterator[None]:
+    """Give an application what its requests need, while it runs."""
+    settings: Settings = app.state.settings
+    settings.data.mkdir(parents=True, exist_ok=True)
+    if not isinstance(settings.place, Folder):
+        require_fit(settings.place)
+    catalogue = Catalogue(settings.catalogue_url)
+    migrating = await migrated(catalogue, patient=patient)
+    if not patient:
+        require_own_files(settings, catalogue)
+    app.state.catalogue = catalogue
+    app.state.door = Door(catalogue, settings)
+    app.state.readiness = Readiness(catalogue, settings)
+    app.state.registry = registry_of(catalogue)
+    app.state.watcher = Watcher(catalogue)
+    app.state.in_flight = {}
+    app.state.bell = bell = Bell()
+    app.state.uploads = Uploads()
+    app.state.prober = prober = Prober()
+    app.state.checker = checker = Checker(settings, catalogue)
+    app.state.queueing = Queueing(settings, catalogue, checker, bell)
+    app.state.windows = windows = WindowProcess()
+    app.state.looker = looker = scene_looker()
+    app.state.poser = poser = scene_poser()
+    try:
+        yield
+    finally:
+        for process in (prober, checker, windows, looker, poser):
+            process.close()
+        migrating.cancel()
+        catalogue.close()
 
 
 def _add_middleware(app: FastAPI, settings: Settings) -> None:

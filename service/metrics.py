@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from threading import Lock
 from typing import Annotated, Any, Final
 
-from fastapi import APIRouter, Depends, Request, Response
+from fastapi import APIRouter, Response
 from prometheus_client import CollectorRegistry, PlatformCollector, ProcessCollector
 from prometheus_client.exposition import CONTENT_TYPE_LATEST, generate_latest
 from prometheus_client.metrics_core import (
@@ -16,6 +16,7 @@ from prometheus_client.metrics_core import (
 )
 from prometheus_client.registry import Collector
 
+from jointplay.service.dependencies import of_the_application
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.census import Census
 from jointplay.storage.catalogue.counters import (
@@ -125,12 +126,9 @@ def _totals(totals: Mapping[str, float]) -> Iterator[Metric]:
     )
 
 
-async def _registry(request: Request) -> CollectorRegistry:
-    found: CollectorRegistry = request.app.state.registry
-    return found
-
-
 @router.get("/metrics")
-def show_metrics(registry: Annotated[CollectorRegistry, Depends(_registry)]) -> Response:
+def show_metrics(
+    registry: Annotated[CollectorRegistry, of_the_application("registry")],
+) -> Response:
     """Show the numbers in the text format that Prometheus reads."""
     return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)
