@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function
+from jointplay.solver.kernels.emit.emit import FixedNodes, Output, lane_function
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression
@@ -16,7 +16,7 @@ def source(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
 
     ``correction`` keeps by how much; dense output ends at the projected stage with it.
     """
-    outputs: list[tuple[str, Expression]] = []
+    outputs: list[Output] = []
     for i, correction in enumerate(equations.corrections):
         stage = equations.tracer.variable(f"stage{i}")
         outputs += [(f"correction{i}", correction), (f"stage{i}", stage + correction)]

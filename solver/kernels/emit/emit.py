@@ -23,8 +23,9 @@ FOOTER = "globals().update(tapes.compiled(__file__, {lanes}))\n"
 LONGEST = 3 * MOST_STATEMENTS
 """Lines of a tape: dense output, equations and channels, each within the limit, are on some."""
 
-Outputs = Sequence[tuple[str, Expression]]
+Output = tuple[str, Expression]
 """Slot name and what is to be in it."""
+Outputs = Sequence[Output]
 Known = Mapping[Expression, str]
 """Expressions that a function called before has left in a slot, given by its name."""
 NONE: Known = MappingProxyType({})

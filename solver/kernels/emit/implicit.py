@@ -8,7 +8,7 @@ import math
 
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.emit.elimination import VECTORS
-from jointplay.solver.kernels.emit.emit import lane_function, statements
+from jointplay.solver.kernels.emit.emit import Output, lane_function, statements
 from jointplay.solver.kernels.emit.stepping import StepTracer
 from jointplay.solver.kernels.emit.turned_sines import Angle
 from jointplay.solver.kernels.layout import Layout
@@ -81,7 +81,7 @@ class RosenbrockTracer(StepTracer):
         total = self._sum(weights, stages)
         return v(f"y{i}") + v("tried") * total
 
-    def _stored(self, s: int) -> list[tuple[str, Expression]]:
+    def _stored(self, s: int) -> list[Output]:
         return [(f"k{s + 1}_{i}", self.variable(f"right{i}")) for i in range(self.states)]
 
     def _point(self, s: int) -> str:
@@ -94,7 +94,7 @@ class RosenbrockTracer(StepTracer):
     def _right(self, s: int) -> str:
         """Set the right side of stage s."""
         v, gamma = self.variable, self.tableau.gamma
-        outputs: list[tuple[str, Expression]] = []
+        outputs: list[Output] = []
         for i in range(self.states):
             total = v(f"k1_{i}") if s == 1 else self._inner_slope(i)
             total = total + (self.tableau.drifts[s - 1] * v("tried")) * v(f"drift{i}")
@@ -133,7 +133,7 @@ class RosenbrockTracer(StepTracer):
         count = self.coordinates
         return self.variable(f"stage{count + i}" if i < count else f"slope{i}")
 
-    def _kept_ledger(self, s: int) -> list[tuple[str, Expression]]:
+    def _kept_ledger(self, s: int) -> list[Output]:
         return [(f"kledger{s}_{i}", self.variable(f"ledger{i}")) for i in range(self.ledger)]
 
     def _ledger_at(self, s: int, i: int) -> str:

@@ -7,7 +7,7 @@ from operator import add
 
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit import closing, enclosure, scanning
-from jointplay.solver.kernels.emit.emit import Outputs, Tape, lane_function
+from jointplay.solver.kernels.emit.emit import Output, Outputs, Tape, lane_function
 from jointplay.solver.kernels.emit.judging import (
     DUE,
     PACE,
@@ -121,7 +121,7 @@ class JudgedStep:
         Steps go on as long as they were before a knot. One that would leave a sliver before the
         next knot of a clock goes half the way.
         """
-        v, resumed = self.variable, list[tuple[str, Expression]]()
+        v, resumed = self.variable, list[Output]()
         onwards = next_step
         if self.knots.clocked:
             rest = v("to_knot") - v("tried")

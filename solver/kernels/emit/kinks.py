@@ -8,7 +8,7 @@ jump (equal limit velocities), if its argument goes on through the jump; where f
 slip at the jump, the mean slope grows beyond bounds and no tangent can be carried.
 """
 
-from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, statements
+from jointplay.solver.kernels.emit.emit import FixedNodes, Output, lane_function, statements
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.derivative import Derivative
 from jointplay.solver.kernels.trace.equations import Equations
@@ -46,7 +46,7 @@ def kink_function(kinks: Kinks, layout: Layout, fixed: FixedNodes) -> str:
     """
     if not kinks:
         return statements("kinks", [])
-    outputs: list[tuple[str, Expression]] = []
+    outputs: list[Output] = []
     for q, (value, argument) in enumerate(kinks):
         tracer = value.tracer
         memory = range(MEMORY * q, MEMORY * (q + 1))

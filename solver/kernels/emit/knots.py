@@ -8,7 +8,7 @@ after which share of the step (`knot_share`), and the step is redone to end ther
 
 from collections.abc import Sequence
 
-from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function
+from jointplay.solver.kernels.emit.emit import FixedNodes, Output, lane_function
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.knots import KnotsOnPath
 from jointplay.solver.kernels.trace.tracer import Expression, Knots
@@ -30,8 +30,6 @@ ITERATIONS = 5
 
 AT_ENDS = ("argument", "argument_rate")
 """Quantities of knots of a position or a rate, known at both ends of a step."""
-
-Outputs = list[tuple[str, Expression]]
 
 
 class KnotTracer:
@@ -64,7 +62,7 @@ class KnotTracer:
         """Calls before the judge."""
         return ["meet_knots"] if self.met else []
 
-    def at_end(self) -> Outputs:
+    def at_end(self) -> list[Output]:
         """Return the arguments and their rates where a step ends."""
         return [
             (f"{name}{i}", value)

@@ -5,7 +5,7 @@ sought inside the steps on the dense output (`solver.kernels.loop.extremes.peaks
 Before the second step there is no change before: it is NaN, and no candidate.
 """
 
-from jointplay.solver.kernels.emit.emit import Tape
+from jointplay.solver.kernels.emit.emit import Output, Tape
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.target import WIDTHS
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
@@ -40,7 +40,7 @@ def allocate(layout: Layout, rows: int, rest: int) -> None:
         layout.add_block(block, rows)
 
 
-def reach(step: Expression, before: Expression) -> list[tuple[str, Expression]]:
+def reach(step: Expression, before: Expression) -> list[Output]:
     """Return what all rows need of the lengths of this step and of the one before."""
     longer = step / before
     far = 0.25 * REACH / (longer * (longer + 1.0))

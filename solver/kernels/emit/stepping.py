@@ -8,7 +8,7 @@ from itertools import count
 
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit import closing, enclosure
-from jointplay.solver.kernels.emit.emit import FixedNodes, Known, Outputs, Tape, statements
+from jointplay.solver.kernels.emit.emit import FixedNodes, Known, Output, Outputs, Tape, statements
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
 from jointplay.solver.kernels.emit.turned_sines import Angle, TurnedSines, turned_in_slopes
 from jointplay.solver.kernels.layout import Layout
@@ -96,7 +96,7 @@ class StepTracer(JudgedStep):
     def _ledger_weights(self) -> tuple[float, ...]:
         return self.tableau.matrix[-1]
 
-    def _tried(self) -> list[tuple[str, Expression]]:
+    def _tried(self) -> list[Output]:
         """Return the length of the step, and what it would be if there were no knots ahead."""
         v, none = self.variable, self.tracer.constant(0.0)
         longest = self._longest()
@@ -134,7 +134,7 @@ class StepTracer(JudgedStep):
             outputs.append(("arrival", moment))
         return self._function(f"stage_{s}", outputs)
 
-    def _held(self) -> list[tuple[str, Expression]]:
+    def _held(self) -> list[Output]:
         """Return what slopes need that keeps its value in a step."""
         return [
             (f"inverse_rate{j}", 1.0 / self.variable(f"impact_rate{j}")) for j in range(self.pairs)
@@ -182,7 +182,7 @@ class StepTracer(JudgedStep):
         tape.store(self._where_accepted(self._added_to_ledger()))
         return tape.function("take")
 
-    def _added_to_ledger(self) -> list[tuple[str, Expression]]:
+    def _added_to_ledger(self) -> list[Output]:
         """Return the ledger's terms after the step.
 
         The gross work grows by the magnitudes of what a step's works come to: of each driver, of
@@ -222,11 +222,11 @@ class StepTracer(JudgedStep):
             if node.operation == "variable" and node.data != "theta"
         )
 
-    def _where_accepted(self, outputs: Outputs) -> list[tuple[str, Expression]]:
+    def _where_accepted(self, outputs: Outputs) -> list[Output]:
         taken = self.variable("accept")
         return [(slot, select_positive(taken, new, self.variable(slot))) for slot, new in outputs]
 
-    def dense(self) -> list[tuple[str, Expression]]:
+    def dense(self) -> list[Output]:
         """Return time, state, modes and impact rates at the share `theta` of the step."""
         v = self.variable
         theta, step = v("theta"), v("tried")

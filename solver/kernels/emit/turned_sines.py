@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 
-from jointplay.solver.kernels.emit.emit import FixedNodes, Tape
+from jointplay.solver.kernels.emit.emit import FixedNodes, Output, Tape
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.reachable import reachable
@@ -72,7 +72,7 @@ class TurnedSines:
         for name in ("angle_start", "sine_start", "cosine_start"):
             layout.add_block(name, len(self.angles))
 
-    def at_end(self) -> list[tuple[str, Expression]]:
+    def at_end(self) -> list[Output]:
         """Return what an accepted step leaves for the next one, where it ends."""
         return [
             (f"{name}_start{n}", getattr(one, name))
