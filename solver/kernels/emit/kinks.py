@@ -52,16 +52,16 @@ def kink_function(kinks: Kinks, layout: Layout, fixed: FixedNodes) -> str:
         memory = range(MEMORY * q, MEMORY * (q + 1))
         end = (argument, value, _slope(value, argument))
         start, first, slope = (tracer.variable(f"kink_start{i}") for i in memory)
-        bent = abs(value - first - slope * (argument - start))
+        turned = abs(value - first - slope * (argument - start))
         rounding = ROUNDING * (abs(value) + abs(first))
-        jumped = (bent - rounding).select_positive(bent, 0.0)
+        jumped = (turned - rounding).select_positive(turned, 0.0)
         outputs += [(f"kink_end{i}", part) for i, part in zip(memory, end, strict=True)]
         outputs.append((f"kink_passed{q}", abs(end[2] - slope) + jumped))
         outputs.append((f"kink_mean{q}", (value - first) / (argument - start)))
     return lane_function("kinks", outputs, layout, fixed)
 
 
-def bend(derivative: Derivative, kinks: Kinks) -> None:
+def take_mean_slopes(derivative: Derivative, kinks: Kinks) -> None:
     """Let a derivative take the mean slopes of kinks that the step passes."""
     for q, (value, argument) in enumerate(kinks):
         passed = value.tracer.variable(f"kink_passed{q}")

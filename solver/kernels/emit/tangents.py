@@ -60,15 +60,15 @@ def compile_tangents(kernel: Kernel) -> Tangents:
         The derivatives are too long to compile.
     """
     equations, layout = kernel.equations, kernel.layout.copy()
-    bends = kinks.kinks_of(equations)
-    allocate(layout, kernel.states, len(kernel.pairs), len(bends))
+    piecewise = kinks.kinks_of(equations)
+    allocate(layout, kernel.states, len(kernel.pairs), len(piecewise))
     fixed = FixedNodes(layout)
     source = module_source(
         [
-            kinks.kink_function(bends, layout, fixed),
-            slope_function(kernel, bends, layout, fixed),
+            kinks.kink_function(piecewise, layout, fixed),
+            slope_function(kernel, piecewise, layout, fixed),
             *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),
-            tangent_step.TangentTracer(equations, len(bends), layout).source(),
+            tangent_step.TangentTracer(equations, len(piecewise), layout).source(),
             gap_function(equations, layout, fixed),
         ],
         kernel.lanes,
@@ -86,15 +86,15 @@ def compile_tangents(kernel: Kernel) -> Tangents:
     )
 
 
-def allocate(layout: Layout, states: int, pairs: int, bends: int) -> None:
+def allocate(layout: Layout, states: int, pairs: int, piecewise: int) -> None:
     """Give slots to tangents, behind all that the kernel has."""
     for name in OF_TANGENTS:
         layout.add_block(name, states if name == "tangent" else pairs)
-    kinks.allocate(layout, bends)
+    kinks.allocate(layout, piecewise)
     tangent_step.allocate(layout, states)
 
 
-def slope_function(kernel: Kernel, bends: Kinks, layout: Layout, fixed: FixedNodes) -> str:
+def slope_function(kernel: Kernel, piecewise: Kinks, layout: Layout, fixed: FixedNodes) -> str:
     """Return the source of carried_slopes(W): J w at a point that the step passes.
 
     That point has slots of its own: the base's stage holds the state to come.
@@ -104,7 +104,7 @@ def slope_function(kernel: Kernel, bends: Kinks, layout: Layout, fixed: FixedNod
     for j in range(len(equations.pairs)):
         along[f"impact_rate{j}"] = tracer.variable(f"tangent_impact_rate{j}")
     derivative = Derivative(along)
-    kinks.bend(derivative, bends)
+    kinks.take_mean_slopes(derivative, piecewise)
     passing = {f"stage{i}": f"passing{i}" for i in range(equations.states)}
     passing["stage_time"] = "passing_time"
     tape = Tape(layout, fixed, fetch=lambda name: f"load {layout[passing.get(name, name)]}")

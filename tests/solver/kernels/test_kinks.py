@@ -28,7 +28,7 @@ def slopes_over_steps(
     force = law.friction_force(tracer.variable("normal_force"), slip)
     bends = tuple(tracer.kinks.items())
     derivative = Derivative({"slip": along})
-    kinks.bend(derivative, bends)
+    kinks.take_mean_slopes(derivative, bends)
     layout = Layout()
     layout.add("slip", "along", "normal_force", "slope")
     kinks.allocate(layout, len(bends))
