@@ -8,6 +8,8 @@ BUNDLE = 8
 """Runs side by side in a bundle, however many lanes there are."""
 BENDS = 2
 """Slip speeds at which a law of friction may bend."""
+MOTION = 6
+"""Numbers of a journal's motion in the world's axes: eccentricity, m, its rate and acceleration."""
 
 
 class Layout:

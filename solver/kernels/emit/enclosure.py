@@ -20,8 +20,7 @@ from collections.abc import Callable, Iterable
 from functools import reduce
 from operator import add
 
-from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.trace.equations import MOTION
+from jointplay.solver.kernels.layout import MOTION, Layout
 from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.scalars import greatest, maximum, minimum, sine_cosine, sqrt
 
@@ -51,7 +50,7 @@ def allocate(layout: Layout, pairs: int) -> None:
     layout.add_block("inner", pairs)
     layout.add_block("outer", pairs)
     for name in PATHS:
-        layout.add_block(name, len(MOTION) * pairs)
+        layout.add_block(name, MOTION * pairs)
 
 
 def longest(v: Callable[[str], Expression], speeds: Iterable[str]) -> Expression:
@@ -115,7 +114,7 @@ def may_open(
     points, outer = _between(v, j), v(f"outer{j}") + away
     if enclosure == "wall":
         return outer - reduce(minimum, points[0])
-    ends = [[v(f"{block}{len(MOTION) * j + axis}") for block in PATHS] for axis in range(2)]
+    ends = [[v(f"{block}{MOTION * j + axis}") for block in PATHS] for axis in range(2)]
     x, y = (first + last for first, last in ends)
     along = [x * px + y * py for px, py in zip(*map(add, ends, points), strict=True)]
     nearest = maximum(reduce(minimum, along), 0.0)
@@ -129,7 +128,7 @@ def _between(v: Callable[[str], Expression], j: int) -> list[list[Expression]]:
     for axis in range(2):
         between = []
         for block, sense in zip(PATHS, (1.0, -1.0), strict=True):
-            position, rate, bend = (v(f"{block}{len(MOTION) * j + axis + 2 * k}") for k in range(3))
+            position, rate, bend = (v(f"{block}{MOTION * j + axis + 2 * k}") for k in range(3))
             fifth = 0.2 * sense * step * rate
             between += [position + fifth, position + 2.0 * fifth + 0.05 * step * step * bend]
         points.append(between)
@@ -138,7 +137,7 @@ def _between(v: Callable[[str], Expression], j: int) -> list[list[Expression]]:
 
 def whips_round(v: Callable[[str], Expression], j: int) -> Expression:
     """Return a number that is positive where pair j's normal turns by more than `WHIP`."""
-    start, end = ([v(f"{block}{len(MOTION) * j + axis}") for axis in range(2)] for block in PATHS)
+    start, end = ([v(f"{block}{MOTION * j + axis}") for axis in range(2)] for block in PATHS)
     together = start[0] * end[0] + start[1] * end[1]
     first, last = (x * x + y * y for x, y in (start, end))
     return COSINE * sqrt(first * last) - together

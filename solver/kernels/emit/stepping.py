@@ -11,8 +11,8 @@ from jointplay.solver.kernels.emit import closing, enclosure
 from jointplay.solver.kernels.emit.emit import FixedNodes, Known, Output, Outputs, Tape, statements
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
 from jointplay.solver.kernels.emit.turned_sines import Angle, TurnedSines, turned_in_slopes
-from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER, MOTION, Equations
+from jointplay.solver.kernels.layout import MOTION, Layout
+from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER, Equations
 from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
@@ -170,7 +170,7 @@ class StepTracer(JudgedStep):
             outputs += [(f"{name}_start{j}", v(f"{name}{j}")) for name in ENDS]
         outputs += [(start, v(end)) for start, end in self.knots.ends()]
         outputs += self.turned.at_end()
-        paths = range(len(MOTION) * self.pairs)
+        paths = range(MOTION * self.pairs)
         outputs += [(f"eccentricity_start{i}", v(f"eccentricity{i}")) for i in paths]
         for i in range(self.states):
             outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]

@@ -7,6 +7,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from jointplay.solver.joints.contact import Contact
+from jointplay.solver.kernels.layout import MOTION
 from jointplay.solver.kernels.trace.derivative import Derivative
 from jointplay.solver.kernels.trace.knots import KnotsOnPath, knots_on_path
 from jointplay.solver.kernels.trace.reachable import reachable
@@ -28,8 +29,6 @@ from jointplay.solver.scene.references import inner_states
 
 KEEPS_LEDGER = "keeps_ledger"
 """Slot that is positive in lanes whose works and impulses are wanted."""
-MOTION = ("x", "y", "rate_x", "rate_y", "acceleration_x", "acceleration_y")
-"""Eccentricity of a journal (m), its rate (m/s) and acceleration (m/s^2), in the world's axes."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,7 @@ class Equations:
     slips: tuple[tuple[Expression, Expression], ...]
     """Slip that each pair's friction follows (m/s), and its rate (m/s^2)."""
     eccentricities: tuple[tuple[Expression, ...], ...]
-    """Motion of each pair, as `MOTION` says."""
+    """Motion of each pair's journal, see `MOTION`."""
     enclosures: tuple[str, ...]
     """Enclosure of that motion while the pair is apart, see `Contact`."""
     channels: dict[str, Expression]
@@ -245,7 +244,7 @@ def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
     for j, (slip, rate) in enumerate(equations.slips):
         outputs += [(f"slip{j}", slip), (f"slip_rate{j}", rate)]
     for j, path in enumerate(equations.eccentricities):
-        outputs += [(f"eccentricity{len(MOTION) * j + k}", part) for k, part in enumerate(path)]
+        outputs += [(f"eccentricity{MOTION * j + k}", part) for k, part in enumerate(path)]
     return outputs
 
 

@@ -7,7 +7,7 @@ from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import deferred, inner_kernel
-from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.layout import INSTANTS, MOTION
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
 from jointplay.solver.kernels.loop.extremes.bends import look_between_bends
 from jointplay.solver.kernels.loop.extremes.book import (
@@ -34,9 +34,6 @@ from jointplay.solver.kernels.loop.step import (
     step_of,
 )
 from jointplay.solver.kernels.loop.unowned_view import unowned
-
-MOTION = 6
-"""Numbers of a journal's motion: position, rate, acceleration."""
 
 
 @inner_kernel()

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
+from jointplay.solver.kernels.layout import MOTION
 from jointplay.solver.kernels.loop.step import Step
 
 MOST_ITERATIONS = 60
@@ -52,7 +53,7 @@ def path_of(j: int, s: Step) -> np.ndarray:
     lane, at, work = s.lane, s.at, s.work
     step, path = work[at.tried, lane], np.empty((AXES, 6))
     for axis in range(AXES):
-        first, last = at.eccentricity_start + 6 * j + axis, at.eccentricity + 6 * j + axis
+        first, last = at.eccentricity_start + MOTION * j + axis, at.eccentricity + MOTION * j + axis
         position, rate = work[first, lane], step * work[first + AXES, lane]
         bend = 0.5 * step * step * work[first + 2 * AXES, lane]
         moved = work[last, lane] - position - rate - bend
@@ -110,7 +111,7 @@ def is_through(passage: Passage, s: Step) -> bool:
 def orbiting_at_end(j: int, s: Step) -> float:
     """Return the velocity of a journal's centre along the tangent at the end of the step, m/s."""
     lane, at, work = s.lane, s.at, s.work
-    first = at.eccentricity + 6 * j
+    first = at.eccentricity + MOTION * j
     x, y = work[first, lane], work[first + 1, lane]
     vx, vy = work[first + AXES, lane], work[first + AXES + 1, lane]
     return float((x * vy - y * vx) / (np.sqrt(x * x + y * y) + 1e-300))
