@@ -8,7 +8,7 @@ A channel at a time, looks at channels took longer than computing the channels d
 from __future__ import annotations
 
 from llvmlite import ir
-from numba.core import cgutils
+from numba.core import cgutils, types
 
 from jointplay.solver.kernels.layout import INSTANTS
 
@@ -99,6 +99,16 @@ def smaller(x, y) -> Eight:
 def larger(x, y) -> Eight:
     """Return the larger of each two; y where one is no number."""
     return where(y < x, x, y)
+
+
+def arrays(context, builder, signature, arguments):
+    """Return the arrays among the arguments of an intrinsic function."""
+    given = zip(signature.args, arguments, strict=True)
+    return [
+        context.make_array(kind)(context, builder, value=value)
+        for kind, value in given
+        if isinstance(kind, types.Array)
+    ]
 
 
 def channels(builder, values, row) -> list[Eight]:

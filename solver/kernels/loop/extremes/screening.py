@@ -22,6 +22,7 @@ from jointplay.solver.kernels.loop.extremes.book import (
 from jointplay.solver.kernels.loop.extremes.eights import (
     WORD,
     Eight,
+    arrays,
     channels,
     larger,
     load,
@@ -68,10 +69,7 @@ def _screen(
     """
 
     def generate(context, builder, signature, arguments):
-        spare, lines = (
-            context.make_array(signature.args[k])(context, builder, value=arguments[k])
-            for k in (0, 2)
-        )
+        spare, lines = arrays(context, builder, signature, arguments)
         width = builder.extract_value(lines.shape, 1)
         own = _Book(builder, lines.data, width, arguments[3])
         times = [same(builder, time) for time in arguments[4:6]]

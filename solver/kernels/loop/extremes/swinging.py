@@ -18,6 +18,7 @@ from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.eights import (
     WORD,
     Eight,
+    arrays,
     channels,
     column,
     first,
@@ -77,10 +78,7 @@ def _weigh(
     """
 
     def generate(context, builder, signature, arguments):
-        spare, lanes = (
-            context.make_array(signature.args[k])(context, builder, value=arguments[k])
-            for k in (0, 2)
-        )
+        spare, lanes = arrays(context, builder, signature, arguments)
         width = builder.extract_value(lanes.shape, 1)
         *slots, count = cgutils.unpack_tuple(builder, arguments[3], 5)
         found, longer = _Found(builder, arguments[6]), same(builder, arguments[5])
