@@ -4,8 +4,8 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.extremes.local_extremes import open_brackets
 from jointplay.solver.kernels.loop.extremes.seeking import seek
-from jointplay.solver.kernels.loop.extremes.tops import open_brackets
 from jointplay.solver.kernels.loop.step import Step, channels_within
 
 EXACT = 0.0

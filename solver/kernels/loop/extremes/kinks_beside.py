@@ -11,9 +11,9 @@ from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.extremes.brackets import NODES
 from jointplay.solver.kernels.loop.extremes.cuts_at_bends import has_bend
+from jointplay.solver.kernels.loop.extremes.local_extremes import open_brackets
 from jointplay.solver.kernels.loop.extremes.narrowing import HALF
 from jointplay.solver.kernels.loop.extremes.seeking import FORETOLD, SHARP
-from jointplay.solver.kernels.loop.extremes.tops import open_brackets
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
 FARTHEST = 0.25

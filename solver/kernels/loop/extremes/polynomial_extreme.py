@@ -7,8 +7,8 @@ import numpy as np
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.book import HIGHEST, LOWEST, RANGE, count_value
+from jointplay.solver.kernels.loop.extremes.local_extremes import CORNER
 from jointplay.solver.kernels.loop.extremes.seeking import SHARP
-from jointplay.solver.kernels.loop.extremes.tops import CORNER
 from jointplay.solver.kernels.loop.step import Step
 
 LAST = INSTANTS - 1

@@ -31,9 +31,9 @@ from jointplay.solver.kernels.loop.extremes.eights import (
     store,
     where,
 )
+from jointplay.solver.kernels.loop.extremes.local_extremes import CORNER
 from jointplay.solver.kernels.loop.extremes.polynomial_extreme import SEVENTH
 from jointplay.solver.kernels.loop.extremes.seeking import SHARP
-from jointplay.solver.kernels.loop.extremes.tops import CORNER
 
 ULPS = 1e-15
 """Share of a value that is its own rounding."""

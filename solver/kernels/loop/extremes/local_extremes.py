@@ -30,7 +30,7 @@ def open_brackets(
         if not (most if sense > 0.0 else -least) + CORNER * bend > sense * so_far:
             continue
         for best in range(count):
-            if not tops(values, count, best, sense, so_far):
+            if not is_local_extreme(values, count, best, sense, so_far):
                 continue
             bracket, kept = s.brackets[waiting], min(max(best - NODES // 2, 0), count - NODES)
             bracket.row, bracket.sense, bracket.step = r, sense, step
@@ -54,7 +54,7 @@ def spread_and_bend(values: np.ndarray, count: int) -> tuple[float, float, float
 
 
 @inner_kernel()
-def tops(values: np.ndarray, count: int, i: int, sense: float, so_far: float) -> bool:
+def is_local_extreme(values: np.ndarray, count: int, i: int, sense: float, so_far: float) -> bool:
     """Whether no value beside one of so many is beyond it, and there may be a new extreme.
 
     A corner between two values is beyond them by half of the second difference there at most.
