@@ -80,7 +80,7 @@ def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
     their signs, is what it is to be held against.
     """
     at, losses = bundle.lane(lane), bundle.kernel.losses
-    terms = [float(x) for x in at["total"][: losses + len(bundle.kernel.drivers)]]
+    terms = [float(x) for x in at["total"][: losses + len(bundle.kernel.equations.drivers)]]
     (contact, friction, *elements), works = terms[:losses], terms[losses:]
     driver, gross = sum(works), at.number("gross")
     kinetic, potential, stored = (

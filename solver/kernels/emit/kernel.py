@@ -50,8 +50,6 @@ class Kernel:
     slots: NDArray[np.void]
     """Structure that compiled loops take as `at`; see `solver.kernels.emit.slots`."""
     coordinates: tuple[str, ...]
-    drivers: tuple[str, ...]
-    clocks: tuple[str, ...]
     pairs: tuple[str, ...]
     rows: Rows
     """Channels of the ``channel`` block."""
@@ -70,7 +68,7 @@ class Kernel:
     @property
     def losses(self) -> int:
         """Terms of the ledger before the drivers' works and the pairs' impulses."""
-        return len(self.equations.ledger) - len(self.drivers) - len(self.pairs)
+        return len(self.equations.ledger) - len(self.equations.drivers) - len(self.pairs)
 
     @cached_property
     def addresses(self) -> NDArray[np.void]:
@@ -118,8 +116,6 @@ def compile_kernel(
         step_row,
         slots_of(layout, row, step_row, counts),
         equations.coordinates,
-        equations.drivers,
-        equations.clocks,
         equations.pairs,
         rows,
         FixedNumbers(fixed.nodes),

@@ -116,7 +116,7 @@ class ProblemReplay:
         """Return states (n, states) that steps end with, and terms (n, terms) of their ledger."""
         kernel, count = self.kernel, len(steps)
         ends = np.empty((count, kernel.equations.states))
-        works = np.empty((count, kernel.losses + len(kernel.drivers)))
+        works = np.empty((count, kernel.losses + len(kernel.equations.drivers)))
         make_again(self.workspace, np.ascontiguousarray(steps), ends, works)
         return ends, works
 

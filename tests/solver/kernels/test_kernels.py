@@ -60,7 +60,7 @@ def evaluated(kernel: Kernel, instants: list[Instant], formulation: str) -> list
             v = [instant.speed[name] for name in kernel.coordinates]
         at = bundle.lane(lane)
         at["stage"], at["stage_time"] = np.array([*q, *v]), 0.25
-        for k, name in enumerate(kernel.drivers):
+        for k, name in enumerate(kernel.equations.drivers):
             moved = instant.scene.drivers[name].clock_rate * 0.25
             at["phase"][k] = instant.driven[name] - moved
         for j, name in enumerate(kernel.pairs):
