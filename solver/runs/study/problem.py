@@ -49,34 +49,21 @@ def problem_of(
     study: Study, kernel: Kernel, point: int, scene: Scene, start: LaneStart | None = None
 ) -> LaneProblem:
     """Return what a lane computes first of a point: all of it, or the time until it settles."""
-    period = float(study.period[point])
     if study.perturbation is not None and study.starts == 1:
         start = LaneStart(perturbed(study, kernel, point, point))
-    if study.record == 0:
-        duration = float(study.duration[point])
-        step, samples, first_sample = _sampled(study, point, duration)
-        return LaneProblem(
-            scene,
-            duration,
-            study.tolerance,
-            step,
-            samples,
-            0,
-            0.0,
-            start=start,
-            first_sample=first_sample,
-            ledger=study.keeps_ledger,
-        )
-    event = _event(study, kernel, point)
-    waits = study.job["settle"] == "auto"
-    if waits:
-        reached = min(WINDOW, most_settling(study, point))
-        duration, sections, first = reached * period, ENDLESS, 1
-    else:
-        duration, first = float(study.duration[point]), int(study.job["settle"]) + 1
-        sections = first + study.record
-    if event is not None:
-        first, sections = 0, ENDLESS if waits else study.record
+    duration = float(study.duration[point])
+    sections, offset, first, event = 0, 0.0, 0, None
+    if study.record > 0:
+        offset, event = float(study.offset[point]), _event(study, kernel, point)
+        waits = study.job["settle"] == "auto"
+        if waits:
+            reached = min(WINDOW, most_settling(study, point))
+            duration, sections, first = reached * float(study.period[point]), ENDLESS, 1
+        else:
+            first = int(study.job["settle"]) + 1
+            sections = first + study.record
+        if event is not None:
+            first, sections = 0, ENDLESS if waits else study.record
     step, samples, first_sample = _sampled(study, point, duration)
     return LaneProblem(
         scene,
@@ -85,7 +72,7 @@ def problem_of(
         step,
         samples,
         sections,
-        float(study.offset[point]),
+        offset,
         first,
         event,
         start,
