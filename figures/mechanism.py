@@ -39,11 +39,8 @@ def draw_mechanism(
     return drawn(lambda: _draw(scene, pose), options)
 
 
-def render_mechanism(
-    scene: Mapping[str, Any], pose: Pose, form: Form, options: Options | None = None
-) -> bytes:
+def render_mechanism(scene: Mapping[str, Any], pose: Pose, form: Form, options: Options) -> bytes:
     """Draw a scene at a pose and give the bytes of a file."""
-    options = options or Options()
     with page.style(options.font, options.font_size):
         return saving.save(draw_mechanism(scene, pose, options), form)
 

@@ -27,9 +27,7 @@ class Curve:
     values: Floats
 
 
-def draw_overlay(
-    panels: Mapping[str, Sequence[Curve]], form: Form, options: Options | None = None
-) -> bytes:
+def draw_overlay(panels: Mapping[str, Sequence[Curve]], form: Form, options: Options) -> bytes:
     """Return a figure with one panel for each channel, in it a curve for each run.
 
     Parameters
@@ -41,7 +39,6 @@ def draw_overlay(
     options
         Of its page.
     """
-    options = options or Options()
     with page.style(options.font, options.font_size):
         return saving.save(drawn(lambda: _draw(panels), options), form)
 

@@ -8,7 +8,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 
 
-def require_key_beyond_this_machine(host: str, *, again: bool = False) -> None:
+def require_key_beyond_this_machine(host: str, *, again: bool) -> None:
     """Decide whether keys are asked for, for all of this process; end it if there is none then.
 
     `JOINTPLAY_KEYS` decides if it is set. A host that names no address of this machine alone may be

@@ -50,7 +50,7 @@ class Supervisor:
     """
 
     def __init__(
-        self, host: str, port: int, data: Path, workers: int, parent_pipe: int | None = None
+        self, host: str, port: int, data: Path, workers: int, parent_pipe: int | None
     ) -> None:
         self._host, self._port = host, port
         self._settings = settings_of(data)

@@ -54,7 +54,7 @@ class Surroundings:
         return found
 
 
-def cubic_coefficient(near: Surroundings, distance: float = DISTANCE) -> tuple[float, float]:
+def cubic_coefficient(near: Surroundings) -> tuple[float, float]:
     """Return b, and its error by how far two distances are apart.
 
     What is of second order in the distance is taken from b. Both are NaN where a run from a section
@@ -63,7 +63,7 @@ def cubic_coefficient(near: Surroundings, distance: float = DISTANCE) -> tuple[f
     size = len(near.extents)
     jacobian = near.linear.monodromy * near.extents / near.extents[:, None]
     middle = near.linear.residual[:size] / near.extents
-    far = (distance, 0.5 * distance)
+    far = (DISTANCE, 0.5 * DISTANCE)
     try:
         q, p = (direction_of(one, CRITICAL["PD"]) for one in (jacobian, jacobian.T))
         ends = near.ends(np.array([sign * one * q for one in far for sign in (1.0, -1.0)]))
@@ -72,7 +72,7 @@ def cubic_coefficient(near: Surroundings, distance: float = DISTANCE) -> tuple[f
         along = 2.0 * float(np.sum(p * q))
     except LinAlgError:
         return UNKNOWN
-    if along == 0.0 or not np.abs(bent).max() <= 2.0 * distance:
+    if along == 0.0 or not np.abs(bent).max() <= 2.0 * DISTANCE:
         return UNKNOWN
     places = [
         share * sign * one * q + 0.5 * share * share * w

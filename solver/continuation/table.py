@@ -11,7 +11,7 @@ from jointplay.solver.continuation.multipliers import unstable
 from jointplay.solver.continuation.special_curve import errors
 
 
-def row_of(row: Row, seconds: Sequence[float] = ()) -> Floats:
+def row_of(row: Row, seconds: Sequence[float]) -> Floats:
     """Return the numbers of an orbit, in the order of the columns.
 
     `seconds` : value of the second parameter, where one varies.

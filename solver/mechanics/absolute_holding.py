@@ -39,8 +39,8 @@ class AbsoluteHolding:
         self,
         name: str,
         markers: tuple[Marker, Marker],
-        journal: JournalStart = CONCENTRIC,
-        guided: GuideStart = CENTRED,
+        journal: JournalStart,
+        guided: GuideStart,
     ) -> None:
         self.name = name
         self.first, self.second = markers

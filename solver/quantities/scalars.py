@@ -109,9 +109,9 @@ def maximum(x: Scalar, y: Scalar) -> Scalar:
     return select_positive(x - y, x, y)
 
 
-def least(numbers: Iterable[Scalar], none: Scalar = math.inf) -> Scalar:
-    """Return the smallest of some numbers and `none`."""
-    return reduce(minimum, numbers, none)
+def least(numbers: Iterable[Scalar]) -> Scalar:
+    """Return the smallest of some numbers; infinity of none."""
+    return reduce(minimum, numbers, math.inf)
 
 
 def greatest(numbers: Iterable[Scalar], none: Scalar = 0.0) -> Scalar:

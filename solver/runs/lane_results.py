@@ -111,10 +111,10 @@ def whereabouts(bundle: Bundle, lane: int) -> str:
     )
 
 
-def out_of_time(seconds: float, at: float, where: str = "") -> SimulationFailed:
+def out_of_time(seconds: float, at: float, where: str) -> SimulationFailed:
     """Return what ends a run that computes too long, at the time that it has reached, s.
 
-    where : words from `whereabouts`.
+    where : words from `whereabouts`, if a kernel computes it.
     """
     friction = (
         ", or, where friction holds joints, a wider gap between static_velocity and"

@@ -87,7 +87,7 @@ def _asked_by(unit: Unit, solver: Solver) -> dict[str, Any]:
     return {**own, "moment": unit.now, "lately": unit.now - PATIENCE}
 
 
-def waiting_for(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
+def waiting_for(unit: Unit, solver: Solver, busy: Collection[str]) -> tuple[str, ...]:
     """Return the queued block whose turn it is of a solver's, if there is one, of idle owners."""
     own = _asked_by(unit, solver)
     for queue, owner in turns.in_turn(unit):
@@ -98,7 +98,7 @@ def waiting_for(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple
     return ()
 
 
-def abandoned(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
+def abandoned(unit: Unit, solver: Solver, busy: Collection[str]) -> tuple[str, ...]:
     """Return queued blocks that a solver may take over from others, of idle owners."""
     if unit.execute(_ANY).first() is None:  # so it is for most who ask again and again
         return ()

@@ -38,9 +38,7 @@ _TOLD: Final = 100
 _READ: Final = "jointplay show FILE reads it; remove it, or keep it elsewhere"
 
 
-def leftovers(
-    settings: Settings, catalogue: Catalogue, look: Look | None = None
-) -> Iterator[Finding]:
+def leftovers(settings: Settings, catalogue: Catalogue, look: Look) -> Iterator[Finding]:
     """Look for files of jobs that have ended, longer ago than workers take to tidy up."""
     return left_after(settings, catalogue, settings.lease, look)
 

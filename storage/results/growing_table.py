@@ -76,10 +76,9 @@ class GrowingTable:
                 "of the layout"
             )
 
-    def pending(self, first: int | None = None) -> list[NDArray[Any]]:
-        """Give views of the rows not yet in a shard, from row `first` (default: all)."""
-        start = 0 if first is None else max(first - self.durable, 0)
-        stop = self.rows - self.durable
+    def pending(self, first: int) -> list[NDArray[Any]]:
+        """Give views of the rows not yet in a shard, from row `first` on."""
+        start, stop = max(first - self.durable, 0), self.rows - self.durable
         return [buffer[start:stop] for buffer in self._buffers]
 
     def take_over(self, lost: Running, durable: int) -> None:

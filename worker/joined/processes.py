@@ -98,7 +98,7 @@ def work_in(
     key: str | None,
     idle: float | None,
     until: float | None,
-    device: str = PROCESSOR,
+    device: str,
 ) -> int:
     """Do the same in several processes, to which signals are passed on.
 

@@ -36,7 +36,7 @@ def compute_study(
     processes: int | None,
     report: Report,
     asked_to_end: Callable[[], bool],
-    device: "Lanes | None" = None,
+    device: "Lanes | None",
 ) -> "Outcome":
     """Compute a study into a store; what is computed does not depend on the processes.
 

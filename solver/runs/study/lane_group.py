@@ -39,7 +39,7 @@ Make = Callable[..., Bundle]
 class LaneGroup:
     """A kernel's lanes, each with the point that it computes, of one of several blocks, or free."""
 
-    def __init__(self, study: Study, structure: int, make: Make = Bundle) -> None:
+    def __init__(self, study: Study, structure: int, make: Make) -> None:
         """Compile or load the kernel of a structure, and its tangents where they are wanted.
 
         `make` : what has the lanes, as `Bundle` has eight.

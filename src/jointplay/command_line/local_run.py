@@ -20,7 +20,7 @@ def compute_and_show(
     admission: "Admission | Study | None",
     output: Path,
     processes: int | None,
-    device: "Lanes | None" = None,
+    device: "Lanes | None",
     *,
     figures: bool,
     as_json: bool,
