@@ -17,6 +17,7 @@ from jointplay.records.coarse_to_fine import order_of, over_axes
 from jointplay.records.cycles import MEAN, SPREAD
 from jointplay.records.motion import WAITING
 from jointplay.records.point import PointStatus
+from jointplay.records.strict_json import finite
 from jointplay.records.study import StudySource
 
 
@@ -42,8 +43,8 @@ def attractor_table(source: StudySource) -> dict[str, Any]:
                 "points": one.points,
                 "share": one.share,
                 "share_error": one.error,
-                "shares": None if over is None else _known(over.shares[k]),
-                "share_errors": None if over is None else _known(over.errors[k]),
+                "shares": None if over is None else finite(over.shares[k].tolist()),
+                "share_errors": None if over is None else finite(over.errors[k].tolist()),
                 **_example(source, one.example),
             }
             for k, one in enumerate(found.found)
@@ -127,7 +128,3 @@ def _example(source: StudySource, point: int) -> dict[str, Any]:
     }
     numbers = {name: known.get(name) for name in ("period", "lyapunov", "lyapunov_error")}
     return {"point": point, "column": column, "row": row, **numbers, **cycle}
-
-
-def _known(values: Floats) -> list[float | None]:
-    return [x if math.isfinite(x) else None for x in values.tolist()]

@@ -1,6 +1,5 @@
 """Branches of periodic orbits as columns, from wherever a continuation's results are read."""
 
-import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -10,6 +9,7 @@ import numpy as np
 from jointplay.records.channel import Channel
 from jointplay.records.point import Failure, PointStatus
 from jointplay.records.run import Floats
+from jointplay.records.strict_json import finite
 from jointplay.records.study import StudySource
 
 VALUE, LABEL, BOUND, LENGTH, UNSTABLE = "value", "label", "bound", "length", "unstable"
@@ -109,13 +109,13 @@ def _document(branch: Branch, names: Collection[str] | None) -> dict[str, Any]:
         "status": branch.status.name,
         "failure": failure and {"point": branch.index, **failure._asdict()},
         "columns": {
-            one.name: {"unit": one.unit, "long_name": one.long_name, "values": _plain(values)}
+            one.name: {
+                "unit": one.unit,
+                "long_name": one.long_name,
+                "values": finite(values.tolist()),
+            }
             for one, values in branch.columns.items()
             if names is None or one.name in names
         },
         "special": [asdict(one) for one in branch.special],
     }
-
-
-def _plain(values: Floats) -> list[float | None]:
-    return [one if math.isfinite(one) else None for one in values.tolist()]

@@ -9,7 +9,7 @@ import codecs
 import json
 import math
 from types import NoneType
-from typing import NamedTuple, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 DEEPEST = 64  # a scene document nests 6 levels; nothing legitimate comes near
 MOST_FLAWS = 20  # enough to correct a document by, few enough to read
@@ -34,6 +34,15 @@ class MalformedJson(ValueError):
     def __init__(self, *flaws: Flaw) -> None:
         super().__init__(" ".join(flaw.detail for flaw in flaws))
         self.flaws = flaws
+
+
+def finite(value: Any) -> Any:
+    """Return a document with null where a number is not finite, which JSON has not."""
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {name: finite(one) for name, one in value.items()}
+    return [finite(one) for one in value] if isinstance(value, list | tuple) else value
 
 
 class _Refused(NamedTuple):

@@ -1,11 +1,9 @@
 """A trajectory's certificate as records of its store: arrays with units, and a document."""
 
-import math
 from typing import Any
 
-import numpy as np
-
 from jointplay.records.run import CertificateRecord, LabelledArray
+from jointplay.records.strict_json import finite
 from jointplay.solver.runs.certificate.certificate import Certificate
 
 IN_ITS_UNIT = "in the unit of its channel"
@@ -48,21 +46,10 @@ def record_of(certificate: Certificate) -> CertificateRecord:
         name: LabelledArray(values, dimensions, _meaning(unit, long_name))
         for name, (values, dimensions, unit, long_name) in columns.items()
     }
-    return CertificateRecord(_finite(certificate.facts), arrays)
+    return CertificateRecord(finite(certificate.facts), arrays)
 
 
 def _meaning(unit: str | None, long_name: str) -> dict[str, Any]:
     if unit is None:
         return {"long_name": f"{long_name}, {IN_ITS_UNIT}"}
     return {"units": unit, "long_name": long_name}
-
-
-def _finite(value: Any) -> Any:
-    """Return a document with null where a number is not finite, which JSON has not."""
-    if isinstance(value, dict):
-        return {key: _finite(one) for key, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(one) for one in value]
-    if isinstance(value, float | np.floating):
-        return float(value) if math.isfinite(value) else None
-    return value

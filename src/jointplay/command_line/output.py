@@ -1,14 +1,13 @@
 """Output of commands: one JSON document for programs, lines and aligned tables for people."""
 
 import json
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import typer
 
 from jointplay.command_line.exits import Stopped
+from jointplay.records.strict_json import finite
 
 
 def tell(document: object, lines: Iterable[object], *, as_json: bool) -> None:
@@ -24,15 +23,7 @@ def print_json(document: object) -> None:
 
 def json_text(document: object) -> str:
     """Return a document as JSON; NaN and infinity, which JSON does not have, become null."""
-    return json.dumps(_finite(document), indent=2, allow_nan=False)
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {name: _finite(one) for name, one in value.items()}
-    return [_finite(one) for one in value] if isinstance(value, list | tuple) else value
+    return json.dumps(finite(document), indent=2, allow_nan=False)
 
 
 def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
