@@ -22,9 +22,7 @@ ROUNDS = 2
 """Times that the passes run: addresses of functions are known after the first."""
 
 
-def code(
-    sources: Sequence[Source], slots: NDArray[np.void], sizes: Sizes, *, on_host: bool = False
-) -> str:
+def code(sources: Sequence[Source], slots: NDArray[np.void], sizes: Sizes, *, on_host: bool) -> str:
     """Return what a device's driver takes for a kernel; seconds. Arguments as of `kernel_text`."""
     text = kernel_text(sources, slots, sizes, on_host=on_host)
     return text if on_host else ptx(text)

@@ -89,7 +89,7 @@ ON_HOST = f"define void @{MEET}() alwaysinline nounwind {{ ret void }}\n"
 
 
 def kernel_text(
-    sources: Sequence[Source], slots: NDArray[np.void], sizes: Sizes, *, on_host: bool = False
+    sources: Sequence[Source], slots: NDArray[np.void], sizes: Sizes, *, on_host: bool
 ) -> str:
     """Return all but the loop, which `LOOP` stands for.
 

@@ -59,7 +59,7 @@ class Source:
             ]
         )
 
-    def of_arrays(self, symbol: Callable[[str], str], before: Sequence[str] = ()) -> str:
+    def of_arrays(self, symbol: Callable[[str], str], before: Sequence[str]) -> str:
         """Return the function of arrays, which does something `before` it calls the other.
 
         Loops take an address for the value of a function that has none.

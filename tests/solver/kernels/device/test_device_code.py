@@ -31,7 +31,12 @@ def kernel() -> Kernel:
 
 @pytest.fixture(scope="module")
 def text(kernel: Kernel) -> str:
-    return code(kernel.module.tapes.sources, kernel.slots, Sizes(0, kernel.layout.size, 8, 16, 0))
+    return code(
+        kernel.module.tapes.sources,
+        kernel.slots,
+        Sizes(0, kernel.layout.size, 8, 16, 0),
+        on_host=False,
+    )
 
 
 def test_code_is_whole_and_calls_nothing_by_address(text: str) -> None:
@@ -50,7 +55,7 @@ def test_every_operation_of_floats_is_rounded_as_written(text: str) -> None:
 def test_tangents_are_whole_too(kernel: Kernel) -> None:
     tangents = compile_tangents(kernel)
     sources = [*kernel.module.tapes.sources, *tangents.module.tapes.sources]
-    found = code(sources, tangents.slots, Sizes(0, tangents.layout.size, 8, 16, 8))
+    found = code(sources, tangents.slots, Sizes(0, tangents.layout.size, 8, 16, 8), on_host=False)
     assert ".extern" not in found
     assert ".callprototype" not in found
 
@@ -59,7 +64,7 @@ def test_what_a_job_does_not_ask_for_makes_code_shorter(kernel: Kernel, text: st
     sources = kernel.module.tapes.sources
     sizes = Sizes(0, kernel.layout.size, 8, 16, 0)
     lean = list(without(slots_of_energies(kernel), sources))
-    shorter = code(lean, kernel.slots, sizes)
+    shorter = code(lean, kernel.slots, sizes, on_host=False)
     assert stored(shorter) < stored(text)
 
 
