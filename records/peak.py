@@ -15,6 +15,8 @@ PEAK: Final = {
     "maximum_time": {"units": "s", "long_name": "time of the largest value"},
 }
 """Numbers of a peak, in this order, with the attributes of their arrays (CF conventions)."""
+LOWEST, LOWEST_TIME, HIGHEST, HIGHEST_TIME = range(len(PEAK))
+"""Where each of them is in an array of peaks."""
 
 
 @dataclass(frozen=True)

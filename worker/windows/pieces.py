@@ -3,9 +3,7 @@
 import numpy as np
 
 from jointplay.records.arrays import Floats
-
-LOWEST, LOWEST_TIME, HIGHEST, HIGHEST_TIME = range(4)
-"""Columns of a record, in the order of `jointplay.records.peak.PEAK`."""
+from jointplay.records.peak import HIGHEST, LOWEST
 
 
 def between(edges: Floats, low: float, high: float) -> Floats:

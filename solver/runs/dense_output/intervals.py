@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
+from jointplay.records.peak import HIGHEST, LOWEST
 from jointplay.solver.kernels.emit.slots import LENGTH
-from jointplay.solver.kernels.loop.extremes.book import HIGHEST, LOWEST
 from jointplay.solver.kernels.loop.extremes.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.extremes.seeking import SHARP
 from jointplay.solver.runs.admission import Admission

@@ -1,7 +1,8 @@
 """Book of a bin: extremes of all rows of the channel block, and what is known of each beforehand.
 
-An array (`LINES`, width): a column for each row, and some more that make the width a multiple of
-eight. Of a row that nobody asks for, no value is ever a new extreme.
+An array (`LINES`, width), whose first lines are the numbers of `records.peak.PEAK`: a column for
+each row, and some more that make the width a multiple of eight. Of a row that nobody asks for, no
+value is ever a new extreme.
 """
 
 import math
@@ -10,12 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
+from jointplay.records.peak import HIGHEST, HIGHEST_TIME, LOWEST, LOWEST_TIME
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.step import Step
 
-LOWEST, LOWEST_TIME, HIGHEST, HIGHEST_TIME = range(4)
-"""Lines of a book, and columns of an extreme in the order of `jointplay.records.peak.PEAK`."""
 RANGE = 4
 """Line of each channel's range as far as it is known: extremes are sharp against that."""
 ROUNDING = 5

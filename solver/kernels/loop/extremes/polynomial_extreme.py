@@ -4,9 +4,10 @@ from fractions import Fraction
 
 import numpy as np
 
+from jointplay.records.peak import HIGHEST, LOWEST
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.book import HIGHEST, LOWEST, RANGE, count_value
+from jointplay.solver.kernels.loop.extremes.book import RANGE, count_value
 from jointplay.solver.kernels.loop.extremes.local_extremes import CORNER
 from jointplay.solver.kernels.loop.extremes.seeking import SHARP
 from jointplay.solver.kernels.loop.step import Step

@@ -10,15 +10,9 @@ from typing import Any, cast
 from numba import int64
 from numba.extending import intrinsic
 
+from jointplay.records.peak import HIGHEST, HIGHEST_TIME, LOWEST, LOWEST_TIME
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.book import (
-    HIGHEST,
-    HIGHEST_TIME,
-    LOWEST,
-    LOWEST_TIME,
-    RANGE,
-    ROUNDING,
-)
+from jointplay.solver.kernels.loop.extremes.book import RANGE, ROUNDING
 from jointplay.solver.kernels.loop.extremes.eights import (
     WORD,
     Eight,
