@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from jointplay.command_line.chosen_jobs import KIND, LABEL, SCENE
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
 from jointplay.command_line.output import tell
@@ -19,9 +20,9 @@ def ls(
     state: Annotated[
         str | None, typer.Option(help="Only jobs in this state, such as running.")
     ] = None,
-    kind: Annotated[str | None, typer.Option(help="Only jobs of this kind.")] = None,
-    label: Annotated[str | None, typer.Option(help="Only jobs with exactly this label.")] = None,
-    scene: Annotated[str | None, typer.Option(help="Only jobs of this preset or scene.")] = None,
+    kind: KIND = None,
+    label: LABEL = None,
+    scene: SCENE = None,
     since: Annotated[
         datetime | None, typer.Option(help="Only jobs submitted from this moment on.")
     ] = None,
