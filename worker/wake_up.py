@@ -50,7 +50,7 @@ def _publisher(redis_url: str) -> WakeUpPublisher:
 
 
 def wake_relay(redis_url: str | None) -> None:
-    """Wake the relay, because there are new blocks; returns at once and never raises."""
+    """Wake the relay, because there are new blocks. Returns at once and never raises."""
     if redis_url is not None:
         _publisher(redis_url).publish()
 

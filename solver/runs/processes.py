@@ -18,7 +18,7 @@ Report = Callable[[float, int, str], None]
 
 
 class Advance(Protocol):
-    """A call's way to say how far it is; returns whether to go on."""
+    """A call's way to say how far it is. Returns whether to go on."""
 
     def __call__(self, fraction: float, parts: int = 0, /) -> bool:
         """Say which fraction of the call is done, and how many of its parts."""
