@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jointplay.figures import marks, page, study_facts
-from jointplay.figures.exponents import draw_exponents
+from jointplay.figures.exponents import BARS, draw_exponents
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import alike
@@ -58,7 +58,8 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     if has_strip := bool(directions and verdicts):
         heights.append(_STRIP_HEIGHT)
     entries = _legend(diagram, verdicts if has_strip else ())
-    figure, panels = page.stack(heights, page.legend_rows(entries))
+    note = BARS if has_exponent else ""
+    figure, panels = page.stack(heights, page.legend_rows(entries), page.caption_height(note))
     rows = [marks.sections(source, name, points) for name in names]
     units = [by_name(source.observables)[name].unit for name in names]
     for axes, name, row, unit in zip(panels, names, rows, alike(units, rows), strict=False):
@@ -72,6 +73,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         diagram.axis.dress(axes)
     page.finish_stack(figure, panels, diagram.axis.label)
     page.legend_of_marks(figure, entries)
+    page.caption(figure, note)
     return figure
 
 
@@ -82,7 +84,7 @@ def _sections(axes: page.Axes, diagram: _Diagram, label: str, rows: Floats) -> N
         members = group.members[diagram.points]
         across = np.repeat(diagram.axis.shown[members], rows.shape[1])
         marks.draw_cloud(axes, across, rows[members].ravel(), group.colour, size)
-    axes.set_ylabel(page.in_two_lines(label))
+    axes.set_ylabel(page.in_lines(label))
 
 
 def _verdicts(

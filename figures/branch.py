@@ -66,7 +66,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         for branch, x, y in placed:
             _curve(axes, branch, x, y)
         name_special(axes, placed)
-        axes.set_ylabel(page.in_two_lines(unit.label(name)))
+        axes.set_ylabel(page.in_lines(unit.label(name)))
     page.finish_stack(figure, panels, across.label(parameter.name), panels[0])
     return figure
 

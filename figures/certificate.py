@@ -54,11 +54,14 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
         errors = arrays["error"].values[chosen, stored.index(name)]
         finite = errors[np.isfinite(errors)]
         shown = scale(scene_facts.channel(source, name).unit, finite)
-        floor = _SMALLEST * max(float(finite.max(initial=0.0)), np.finfo(np.float64).tiny)
-        drawn = np.maximum(errors, floor) / shown.factor
-        axes.plot(across.shown(time), drawn, color=colours.COMPUTED, label="estimated error")
-        axes.set_yscale("log")
-        log_axis.number(axes.yaxis, intervals=5)
+        floor = _SMALLEST * float(finite.max(initial=0.0))
+        if floor > 0.0:
+            drawn = np.maximum(errors, floor) / shown.factor
+            axes.plot(across.shown(time), drawn, color=colours.COMPUTED, label="estimated error")
+            axes.set_yscale("log")
+            log_axis.number(axes.yaxis, intervals=5)
+        else:
+            page.instead(axes, "0 everywhere" if len(finite) else "not known")
         across.shade(axes)
         if time[0] <= end <= time[-1]:
             look: page.Look = {"color": colours.MARKED, "linestyle": "--", "linewidth": 0.7}

@@ -195,7 +195,9 @@ def _paint_values(
     bar = figure.colorbar(
         drawn, ax=axes, location="top", aspect=25.0, extend=ends.get(beyond, "both")
     )
-    if (known == np.round(known)).all():  # such as periods, which are counted
+    if len(known) and known.min() == known.max():
+        bar.set_ticks([low], labels=[f"{low:.4g} everywhere"])
+    elif (known == np.round(known)).all():  # such as periods, which are counted
         bar.locator = MaxNLocator("auto", integer=True)
     bar.ax.set_gid(page.WITHOUT_SCALE)
     bar.set_label(shown.label(described.long_name))

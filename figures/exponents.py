@@ -14,6 +14,7 @@ from jointplay.records.study import StudySource
 
 _PANEL_HEIGHT: Final = 45.0  # mm
 _LOW_HEIGHT: Final = 25.0
+BARS: Final = "Bars: standard errors of the exponents."
 
 
 def draw_exponents(
@@ -65,17 +66,18 @@ def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
     points = study_facts.chosen_points(source, selection)
     axis = ParameterAxis(source, 0, points)
-    verdicts = study_facts.by_verdict(source) or (study_facts.everything(source),)
-    entries = {one.name: ("o", one.colour) for one in verdicts} if len(verdicts) > 1 else {}
+    verdicts = study_facts.by_verdict(source)
+    entries = {one.name: ("o", one.colour) for one in verdicts}
     entries |= axis.legend()
+    groups = verdicts or (study_facts.everything(source),)
     tested = source.indicators.get("zero_one")
     if tested is not None and not np.isfinite(tested[points]).any():
         tested = None  # too few sections for this test
     heights = [_PANEL_HEIGHT, *([_LOW_HEIGHT] if tested is not None else [])]
-    figure, panels = page.stack(heights, page.legend_rows(entries))
-    draw_exponents(panels[0], source, points, axis.shown, verdicts)
+    figure, panels = page.stack(heights, page.legend_rows(entries), page.caption_height(BARS))
+    draw_exponents(panels[0], source, points, axis.shown, groups)
     if tested is not None:
-        for group in verdicts:
+        for group in groups:
             members = group.members[points] & np.isfinite(tested[points])
             values = np.clip(tested[points][members], -0.1, 1.1)
             look: page.Look = {"color": group.colour, "markersize": 1.6, "markeredgewidth": 0.0}
@@ -86,6 +88,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         axis.dress(axes)
     page.finish_stack(figure, panels, axis.label)
     page.legend_of_marks(figure, entries)
+    page.caption(figure, BARS)
     return figure
 
 

@@ -56,9 +56,9 @@ def _rose(axes: page.Axes, edges: Floats, forces: Floats, quantity: str, colour:
         edges[:-1], forces / newtons.factor, np.diff(edges), align="edge", color=colour, linewidth=0
     )
     axes.set_xticks(np.arange(8) * np.pi / 4.0)
-    rim = axes.get_ylim()[1]
-    numbers = MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values(0.0, rim)
-    axes.set_yticks([one for one in numbers if 0.0 < one <= _OUTERMOST * rim])
+    outermost = _OUTERMOST * axes.get_ylim()[1]
+    numbers = MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values(0.0, outermost)
+    axes.set_yticks([one for one in numbers if 0.0 < one <= outermost])
     axes.set_rlabel_position(_emptiest(edges, forces))  # type: ignore[attr-defined]  # of polar axes
     axes.tick_params(pad=-1.0)
     axes.grid(linewidth=0.3)

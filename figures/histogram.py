@@ -32,8 +32,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
         axes.set_xlabel(shown.label(name))
         axes.set_ylabel(_density(shown.unit))
         if len(values) < _FEWEST_SAMPLES or np.ptp(values) == 0.0:
-            axes.text(0.5, 0.5, _NOTHING, transform=axes.transAxes, ha="center", va="center")
-            axes.set_yticks([])
+            page.instead(axes, _NOTHING)
             axes.set_xticks([])
             continue
         density, edges = np.histogram(values / shown.factor, _BINS, density=True)

@@ -52,7 +52,8 @@ class OverDiagram:
         ):
             size = marks.size(int(np.count_nonzero(np.isfinite(rows))))
             marks.draw_cloud(axes, across, rows.ravel() / unit.factor, colours.NO_VERDICT, size)
-            axes.set_ylabel(page.in_two_lines(unit.label(name)))
+            axes.lines[-1].set_label("sections")
+            axes.set_ylabel(page.in_lines(unit.label(name)))
             self._axis.dress(axes)
         return figure, list(panels)
 

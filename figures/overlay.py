@@ -63,7 +63,7 @@ def _draw(panels: Mapping[str, Sequence[Curve]]) -> page.Figure:
                 label=label,
                 rasterized=len(curve.time) > page.MOST_VECTOR_POINTS,
             )
-        axes.set_ylabel(shown.label(page.in_two_lines(name)))
+        axes.set_ylabel(page.in_lines(shown.label(name)))
     page.finish_stack(figure, stacked, seconds.label("time"))
     page.legend(figure, stacked[0], ncols=columns)
     return figure

@@ -186,12 +186,20 @@ def corner_text(axes: Axes, text: str) -> None:
     axes.set_title(text, loc="left", fontsize=in_font(7.0), pad=2.5)
 
 
-def in_two_lines(label: str) -> str:
-    """Break the label of an axis after the name of a part, where it is long and in one line."""
+def instead(axes: Axes, text: str) -> None:
+    """Say in a panel why nothing is drawn there."""
+    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center")
+    axes.set_yticks([])
+
+
+def in_lines(label: str) -> str:
+    """Break the label of an axis before its unit where it is long, and after a part's name."""
     if len(label) <= _LONGEST_LABEL or "\n" in label:
         return label
-    part, dot, quantity = label.partition(".")
-    return f"{part}\n{quantity}" if dot else label
+    name, bracket, unit = label.partition(" [")
+    if len(name) > _LONGEST_LABEL:
+        name = name.replace(".", "\n", 1)
+    return f"{name}\n[{unit}" if bracket else name
 
 
 def legend_rows(entries: Sequence[Any] | Mapping[str, Any]) -> int:

@@ -89,7 +89,9 @@ def _portrait(axes: page.Axes, source: Source, panel: _Panel, selection: Selecti
             rasterized=len(time) > page.MOST_VECTOR_POINTS,
             label="in contact",
         )
-    if len(points[rate]):
+    if len(time) > 1 and all(np.ptp(path[name]) == 0.0 for name in panel.names):
+        page.instead(axes, "at rest")
+    elif len(points[rate]):
         axes.plot(
             points[position] / across.factor,
             points[rate] / up.factor,

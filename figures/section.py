@@ -88,7 +88,7 @@ def _scatter(
         marks.draw_cloud(axes, x / across.factor, y / up.factor, group.colour, size)
     axes.margins(_MARGIN)
     for axis, unit, name in ((axes.xaxis, across, pair[0]), (axes.yaxis, up, pair[1])):
-        axis.set_label_text(_with_offset(axis, unit.label(_short(name))))
+        axis.set_label_text(_with_offset(axis, page.in_lines(unit.label(_short(name)))))
     parts = {name.rpartition(".")[0] for name in pair}
     if len(parts) == 1:
         page.corner_text(axes, parts.pop())

@@ -25,23 +25,26 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     note = aliased(source, names, max(one.step for one in spectra))
     figure, panels = page.stack([_PANEL_HEIGHT] * len(names), marked, page.caption_height(note))
     page.caption(figure, note)
+    ends = [drive] if marked else []
     for axes, name, spectrum in zip(panels, names, spectra, strict=True):
         unit = scene_facts.channel(source, name).unit
         axes.set_ylabel(f"{name}\n[{per_hertz(unit)}]")
         frequency, power = spectrum.frequency, spectrum.power
         if not len(frequency):
-            axes.text(0.5, 0.5, NOTHING, transform=axes.transAxes, ha="center", va="center")
-            axes.set_yticks([])
+            page.instead(axes, NOTHING)
             continue
         axes.loglog(*spectrum.thinned(), color=colours.COMPUTED, linewidth=0.6)
         top = float(power.max())
-        axes.set_ylim(max(top * 10.0**-_DECADES, float(power.min()) / 3.0), 3.0 * top)
-        axes.set_xlim(_MARGIN * frequency[0], frequency[-1])
+        bottom = max(top * 10.0**-_DECADES, float(power.min()) / 3.0)
+        axes.set_ylim(bottom, 3.0 * top)
+        ends += [_MARGIN * frequency[0], frequency[power >= bottom][-1]]
         if marked:
             look: page.Look = {"color": colours.MARKED, "linewidth": 0.7, "linestyle": (0, (4, 3))}
             axes.axvline(drive, zorder=1.5, label="once a period of the drivers", **look)
-        log_axis.number(axes.xaxis)
         log_axis.number(axes.yaxis)
+    if ends:
+        panels[-1].set_xlim(min(ends), max(ends))
+        log_axis.number(panels[-1].xaxis)
     explained = next(axes for axes in panels if axes.lines) if marked else None
     page.finish_stack(figure, panels, "frequency [Hz]", explained)
     return figure

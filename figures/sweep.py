@@ -94,13 +94,13 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     for panels, row in zip(grid, rows, strict=True):
         for axes, (which, values) in zip(panels, row.panels.items(), strict=True):
             if up:
-                label = f"{which}\n{row.label}".strip()
+                label = f"{which}\n{page.in_lines(row.label)}".strip()
                 _map(figure, axes, values / row.shown.factor, label, across, up[0])
                 continue
             _curve(axes, values / row.shown.factor, across)
             if panels is grid[0]:
                 page.corner_text(axes, which)
-        panels[0].set_ylabel(up[0].label if up else page.in_two_lines(row.label))
+        panels[0].set_ylabel(up[0].label if up else page.in_lines(row.label))
     for axes in grid[-1]:
         axes.set_xlabel(across.label)
     if not up:

@@ -53,7 +53,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
         look: page.Look = {"color": colours.MARKED, "label": "extreme between samples"} | page.RING
         axes.plot(across.shown(when), extremes / shown.factor, "o", **look)
         across.shade(axes)
-        axes.set_ylabel(shown.label(name))
+        axes.set_ylabel(page.in_lines(shown.label(name)))
     page.finish_stack(figure, panels, across.label, panels[0] if explained else None)
     return figure
 

@@ -36,7 +36,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
             label=label,
         )
         axes.plot(x[:1], y[:1], "o", color=colours.MARKED, label="first sample")
-        axes.set_ylabel(page.in_two_lines(up.label(name)))
+        axes.set_ylabel(page.in_lines(up.label(name)))
     page.finish_stack(figure, panels, across.label(first), panels[0])
     return figure
 

@@ -69,6 +69,13 @@ def test_a_rose_has_a_sector_as_long_as_the_force_in_it():
     ]
 
 
+def test_a_rose_has_a_number_of_newtons_whatever_its_size():
+    for force in np.geomspace(1.0, 10.0, 30):
+        rose = pressed(lambda t: np.pi * t, lambda t, force=force: force + 0.0 * t)
+        _, right = figures.draw(rose, "force-rose", LEFT).axes
+        assert len(right.get_yticks())
+
+
 def test_a_loop_shows_one_contact_and_the_energy_that_it_took():
     first, _ = figures.draw(MOTION, "impact-loop").axes
     loading, unloading = first.lines

@@ -48,6 +48,7 @@ def test_stable_orbits_lie_on_the_sections():
     axes = drawn_with(seen(), "branch", Selection(over=diagram())).axes[0]
     cloud, full, dashed = axes.lines[:3]
     assert cloud.get_xdata() == pytest.approx(np.repeat(SPEEDS, 2))
+    assert cloud.get_label() == "sections"
     assert (full.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
     assert full.get_xdata() == pytest.approx(HEIGHTS[:3] ** 2 - 1.0)
     assert full.get_ydata() == pytest.approx(HEIGHTS[:3])

@@ -99,6 +99,16 @@ def test_what_is_counted_has_whole_numbers_beside_its_colours():
     assert bar.get_xticks().tolist() == [0.0, 1.0]
 
 
+def test_a_quantity_that_is_the_same_everywhere_is_one_number():
+    found = running()
+    ended = np.full(found.points, PointStatus.done, np.uint8)
+    same = found.indicators | {"lyapunov": np.full(found.points, 0.25)}
+    found = replace(found, status=ended, indicators=same)
+    figure = drawn_with(found, "chart", select(found, ["lyapunov"]))
+    (bar,) = (axes for axes in figure.axes if axes.get_label() == "<colorbar>")
+    assert [label.get_text() for label in bar.get_xticklabels()] == ["0.25 everywhere"]
+
+
 def test_a_logarithmic_axis_has_the_numbers_of_its_parameter():
     spaced = running()
     values = spaced.values * [1.0, 0.0] + [0.0, 20.0] * 1.1**spaced.values

@@ -51,7 +51,7 @@ def test_axes_end_where_they_are_told_in_the_unit_that_they_show():
     axes = panel("left.eccentricity_x", x_min=0.5, y_max=800.0, units="um")
     assert axes.get_xlim() == pytest.approx((0.5, axes.get_xlim()[1]))
     assert axes.get_ylim()[1] == 800.0
-    assert axes.get_ylabel() == "left.eccentricity_x [µm]"
+    assert axes.get_ylabel() == "left.eccentricity_x\n[µm]"
 
 
 def test_an_end_alone_leaves_no_white_beside_the_values():

@@ -14,7 +14,9 @@ from test_every_figure import CHOICES
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection, UnknownFigure, colours, page
 from jointplay.figures.mechanism_marks import EDGE, TINTS
+from jointplay.records.channel import Channel
 from jointplay.records.peak import Peak
+from jointplay.records.run import Dataset
 from tests.sampled import sampled
 
 
@@ -240,6 +242,16 @@ def test_time_histories_are_bounded_in_number(motion):
     many = Selection(channels=tuple(channel.name for channel in motion.channels))
     with pytest.raises(NotDrawable, match="at most 8"):
         figures.draw(motion, "time-history", many)
+
+
+def test_long_names_stay_beside_their_panels():
+    time = np.linspace(0.0, 1.0, 100)
+    values = {"angular_acceleration": 2e4 * time, "follower.angular_acceleration": -2e4 * time}
+    channels = [Channel(name, "rad/s^2", name) for name in values]
+    run = Dataset({"scene": {}}, channels, time, values)
+    for axes in drawn_with(run, "time-history", Selection(channels=tuple(values))).axes:
+        name = axes.yaxis.label.get_window_extent()
+        assert axes.bbox.y0 <= name.y0 <= name.y1 <= axes.bbox.y1
 
 
 def test_the_mechanism_is_drawn_where_its_pose_says():

@@ -58,6 +58,15 @@ def test_a_long_history_is_drawn_by_its_extremes():
     assert frequency[power.argmax()] == pytest.approx(1234.5, rel=0.01)  # a column of the page
 
 
+def test_the_axis_ends_where_its_curve_does():
+    source = sampled(8000, 100.0, bell=lambda t: np.exp(-0.5 * (t - 40.0) ** 2))
+    with page.style():
+        (axes,) = figures.draw(source, "spectrum", Selection(("bell",))).axes
+    frequency, power = axes.lines[0].get_data()
+    shown = power >= axes.get_ylim()[0]
+    assert axes.get_xlim()[1] == frequency[shown][-1] < 20.0  # half the sampling frequency is 50
+
+
 def test_a_window_chooses_the_part_of_the_motion():
     source = sampled(
         8000, 100.0, tone=lambda t: np.sin(2.0 * np.pi * np.where(t < 40.0, 5.0, 20.0) * t)

@@ -302,6 +302,9 @@ def test_exponents_alone_are_drawn_with_their_verdicts():
         np.testing.assert_array_equal(
             shown[colour.upper()][:, 1], source.indicators["lyapunov"][chosen]
         )
+    source.verdicts[:] = 1
+    (legend,) = drawn_with(source, "exponents", None).legends
+    assert [text.get_text() for text in legend.get_texts()] == ["periodic"]
     with pytest.raises(NotDrawable, match="no exponents"):
         figures.draw(bifurcation(points=3), "exponents")
     with pytest.raises(NotDrawable, match="over one parameter"):
