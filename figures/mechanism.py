@@ -6,6 +6,7 @@ from typing import Any
 from jointplay.figures import page, sampling, saving, scene_facts
 from jointplay.figures.adjustment import drawn
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
+from jointplay.figures.mechanism_elements import springs
 from jointplay.figures.mechanism_geometry import Pose
 from jointplay.figures.mechanism_labels import draw_labels
 from jointplay.figures.mechanism_marks import draw_gravity
@@ -53,6 +54,7 @@ def _draw(scene: Mapping[str, Any], pose: Pose) -> page.Figure:
     metre = view.metres.factor
     draw_placed(axes, placed, metre)
     lines = [curve.points for curve in placed.curves]
+    lines += springs(placed.elements, placed.shape.size)
     draw_labels(axes, placed.shape, lines, metre, view.points_a_metre)
     draw_gravity(axes, placed.shape)
     page.legend(figure, axes)

@@ -9,6 +9,7 @@ import numpy as np
 
 from jointplay.figures import colours, page
 from jointplay.figures.mechanism_geometry import GROUND, Point, Pose, angle_of, world
+from jointplay.records.arrays import Floats
 
 TURNING = ("torsion-spring", "torque", "motor")
 _COILS, _WIDTH = 6, 0.02
@@ -59,6 +60,13 @@ def elements(scene: Mapping[str, Any], pose: Pose) -> list[Element]:
     return found
 
 
+def springs(drawn: list[Element], size: float) -> list[Floats]:
+    """Return the lines of springs, (corners, 2) m each, in a mechanism of this extent [m]."""
+    return [
+        _zigzag(one, size) for one in drawn if one.direction is None and one.kind not in TURNING
+    ]
+
+
 def wheels(scene: Mapping[str, Any], pose: Pose) -> list[Wheels]:
     """Place the gears of a scene."""
     found = []
@@ -86,10 +94,8 @@ def draw_elements(axes: page.Axes, drawn: list[Element], size: float, metre: flo
             look: page.Look = {"color": colours.COMPUTED, "markersize": 13.0, "fillstyle": "none"}
             look |= {"linestyle": "none", "markeredgewidth": 0.9, "zorder": 6}
             axes.plot([x / metre], [y / metre], marker=_turn(), **look)
-        else:
-            axes.plot(
-                *(_zigzag(element, size) / metre), color=colours.COMPUTED, linewidth=0.9, zorder=3
-            )
+    for line in springs(drawn, size):
+        axes.plot(*(line.T / metre), color=colours.COMPUTED, linewidth=0.9, zorder=3)
 
 
 def draw_wheels(axes: page.Axes, drawn: list[Wheels], metre: float) -> None:
@@ -129,14 +135,14 @@ def _turn() -> page.MarkerPath:
     return Path([point for stroke in strokes for point in stroke], codes)
 
 
-def _zigzag(element: Element, size: float) -> np.ndarray:
-    """Return the line of a spring, (2, corners) m."""
+def _zigzag(element: Element, size: float) -> Floats:
+    """Return the line of a spring, (corners, 2) m."""
     start, end = np.array(element.first), np.array(element.second)
     along = end - start
     length = float(np.hypot(*along))
     if length == 0.0:
-        return np.stack([start, end], axis=1)
+        return np.stack([start, end])
     across = np.array([-along[1], along[0]]) / length * _WIDTH * size
     shares = np.array([0.0, 0.2, *np.linspace(0.25, 0.75, 2 * _COILS), 0.8, 1.0])
     sides = np.array([0.0, 0.0, *([1.0, -1.0] * _COILS), 0.0, 0.0])
-    return np.asarray(start[:, None] + np.outer(along, shares) + np.outer(across, sides))
+    return np.asarray(start + np.outer(shares, along) + np.outer(sides, across))

@@ -30,7 +30,7 @@ _BEARINGS_ACROSS = 6.0
 
 @dataclass(frozen=True)
 class JointMark:
-    """One joint: its sign, its place [m], and the direction of its axis if it slides [rad]."""
+    """One joint: its sign, its place [m], the direction of its axis if it slides [rad], play."""
 
     name: str
     look: str
@@ -38,6 +38,7 @@ class JointMark:
     grounded: bool
     axis: float | None
     bodies: tuple[str, str]
+    play: bool
 
 
 @dataclass(frozen=True)
@@ -137,6 +138,7 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
                 grounded=GROUND in bodies,
                 axis=axis,
                 bodies=bodies,
+                play=play_of(joint) > 0.0,
             )
         )
     return Geometry(

@@ -1,15 +1,15 @@
 """Names beside bodies and joints, where they cover neither, nor each other."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from itertools import product
+from typing import Final
 
 import numpy as np
 
 from jointplay.figures import colours, page
 from jointplay.figures.mechanism_geometry import (
-    WITH_CLEARANCE,
     Geometry,
     JointMark,
     Point,
@@ -21,6 +21,14 @@ from jointplay.records.arrays import Floats
 _DISTANCE = 7.0  # points from the middle of a mark to its name
 _BLOCK_DISTANCE = BLOCK_SIZE / 2.0 + 2.0
 _SIZE = 6.0
+_LINE = 1.2 * _SIZE
+_LINES_ABOVE = {"top": 0.0, "center": 0.5, "bottom": 1.0}
+"""Share of the further lines of a name that are above its place, by its alignment there."""
+_LOOKS: Final = (
+    (True, {"color": colours.MARKED, "weight": "bold"}),
+    (False, {"color": colours.GEOMETRY}),
+)
+"""Looks of names by whether joints have play."""
 _LETTER_WIDTH = 0.62 * _SIZE  # of the typeface, on average
 _NEAR = 0.03
 """A body this close to a joint, in extents of the mechanism, is in the way of its name."""
@@ -55,10 +63,11 @@ class _Place:
             "center" if abs(y) < 0.4 else ("bottom" if y > 0.0 else "top"),
         )
 
-    def box(self, text: str, points_per_metre: float) -> _Box:
-        """Left, low, right and high edge of the text [points], estimated."""
+    def box(self, lines: Sequence[str], points_per_metre: float) -> _Box:
+        """Left, low, right and high edge of lines of text [points], estimated."""
         horizontal, vertical = self.alignment
-        width, height = page.in_font(_LETTER_WIDTH) * len(text), page.in_font(1.2 * _SIZE)
+        width = page.in_font(_LETTER_WIDTH) * max(map(len, lines))
+        height = page.in_font(_LINE) * len(lines)
         x = self.point[0] * points_per_metre + self.apart * math.cos(self.angle)
         y = self.point[1] * points_per_metre + self.apart * math.sin(self.angle)
         left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[horizontal] * width
@@ -90,39 +99,42 @@ def draw_labels(
     points = metre * points_per_metre
     frame = (left * points, low * points, right * points, high * points)
 
-    def write(text: str, places: Iterator[_Place], **look: Any) -> None:
+    def write(looks: Mapping[str, page.Look], places: Iterator[_Place]) -> None:
         def merit(place: _Place) -> tuple[int, float]:
-            box = place.box(text, points_per_metre)
+            box = place.box([*looks], points_per_metre)
             faults = sum(_overlap(box, other) for other in written) + (not _within(box, frame))
             faults += sum(_is_crossed(box, line) for line in lines)
             return -faults, place.merit
 
         best = max(places, key=merit)
-        written.append(best.box(text, points_per_metre))
+        written.append(best.box([*looks], points_per_metre))
         horizontal, vertical = best.alignment
-        note = axes.annotate(
-            text,
-            xy=(best.point[0] / metre, best.point[1] / metre),
-            xytext=(best.apart * math.cos(best.angle), best.apart * math.sin(best.angle)),
-            textcoords="offset points",
-            ha=horizontal,
-            va=vertical,
-            fontsize=page.in_font(_SIZE),
-            zorder=6,
-            **look,
-        )
-        note.set_in_layout(False)
+        x, y = best.apart * math.cos(best.angle), best.apart * math.sin(best.angle)
+        y += page.in_font(_LINE) * (len(looks) - 1) * _LINES_ABOVE[vertical]
+        for text, look in looks.items():
+            note = axes.annotate(
+                text,
+                xy=(best.point[0] / metre, best.point[1] / metre),
+                xytext=(x, y),
+                textcoords="offset points",
+                ha=horizontal,
+                va=vertical,
+                fontsize=page.in_font(_SIZE),
+                zorder=6,
+                **look,
+            )
+            note.set_in_layout(False)
+            y -= page.in_font(_LINE)
 
     for point, joints in shape.places():
-        play = any(joint.look == WITH_CLEARANCE for joint in joints)
-        write(
-            ", ".join(joint.name for joint in joints),
-            _joint_places(shape, point, joints),
-            color=colours.MARKED if play else colours.GEOMETRY,
-            weight="bold" if play else "normal",
-        )
+        names = {
+            ", ".join(joint.name for joint in joints if joint.play == play): look
+            for play, look in _LOOKS
+        }
+        names.pop("", None)
+        write(names, _joint_places(shape, point, joints))
     for name in shape.bodies:
-        write(name, _body_places(shape, name), color=colours.GEOMETRY, style="italic")
+        write({name: {"color": colours.GEOMETRY, "style": "italic"}}, _body_places(shape, name))
 
 
 def _joint_places(shape: Geometry, point: Point, joints: list[JointMark]) -> Iterator[_Place]:
@@ -153,9 +165,10 @@ def _body_places(shape: Geometry, name: str) -> Iterator[_Place]:
     if len(corners) < 2:
         axes = (joint.axis for joint in shape.joints if name in joint.bodies)
         rails = [axis for axis in axes if axis is not None]
-        for angle in _BESIDE:
+        for farther, angle in product((0.0, 1.0), _BESIDE):
             free = min((abs(math.sin(angle - rail)) for rail in rails), default=1.0)
-            yield _Place(corners[0], angle, _BLOCK_DISTANCE, round(free, 6))
+            apart = _BLOCK_DISTANCE + farther * page.in_font(_LINE)
+            yield _Place(corners[0], angle, apart, round(free - farther, 6))
         return
     along = np.subtract(corners[1], corners[0])
     angle = math.atan2(along[1], along[0])

@@ -61,7 +61,7 @@ def draw_joints(axes: page.Axes, shape: Geometry, metre: float) -> None:
     looks: dict[str, page.Look] = {
         "ideal joint": black | white,
         "driven joint": black | {"markerfacecolor": colours.GEOMETRY},
-        WITH_CLEARANCE: play | white,
+        WITH_CLEARANCE: play | white | {"zorder": 5},  # around others in its place
         "weld": {"markersize": 3.5, "markerfacecolor": EDGE, "color": EDGE, "marker": "s"},
     }
     for joint in shape.joints:
@@ -70,7 +70,7 @@ def draw_joints(axes: page.Axes, shape: Geometry, metre: float) -> None:
             look: page.Look = {"markersize": 13.0, "color": EDGE, "fillstyle": "none", "zorder": 1}
             x, y = joint.place
             axes.plot([x / metre], [y / metre], marker=_support(), markeredgewidth=0.6, **look)
-    common: page.Look = {"marker": "o", "linestyle": "none", "markeredgewidth": 0.8, "zorder": 5}
+    common: page.Look = {"marker": "o", "linestyle": "none", "markeredgewidth": 0.8, "zorder": 5.1}
     for name, look in looks.items():
         places = [joint.place for joint in shape.joints if joint.look == name]
         if places:

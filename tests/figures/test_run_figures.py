@@ -257,9 +257,11 @@ def test_long_names_stay_beside_their_panels():
 def test_the_mechanism_is_drawn_where_its_pose_says():
     with page.style():
         (axes,) = figures.draw_mechanism(SCENE, POSE).axes
-    texts = {text.get_text() for text in axes.texts}
-    assert {"crank", "plate", "block", "foot", "O", "left"} <= texts
-    assert any("right" in text and "guide" in text for text in texts)  # joints in one place
+    names = {text.get_text(): text for text in axes.texts}
+    assert {"crank", "plate", "block", "foot", "O", "left"} <= names.keys()
+    with_play, others = names["right"], names["closed, weld, guide"]  # in one place
+    assert with_play.xy == others.xy
+    assert with_play.get_color() == colours.MARKED != others.get_color()
     rings = [line for line in axes.lines if line.get_label() == "joint with clearance"]
     (ring,) = rings
     # the crank's pin: 0.1 m from its centre, and the block's end, on its centre
