@@ -30,49 +30,55 @@ if TYPE_CHECKING:
     from jointplay.client import Job
 
 
+NAMES = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="[FIGURE]...", help="Figures or channels; default all figures."),
+]
+CHANNELS = Annotated[
+    str | None, typer.Option(metavar="A,B", help="Channels that the figures show.")
+]
+JOINTS = Annotated[str | None, typer.Option(metavar="A,B", help="Joints that the figures show.")]
+OVER = Annotated[
+    str | None,
+    typer.Option(
+        metavar="OUT|ID", help="A chart, basins or, of branches, a diagram, over which orbits lie."
+    ),
+]
+OUTPUT = Annotated[
+    Path,
+    typer.Option("-o", "--output", metavar="FOLDER|FILE", help="Where figures or one go."),
+]
+FORM = Annotated[
+    Literal[Form, FilmForm] | None,
+    typer.Option("--format", help="File type; default png, of the animation alone gif."),
+]
+RATE = Annotated[
+    float | None,
+    typer.Option(
+        metavar="SHARE",
+        help="Of an animation, seconds of motion in one second; default so that it lasts 6 s.",
+    ),
+]
+FRAMES = Annotated[int | None, typer.Option(metavar="N", help="Of an animation; default 20.")]
+IMPACTS = Annotated[
+    bool, typer.Option("--impact-to-impact", help="Of an animation, a frame for each impact.")
+]
+
+
 @with_figure_options
 def plot(
     results: RESULTS,
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="[FIGURE]...", help="Figures or channels; default all figures."),
-    ] = None,
-    channels: Annotated[
-        str | None, typer.Option(metavar="A,B", help="Channels that the figures show.")
-    ] = None,
-    joints: Annotated[
-        str | None, typer.Option(metavar="A,B", help="Joints that the figures show.")
-    ] = None,
+    names: NAMES = None,
+    channels: CHANNELS = None,
+    joints: JOINTS = None,
     start: START = None,
     stop: STOP = None,
-    over: Annotated[
-        str | None,
-        typer.Option(
-            metavar="OUT|ID",
-            help="A chart, basins or, of branches, a diagram, over which orbits lie.",
-        ),
-    ] = None,
-    output: Annotated[
-        Path,
-        typer.Option("-o", "--output", metavar="FOLDER|FILE", help="Where figures or one go."),
-    ] = Path(),
-    form: Annotated[
-        Literal[Form, FilmForm] | None,
-        typer.Option("--format", help="File type; default png, of the animation alone gif."),
-    ] = None,
-    rate: Annotated[
-        float | None,
-        typer.Option(
-            metavar="SHARE",
-            help="Of an animation, seconds of motion in one second; default so that it lasts 6 s.",
-        ),
-    ] = None,
-    frames_per_second: Annotated[
-        int | None, typer.Option(metavar="N", help="Of an animation; default 20.")
-    ] = None,
-    impact_to_impact: Annotated[
-        bool, typer.Option("--impact-to-impact", help="Of an animation, a frame for each impact.")
-    ] = False,
+    over: OVER = None,
+    output: OUTPUT = Path(),
+    form: FORM = None,
+    rate: RATE = None,
+    frames_per_second: FRAMES = None,
+    impact_to_impact: IMPACTS = False,
     as_json: AS_JSON = False,
     url: URL = DEFAULT_URL,
     **options: Any,
@@ -85,20 +91,15 @@ def plot(
     `jointplay plot OUT curves --over CHART` for curves over the map of a chart,
     `jointplay plot OUT animation --start 0.2 --stop 0.21 --rate 0.002` for slow motion
     """
-    chosen = {"channels": channels, "joints": joints, "start": start, "stop": stop, "over": over}
+    chosen = _given(channels=channels, joints=joints, start=start, stop=stop, over=over)
     paths, ending = figure_paths(output, names, form)
-    given = [name for name, value in chosen.items() if value is not None]
-    if given and not names:
-        raise Stopped(f"--{given[0]} chooses what a figure shows; name the figure.")
+    if chosen and not names:
+        raise Stopped(f"--{next(iter(chosen))} chooses what a figure shows; name the figure.")
     check_ends(start, stop)
-    page = page_of(options)
-    asked = {
-        "rate": rate,
-        "frames_per_second": frames_per_second,
-        "impact_to_impact": impact_to_impact or None,
-    }
-    pace = {name: value for name, value in asked.items() if value is not None}
-    shown = {"joint": listed(joints) or (), "start": start, "stop": stop, **page.given()}
+    by_impacts = impact_to_impact or None
+    pace = _given(rate=rate, frames_per_second=frames_per_second, impact_to_impact=by_impacts)
+    page = page_of(options).given()
+    shown = {"joint": listed(joints) or (), "start": start, "stop": stop, **page}
     with ExitStack() as stack:
         job = stack.enter_context(job_of(results, url))
         beneath = None if over is None else stack.enter_context(job_of(over, url))
@@ -106,20 +107,17 @@ def plot(
         check_start(job, start)
         if is_film(names, ending, pace):
             for name, it in (("channels", "them"), ("over", "it")):
-                if name in given:
+                if name in chosen:
                     raise Stopped(f"--{name}: a film shows none; leave {it} out.")
-            refused: list[str] = []
-            written = draw_film(job, paths, ending or "gif", **shown, **pace)
+            drawn = Drawn(draw_film(job, paths, ending or "gif", **shown, **pace), [])
         else:
             shown |= {"channel": listed(channels) or (), "over": beneath}
             drawn = draw_all(job, paths, names, cast("Form", ending or "png"), **shown)
-            written, refused = drawn.written, drawn.refused
-    found = {"figures": written} | ({"refused": refused} if refused else {})
-    for line in refused:
-        typer.echo(f"jointplay: {line}", err=True)
-    tell(found, [one["path"] for one in written], as_json=as_json)
-    if refused:
-        raise typer.Exit(Exit.BAD_INPUT)
+    _tell(drawn, as_json=as_json)
+
+
+def _given(**asked: Any) -> dict[str, Any]:
+    return {name: value for name, value in asked.items() if value is not None}
 
 
 class Drawn(NamedTuple):
@@ -156,3 +154,13 @@ def draw_all(
             drawn.written.append({"name": name, "path": str(path)})
         report(1.0, "")
     return drawn
+
+
+def _tell(drawn: Drawn, *, as_json: bool) -> None:
+    """Name the figures that were written, and what was refused, which is bad input."""
+    found = {"figures": drawn.written} | ({"refused": drawn.refused} if drawn.refused else {})
+    for line in drawn.refused:
+        typer.echo(f"jointplay: {line}", err=True)
+    tell(found, [one["path"] for one in drawn.written], as_json=as_json)
+    if drawn.refused:
+        raise typer.Exit(Exit.BAD_INPUT)
