@@ -72,12 +72,10 @@ def prepare(name: str, folder: Path, side: int, *, on_host: bool = False) -> Non
         flush=True,
     )
     sizes = Sizes(0, kernel.layout.size, *CAPACITY)
-    kept = {"whole": [], "lean": sorted(slots_of_energies(kernel))}
     scratch = [kernel.layout["potential"], kernel.layout["stored"]]
-    compared = {
-        which: np.setdiff1d(np.arange(len(work)), [*scratch, *left_out])
-        for which, left_out in kept.items()
-    }
+    left_out = {"whole": scratch, "lean": [*scratch, *slots_of_energies(kernel)]}
+    every = np.arange(len(work))
+    compared = {which: np.setdiff1d(every, some) for which, some in left_out.items()}
     varied = np.flatnonzero((work != work[:, :1]).any(axis=1))
     np.savez_compressed(
         folder / f"{name}.npz",
