@@ -166,8 +166,13 @@ function springs(scene, pose) {
 }
 
 function joints(scene, pose) {
-  const driven = new Set(Object.values(scene.drivers ?? {}).map(({ joint }) => joint));
-  return Object.entries(scene.joints).flatMap(([name, joint]) => {
+  const drivers = Object.values(scene.drivers ?? {});
+  const [driven, moved] = ["joint", "body"].map((of) => new Set(drivers.map((driver) => driver[of])));
+  const isDriven = (name, joint) =>
+    driven.has(name) || (marks(joint).turns && moved.has(ends(joint)[1].split(".")[0]));
+  const around = ([, joint]) => (play(joint) > 0 ? 0 : 1); // rings lie under others in their place
+  const ordered = Object.entries(scene.joints).sort((a, b) => around(a) - around(b));
+  return ordered.flatMap(([name, joint]) => {
     if (!marks(joint).sign) return [];
     const at = placeOf(scene, pose, ends(joint)[1]);
     if (marks(joint).sign === "weld") {
@@ -176,22 +181,22 @@ function joints(scene, pose) {
     }
     const disc = { kind: "disc", points: [at], stroke: "edge", fill: "paper", width: 1.4 };
     if (play(joint) > 0) return [{ ...disc, radius: 6.5, stroke: "play", width: 3 }];
-    return [{ ...disc, radius: 4.5, fill: driven.has(name) ? "edge" : "paper" }];
+    return [{ ...disc, radius: 4.5, fill: isDriven(name, joint) ? "edge" : "paper" }];
   });
 }
 
 function names(scene, pose) {
   const written = [];
-  const label = (text, at, look) => {
+  const ofJoints = Object.entries(scene.joints).filter(([, joint]) => marks(joint).sign).map(([text, joint]) => {
+    const at = placeOf(scene, pose, ends(joint)[1]);
     const near = written.filter(([x, y]) => Math.hypot(x - at[0], y - at[1]) < 1e-6).length;
     written.push(at);
-    return { kind: "text", points: [[...at, 10, -9 - 13 * near]], text, colour: "ink", ...look };
-  };
-  const ofJoints = Object.entries(scene.joints)
-    .filter(([, joint]) => marks(joint).sign)
-    .map(([name, joint]) => label(name, placeOf(scene, pose, ends(joint)[1]), { bold: true }));
-  const ofBodies = Object.keys(scene.bodies).map((name) =>
-    label(name, pose[name].slice(0, 2), { italic: true, colour: "quiet" }));
+    return { kind: "text", points: [[...at, 10, -9 - 13 * near]], text, colour: "ink", bold: true };
+  });
+  const ofBodies = Object.keys(scene.bodies).map((text) => { // below, where no joint's name is
+    const [x, y] = pose[text];
+    return { kind: "text", points: [[x, y, 10, 20]], text, colour: "quiet", italic: true };
+  });
   return [...ofBodies, ...ofJoints];
 }
 
