@@ -1,6 +1,6 @@
 /** An axis of a chart: from the index of a point to its value, and the marks beside the map. */
 
-import { axisUnit, short } from "../interface/numbers.js";
+import { apart, axisLabel, axisUnit, short } from "../interface/numbers.js";
 import { ticks } from "../plots/axes.js";
 
 const EVEN = 1e-6; // of a step, by which equal steps differ at most
@@ -23,14 +23,14 @@ export class Axis {
     const clamped = (index) => Math.min(Math.max(Math.round(index), 0), this.count - 1);
     const ends = [this.values[clamped(first)], this.values[clamped(last)]];
     const [one, written] = axisUnit(this.unit, Math.max(...ends.map(Math.abs)));
-    const label = `${this.name} [${written}]`;
+    const label = axisLabel(this.name, written);
     if (!this.even || !this.step) {
       const indices = ticks([Math.max(first, 0), Math.min(last, this.count - 1)], wanted).map(Math.round);
       return { label, marks: [...new Set(indices)].map((i) => [i, short(this.values[i] / one, 4)]) };
     }
     const values = [first, last].map((index) => (this.values[0] + index * this.step) / one);
-    const marks = ticks(values.sort((a, b) => a - b), wanted).map((value) =>
-      [(value * one - this.values[0]) / this.step, short(value, 4)]);
+    const marks = apart(ticks(values.sort((a, b) => a - b), wanted)).map(([value, text]) =>
+      [(value * one - this.values[0]) / this.step, text]);
     return { label, marks };
   }
 }

@@ -49,6 +49,18 @@ export function axisUnit(unit, largest) {
   return [one, prefix + unitText(unit)];
 }
 
+/** Returns the label of an axis; that of a pure number has no brackets. */
+export function axisLabel(name, unit) {
+  return unit ? `${name} [${unit}]` : name;
+}
+
+/** Returns `[value, text]` of ascending numbers along an axis, with digits that tell them apart. */
+export function apart(values) {
+  const steps = values.length * Math.max(...values.map(Math.abs)) / (values.at(-1) - values[0]);
+  const digits = Number.isFinite(steps) ? Math.max(4, Math.ceil(Math.log10(steps)) + 1) : 4;
+  return values.map((value) => [value, short(value, digits)]);
+}
+
 /** Returns a span of seconds for people: 0.3 s, 2 min 5 s, 3 h 20 min. */
 export function span(seconds) {
   if (seconds === null || seconds === undefined) return "–";

@@ -9,7 +9,7 @@ export class Quantities {
   /** @param onchoice called with `{channel, of}` whenever one of them is chosen */
   constructor(query, onchoice) {
     Object.assign(this, { channel: query.get("channel"), of: query.get("of"), onchoice });
-    this.element = element("div", { class: "filters" });
+    this.element = element("div", { class: "filters channels" });
   }
 
   /** Takes the pages of an answer; `together`: the curves of a channel may be shown as one. */
@@ -25,7 +25,9 @@ export class Quantities {
     const others = Object.keys(statistics).filter((name) =>
       !channels.some((channel) => name.startsWith(`${channel}.`)));
     const known = [...channels, ...others];
-    if (!known.includes(this.channel)) [this.channel] = channels;
+    if (!known.includes(this.channel)) { // declared outputs come first, as in figures
+      this.channel = channels.find((name) => !name.includes(".")) ?? channels[0];
+    }
     const of = this.choices();
     if (!of.includes(this.of)) [this.of] = of;
     fill(this.element, this.select("channel", "Of", known), of.length > 1 && this.select("of", "Quantity", of));

@@ -2,6 +2,12 @@
 
 import { element } from "./element.js";
 
+/** Returns a name that may go on in the next line after each of its parts. */
+function breakable(name) {
+  return typeof name !== "string" ? name
+    : name.split(/(?<=[._])/).map((part) => [part, element("wbr")]);
+}
+
 /**
  * Returns a table whose first column names its rows.
  *
@@ -16,6 +22,6 @@ export function table(label, titles, rows, look = "") {
       element("thead", {}, element("tr", {}, titles.map((title, i) =>
         element("th", { scope: "col", class: i ? "number" : "" }, title)))),
       element("tbody", {}, rows.map(([name, ...cells]) => element("tr", {},
-        element("th", { scope: "row" }, name),
+        element("th", { scope: "row" }, breakable(name)),
         cells.map((cell) => element("td", { class: "number" }, cell)))))));
 }

@@ -1,6 +1,6 @@
 /** Axes of plots on a canvas: nice numbers, labels, and the way from values to pixels. */
 
-import { axisUnit, short } from "../interface/numbers.js";
+import { apart, axisLabel, axisUnit } from "../interface/numbers.js";
 
 /** Returns how much larger letters are than on a page of usual size: they grow on large screens. */
 export function letters() {
@@ -63,18 +63,18 @@ export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = tru
   context.strokeRect(left + 0.5, top + 0.5, width, height);
   context.textAlign = "center";
   context.textBaseline = "top";
-  for (const value of ticks([x0 / across.one, x1 / across.one], width / (90 * size))) {
+  for (const [value, text] of apart(ticks([x0 / across.one, x1 / across.one], width / (90 * size)))) {
     const x = Math.round(to.x(value * across.one)) + 0.5;
     line(context, [x, top + height], [x, top + height + 5]);
-    if (numbersX) context.fillText(short(value, 4), x, top + height + 7);
+    if (numbersX) context.fillText(text, x, top + height + 7);
   }
   if (numbersX) context.fillText(across.label, left + width / 2, top + height + 9 + 14 * size);
   context.textAlign = "right";
   context.textBaseline = "middle";
-  for (const value of ticks([y0 / up.one, y1 / up.one], height / (45 * size))) {
+  for (const [value, text] of apart(ticks([y0 / up.one, y1 / up.one], height / (45 * size)))) {
     const y = Math.round(to.y(value * up.one)) + 0.5;
     line(context, [left - 5, y], [left, y]);
-    context.fillText(short(value, 4), left - 8, y);
+    context.fillText(text, left - 8, y);
   }
   writeUpward(context, up.label, top + height / 2);
 }
@@ -94,7 +94,7 @@ function suited(label, values) {
   const [, name, unit] = /^(.*) \[([^\]]*)\]$/.exec(label) ?? [null, label, ""];
   if (!unit) return { label, one: 1 };
   const [one, written] = axisUnit(unit, Math.max(...values.map(Math.abs)));
-  return { label: `${name} [${written}]`, one };
+  return { label: axisLabel(name, written), one };
 }
 
 function line(context, from, to) {

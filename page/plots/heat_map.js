@@ -1,6 +1,6 @@
 /** A map: a value over two parameters, as colours with a scale beside it. */
 
-import { short, unitText } from "../interface/numbers.js";
+import { apart, axisUnit } from "../interface/numbers.js";
 import { axisFont, extent } from "./axes.js";
 
 // dark to light, evenly as the eye sees it (samples of matplotlib's viridis)
@@ -28,11 +28,12 @@ export function drawMap(context, to, [x, y], values, colours, unit) {
   context.font = axisFont();
   context.textAlign = "left";
   context.textBaseline = "middle";
-  for (const share of [0, 0.5, 1]) {
-    const text = short(low + share * (high - low), 3);
-    context.fillText(text, bar + 19, top + (1 - share) * height);
+  const [one, written] = axisUnit(unit, Math.max(Math.abs(low), Math.abs(high)));
+  const numbers = high > low ? [low, (low + high) / 2, high] : [low];
+  for (const [value, text] of apart(numbers.map((number) => number / one))) {
+    context.fillText(text, bar + 19, top + height * (1 - (value * one - low) / (high - low || 1)));
   }
-  context.fillText(unitText(unit), bar, top - 12);
+  context.fillText(written, bar, top - 12);
 }
 
 /** Returns where the cells about an axis' values begin and end. */

@@ -2,7 +2,7 @@
 
 import uPlot from "../vendor/uplot/uPlot.esm.min.js";
 import { element, fill } from "../interface/element.js";
-import { short, unitText, withUnit } from "../interface/numbers.js";
+import { apart, short, unitText, withUnit } from "../interface/numbers.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
 import { pause } from "../requests/service.js";
 import { histories } from "./history_data.js";
@@ -165,7 +165,7 @@ export class HistoryPlots {
         { ...axis, show: true, size: size * (last ? 44 : 18), label: last ? "time [s]" : null, labelSize: 20 * size,
           values: (_, ticks) => ticks.map((one) => (last ? short(one, 6) : "")) },
         { ...axis, size: 74 * size, label: unit === "1" ? "" : unitText(unit), labelSize: 18 * size,
-          values: (_, ticks) => ticks.map((one) => short(one, 4)) },
+          values: (_, ticks) => apart(ticks).map(([, text]) => text) },
       ],
       hooks: {
         drawAxes: [(plot) => {

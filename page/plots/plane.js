@@ -25,7 +25,7 @@ export class Plane {
       return element("div", { class: "field" }, element("label", { for: id }, title), made);
     };
     this.element = element("div", {},
-      element("div", { class: "filters" }, select("Across", 0), select("Up", 1)), this.canvas, this.note);
+      element("div", { class: "filters channels" }, select("Across", 0), select("Up", 1)), this.canvas, this.note);
     onNewColours(() => this.draw(), signal);
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }

@@ -81,7 +81,8 @@ function spreads(channels) {
 function channels({ channels: found }) {
   const between = (low, high, unit, beside) => {
     if (low === null || high === null) return "–";
-    const [a, b] = [low, high].map((value) => withUnit(notRounding(value, beside), unit, 3));
+    const [a, b] = [low, high].map((value) =>
+      withUnit(notRounding(value, beside), unit, 3).replaceAll(" ", "\u00a0"));
     return a === b ? a : `${a} … ${b}`;
   };
   return table("Channels", ["Channel", "Accurate until", "Smallest", "Largest"],
@@ -89,7 +90,7 @@ function channels({ channels: found }) {
       name, until === null ? "–" : withUnit(until, "s", 3),
       between(e.lowest_minimum, e.highest_minimum, unit, e.highest_maximum),
       between(e.lowest_maximum, e.highest_maximum, unit, e.lowest_minimum),
-    ]), "small");
+    ]), "small ranges");
 }
 
 function study(found, figures, over) {
