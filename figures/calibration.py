@@ -28,10 +28,11 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     height = 2.0 * (_PANEL_HEIGHT + page.AXIS_HEIGHT) + page.caption_height(explained)
     figure, ((search,), (misses,)) = page.panels(2, 1, height)
     costs = np.array(found["search"]["best_costs"], np.float64)
-    search.plot(np.arange(len(costs)), costs, color=colours.PERIODIC)
+    search.plot(np.arange(len(costs)), costs, color=colours.COMPUTED)
     search.axhline(found["equally_good_cost"], color=colours.AUXILIARY, linestyle="--")
     search.set_yscale("log")
     log_axis.number(search.yaxis)
+    search.locator_params(axis="x", integer=True)
     search.set_xlabel("generation")
     search.set_ylabel("lowest cost")
     for side in (-1.0, 1.0):
@@ -39,9 +40,9 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     for number, target in enumerate(targets, 1):
         ends = [_miss(target, target[end]) for end in ("lowest", "highest")]
         misses.plot([number, number], ends, color=colours.AUXILIARY, linewidth=1.2)
-        inside = colours.PERIODIC if target["weight"] > 0.0 else "white"
+        inside = colours.COMPUTED if target["weight"] > 0.0 else "white"
         look: page.Look = {"markerfacecolor": inside, "markersize": 3.0, "markeredgewidth": 0.6}
-        misses.plot([number], _miss(target, target["fitted"]), "o", color=colours.PERIODIC, **look)
+        misses.plot([number], _miss(target, target["fitted"]), "o", color=colours.COMPUTED, **look)
     misses.set_xlim(0.0, len(targets) + 1.0)
     misses.locator_params(axis="x", integer=True)
     misses.set_xlabel("target, in the order of the document")

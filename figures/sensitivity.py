@@ -6,7 +6,7 @@ import numpy as np
 
 from jointplay.figures import colours, page
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
-from jointplay.figures.quantity import Scale, scale
+from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
 from jointplay.records.sensitivity.analysis import Question, sensitivity
 from jointplay.records.sensitivity.outputs import channel_of, outputs
@@ -14,6 +14,8 @@ from jointplay.records.study import StudySource
 
 _ROW: Final = 7.0  # mm
 _LEAST: Final = 18.0
+_APART: Final = 0.4
+"""Bars of a parameter, in rows."""
 _MOST: Final = 20
 """Parameters: those of the longest bars."""
 _BARS: Final = {
@@ -45,8 +47,11 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     height = max(_ROW * len(shown), _LEAST) + page.AXIS_HEIGHT
     height += page.LEGEND_HEIGHT * 2 + page.caption_height(explained)
     figure, ((axes,),) = page.panels(1, 1, height)
-    for place, (name, values) in enumerate(zip(names, columns, strict=True)):
-        _bars(axes, [one[shown] for one in values], size, place, name.replace("_", " "))
+    beside = -0.5 * _APART * (len(names) - 1)
+    for name, values, (colour, *_) in zip(names, columns, colours.COMPARED, strict=False):
+        drawn = [one[shown] / size.factor for one in values]
+        _bars(axes, beside, drawn, color=colour, label=name.replace("_", " "))
+        beside += _APART
     axes.axvline(0.0, color=colours.GEOMETRY, linewidth=0.4)
     axes.set_yticks(range(len(shown)), [found["parameters"][at] for at in shown])
     axes.set_ylim(len(shown) - 0.5, -0.5)
@@ -71,15 +76,14 @@ def _columns(measure: dict[str, Any]) -> tuple[Floats, Floats, Floats]:
     return values, low, high
 
 
-def _bars(axes: page.Axes, columns: list[Floats], size: Scale, place: int, label: str) -> None:
-    values, low, high = (column / size.factor for column in columns)
-    colour, *_ = colours.COMPARED[place]
+def _bars(axes: page.Axes, beside: float, columns: list[Floats], **look: Any) -> None:
+    values, low, high = columns
     reach = [np.clip(values - low, 0.0, None), np.clip(high - values, 0.0, None)]
-    across = np.arange(len(values)) + (place - 0.5) * 0.4
-    axes.barh(across, values, 0.36, color=colour, label=label)
+    at = np.arange(len(values)) + beside
+    axes.barh(at, values, 0.9 * _APART, **look)
     axes.errorbar(
         values,
-        across,
+        at,
         xerr=np.nan_to_num(reach),
         fmt="none",
         ecolor=colours.GEOMETRY,

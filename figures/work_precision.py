@@ -66,8 +66,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     last.set_xlabel("evaluations of the equations of motion")
     page.caption(figure, explained)
     figure.align_ylabels()
-    names = above.get_legend_handles_labels()
-    figure.legend(*names, loc="outside upper center", ncols=_LEGEND_COLUMNS)
+    page.legend(figure, above, ncols=_LEGEND_COLUMNS)
     return figure
 
 

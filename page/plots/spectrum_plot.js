@@ -1,4 +1,4 @@
-/** A power spectrum on two logarithmic axes, up to its band limit. */
+/** A power spectrum on two logarithmic axes, as far as its curve is seen. */
 
 import uPlot from "../vendor/uplot/uPlot.esm.min.js";
 import { element, fill } from "../interface/element.js";
@@ -32,7 +32,9 @@ export class SpectrumPlot {
     if (!this.density?.frequency.length || !this.room.clientWidth) return;
     const { frequency, density, unit, band_limit: limit } = this.density;
     const top = density.reduce((most, one) => Math.max(most, one), 0);
-    this.plot = new uPlot(this.options(unit, [top / 10 ** DECADES, 3 * top], limit),
+    const bottom = top / 10 ** DECADES;
+    const last = frequency[density.findLastIndex((one) => one >= bottom)];
+    this.plot = new uPlot(this.options(unit, [bottom, 3 * top], last),
       [frequency, density.map((one) => one || null)], this.room);
     this.element.setAttribute("aria-label", `Power of ${this.channel} over frequency, up to ${
       withUnit(limit, "Hz", 3)}`);
@@ -44,7 +46,7 @@ export class SpectrumPlot {
     return Math.min(Math.max(18 * rem, HEIGHT * innerHeight), 60 * rem);
   }
 
-  options(unit, range, limit) {
+  options(unit, range, last) {
     const size = letters();
     const colours = palette();
     const axis = {
@@ -57,7 +59,7 @@ export class SpectrumPlot {
       height: this.height,
       legend: { show: false },
       scales: {
-        x: { time: false, distr: 3, range: [this.density.frequency[0], limit] },
+        x: { time: false, distr: 3, range: [this.density.frequency[0], last] },
         y: { distr: 3, range },
       },
       cursor: { drag: { x: false, y: false } },

@@ -28,6 +28,8 @@ def test_bars_are_measures_and_lines_their_intervals(design):
         f"clearance_{number}" for number in range(3)
     ]
     bars, lines = axes.containers[::2], axes.containers[1::2]
+    middles = [[bar.get_y() + 0.5 * bar.get_height() for bar in drawn] for drawn in bars]
+    assert np.mean(middles, axis=0) == pytest.approx(axes.get_yticks())
     for name, drawn, reach in zip(BARS[design], bars, lines, strict=True):
         widths = [bar.get_width() * factor for bar in drawn]
         assert widths == pytest.approx(found[name]["values"], abs=1e-12)

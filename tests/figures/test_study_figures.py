@@ -60,6 +60,8 @@ def test_where_nothing_takes_energy_there_is_no_panel_of_it():
 def test_work_and_precision_are_drawn_of_what_has_been_compared():
     with pytest.raises(NotDrawable, match="No run has been compared"):
         figures.draw(accuracy_study(2), "work-precision")
+    (legend,) = drawn_with(accuracy_study(13), "work-precision", None).legends
+    assert [text.get_text() for text in legend.get_texts()] == ["bogacki-shampine", "tsitouras"]
     with pytest.raises(NotDrawable, match="of an accuracy-study"):
         figures.draw(sweep(), "work-precision")
 
@@ -67,6 +69,7 @@ def test_work_and_precision_are_drawn_of_what_has_been_compared():
 def test_a_calibration_shows_its_search_and_every_miss_in_tolerances():
     search, misses = drawn_with(calibration(), "calibration", None).axes
     np.testing.assert_array_equal(search.lines[0].get_ydata(), [np.nan, 10.0, 2.0, 1.0])
+    assert all(generation.is_integer() for generation in search.get_xticks().tolist())
     bars, marks = misses.lines[2::2], misses.lines[3::2]
     assert [list(bar.get_ydata()) for bar in bars] == [[-2.0, 2.0], [0.0, 2.0]]
     assert [float(mark.get_ydata()[0]) for mark in marks] == [1.0, 0.0]
