@@ -23,7 +23,7 @@ const ORBITS = 200; // of a branch that a point offers, in each direction
 class Chart {
   constructor({ job, query, signal }) {
     Object.assign(this, { job, signal, wanted: query.get("quantity") });
-    this.filters = element("div", { class: "filters" });
+    this.filters = element("div", { class: "filters channels" });
     this.place = element("div");
     this.legend = element("ul", { class: "legend" });
     this.under = element("p", { class: "quiet small" });

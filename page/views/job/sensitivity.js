@@ -102,5 +102,5 @@ function quantiles({ quantiles: found, unit, output }) {
 }
 
 function within({ values, low, high }, i, unit) {
-  return `${withUnit(values[i], unit)} (${withUnit(low[i], unit, 3)} … ${withUnit(high[i], unit, 3)})`;
+  return `${withUnit(values[i], unit)} (${withUnit(low[i], unit)} … ${withUnit(high[i], unit)})`;
 }

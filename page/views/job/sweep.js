@@ -112,7 +112,7 @@ class Sweep {
     const count = this.parameters[0].values.length;
     const rows = Array.from({ length: Math.min(count, MOST_ROWS) }, (_, i) => element("tr", {},
       this.parameters.map(({ values, unit: of }) => element("td", {}, withUnit(values[i], of))),
-      curves.map(({ values }) => element("td", {}, withUnit(values[i], unit))),
+      curves.map(({ values }) => element("td", {}, withUnit(values[i], unit, 6))),
       element("td", {}, element("button", {
         type: "button", "aria-label": `Choose point ${i + 1}`, onclick: () => this.pick(i),
       }, "Choose"))));

@@ -89,7 +89,7 @@ export class Spectrum extends Look {
     const plot = new SpectrumPlot(signal);
     const told = element("p", { class: "quiet small" });
     super("spectrum", "Spectrum of the window shown", query, signal,
-      element("div", { class: "filters" }, element("div", { class: "field" },
+      element("div", { class: "filters channels" }, element("div", { class: "field" },
         element("label", { for: "of" }, "Channel"), select)), plot.element, told);
     Object.assign(this, { job, select, plot, told });
   }
