@@ -76,7 +76,7 @@ def draw_figure(
     store = _reader(results, windows)
     if isinstance(store, ResultReader):
         selection.checked()
-    over = None if selection.over is None else _map(results_of(selection.over, "over"))
+    over = None if selection.over is None else _map(results_of, selection.over)
     channels, joints = (
         [] if one is None else one.split(",") for one in (selection.channels, selection.joints)
     )
@@ -92,10 +92,16 @@ def draw_figure(
     return Response(picture, media_type=MEDIA_TYPES[form])
 
 
-def _map(beneath: ResultsOfJob) -> StudyReader:
-    """Return the results that lie beneath a figure."""
-    beneath.insist("bifurcation" if beneath.job.kind == "bifurcation" else "chart")
-    return beneath.study()
+def _map(results_of: ResultsOfAParameter, job_id: str) -> StudyReader:
+    """Return the results that lie beneath a figure; what refuses them names the parameter."""
+    try:
+        beneath = results_of(job_id, "over")
+        beneath.insist("bifurcation" if beneath.job.kind == "bifurcation" else "chart")
+        return beneath.study()
+    except RequestRefused as error:
+        raise RequestRefused.of_parameter(
+            "over", error.detail, error.kind, headers=error.headers
+        ) from None
 
 
 def _reader(results: ResultsOfJob, windows: WindowProcess) -> ResultReader | StudyReader:

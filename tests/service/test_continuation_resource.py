@@ -109,7 +109,7 @@ def test_curves_lie_over_a_chart_of_the_service(client, worker, finished, http):
     unknown = http.get(picture, params={"over": "0" * 32})
     assert (unknown.status_code, unknown.json()["errors"][0]["parameter"]) == (404, "over")
     own = http.get(picture, params={"over": finished.id})
-    assert own.status_code == 404
+    assert (own.status_code, own.json()["errors"][0]["parameter"]) == (404, "over")
     assert "has no chart" in own.json()["detail"]
 
 
