@@ -110,17 +110,18 @@ def test_channels_are_compared_in_the_order_in_which_they_are_named(jointplay, r
 
 
 def test_of_many_figures_the_one_that_cannot_be_drawn_is_named(jointplay, runs, tmp_path):
-    names = ("mechanism", "orbit", "energy")
+    names = ("mechanism", "orbit", "nonsense", "energy")
     ended = jointplay("plot", runs / "a", *names, "-o", tmp_path)
     assert ended.code == 2
-    said = ended.err.splitlines()[-1]  # behind the progress
+    said, unknown = ended.err.splitlines()[-2:]  # behind the progress
     assert said.startswith("jointplay: orbit: This figure needs a revolute joint with clearance")
+    assert unknown.startswith("jointplay: nonsense: There is no figure 'nonsense'")
     # what comes behind it is drawn nevertheless
     assert {path.name for path in tmp_path.iterdir()} == {"mechanism.png", "energy.png"}
     listed = jointplay("plot", runs / "a", *names, "-o", tmp_path, "--json")
     found = json.loads(listed.out)
     assert [one["name"] for one in found["figures"]] == ["mechanism", "energy"]
-    assert [line.partition(":")[0] for line in found["refused"]] == ["orbit"]
+    assert [line.partition(":")[0] for line in found["refused"]] == ["orbit", "nonsense"]
 
 
 def curves_in(svg, across, upright):

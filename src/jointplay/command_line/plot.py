@@ -142,9 +142,12 @@ def draw_all(
             try:
                 content = job.figure(name, form=form, **shown).content
             except Refused as error:
-                if error.problem != "not-drawable":
+                spared = (
+                    ("not-drawable",) if len(wanted) == 1 else ("not-drawable", "unknown-figure")
+                )
+                if error.problem not in spared:
                     raise
-                cause, sentence = error.fields[0]
+                cause, sentence = error.fields[0] if error.fields else ("name", str(error))
                 if cause != "name" and len(wanted) == 1:
                     raise
                 option = "" if cause == "name" else f"--{cause.replace('_', '-')}: "
