@@ -41,7 +41,7 @@ def parameter_problems(scene: Scene) -> Iterator[Problem]:
             if _ABOUT.fullmatch(target.path):
                 sentence = f"'{target.path}' has no effect on the mechanism; name a value of that."
                 yield Problem(f"{pointer}/path", sentence)
-            elif not leads_to_value(document, target.path):
+            elif not leads_to_value(scene, document, target.path):
                 sentence = f"'{target.path}' leads nowhere in this scene; name a single value."
                 yield Problem(f"{pointer}/path", sentence)
         yield from _set_twice(name, parameter, setting)

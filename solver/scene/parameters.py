@@ -107,15 +107,23 @@ def value_at(node: Any, path: str) -> Any:
     return node
 
 
-def leads_to_value(document: Any, path: str) -> bool:
-    """Tell whether a JSON pointer leads to a single value, or to a field beside existing ones.
+def leads_to_value(scene: Scene, document: Any, path: str) -> bool:
+    """Tell whether a JSON pointer leads to a single value of a scene, or to where one may be.
 
     What holds other values is not one: two parameters might then be put into each other.
+    `document` : the scene's, with all fields. There may be the start angle or angular velocity of
+    any body, and any field of what a parameter chooses by its law or type.
     """
     parents, _, last = path.rpartition("/")
     parent, value = value_at(document, parents), value_at(document, path)
-    inside = isinstance(parent, list) and last.isdigit() and int(last) < len(parent)
-    return (inside or isinstance(parent, dict)) and not isinstance(value, dict | list)
+    if isinstance(parent, list):
+        known = last.isdigit() and int(last) < len(parent)
+    elif parents in ("/start/angles", "/start/angular_velocities"):
+        known = last in scene.bodies
+    else:
+        chosen = targeted_paths(scene) & {f"{parents}/law", f"{parents}/type"}
+        known = isinstance(parent, dict) and (last in parent or bool(chosen))
+    return known and not isinstance(value, dict | list)
 
 
 def _complaint(name: str, parameter: Parameter, value: object, *, varies: bool) -> str | None:

@@ -76,6 +76,10 @@ class LankaraniNikravesh(ContactLaw):
             youngs_modulus=self.youngs_modulus, poisson_ratio=self.poisson_ratio
         )
 
+    def idle_beside(self) -> tuple[str, tuple[str, ...]]:
+        """See `ContactLaw.idle_beside`."""
+        return "stiffness", ("youngs_modulus", "poisson_ratio") if self.stiffness else ()
+
     @property
     def needs_radii(self) -> bool:
         """True where eq. 9 supplies the stiffness."""

@@ -44,6 +44,10 @@ class ContactLaw(Strict):
         """Return the depth up to which the law is what its source says, m."""
         return math.inf
 
+    def idle_beside(self) -> tuple[str, tuple[str, ...]]:
+        """Return a field, and those that have no effect beside it as it is given."""
+        return "", ()
+
     @property
     def clearance_rules(self) -> tuple[Rule, ...]:
         """Rules that a clearance with this law must keep."""

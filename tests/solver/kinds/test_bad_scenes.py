@@ -75,6 +75,25 @@ BAD_SCENES: dict[str, Refused] = {
         "/scene/parameters/clearance/targets/0/path",
         "nowhere",
     ),
+    "parameter to a field that there is not": (
+        at("/scene/parameters/stiffness/targets/0/path", f"{A}/clearance/contact/stifness"[6:]),
+        "/scene/parameters/stiffness/targets/0/path",
+        "leads nowhere",
+    ),
+    "parameter to the start of no body": (
+        at("/scene/parameters/stiffness/targets/0/path", "/start/angles/link9"),
+        "/scene/parameters/stiffness/targets/0/path",
+        "leads nowhere",
+    ),
+    "material beside a stiffness": (
+        both(
+            at("/scene/parameters", {}),
+            at(f"{A}/clearance/contact/stiffness", 1e10),
+            at(f"{A}/clearance/contact/poisson_ratio", 0.3),
+        ),
+        f"{A}/clearance/contact/poisson_ratio",
+        "'poisson_ratio' has no effect beside a given 'stiffness'",
+    ),
     "parameter to what is no pointer": (
         at("/scene/parameters/clearance/targets/0/path", "joints/A/clearance/radial_clearance"),
         "/scene/parameters/clearance/targets/0/path",
