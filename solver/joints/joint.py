@@ -9,7 +9,7 @@ from jointplay.records.arrays import Flags
 from jointplay.solver.joints.contact import Contact, Touch
 from jointplay.solver.joints.drawing import Curve, Drawing
 from jointplay.solver.joints.holding import Holding, Row
-from jointplay.solver.joints.starts import JournalStart
+from jointplay.solver.joints.starts import GuideStart, JournalStart
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.friction import FrictionLaw
@@ -186,4 +186,11 @@ class Joint(Strict):
 
     def cannot_start(self, start: JournalStart) -> Flags | bool:
         """Return the same as truth values, where numbers may be columns."""
+        return False
+
+    def starts_in_wall(self, start: GuideStart) -> Flags | bool:
+        """Return whether half the width of what it guides, or more, would be in a wall at a start.
+
+        Numbers may be columns.
+        """
         return False

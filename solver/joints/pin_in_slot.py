@@ -3,10 +3,14 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, ClassVar, Literal
 
+import numpy as np
+
+from jointplay.records.arrays import Flags
 from jointplay.solver.joints.contact import Contact, Touch
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint
+from jointplay.solver.joints.starts import GuideStart
 from jointplay.solver.joints.wall import WALL, Wall, at_wall, wall_normal
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
@@ -97,3 +101,11 @@ class PinInSlot(Joint):
     def loosened(self) -> Mapping[str, float]:
         """Largest violation of its constraint within its play, m."""
         return {} if self.clearance is None else {"normal": self.clearance.wall_clearance}
+
+    def starts_in_wall(self, start: GuideStart) -> Flags | bool:
+        """Return whether the pin's centre is in a wall; see `Joint.starts_in_wall`."""
+        play = self.clearance
+        if play is None:
+            return False
+        found: Flags = np.abs(start.offset) >= play.wall_clearance + play.pin_radius
+        return found

@@ -6,10 +6,12 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
+from jointplay.records.arrays import Flags
 from jointplay.solver.joints.contact import Contact, Touch
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Freedom, Joint
+from jointplay.solver.joints.starts import GuideStart
 from jointplay.solver.joints.wall import WALL, Wall, at_wall, wall_normal
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
@@ -143,6 +145,15 @@ class Prismatic(Joint):
         assert self.clearance is not None  # noqa: S101  (narrows the type)
         turned = 0.5 * self.clearance.length * abs(sine_cosine(parts["angle"])[0])
         return bool(abs(parts["normal"]) + turned <= play)
+
+    def starts_in_wall(self, start: GuideStart) -> Flags | bool:
+        """Return whether a corner is that deep; see `Joint.starts_in_wall`."""
+        play = self.clearance
+        if play is None:
+            return False
+        corner = np.abs(start.offset) + 0.5 * play.length * np.abs(np.sin(start.tilt))
+        found: Flags = corner >= play.wall_clearance + 0.5 * play.height
+        return found
 
     def _corner(self, clearance: SliderClearance, corner: str, by: Pair) -> Pair:
         """Return the vector from the slider's point to a corner."""

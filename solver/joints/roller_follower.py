@@ -9,11 +9,12 @@ Source: Angeles and López-Cajún 1991, Optimization of Cam Mechanisms (pitch cu
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from jointplay.records.arrays import Floats
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.joints.cam import CAPTION, CENTRED, CamJoint, Lift
 from jointplay.solver.joints.contact import Meeting
 from jointplay.solver.joints.drawing import Curve, Drawing, circle
 from jointplay.solver.joints.holding import Distance
+from jointplay.solver.joints.starts import GuideStart
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
 from jointplay.solver.quantities.frames import dot, left, plus, scaled
@@ -72,6 +73,11 @@ class RollerFollower(CamJoint):
         push = plus(scaled(lift.along, cosine), around)
         n = scaled(push, -1.0 / sqrt(dot(push, push)))
         return Meeting(n, push, scaled(n, self.roller_radius), -(lift.value * cosine))
+
+    def starts_in_wall(self, start: GuideStart) -> Flags | bool:
+        """Return whether the roller's centre is in the cam; see `Joint.starts_in_wall`."""
+        lash = self.slack.play if self.slack else 0.0
+        return -start.offset >= lash + self.roller_radius
 
     def curves(self) -> Iterator[Curve]:
         """Yield the cam's outline and the roller's."""

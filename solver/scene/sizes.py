@@ -20,6 +20,15 @@ def _unreachable(scene: Scene) -> Iterator[Problem]:
         joint = scene.joints.get(name)
         for field, sentence in joint.start_problems(start) if joint is not None else ():
             yield Problem(f"/start/joints/{name}/{field}", sentence)
+    for name, guided in scene.start.guides.items():
+        joint = scene.joints.get(name)
+        if joint is not None and joint.starts_in_wall(guided):
+            field = "offset" if guided.offset else "tilt"
+            sentence = (
+                f"At this start half of what joint '{name}' guides, or more, would be in a wall;"
+                f" its play is {joint.slack.play if joint.slack else 0.0:g} m: give a smaller one."
+            )
+            yield Problem(f"/start/guides/{name}/{field}", sentence)
 
 
 def size_problems(scene: Scene) -> Iterator[Problem]:
@@ -49,6 +58,11 @@ def ill_sized(scene: Scene, columns: Mapping[str, Floats], points: int) -> Flags
             joint = _seen(scene.joints[name], pointers[1], columns)
             with np.errstate(all="ignore"):  # of numbers that are refused by themselves
                 broken |= joint.cannot_start(_seen(start, pointers[0], columns))
+    for name, guided in scene.start.guides.items():
+        pointers = f"/start/guides/{name}", f"/joints/{name}"
+        if any(path.startswith((f"{pointers[0]}/", f"{pointers[1]}/")) for path in columns):
+            joint = _seen(scene.joints[name], pointers[1], columns)
+            broken |= joint.starts_in_wall(_seen(guided, pointers[0], columns))
     return broken
 
 

@@ -55,6 +55,7 @@ WALLS = {
     "height": 0.05,
     "contact": {"law": LAW, "stiffness": 1e8},
 }
+PUSHED = {"contact": WALLS["contact"]}
 PUBLISHED = {"coefficient": 0.1, "slip_velocity": "as-published"}
 BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
     "a spring to an unknown point": (
@@ -190,6 +191,39 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
         {"/joints/guide": GUIDE, "/start/guides": {"guide": {"offset": 1e-3}}},
         "/start/guides/guide",
         ["has no clearance", "leave it out"],
+    ),
+    "a start of a slider in a wall": (
+        {
+            "/joints/guide": GUIDE | {"clearance": WALLS},
+            "/start/guides": {"guide": {"offset": -0.05}},
+        },
+        "/start/guides/guide/offset",
+        ["half of what joint 'guide' guides, or more, would be in a wall; its play is"],
+    ),
+    "a start of a slider whose corner is in a wall": (
+        {
+            "/joints/guide": GUIDE | {"clearance": WALLS},
+            "/start/guides": {"guide": {"tilt": 1.0}},
+        },
+        "/start/guides/guide/tilt",
+        ["would be in a wall"],
+    ),
+    "a start of a pin in a wall": (
+        {
+            "/joints/guide": SLOT
+            | {"clearance": {"wall_clearance": 1e-4, "pin_radius": 5e-3, **PUSHED}},
+            "/start/guides": {"guide": {"offset": 5.2e-3}},
+        },
+        "/start/guides/guide/offset",
+        ["would be in a wall; its play is 0.0001 m"],
+    ),
+    "a start of a roller in its cam": (
+        {
+            "/joints/cam": ROLLER | {"roller_radius": 0.01, "clearance": {"lash": 1e-4, **PUSHED}},
+            "/start/guides": {"cam": {"offset": -0.05}},
+        },
+        "/start/guides/cam/offset",
+        ["would be in a wall; its play is 0.0001 m"],
     ),
     "a start of a journal in a guide": (
         {"/joints/B/clearance": PLAY, "/start/guides": {"B": {"offset": 1e-4}}},

@@ -7,6 +7,7 @@ import pytest
 from tests.solver.cams import CIRCLE, follower, valve
 from tests.solver.kinds.refusals import assert_refused
 from tests.solver.runs.study.jobs_of_studies import SWEEP
+from tests.solver.sliders import block, thrown
 
 PENDULUM = {"preset": "pendulum"}
 S = SWEEP
@@ -112,6 +113,15 @@ def test_the_largest_lash_of_a_sweep_leaves_something_of_its_cam() -> None:
     scene["parameters"] = {"lash": {"help": "Lash.", "unit": "m", "targets": [target]}}
     job = {"kind": "sweep", "scene": scene, "grid": {"lash": [1e-4, 0.5, 2e-4]}, "periods": 1}
     assert_refused(job, "/grid/lash/1", "leaves nothing of a cam")
+
+
+def test_the_largest_offset_of_a_sweep_does_not_start_in_a_wall() -> None:
+    scene = thrown(block(), 1.0, 0.0)
+    scene["start"]["guides"] = {"guide": {"offset": 0.0}}
+    target = {"path": "/start/guides/guide/offset"}
+    scene["parameters"] = {"offset": {"help": "Offset.", "unit": "m", "targets": [target]}}
+    job = {"kind": "sweep", "scene": scene, "grid": {"offset": [0.0, 0.05, 5e-4]}, "duration": 1.0}
+    assert_refused(job, "/grid/offset/1", "would be in a wall")
 
 
 @pytest.mark.parametrize("case", BAD)

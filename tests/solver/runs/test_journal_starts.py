@@ -101,7 +101,11 @@ def test_an_eccentricity_that_the_links_do_not_reach_is_refused() -> None:
 
 def test_an_offset_that_the_links_do_not_reach_is_refused_at_its_field() -> None:
     document = scene("slider-crank", {})
-    document["joints"]["guide"]["clearance"]["wall_clearance"] = 1e-3
+    document["joints"]["guide"]["clearance"] |= {
+        "wall_clearance": 1e-3,
+        "height": 3.0,
+        "length": 9.0,
+    }
     document["start"]["guides"] = {"guide": {"offset": 1.0}}  # m; the links are half as long
     with pytest.raises(InvalidInput) as refused:
         admit({"kind": "simulate", "scene": document, "duration": 1e-3})
