@@ -24,6 +24,7 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.domains import domain_problems
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import part_problems, reference_problems
+from jointplay.solver.scene.reported import reported_problems
 from jointplay.solver.scene.sentences import schema_problems
 from jointplay.solver.scene.start_numbers import with_start_numbers
 
@@ -65,7 +66,7 @@ def declared(job: MechanismJob) -> Written:
         Unknown preset; parts of the scene that do not fit together.
     """
     if not isinstance(job.scene, PresetScene):
-        problems = list(reference_problems(job.scene))
+        problems = list(reference_problems(job.scene)) or list(reported_problems(job.scene))
         if problems:
             raise InvalidInput(Problem(f"/scene{p.pointer}", p.detail) for p in problems)
     return written(job)

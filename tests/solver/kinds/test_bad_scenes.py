@@ -75,6 +75,24 @@ BAD_SCENES: dict[str, Refused] = {
         "/scene/parameters/clearance/targets/0/path",
         "nowhere",
     ),
+    "reported of no channel": (
+        at("/scene/reported/0/channel", "displacment"),
+        "/scene/reported/0/channel",
+        "'displacement'",
+    ),
+    "reported in another unit": (
+        at("/scene/reported/0/unit", "kN"),
+        "/scene/reported/0/unit",
+        "in m, not kN",
+    ),
+    "reported of a run that there is not": (
+        both(
+            at("/scene/parameters/clearance/maximum", None),
+            at("/scene/reported/0/parameters", {"clearance": 2.0}),
+        ),
+        "/scene/reported/0/parameters",
+        "do not fit",
+    ),
     "parameter to a field that there is not": (
         at("/scene/parameters/stiffness/targets/0/path", f"{A}/clearance/contact/stifness"[6:]),
         "/scene/parameters/stiffness/targets/0/path",
