@@ -85,6 +85,7 @@ def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
         "channels": None if admission is None else len(admission.channels),
         "turn": turn_of(Scene.model_validate(scene.document)),
         "overshoots": [one._asdict() for one in overshoots_of(scene)],
+        "replaced": [one._asdict() for one in scene.replaced],
         "problems": scene.problems,
     }
 

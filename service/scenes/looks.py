@@ -71,6 +71,15 @@ class Overshoot(BaseModel):
     detail: str
 
 
+class ReplacedNumber(BaseModel):
+    """A number, or a word, that the document has, and what a parameter's default puts there."""
+
+    pointer: str = Field(description="Where it is in the scene.")
+    parameter: str
+    written: float | str
+    taken: float | str
+
+
 class SceneFindings(BaseModel):
     """Findings of a check; with `problems` the scene cannot be run, and they say why."""
 
@@ -101,6 +110,9 @@ class SceneFindings(BaseModel):
     turn: DriversTurn | None = Field(description="Whether it turns through; null: not driven.")
     overshoots: list[Overshoot] = Field(
         description="Smooth tables that pass the values they are given."
+    )
+    replaced: list[ReplacedNumber] = Field(
+        description="Numbers of the document in whose place defaults of its parameters stand."
     )
     problems: list[ErrorDetail]
 

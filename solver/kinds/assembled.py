@@ -16,6 +16,7 @@ from jointplay.solver.mechanics.assembly import Assembly, assemble
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.domains import domain_problems
+from jointplay.solver.scene.replaced import Replaced, replaced
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,8 @@ class AssembledScene:
     assembly: Assembly
     admission: Admission | None
     refusal: InvalidInput | None
+    replaced: list[Replaced]
+    """Numbers of the document that defaults of its parameters replace."""
 
     @property
     def problems(self) -> list[Problem]:
@@ -70,7 +73,13 @@ def assembled_scene(scene: Mapping[str, Any] | None, *, is_whole: bool) -> Assem
     except InvalidInput as error:
         refusal = error
     else:
-        return AssembledScene(found.scene_document(), assemble(found.scene), found, None)
+        return AssembledScene(
+            found.scene_document(),
+            assemble(found.scene),
+            found,
+            None,
+            replaced(job.get("scene"), found.scene),
+        )
     if is_whole:
         refusal = InvalidInput(
             Problem(pointer.removeprefix("/scene"), detail) for pointer, detail in refusal.problems
@@ -79,7 +88,8 @@ def assembled_scene(scene: Mapping[str, Any] | None, *, is_whole: bool) -> Assem
         resolved, document = _resolved(job)
     except (ValidationError, InvalidInput):
         raise refusal from None
-    return AssembledScene(document, assemble(resolved), None, refusal)
+    told = replaced(job.get("scene"), resolved)
+    return AssembledScene(document, assemble(resolved), None, refusal, told)
 
 
 def resolved_scene(scene: Mapping[str, Any]) -> Scene:

@@ -60,7 +60,12 @@ def test_a_smooth_table_that_passes_its_values_is_told_with_how_far_and_where(jo
     assert "overshoot" not in jointplay("scene", "check", file).out
     table["between"] = "smooth"
     file.write_text(json.dumps(scene))
+    target = {"path": "/joints/cam/profile/value"}
+    scene["parameters"] = {"base": {"help": "Base.", "default": 0.02, "targets": [target]}}
+    file.write_text(json.dumps(scene))
     lines = jointplay("scene", "check", file).out.splitlines()
+    told = "parameter              base puts 0.02 in place of 0.03 at /joints/cam/profile/value"
+    assert told in lines
     (told,) = (line for line in lines if line.startswith("overshoot "))
     assert told.startswith("overshoot              /forces/punch/course: ")
     assert "60 % of their range, most at -0.094; 'monotone' stays within them" in told

@@ -56,6 +56,19 @@ def test_a_smooth_table_that_passes_its_values_is_told(http):
     assert 1.9417 < told["argument"] < 1.9457
 
 
+def test_numbers_that_defaults_of_parameters_replace_are_told(http):
+    scene = presets.document("slider-crank")
+    assert check(http, scene).json()["replaced"] == []
+    scene["drivers"]["motor"]["speed"] = 100
+    (told,) = check(http, scene).json()["replaced"]
+    assert told == {
+        "pointer": "/drivers/motor/speed",
+        "parameter": "speed",
+        "written": 100.0,
+        "taken": scene["parameters"]["speed"]["default"],
+    }
+
+
 def test_a_document_that_cannot_be_run_is_told_why(http):
     scene = four_bar()
     scene["bodies"]["coupler"]["points"] = {"a": [-0.001, 0.0], "b": [0.001, 0.0]}
