@@ -25,6 +25,7 @@ from jointplay.solver.mechanics.start.pose import (
     hold,
     in_given_turns,
     nearest,
+    unwound,
 )
 from jointplay.solver.mechanics.start.rates import start_rates
 from jointplay.solver.mechanics.view import view
@@ -183,7 +184,8 @@ def _geometry(scene: Scene) -> str:
     """Return, as text, what an assembly depends on: no mass, no clearance, no law of contact."""
     found = scene.model_dump_json(include=GEOMETRY, exclude={"joints": {"__all__": {"clearance"}}})
     play = "".join(str(int(joint.has_play)) for joint in scene.joints.values())
-    return f"{found} {play} {shortest_link(scene)!r}"
+    turns = [element.turns_counted() for element in scene.forces.values()]
+    return f"{found} {play} {shortest_link(scene)!r} {turns}"
 
 
 def _assembled(scene: Scene) -> _Found:
@@ -219,6 +221,7 @@ def _nearer(places: Places, pose: Floats) -> Floats:
 
 def _assembly(places: Places, held: AbsoluteMechanism, pose: Floats) -> Assembly:
     """Return what a pose comes to, in which the joints of a mechanism are held."""
+    pose = unwound(places, held, pose)
     count, still = len(pose), np.zeros_like(pose)
     residual = places.constraints(held, pose).value
     constraints, jacobian = places.constraints(places.closed, pose)

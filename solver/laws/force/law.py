@@ -78,6 +78,10 @@ class ForceElement(Strict):
         """Return what the element is a function of besides its ends, if it varies."""
         return None
 
+    def turns_counted(self) -> tuple[str, str] | None:
+        """Return the points whose bodies' angle it follows, whole turns counted, if it does."""
+        return None
+
     @property
     def fastest(self) -> float:
         """Largest angular velocity that it drives to by itself, rad/s; 0 if it has none."""

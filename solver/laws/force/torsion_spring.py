@@ -48,6 +48,10 @@ class TorsionSpring(ForceElement):
             moment=moment,
         )
 
+    def turns_counted(self) -> tuple[str, str]:
+        """Return its points."""
+        return self.first, self.second
+
     def strength(self, length: float) -> float:
         """Return its moment at a radian, as a force at a length, N."""
         return self.stiffness / length

@@ -28,6 +28,13 @@ class Varying(ForceElement):
         varies = self.course is not None or self.only is not None
         return (self.over or TIME) if varies else None
 
+    def turns_counted(self) -> tuple[str, str] | None:
+        """Return the points of `over`, if that is an angle."""
+        over = self.follows()
+        if over is None or over.quantity != "angle" or over.rate:
+            return None
+        return over.first or self.first, over.second or self.second
+
     def varied(self, strength: Scalar, ends: Ends) -> Scalar:
         """Return a strength times what it varies by."""
         if self.course is not None:

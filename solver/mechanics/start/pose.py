@@ -113,21 +113,38 @@ def nearest(places: Places, poses: Iterable[Floats]) -> Floats:
     near = [_nearest_here(places, pose, MOST_ITERATIONS) for pose in found]
     least = min(map(apart, near)) * (1.0 + ALIKE) + KEPT * places.length
     alike = [pose for pose in near if apart(pose) <= least]
-    return _unwound(places, min(alike, key=lambda pose: _from_zero(places, pose)))
+    return unwound(places, places.closed, min(alike, key=lambda pose: _from_zero(places, pose)))
 
 
-def _unwound(places: Places, pose: Floats) -> Floats:
-    """Return a closed pose without whole turns of bodies whose angle nothing says."""
-    for i, body in enumerate(places.closed.bodies):
-        group = _turning_with(places, body)
-        turns = round(float(pose[3 * i + 2]) / (2.0 * math.pi))
-        if not turns or places.scene.start.angles.keys() & set(group):
-            continue
-        back = pose.copy()
-        back[[3 * places.closed.bodies.index(one) + 2 for one in group]] -= 2.0 * math.pi * turns
-        if places.is_closed(places.closed, back):
-            pose = back
+def unwound(places: Places, held: AbsoluteMechanism, pose: Floats) -> Floats:
+    """Return a closed pose in which angles that nothing says are within half a turn.
+
+    That is of zero, and then of the other body where a force follows the angle between two.
+    """
+    columns = {body: 3 * i + 2 for i, body in enumerate(places.closed.bodies)}
+    for body, column in columns.items():
+        pose = _turned_back(places, held, pose, body, pose[column])
+    for element in places.scene.forces.values():
+        first, second = (point.split(".")[0] for point in element.turns_counted() or ("", ""))
+        angles = [pose[columns[one]] if one in columns else 0.0 for one in (first, second)]
+        twist = angles[1] - angles[0]
+        back = _turned_back(places, held, pose, second, twist)
+        pose = _turned_back(places, held, pose, first, -twist) if back is pose else back
     return pose
+
+
+def _turned_back(
+    places: Places, held: AbsoluteMechanism, pose: Floats, body: str, angle: float
+) -> Floats:
+    """Return a pose with a body turned back by the whole turns of an angle, rad, if it may be."""
+    turns = round(float(angle) / (2.0 * math.pi))
+    if not turns or body not in places.closed.bodies:
+        return pose
+    group = _turning_with(places, body)
+    back = pose.copy()
+    back[[3 * places.closed.bodies.index(one) + 2 for one in group]] -= 2.0 * math.pi * turns
+    said = places.scene.start.angles.keys() & set(group)
+    return back if not said and places.is_closed(held, back) else pose
 
 
 def in_given_turns(places: Places, pose: Floats) -> Floats:

@@ -200,6 +200,45 @@ def held_four_bar(rod: float, hung: int = 0) -> dict[str, Any]:
     return document
 
 
+def test_an_angle_that_nothing_says_has_no_whole_turns() -> None:
+    """Else a torsion spring would be wound up by 2 pi; the rocker's angle is that by circles."""
+    document = held_four_bar(0.0)
+    del document["drivers"]
+    document["ground"]["points"]["D"] = [-0.1, 0.4]
+    document["start"] = {"angles": {"crank": 1.2}}
+    _, pose, _ = put_together(document)
+    assert pose["crank"][2] == pytest.approx(1.2, abs=1e-12)
+    assert pose["slider"][2] == pytest.approx(3.878783 - 2.0 * math.pi, abs=1e-6)
+
+
+SWAYED: dict[str, Any] = {
+    "course": {"type": "constant", "value": 1.0},
+    "over": {"quantity": "angle"},
+    "moment": 1.0,
+}
+
+
+@pytest.mark.parametrize("first", ["crank.b", "rod.a"])
+@pytest.mark.parametrize(
+    "force", [{"type": "torsion-spring", "stiffness": 1.0}, {"type": "torque"} | SWAYED]
+)
+def test_bodies_whose_angle_a_force_follows_are_within_half_a_turn_of_each_other(
+    force: dict[str, Any], first: str
+) -> None:
+    """Both are drawn by points, to 4 digits, 0.3 rad apart, on either side of half a turn."""
+    second = {"crank.b": "rod.a", "rod.a": "crank.b"}[first]
+    points = {"crank.b": [-0.49, 0.0993], "rod.b": [-0.98746, 0.0494]}
+    document = slider_crank({"points": points})
+    for part, name in (("bodies", "slider"), ("joints", "B"), ("joints", "guide")):
+        del document[part][name]
+    document["forces"] = {"turned": force | {"first": first, "second": second}}
+    _, pose, _ = put_together(document)
+    assert pose["rod"][2] - pose["crank"][2] == pytest.approx(0.3, abs=2e-3)
+    document["start"]["angles"] = {"crank": 2.9416, "rod": -3.0416}  # given turns are kept
+    _, pose, _ = put_together(document)
+    assert pose["rod"][2] - pose["crank"][2] == pytest.approx(0.3 - 2.0 * math.pi, abs=2e-3)
+
+
 @pytest.mark.parametrize("turns", [-2, -1, 0, 1, 2])
 @pytest.mark.parametrize("coupler", [-0.9623, 0.4851])
 def test_a_rough_angle_chooses_its_assembly_in_any_turn(turns: int, coupler: float) -> None:
