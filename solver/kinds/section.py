@@ -54,8 +54,9 @@ Section = Annotated[
     ),
     Field(
         description=(
-            "where sections are taken: at a crank angle of the first driver, once a period; at each"
-            " onset of contact in a joint; each time a channel crosses a value"
+            "where sections are taken: once a period, when the first driver has turned by a crank"
+            " angle since the start; at each onset of contact in a joint; each time a channel"
+            " crosses a value"
         )
     ),
 ]

@@ -62,7 +62,13 @@ class SimulateJob(Job):
     ] = ["*"]
     state: StartState = None
     section: Annotated[
-        CrankSection, Field(description="crank angle at which Poincare sections are taken")
+        CrankSection,
+        Field(
+            description=(
+                "Poincare sections are taken when the first driver has turned by that crank angle"
+                " since the start"
+            )
+        ),
     ] = CrankSection()
     certificate: Annotated[
         bool,

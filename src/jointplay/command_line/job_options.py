@@ -38,7 +38,10 @@ _HELP: Final = {
         " statistics, in periods, or auto."
     ),
     "seed": "Seed of what is drawn; the same gives the same.",
-    "section": "Where: crank_angle=RAD, onset=JOINT, or of a study CHANNEL=VALUE:up (or down).",
+    "section": (
+        "Where: crank_angle=RAD past the start, onset=JOINT, or of a study CHANNEL=VALUE:up (or"
+        " down)."
+    ),
 }
 _METAVARS: Final = {"names": "A,B", "numbers": "X,Y", "axis": _RANGE}
 _IN_DOCUMENTS: Final = ("flag", "values", "grid", "distributions", "other")
