@@ -15,7 +15,7 @@ from jointplay.solver.mechanics.absolute_holding import (
     ends_of,
 )
 from jointplay.solver.mechanics.motion import Forces
-from jointplay.solver.mechanics.rows import Marker, Row, angle_row
+from jointplay.solver.mechanics.rows import RESTING, Marker, Row, angle_row
 from jointplay.solver.quantities.frames import WORLD, Pair
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine
 from jointplay.solver.scene.document import Scene
@@ -128,6 +128,20 @@ class AbsoluteMechanism:
             motion = self.numbers.drivers[name].at(driven[name])
             rows.append(angle_row(name, still, turning, motion))
         return rows + [self._gear(name, q, v) for name in self.numbers.gears]
+
+    def slides(self, q: Scalars, v: Scalars) -> list[Row]:
+        """Return a row for each joint with an axis: its second point is where its first is on that.
+
+        Nothing demands them: they say where a slide, or a pin in a slot, is in the middle.
+        """
+        joints = [(name, self.numbers.joints[name]) for name in self.joints]
+        return [
+            AbsoluteHolding(
+                name, (self.marker(joint.points[0], q, v), self.marker(joint.points[1], q, v))
+            ).along(joint.heading, RESTING)
+            for name, joint in joints
+            if joint.heading is not None
+        ]
 
     def _gear(self, name: str, q: Scalars, v: Scalars) -> Row:
         """α_2 - ratio α_1 - offset = 0."""

@@ -5,8 +5,9 @@ from types import MappingProxyType
 
 import numpy as np
 
-from jointplay.records.arrays import Floats
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.linear_algebra.orthogonal import Decomposition
+from jointplay.solver.linear_algebra.products import applied, product
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays
 from jointplay.solver.mechanics.start.drawing import drawn_angles
@@ -62,6 +63,7 @@ def first_pose(
 ) -> Floats:
     """Return a pose with these angles, rad by body, in which joints are as near as they come.
 
+    Slides of which nothing else says where they are begin at their guides' points.
     places : centres of mass, (2,) m by body, of those that keep theirs.
     """
     count = 3 * len(ideal.bodies)
@@ -74,7 +76,22 @@ def first_pose(
             positions[3 * i : 3 * i + 2] = False
     residual, jacobian = arrays(ideal.rows(pose.tolist(), [0.0] * count, driven), count)
     if len(residual) and positions.any():  # revolute joints are linear in x and y
-        pose[positions] += Decomposition(jacobian[:, positions], RANK_TOLERANCE).least_squares(
-            -residual
-        )
+        found = Decomposition(jacobian[:, positions], RANK_TOLERANCE)
+        pose[positions] += found.least_squares(-residual)
+        if found.rank < positions.sum():
+            pose[positions] += _to_guides(ideal, pose, found, positions)
     return pose
+
+
+def _to_guides(
+    ideal: AbsoluteMechanism, pose: Floats, held: Decomposition, positions: Flags
+) -> Floats:
+    """Return how far bodies move, m, until slides that nothing holds are at their guides' points.
+
+    `held` : of the constraints, whose columns are places of the pose, those of `positions`.
+    """
+    rows, count = ideal.slides(pose.tolist(), [0.0] * len(pose)), len(pose)
+    away, jacobian = arrays(rows, count)
+    moved = product(jacobian[:, positions], held.free)
+    moved[np.abs(moved) <= RANK_TOLERANCE] = 0.0  # rounding, where constraints hold a slide
+    return applied(held.free, Decomposition(moved, RANK_TOLERANCE).least_squares(-away))

@@ -176,6 +176,28 @@ def test_a_roughly_drawn_knee_chooses_its_side(
     np.testing.assert_allclose(knee, [along, side * height], rtol=0, atol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("kind", "ends"), [("prismatic", ("guide", "slider")), ("pin-in-slot", ("slot", "pin"))]
+)
+def test_what_slides_begins_at_its_guides_point_if_nothing_is_given(
+    kind: str, ends: tuple[str, str]
+) -> None:
+    """It began where the axis is nearest to the world's origin, so that a moved scene differed."""
+    guide = {"type": kind, ends[0]: "ground.G", ends[1]: "cart.b", "axis": [1.0, 2.0]}
+    document = {
+        "name": "cart",
+        "ground": {"points": {"G": [1.0, 0.2]}},
+        "bodies": {"cart": bar(0.1), "rod": bar(0.3)},
+        "joints": {"guide": guide, "pin": revolute("cart.a", "rod.a")},
+        "start": {"angles": {"rod": -1.2}},
+    }
+    found, pose, _ = put_together(document)
+    assert found.freedom == {"prismatic": 2, "pin-in-slot": 3}[kind]
+    np.testing.assert_allclose(pose["cart"], [0.9, 0.2, 0.0], rtol=0, atol=1e-12)
+    document["start"] = {"points": {"rod.b": [1.5, 1.0]}}  # which says where both are
+    assert put_together(document)[0].misfits == []
+
+
 def test_whole_turns_of_a_given_angle_are_kept() -> None:
     document = lever("slot", {"angles": {"lever": 7.0}})
     del document["joints"]["stop"]
