@@ -3,9 +3,11 @@
 In this order: ideal joints, drivers and the rates of `start.joints` and `start.guides`; angular
 velocities and velocities as given, those that do not hold all together in the scene's order; joints
 with play, whose parts move with one another unless a body of theirs is thrown, by a velocity of its
-centre, or a follower is away from its cam; bodies of which nothing is given do not turn; at last
-centres rest.
+centre, or a follower is away from its cam; bodies of which nothing is given do not turn, then
+others do not; slides rest; at last centres rest.
 """
+
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -46,7 +48,9 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
             held = more
         else:
             rest.append(also)
-    levels = [held, _joined(rest, pose), _rates(soft, pose), _still(places, pose)]
+    slides = places.closed.slides(pose.tolist(), still.tolist())
+    levels = [held, _joined(rest, pose), _rates(soft, pose)]
+    levels += [*_still(places, pose), _rates(slides, pose)]
     steps = Steps([rows.jacobian for rows in levels], places.scale)
     velocity = steps.step([rows.value for rows in levels])
     # once more, from there: what is left is the rounding of the first
@@ -90,12 +94,12 @@ def _moves_along(places: Places, row: Row) -> bool:
     return not joint.one_sided or bool(abs(row.value) <= KEPT * places.length)
 
 
-def _still(places: Places, pose: Floats) -> Rows:
-    """Return the rows that keep bodies of which nothing is given from turning."""
+def _still(places: Places, pose: Floats) -> Iterator[Rows]:
+    """Yield the rows that keep bodies from turning of which nothing is given, then the others."""
     start = places.scene.start
-    named = {*start.angular_velocities, *start.velocities}
-    columns = [3 * i + 2 for i, body in enumerate(places.closed.bodies) if body not in named]
-    return Rows(np.zeros(len(columns)), places.length * np.eye(len(pose))[columns])
+    for named in ({*start.angular_velocities, *start.velocities}, set[str]()):
+        columns = [3 * i + 2 for i, body in enumerate(places.closed.bodies) if body not in named]
+        yield Rows(np.zeros(len(columns)), places.length * np.eye(len(pose))[columns])
 
 
 def _joined(parts: list[Rows], pose: Floats) -> Rows:

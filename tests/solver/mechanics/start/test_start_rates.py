@@ -1,6 +1,7 @@
 """Given velocities hold if the joints allow it; the rest is fitted."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -113,6 +114,29 @@ def test_a_bar_that_hangs_on_a_thrown_one_goes_along_without_turning() -> None:
     }
     _, _, velocity = put_together(document)
     np.testing.assert_allclose(velocity["hung"], [0.0, 1.0, 0.0], rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("given", "moves", "turns"),
+    [({"angular_velocities": {"rod": 2.0}}, 0.0, 2.0), ({"velocities": {"rod": [1, 0]}}, 1.0, 0.0)],
+)
+def test_a_slide_rests_and_a_body_does_not_turn_unless_it_is_said(
+    given: dict[str, Any], moves: float, turns: float
+) -> None:
+    """A pendulum below a cart on rails: neither shares what is given of the other."""
+    rod = {"mass": 1.0, "inertia": 0.02, "points": {"a": [0.0, 0.3]}}
+    guide = {"type": "prismatic", "guide": "ground.G", "slider": "cart.a", "axis": [1.0, 0.0]}
+    document = {
+        "name": "cart",
+        "ground": {"points": {"G": [1.0, 0.0]}},
+        "bodies": {"cart": bar(0.1), "rod": rod},
+        "joints": {"guide": guide, "pin": revolute("cart.a", "rod.a")},
+        "start": given,
+    }
+    found, _, velocity = put_together(document)
+    np.testing.assert_allclose(velocity["cart"], [moves, 0.0, 0.0], rtol=0, atol=1e-13)
+    assert velocity["rod"][2] == pytest.approx(turns, abs=1e-13)
+    assert not found.misfits
 
 
 def test_a_rate_that_holds_is_the_one_that_is_given_to_its_last_bit() -> None:
