@@ -23,7 +23,7 @@ from jointplay.solver.scene.channels import channels, recording
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.domains import domain_problems
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
-from jointplay.solver.scene.references import part_problems, reference_problems
+from jointplay.solver.scene.references import idle_fields, part_problems, reference_problems
 from jointplay.solver.scene.reported import reported_problems
 from jointplay.solver.scene.sentences import schema_problems
 from jointplay.solver.scene.start_numbers import with_start_numbers
@@ -99,6 +99,10 @@ def with_parameters(
     except ValidationError as error:
         raise InvalidInput(_located(schema_problems(error, Scene, filled), scene, echo)) from None
     problems = list(part_problems(found))  # its parameters are those of the scene as written
+    for path, _, sentence in idle_fields(found):
+        name = parameter_of(scene, echo, path)
+        if name is not None and values.get(name) not in (None, scene.parameters[name].default):
+            problems.append(Problem(path, sentence))
     if problems:
         raise InvalidInput(_located(problems, scene, echo))
     return found, filled, echo

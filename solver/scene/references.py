@@ -8,7 +8,6 @@ from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
 from jointplay.solver.joints import Gear
 from jointplay.solver.joints.starts import GuideStart
-from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.friction.law import InnerState
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
@@ -40,21 +39,26 @@ def reference_problems(scene: Scene) -> Iterator[Problem]:
     """Yield what is wrong between the parts of a scene; pointers begin at the scene."""
     yield from part_problems(scene)
     yield from parameter_problems(scene)
-    for name, joint in scene.joints.items():
-        if joint.slack is not None:
-            yield from _idle(scene, f"/joints/{name}/clearance/contact", joint.slack.contact)
+    setting = targeted_paths(scene)
+    for path, other, sentence in idle_fields(scene):
+        if other not in setting:  # else it may give way
+            yield Problem(path, sentence)
 
 
-def _idle(scene: Scene, pointer: str, law: ContactLaw) -> Iterator[Problem]:
-    """Yield fields that another one makes idle, unless a parameter sets that: it may give way.
+def idle_fields(scene: Scene) -> Iterator[tuple[str, str, str]]:
+    """Yield pointers to fields that have no effect, and to what makes them idle, and the sentence.
 
     A field with its default counts as not given: filled-in documents have all fields.
     """
-    other, fields = law.idle_beside()
-    for field in () if f"{pointer}/{other}" in targeted_paths(scene) else fields:
-        if getattr(law, field) != type(law).model_fields[field].default:
-            sentence = f"'{field}' has no effect beside a given '{other}'; leave one of them out."
-            yield Problem(f"{pointer}/{field}", sentence)
+    for name, joint in scene.joints.items():
+        if joint.slack is None:
+            continue
+        law, pointer = joint.slack.contact, f"/joints/{name}/clearance/contact"
+        other, fields = law.idle_beside()
+        for field in fields:
+            if getattr(law, field) != type(law).model_fields[field].default:
+                sentence = f"'{field}' has no effect beside a given '{other}'; leave one out."
+                yield f"{pointer}/{field}", f"{pointer}/{other}", sentence
 
 
 def part_problems(scene: Scene) -> Iterator[Problem]:

@@ -78,6 +78,11 @@ BAD_JOBS: dict[str, Refused] = {
         "/section/crank_angle",
         "No driver turns, so there is no period. Sections need one",
     ),
+    "a material beside a stiffness": (
+        at(P, {"youngs_modulus": 7e10, "stiffness": 1e10}),
+        f"{P}/youngs_modulus",
+        "has no effect beside a given 'stiffness'",
+    ),
     "long label": (at("/label", "x" * 201), "/label", "200"),
 }
 
