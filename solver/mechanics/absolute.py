@@ -111,16 +111,8 @@ class AbsoluteMechanism:
         """
         rows: list[Row] = []
         for name in self.joints:
-            joint = self.numbers.joints[name]
-            here, there = (self.marker(point, q, v) for point in joint.points)
-            start = self.scene.start
-            held = AbsoluteHolding(
-                name,
-                (here, there),
-                start.joints.get(name, CONCENTRIC),
-                start.guides.get(name, CENTRED),
-            )
-            rows += joint.rows(held, self._driver(name, driven))
+            held = self._held(name, q, v)
+            rows += self.numbers.joints[name].rows(held, self._driver(name, driven))
         still = Marker(-1, (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), 0.0, 0.0)
         for body, name in self.turned.items():
             i = self.bodies.index(body)
@@ -134,14 +126,19 @@ class AbsoluteMechanism:
 
         Nothing demands them: they say where a slide, or a pin in a slot, is in the middle.
         """
-        joints = [(name, self.numbers.joints[name]) for name in self.joints]
+        headings = {name: self.numbers.joints[name].heading for name in self.joints}
         return [
-            AbsoluteHolding(
-                name, (self.marker(joint.points[0], q, v), self.marker(joint.points[1], q, v))
-            ).along(joint.heading, RESTING)
-            for name, joint in joints
-            if joint.heading is not None
+            self._held(name, q, v).along(heading, RESTING)
+            for name, heading in headings.items()
+            if heading is not None
         ]
+
+    def _held(self, name: str, q: Scalars, v: Scalars) -> AbsoluteHolding:
+        """Return a joint between its markers, as it starts."""
+        first, second = (self.marker(point, q, v) for point in self.numbers.joints[name].points)
+        start = self.scene.start
+        journal, guided = start.joints.get(name, CONCENTRIC), start.guides.get(name, CENTRED)
+        return AbsoluteHolding(name, (first, second), journal, guided)
 
     def _gear(self, name: str, q: Scalars, v: Scalars) -> Row:
         """α_2 - ratio α_1 - offset = 0."""
