@@ -26,7 +26,7 @@ ADDRESS_OF_NUMBERS = _ARRAY_MODEL.get_field_position("data")
 ON_ITS_OWN = "noinline nounwind alignstack(64)"
 """Attributes of a function that several call: it is not written into them, and its stack begins on
 a line of the cache. Where vectors lay across two lines, by chance of where a process's stack is,
-steps took 5 % longer in the mean, and 15 % at worst, with one across two pages."""
+steps took 2 to 6 % longer."""
 
 
 @dataclass(frozen=True)
