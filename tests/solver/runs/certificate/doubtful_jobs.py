@@ -65,7 +65,11 @@ GUIDE: dict[str, Any] = {
                 "free_length": 0.237902489,
             }
         },
-        "start": {"guides": {"guide": {"offset": 5.8382762521174525e-06, "tilt": 0.0}}},
+        "start": {
+            "guides": {"guide": {"offset": 5.8382762521174525e-06, "tilt": 0.0}},
+            "points": {"s.p": [-0.07109003819630899, -0.04769793863054457]},
+            "velocities": {"s": [0.0, 0.0]},
+        },
         "drivers": {
             "d": {
                 "joint": "A",
