@@ -26,6 +26,7 @@ from jointplay.worker.study_block import run_block
 from tests.seams.conftest import Platform
 from tests.seams.relief import Relief
 from tests.stores import packed, target
+from tests.waiting import until
 
 ROOT = Path(__file__).parents[2]
 CLEARANCES, FRICTIONS = {"from": 2e-4, "to": 5e-4, "count": 4}, [0.0, 0.05, 0.1]
@@ -77,9 +78,11 @@ def test_a_map_is_computed_block_by_block_and_read_while_it_grows(
         platform.compute(block.id)
         known = first + count
         there = over_axes(np.arange(12) < known, ORDER, (3, 4))
+        shown = np.where(there, heights, np.nan)
+        # a running study is shown as it was half a second ago at most
+        until(lambda shown=shown: np.array_equal(statistics()[MEAN], shown, equal_nan=True))
         mean = statistics()[MEAN]
         assert mean.dims == ("y", "x")
-        assert np.array_equal(mean, np.where(there, heights, np.nan), equal_nan=True)
         assert mean["x"].values == pytest.approx([2e-4, 3e-4, 4e-4, 5e-4])
         assert mean["y"].values.tolist() == FRICTIONS
         assert (mean["x"].attrs["parameter"], mean["x"].attrs["units"]) == ("clearance", "m")
