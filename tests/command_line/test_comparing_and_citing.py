@@ -154,9 +154,9 @@ def test_each_curve_of_a_comparison_is_the_history_of_the_run_that_its_label_nam
     drawing = tmp_path / "both.svg"
     ended = jointplay("compare", runs / "a", runs / "b", *window, *options, "-o", drawing)
     assert ended.code == 0, ended.err
-    labels = " ".join(re.findall("<!-- (.*) -->", drawing.read_text()))  # one for each line
-    assert f"{name} [{unit}]" in labels
-    assert "time [s]" in labels
+    labels = "\n".join(re.findall("<!-- (.*) -->", drawing.read_text()))  # one for each line
+    for label in (name, unit), ("time", "s"):
+        assert re.search(r"^{}\s\[{}\]$".format(*label), labels, re.MULTILINE)
     curves = curves_in(drawing, (0.2, 0.8), (-7.0, 2.0))
     assert set(curves) == {"mass=1", "mass=2"}
     for folder, label in (("a", "mass=1"), ("b", "mass=2")):

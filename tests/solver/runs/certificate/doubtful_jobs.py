@@ -68,7 +68,8 @@ GUIDE: dict[str, Any] = {
         "start": {
             "guides": {"guide": {"offset": 5.8382762521174525e-06, "tilt": 0.0}},
             "points": {"s.p": [-0.07109003819630899, -0.04769793863054457]},
-            "velocities": {"s": [0.0, 0.0]},
+            "velocities": {"s": [0.0, 0.0]},  # which does not turn unless it is said
+            "angular_velocities": {"s": 0.418875828 * 54.917503},
         },
         "drivers": {
             "d": {
