@@ -1,6 +1,6 @@
 /** Where the reader is: the view and what it shows, as the address says after `#`. */
 
-/** Returns the view, its further parts and its query: `#/jobs/ID?time=0.3`. */
+/** Returns the view, its further parts and its query: `#/job/ID?time=0.3`. */
 export function place(hash = location.hash) {
   const [path, query] = hash.replace(/^#\/?/, "").split("?");
   const [view, ...parts] = path.split("/").map(decoded);
