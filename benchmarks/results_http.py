@@ -21,7 +21,7 @@ import zarr
 from obstore.store import HTTPStore
 from zarr.storage import ObjectStore
 
-from jointplay.records.impact import IMPACT
+from jointplay.records.run_rows import RunRows
 from jointplay.service.app import create_app
 from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -109,12 +109,12 @@ def stored(http: httpx.Client, settings: Settings, channels: list[str], samples:
     writer = ResultWriter.create(settings.running_run(*attempt).folder, layout)
     show(f"create the arrays of {len(specs)} channels", time.perf_counter() - begun)
     noise = np.random.default_rng(0).normal(size=(50_000, len(specs)))
-    nothing = np.empty(0), np.empty((0, len(specs))), np.empty(0, IMPACT)
     while writer.samples < samples:
-        rows = min(len(noise), samples - writer.samples)
-        moments = (writer.samples + np.arange(rows, dtype=np.float64)) * STEP
-        values = noise[:rows] + 3.0 * np.sin(30.0 * moments)[:, None]
-        writer.append(writer.samples, moments, values, 0, *nothing)
+        first = writer.samples
+        count = min(len(noise), samples - first)
+        moments = (first + np.arange(count, dtype=np.float64)) * STEP
+        values = noise[:count] + 3.0 * np.sin(30.0 * moments)[:, None]
+        writer.append(RunRows(first_sample=first, sample_time=moments, samples=values))
     target = settings.sealed_run(*attempt)
     begun = time.perf_counter()
     writer.seal(target, peaks={}, summary={}, complete=samples == admission.samples)

@@ -12,6 +12,7 @@ import numpy as np
 from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
+from jointplay.records.run_rows import RunRows
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
@@ -57,8 +58,15 @@ def default_history(folder: Path) -> None:
         begin = perf_counter()
         writer = ResultWriter.create(path, layout(2001, 2))
         created = perf_counter()
-        impacts = np.zeros(100, IMPACT)
-        writer.append(0, time, samples, 0, time[:2], samples[:2], impacts)
+        writer.append(
+            RunRows(
+                sample_time=time,
+                samples=samples,
+                section_time=time[:2],
+                sections=samples[:2],
+                impacts=np.zeros(100, IMPACT),
+            )
+        )
         appended = perf_counter()
         target = StoredObject(Folder(str(folder)), f"small{repeat}.zip")
         writer.seal(target, peaks=peaks, summary={})
@@ -89,11 +97,10 @@ def long_history(folder: Path) -> None:
     time, values = rows(piece)
     writer = ResultWriter.create(folder / "long", layout(samples, 0))
     target = StoredObject(Folder(str(folder)), "long.zip")
-    nothing = np.empty(0), np.empty((0, CHANNELS)), np.empty(0, IMPACT)
 
     def fill() -> None:
         for first in range(0, samples, piece):
-            writer.append(first, time + first, values, 0, *nothing)
+            writer.append(RunRows(first_sample=first, sample_time=time + first, samples=values))
 
     show("1e6 samples: append, 760 MB", timed(fill))
     show("1e6 samples: checkpoint, 17 000 rows waiting", timed(writer.checkpoint))

@@ -11,36 +11,42 @@ from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.options import AS_JSON
 from jointplay.command_line.output import aligned, make_folder, tell
 
+SEED = Annotated[int, typer.Option(min=0, help="Of jobs and schedule.")]
+DURATION = Annotated[float, typer.Option(min=1.0, max=86_400.0, help="In which faults strike, s.")]
+FAULT = Annotated[
+    list[str] | None,
+    typer.Option(metavar="NAME", help="Only this one; repeatable. Default all."),
+]
+WORKERS = Annotated[int, typer.Option(min=1, max=64, help="How many workers.")]
+CATALOGUE = Annotated[
+    str,
+    typer.Option(
+        metavar="URL", help="Empty database, postgresql://USER@HOST/NAME. Default a file."
+    ),
+]
+RESULTS = Annotated[
+    str,
+    typer.Option(
+        metavar="URL",
+        help="Empty place, s3://BUCKET/PREFIX?endpoint=http://HOST. Default a folder.",
+    ),
+]
+OUTPUT = Annotated[
+    Path | None,
+    typer.Option(
+        "-o", "--output", metavar="FOLDER", help="Where it works; must not exist, and stays."
+    ),
+]
+
 
 def chaos(
-    seed: Annotated[int, typer.Option(min=0, help="Of jobs and schedule.")] = 0,
-    duration: Annotated[
-        float, typer.Option(min=1.0, max=86_400.0, help="In which faults strike, s.")
-    ] = 180.0,
-    fault: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME", help="Only this one; repeatable. Default all."),
-    ] = None,
-    workers: Annotated[int, typer.Option(min=1, max=64, help="How many workers.")] = 2,
-    catalogue: Annotated[
-        str,
-        typer.Option(
-            metavar="URL", help="Empty database, postgresql://USER@HOST/NAME. Default a file."
-        ),
-    ] = "",
-    results: Annotated[
-        str,
-        typer.Option(
-            metavar="URL",
-            help="Empty place, s3://BUCKET/PREFIX?endpoint=http://HOST. Default a folder.",
-        ),
-    ] = "",
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o", "--output", metavar="FOLDER", help="Where it works; must not exist, and stays."
-        ),
-    ] = None,
+    seed: SEED = 0,
+    duration: DURATION = 180.0,
+    fault: FAULT = None,
+    workers: WORKERS = 2,
+    catalogue: CATALOGUE = "",
+    results: RESULTS = "",
+    output: OUTPUT = None,
     as_json: AS_JSON = False,
 ) -> None:
     """Let faults strike a service made for it, on this machine, and check what it made of them.

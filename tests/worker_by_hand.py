@@ -14,6 +14,7 @@ from jointplay.records.job import JobError
 from jointplay.records.peak import Peak
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.records.run import CertificateRecord
+from jointplay.records.run_rows import RunRows
 from jointplay.solver.kinds import KINDS, Admission, Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockEnd, BlockState, Claim
@@ -129,13 +130,13 @@ class Worker:
         columns = np.arange(float(len(channels)))
         rows = np.array(impacts * [(1, 0.5, np.nan, 0.01, 100.0, 0.2)], IMPACT)
         writer.append(
-            0,
-            time,
-            columns + time[:, None],
-            0,
-            section_time,
-            columns + section_time[:, None],
-            rows,
+            RunRows(
+                sample_time=time,
+                samples=columns + time[:, None],
+                section_time=section_time,
+                sections=columns + section_time[:, None],
+                impacts=rows,
+            )
         )
         peaks = {channel.name: Peak(-1.0, 0.25, 1.0, 0.75) for channel in channels}
         energy = dict.fromkeys(LEDGER, 0.0) | {"driver_work": 2.5, "residual": 1e-6}

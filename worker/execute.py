@@ -111,16 +111,11 @@ def execute(
     """
     writer, restart = _begin(folder, layout_of_run(admission), resume_from)
     begin = (restart.time, restart.fraction) if restart else (0.0, 0.0)
-    try:
-        simulation = Simulation(admission, restart.simulation if restart else None)
-    except InvalidInput as refused:
-        writer.seal(target, peaks={}, summary={}, complete=False)
-        return Outcome("failed", *begin, JobError("user", "invalid-input", str(refused)))
-    except CompilationEnded as ended:
-        outcome = uncompiled(ended, *begin)
-        if outcome.state != "left":
+    simulation = _made_ready(admission, restart.simulation if restart else None, begin)
+    if isinstance(simulation, Outcome):
+        if simulation.state != "left":
             writer.seal(target, peaks={}, summary={}, complete=False)
-        return outcome
+        return simulation
     outcome = _advance(simulation, longest, writer, folder, report, begin)
     if outcome.state == "left":
         return outcome
@@ -151,6 +146,18 @@ def _begin(
             _log.warning("the run begins anew: %s", error)
             shutil.rmtree(folder, ignore_errors=True)
     return ResultWriter.create(folder, layout), None
+
+
+def _made_ready(
+    admission: Admission, checkpoint: bytes | None, begin: tuple[float, float]
+) -> Simulation | Outcome:
+    """Return the simulation, or how the run ends before it has begun."""
+    try:
+        return Simulation(admission, checkpoint)
+    except InvalidInput as refused:
+        return Outcome("failed", *begin, JobError("user", "invalid-input", str(refused)))
+    except CompilationEnded as ended:
+        return uncompiled(ended, *begin)
 
 
 def _advance(
@@ -190,17 +197,7 @@ def _advance(
             return uncompiled(ended, time, fraction)
         if piece is None:
             return Outcome("succeeded", time, fraction)
-        writer.append(
-            piece.first_sample,
-            piece.sample_time,
-            piece.samples,
-            piece.first_section,
-            piece.section_time,
-            piece.sections,
-            piece.impacts,
-            piece.steps,
-            piece.intervals,
-        )
+        writer.append(piece)
         time, fraction = piece.time, piece.fraction
 
 

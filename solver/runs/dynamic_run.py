@@ -211,17 +211,19 @@ class DynamicRun:
             sample_time[-1:] = reached = duration
         self.sampled.add(sample_time, samples)
         slowest = min(reached, self.survey.time) if self.survey else reached
+        steps, intervals = self._steps()
         return Slice(
-            reached,
-            min(slowest / duration, 1.0),
-            first_sample,
-            sample_time,
-            samples,
-            first_section,
-            section_time,
-            sections,
-            self.bundle.impacts(LANE),
-            *self._steps(),
+            time=reached,
+            fraction=min(slowest / duration, 1.0),
+            first_sample=first_sample,
+            sample_time=sample_time,
+            samples=samples,
+            first_section=first_section,
+            section_time=section_time,
+            sections=sections,
+            impacts=self.bundle.impacts(LANE),
+            steps=steps,
+            intervals=intervals,
         )
 
     def _steps(self) -> tuple[Floats, Floats]:

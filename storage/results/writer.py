@@ -6,10 +6,10 @@ from typing import Any, Self
 
 from numpy.typing import NDArray
 
-from jointplay.records.arrays import Floats
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
 from jointplay.records.run import CertificateRecord
+from jointplay.records.run_rows import RunRows
 from jointplay.storage.errors import InvalidAppend, StoreExists, StoreSealed
 from jointplay.storage.packed import Running, pack
 from jointplay.storage.packed.running import DOCUMENTS, digest_in
@@ -124,32 +124,8 @@ class ResultWriter:
         """Impacts appended so far."""
         return self._impacts.rows
 
-    def append(
-        self,
-        first_sample: int,
-        sample_time: Floats,
-        samples: Floats,
-        first_section: int,
-        section_time: Floats,
-        sections: Floats,
-        impacts: NDArray[Any],
-        steps: Floats | None = None,
-        intervals: Floats | None = None,
-    ) -> None:
+    def append(self, rows: RunRows) -> None:
         """Add rows; whole shards go to the disk, the rest waits in memory.
-
-        Parameters
-        ----------
-        first_sample
-            Index of the first row; must be `samples` of this writer.
-        sample_time, samples
-            (k,) s and (k, channels) in the units of the layout.
-        first_section, section_time, sections
-            The same for m Poincare sections.
-        impacts
-            (j,) structured, with the fields of `IMPACT`.
-        steps, intervals
-            (s, columns) accepted steps, (i, columns) extremes between samples, as the layout says.
 
         Raises
         ------
@@ -160,28 +136,18 @@ class ResultWriter:
             been taken then.
         """
         self._refuse_when_sealed()
-        if first_sample != self.samples or first_section != self.sections:
-            raise InvalidAppend(
-                f"the next rows are sample {self.samples} and section {self.sections}, "
-                f"not sample {first_sample} and section {first_section}"
-            )
-        self._check_shape("samples", sample_time, samples)
-        self._check_shape("sections", section_time, sections)
-        if impacts.size and set(impacts.dtype.names or ()) != set(IMPACT.names or ()):
-            raise InvalidAppend(f"impacts need the fields {IMPACT.names}")
-        if steps is not None and steps.shape[1] != len(self._layout.steps):
-            raise InvalidAppend(f"steps must have {len(self._layout.steps)} columns")
-        self._history.check_capacity(len(sample_time))
-        self._sections.check_capacity(len(section_time))
-        self._pyramid.append([*samples.T, sample_time])
-        self._history.append([*samples.T, sample_time])
-        self._sections.append([*sections.T, section_time])
-        for table, rows in ((self._steps, steps), (self._intervals, intervals)):
-            if table is not None and rows is not None:
-                table.append(list(rows.T))
-        if impacts.size:
+        self._check(rows)
+        if rows.sample_time.size:
+            self._pyramid.append([*rows.samples.T, rows.sample_time])
+            self._history.append([*rows.samples.T, rows.sample_time])
+        if rows.section_time.size:
+            self._sections.append([*rows.sections.T, rows.section_time])
+        for table, wide in ((self._steps, rows.steps), (self._intervals, rows.intervals)):
+            if table is not None and wide.shape[1]:
+                table.append(list(wide.T))
+        if rows.impacts.size:
             durable = self._impacts.durable
-            self._impacts.append([impacts[str(name)] for name in IMPACT.names or ()])
+            self._impacts.append([rows.impacts[str(name)] for name in IMPACT.names or ()])
             if self._impacts.durable != durable:
                 self._show()
 
@@ -249,18 +215,20 @@ class ResultWriter:
         self._pyramid.close()
         shown = [table.rows for table in self._tables]
         nodes = documents(self._layout, shown, attributes, more)
-
-        def entries() -> Iterator[tuple[str, bytes]]:
-            for table in self._growing:
-                yield from table.files()
-            if certificate is not None:
-                yield from certificate_group.chunks(certificate)
-            yield from metadata.serialised(self._internal() | nodes)
-
         try:
-            target.put(pack(manifest.listed(entries())))
+            target.put(pack(manifest.listed(self._entries(nodes, certificate))))
         except FileExistsError as error:
             raise StoreExists(f"{target} holds results already") from error
+
+    def _entries(
+        self, nodes: dict[str, metadata.Document], certificate: CertificateRecord | None
+    ) -> Iterator[tuple[str, bytes]]:
+        """Give every file of the packed store, by its name."""
+        for table in self._growing:
+            yield from table.files()
+        if certificate is not None:
+            yield from certificate_group.chunks(certificate)
+        yield from metadata.serialised(self._internal() | nodes)
 
     @property
     def _growing(self) -> list[GrowingTable]:
@@ -283,9 +251,25 @@ class ResultWriter:
         groups = metadata.groups_among(documents(layout, shown, {}))
         self._files.write_documents(metadata.serialised(self._internal() | groups))
 
+    def _check(self, rows: RunRows) -> None:
+        """Refuse rows that do not go on where those before ended, or do not fit the layout."""
+        if rows.first_sample != self.samples or rows.first_section != self.sections:
+            raise InvalidAppend(
+                f"the next rows are sample {self.samples} and section {self.sections}, "
+                f"not sample {rows.first_sample} and section {rows.first_section}"
+            )
+        self._check_shape("samples", rows.sample_time, rows.samples)
+        self._check_shape("sections", rows.section_time, rows.sections)
+        if rows.impacts.size and set(rows.impacts.dtype.names or ()) != set(IMPACT.names or ()):
+            raise InvalidAppend(f"impacts need the fields {IMPACT.names}")
+        if rows.steps.shape[1] not in (0, len(self._layout.steps)):
+            raise InvalidAppend(f"steps must have {len(self._layout.steps)} columns")
+        self._history.check_capacity(len(rows.sample_time))
+        self._sections.check_capacity(len(rows.section_time))
+
     def _check_shape(self, what: str, time: NDArray[Any], rows: NDArray[Any]) -> None:
         expected = (len(time), len(self._layout.channels))
-        if time.ndim != 1 or rows.shape != expected:
+        if time.ndim != 1 or (rows.shape != expected and (time.size or rows.size)):
             raise InvalidAppend(f"{what} must have shape {expected}, not {rows.shape}")
 
     def _refuse_when_sealed(self) -> None:

@@ -14,8 +14,8 @@ from hypothesis.extra import numpy as arrays
 from jointplay.exports.run import csv_lines, json_pieces
 from jointplay.records.channel import Channel
 from jointplay.records.channel_choice import NoSuchChannel
-from jointplay.records.impact import IMPACT
 from jointplay.records.run import Dataset
+from jointplay.records.run_rows import RunRows
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.writer import ResultWriter
@@ -87,9 +87,8 @@ def test_a_long_history_is_exported_in_bounded_memory(tmp_path):
     rows = 200_000
     layout = ResultLayout((Channel("x", "m", "position"),), rows, 0, ())
     writer = ResultWriter.create(tmp_path / "store", layout)
-    none = np.empty(0), np.empty((0, 1)), np.empty(0, IMPACT)
     values = np.random.default_rng(0).normal(size=(rows, 1))
-    writer.append(0, np.arange(float(rows)), values, 0, *none)
+    writer.append(RunRows(sample_time=np.arange(float(rows)), samples=values))
     writer.seal(target(tmp_path / "store"), peaks={}, summary={})
     reader = ResultReader(tmp_path / "store.zip")
     tracemalloc.start()
@@ -109,9 +108,8 @@ def test_the_store_and_memory_export_alike(tmp_path):
     values = np.random.default_rng(0).normal(size=(7, 2))
     specs = CHANNELS
     writer = ResultWriter.create(tmp_path / "store", ResultLayout(specs, 7, 0, ()))
-    none = np.empty(0), np.empty((0, 2)), np.empty(0, IMPACT)
     in_memory = dataset(values)
-    writer.append(0, in_memory.time, values, 0, *none)
+    writer.append(RunRows(sample_time=in_memory.time, samples=values))
     writer.seal(target(tmp_path / "store"), peaks={}, summary={})
     stored = ResultReader(tmp_path / "store.zip")
     assert list(csv_lines(stored)) == list(csv_lines(in_memory))

@@ -10,6 +10,7 @@ import zarr
 
 from jointplay.records.impact import IMPACT
 from jointplay.records.job import JobError
+from jointplay.records.run_rows import RunRows
 from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue.records import BlockState, Claim
 from jointplay.storage.results.layout import Partition, ResultLayout
@@ -41,8 +42,10 @@ class Running:
         time = self.time[first : first + samples]
         columns = np.arange(len(self.admission.channels))
         impacts = np.array([(1, 0.5, np.nan, 0.01, 100.0, 0.2)], IMPACT)
-        nothing = np.empty(0), np.empty((0, len(columns)))
-        self.writer.append(first, time, columns + time[:, None], 0, *nothing, impacts)
+        samples = columns + time[:, None]
+        self.writer.append(
+            RunRows(first_sample=first, sample_time=time, samples=samples, impacts=impacts)
+        )
 
     def commit(self):
         token = self.writer.checkpoint()

@@ -44,19 +44,13 @@ def compute_study(
 
     Parameters
     ----------
-    study
-        As admitted.
-    running
-        Folder of the store's, with what an earlier call left.
-    target
-        Where the sealed store goes.
+    running, target
+        Folder of the growing store, with what an earlier call left; where the sealed one goes.
     processes
         How many at most; by default one for each core, or one beside a device. What takes no longer
         than others take to begin is computed in this one.
-    report
-        Called several times a second with the fraction of the whole, and a few words.
-    asked_to_end
-        Asked several times a second.
+    report, asked_to_end
+        Called several times a second, the first with the fraction of the whole, and a few words.
     device
         What opens a device in each process, which then computes many blocks together.
 

@@ -17,15 +17,14 @@ from jointplay.solver.runs.certificate.companions import (
     LADDER,
     PERTURBED,
     RUN,
-    TWIN,
     Companions,
 )
 from jointplay.solver.runs.certificate.contacts import certified_contacts
+from jointplay.solver.runs.certificate.errors import errors_of
 from jointplay.solver.runs.certificate.growth import Exponent
 from jointplay.solver.runs.certificate.kinds import FORCE, MEANINGS, PRESCRIBED, kinds_of
 from jointplay.solver.runs.certificate.remarks import remarks
 from jointplay.solver.runs.certificate.scales import CRITERION, motion_of, scales_of
-from jointplay.solver.runs.certificate.steepness import steepness
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import tangent_obstacle
@@ -110,16 +109,8 @@ def certify(
     scales = scales_of(values, [*names, *motion], units, scene)
     count = len(names)
     safety = estimate.SAFETY if bundle.kernel.tableau.error else estimate.UNCONTROLLED
-    apart = safety * estimate.apart(values)
-    near = estimate.near_claims(apart[:, count:], scales[count:])
-    steep = steepness(companions, safety, columns, values[TWIN - 1], near)
-    error = estimate.around(np.maximum(apart, steep))
+    error, horizon = errors_of(companions, columns, values, scales, safety, count)
     small = estimate.within(error, scales)
-    horizon = estimate.spans(small[:, count:], time)[0][1]
-    later = estimate.around(estimate.UNCONTROLLED * estimate.parted(values))
-    np.copyto(error, np.fmax(error, later), where=(time > horizon)[:, None])
-    small = estimate.within(error, scales)
-    known = estimate.spans(small[:, count:], time)
     edges, share, spread = estimate.histogram(values[:, :, :count], time)
     until = estimate.until(small[:, :count], time)
     kinds = kinds_of(channels, rows)
@@ -131,7 +122,7 @@ def certify(
         "note": remarks(companions, scene, time, horizon, contacts, energy["energy_in_tolerances"]),
         "horizon": horizon,
         "forces_until": float(min(forces)) if forces else None,
-        "converged": known,
+        "converged": estimate.spans(small[:, count:], time),
         "criterion": CRITERION,
         "impacts": None if contacts is None else asdict(contacts),
         "safety": safety,

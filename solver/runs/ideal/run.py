@@ -10,7 +10,6 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.records.checkpoint import decode, encode
 from jointplay.records.failure import SimulationFailed
-from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
 from jointplay.solver.mechanics.observe import channel_values
 from jointplay.solver.quantities.extremes import refined_peaks, sampled_peak
@@ -161,17 +160,14 @@ class IdealRun:
     ) -> Slice:
         reached = float(times[-1]) if len(times) else self.duration
         return Slice(
-            reached,
-            min(reached / self.duration, 1.0),
-            self.samples_done,
-            times,
-            samples,
-            self.sections_done,
-            section_times,
-            sections,
-            np.zeros(0, dtype=IMPACT),
-            np.empty((0, 0)),
-            np.empty((0, 0)),
+            time=reached,
+            fraction=min(reached / self.duration, 1.0),
+            first_sample=self.samples_done,
+            sample_time=times,
+            samples=samples,
+            first_section=self.sections_done,
+            section_time=section_times,
+            sections=sections,
         )
 
     def _extremes(self) -> dict[str, Peak]:

@@ -16,54 +16,66 @@ if TYPE_CHECKING:
     from jointplay.solver.calibration.outcome import Outcome
     from jointplay.solver.calibration.problem import Calibration
 
+SOURCE = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="FILE.json|SCENE.json|PRESET",
+        help="A calibration, or what one left (it is repeated); a scene with options.",
+    ),
+]
+FIT = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="NAME=MIN:MAX[:log]", help="A parameter that may move; repeat it for others."
+    ),
+]
+TARGET = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="CHANNEL[:STATISTIC][@FROM:TO]=VALUE",
+        help="What a channel shall give, by default its maximum; else what the scene reports.",
+    ),
+]
+DURATION = Annotated[
+    float | None, typer.Option(metavar="SECONDS", help="End of windows that are left open.")
+]
+TOLERANCE = Annotated[
+    float | None, typer.Option(help="Error that one step may make, relative to the scene.")
+]
+POPULATION = Annotated[int | None, typer.Option(help="Candidates a parameter.")]
+GENERATIONS = Annotated[int | None, typer.Option(help="Most generations of the search.")]
+SEED = Annotated[int | None, typer.Option(help="The same seed finds the same.")]
+FACTOR = Annotated[float | None, typer.Option(help="How many times the best cost is equally good.")]
+AS_JSON = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
+OUTPUT = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the JSON there.")
+]
+PRESET_OUT = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="Write the scene with what was found as defaults."),
+]
+RESUME = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="Go on with a calibration -o FILE that was cut short."),
+]
+
 
 def calibrate(
-    source: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="FILE.json|SCENE.json|PRESET",
-            help="A calibration, or what one left (it is repeated); a scene with options.",
-        ),
-    ] = None,
+    source: SOURCE = None,
     settings: SET = None,
-    fit: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="NAME=MIN:MAX[:log]", help="A parameter that may move; repeat it for others."
-        ),
-    ] = None,
-    target: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="CHANNEL[:STATISTIC][@FROM:TO]=VALUE",
-            help="What a channel shall give, by default its maximum; else what the scene reports.",
-        ),
-    ] = None,
-    duration: Annotated[
-        float | None, typer.Option(metavar="SECONDS", help="End of windows that are left open.")
-    ] = None,
-    tolerance: Annotated[
-        float | None, typer.Option(help="Error that one step may make, relative to the scene.")
-    ] = None,
-    population: Annotated[int | None, typer.Option(help="Candidates a parameter.")] = None,
-    generations: Annotated[int | None, typer.Option(help="Most generations of the search.")] = None,
-    seed: Annotated[int | None, typer.Option(help="The same seed finds the same.")] = None,
-    factor: Annotated[
-        float | None, typer.Option(help="How many times the best cost is equally good.")
-    ] = None,
+    fit: FIT = None,
+    target: TARGET = None,
+    duration: DURATION = None,
+    tolerance: TOLERANCE = None,
+    population: POPULATION = None,
+    generations: GENERATIONS = None,
+    seed: SEED = None,
+    factor: FACTOR = None,
     processes: PROCESSES = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")] = False,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the JSON there.")
-    ] = None,
-    preset_out: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Write the scene with what was found as defaults."),
-    ] = None,
-    resume: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Go on with a calibration -o FILE that was cut short."),
-    ] = None,
+    as_json: AS_JSON = False,
+    output: OUTPUT = None,
+    preset_out: PRESET_OUT = None,
+    resume: RESUME = None,
 ) -> None:
     """Fit parameters of a scene to peaks, times and ranges that are known of it.
 

@@ -17,26 +17,32 @@ from jointplay.command_line.output import aligned, tell
 if TYPE_CHECKING:
     from jointplay.storage.reconciliation import Finding, Look
 
+FOLDER = Annotated[
+    Path,
+    typer.Argument(
+        metavar="FOLDER",
+        envvar="JOINTPLAY_DATA",
+        help="Data folder of a service, or folder of `jointplay run`.",
+    ),
+]
+DRY_RUN = Annotated[bool, typer.Option("--dry-run", help="Only look, mend nothing.")]
+EVERY_BYTE = Annotated[
+    bool, typer.Option("--bytes", "--all", help="Read every byte of all results.")
+]
+SEED = Annotated[
+    int | None, typer.Option(min=0, help="Of the sample of results; default: of the day.")
+]
+DEVICE = Annotated[
+    bool, typer.Option("--device", help="Only try whether a graphics processor serves.")
+]
+
 
 def doctor(
-    folder: Annotated[
-        Path,
-        typer.Argument(
-            metavar="FOLDER",
-            envvar="JOINTPLAY_DATA",
-            help="Data folder of a service, or folder of `jointplay run`.",
-        ),
-    ] = Path(".jointplay"),
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Only look, mend nothing.")] = False,
-    every_byte: Annotated[
-        bool, typer.Option("--bytes", "--all", help="Read every byte of all results.")
-    ] = False,
-    seed: Annotated[
-        int | None, typer.Option(min=0, help="Of the sample of results; default: of the day.")
-    ] = None,
-    device: Annotated[
-        bool, typer.Option("--device", help="Only try whether a graphics processor serves.")
-    ] = False,
+    folder: FOLDER = Path(".jointplay"),
+    dry_run: DRY_RUN = False,
+    every_byte: EVERY_BYTE = False,
+    seed: SEED = None,
+    device: DEVICE = False,
     as_json: AS_JSON = False,
 ) -> None:
     """Compare catalogue, results and broker with one another, and mend what can be mended.

@@ -11,48 +11,56 @@ from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, UR
 from jointplay.command_line.typed_window import check_start
 from jointplay.records.window_query import WindowQuery
 
+TABLE = Annotated[
+    Table | None,
+    typer.Option(
+        help="Of a simulation history (default), poincare, peaks or impacts; of a study its "
+        "poincare sections, or one row for each of its points."
+    ),
+]
+CHANNELS = Annotated[
+    str | None,
+    typer.Option(metavar="A,B", help="Names or globs such as 'slider7.*'; default all."),
+]
+POINTS = Annotated[
+    int | None,
+    typer.Option(
+        min=1,
+        metavar="N",
+        help="Most pairs of smallest and largest values, as a screen shows them.",
+    ),
+]
+STEP = Annotated[
+    float | None,
+    typer.Option(metavar="SECONDS", help="Values so far apart, between samples, too."),
+]
+FORM = Annotated[
+    Form | None,
+    typer.Option("--format", help="Text format; default what FILE ends in, or csv."),
+]
+AS_JSON = Annotated[bool, typer.Option("--json", help="The same as --format json.")]
+OUTPUT = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="A .csv, .json, .npz, .mat, .arrow or .parquet; default CSV to stdout.",
+    ),
+]
+
 
 def export(
     results: RESULTS,
-    table: Annotated[
-        Table | None,
-        typer.Option(
-            help="Of a simulation history (default), poincare, peaks or impacts; of a study its "
-            "poincare sections, or one row for each of its points."
-        ),
-    ] = None,
-    channels: Annotated[
-        str | None,
-        typer.Option(metavar="A,B", help="Names or globs such as 'slider7.*'; default all."),
-    ] = None,
+    table: TABLE = None,
+    channels: CHANNELS = None,
     start: START = None,
     stop: STOP = None,
-    points: Annotated[
-        int | None,
-        typer.Option(
-            min=1,
-            metavar="N",
-            help="Most pairs of smallest and largest values, as a screen shows them.",
-        ),
-    ] = None,
-    step: Annotated[
-        float | None,
-        typer.Option(metavar="SECONDS", help="Values so far apart, between samples, too."),
-    ] = None,
-    form: Annotated[
-        Form | None,
-        typer.Option("--format", help="Text format; default what FILE ends in, or csv."),
-    ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="The same as --format json.")] = False,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="A .csv, .json, .npz, .mat, .arrow or .parquet; default CSV to stdout.",
-        ),
-    ] = None,
+    points: POINTS = None,
+    step: STEP = None,
+    form: FORM = None,
+    as_json: AS_JSON = False,
+    output: OUTPUT = None,
     url: URL = DEFAULT_URL,
 ) -> None:
     """Write a table of a job, every bit of it: by default channels, or sections.

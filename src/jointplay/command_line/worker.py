@@ -13,51 +13,59 @@ from jointplay.command_line.output import tell
 
 _MARGIN = 30.0  # s for a restart point to be stored and sent
 
+JOIN = Annotated[
+    str | None,
+    typer.Option(
+        metavar="URL",
+        envvar="JOINTPLAY_URL",
+        help="Address of a service, for a worker that has nothing else; without it the worker"
+        " needs catalogue, Redis and results.",
+    ),
+]
+SETTINGS = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        envvar="JOINTPLAY_SETTINGS",
+        help="Lines such as JOINTPLAY_REDIS_URL=redis://HOST, beside the variables.",
+    ),
+]
+KEY_FILE = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Holds a key with the scope worker; else JOINTPLAY_KEY, or none.",
+    ),
+]
+IDLE = Annotated[
+    float | None,
+    typer.Option(min=0.0, metavar="SECONDS", help="End after this long without work."),
+]
+UNTIL = Annotated[
+    str | None,
+    typer.Option(
+        metavar="TIME",
+        help="Give back what is computed half a minute before: 2026-11-23T18:00, or seconds"
+        " since 1970.",
+    ),
+]
+PROCESSES = Annotated[
+    int, typer.Option(min=1, max=1024, metavar="N", help="Blocks at a time, a core each.")
+]
+DEVICE = Annotated[
+    str | None,
+    typer.Option(metavar="cpu|auto|cuda:N", help="For points of studies: JOINTPLAY_DEVICE."),
+]
+
 
 def worker(
-    join: Annotated[
-        str | None,
-        typer.Option(
-            metavar="URL",
-            envvar="JOINTPLAY_URL",
-            help="Address of a service, for a worker that has nothing else; without it the worker"
-            " needs catalogue, Redis and results.",
-        ),
-    ] = None,
-    settings: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            envvar="JOINTPLAY_SETTINGS",
-            help="Lines such as JOINTPLAY_REDIS_URL=redis://HOST, beside the variables.",
-        ),
-    ] = None,
-    key_file: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Holds a key with the scope worker; else JOINTPLAY_KEY, or none.",
-        ),
-    ] = None,
-    idle: Annotated[
-        float | None,
-        typer.Option(min=0.0, metavar="SECONDS", help="End after this long without work."),
-    ] = None,
-    until: Annotated[
-        str | None,
-        typer.Option(
-            metavar="TIME",
-            help="Give back what is computed half a minute before: 2026-11-23T18:00, or seconds"
-            " since 1970.",
-        ),
-    ] = None,
-    processes: Annotated[
-        int, typer.Option(min=1, max=1024, metavar="N", help="Blocks at a time, a core each.")
-    ] = 1,
-    device: Annotated[
-        str | None,
-        typer.Option(metavar="cpu|auto|cuda:N", help="For points of studies: JOINTPLAY_DEVICE."),
-    ] = None,
+    join: JOIN = None,
+    settings: SETTINGS = None,
+    key_file: KEY_FILE = None,
+    idle: IDLE = None,
+    until: UNTIL = None,
+    processes: PROCESSES = 1,
+    device: DEVICE = None,
     as_json: AS_JSON = False,
 ) -> None:
     """Compute blocks for a service: one of whose machines this is, or one elsewhere.

@@ -12,6 +12,7 @@ import numpy as np
 from jointplay.records.impact import IMPACT
 from jointplay.records.job import JobError
 from jointplay.records.run import CertificateRecord, LabelledArray
+from jointplay.records.run_rows import RunRows
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState, Claim
@@ -164,9 +165,9 @@ class Subjects:
         columns = np.arange(len(layout.channels))
         time = np.linspace(0.0, 2.0, admission.samples)[:800]
         impacts = np.array([(1, 0.5, np.nan, 0.01, 100.0, 0.2)], IMPACT)
-        nothing = np.empty(0), np.empty((0, len(columns)))
         shift = float(len(fields))  # another job's rows are others
-        writer.append(0, time, columns + shift + time[:, None], 0, *nothing, impacts)
+        samples = columns + shift + time[:, None]
+        writer.append(RunRows(sample_time=time, samples=samples, impacts=impacts))
         writer.checkpoint()
         self._catalogue.record_checkpoint(claim.block.id, 1, watermark=800, checkpoint="block0-a1")
         return claim.job.id

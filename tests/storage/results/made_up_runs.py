@@ -9,6 +9,7 @@ import numpy as np
 from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
+from jointplay.records.run_rows import RunRows
 from jointplay.storage.results.layout import Partition, ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from tests.stores import packed, target
@@ -62,14 +63,16 @@ class MadeUpRun:
         steps = slice(cut(start, len(self.steps)), cut(stop, len(self.steps)))
         impacts = slice(cut(start, len(self.impacts)), cut(stop, len(self.impacts)))
         writer.append(
-            rows.start,
-            self.time[rows],
-            self.samples[rows],
-            sections.start,
-            self.section_time[sections],
-            self.sections[sections],
-            self.impacts[impacts],
-            self.steps[steps] if self.layout.steps else None,
+            RunRows(
+                first_sample=rows.start,
+                sample_time=self.time[rows],
+                samples=self.samples[rows],
+                first_section=sections.start,
+                section_time=self.section_time[sections],
+                sections=self.sections[sections],
+                impacts=self.impacts[impacts],
+                steps=self.steps[steps],
+            )
         )
 
     def write(self, folder, fractions=(0.0, 1.0)):

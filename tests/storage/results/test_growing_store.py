@@ -14,6 +14,7 @@ from zarr.storage import ZipStore
 
 from jointplay.records.channel import Channel
 from jointplay.records.peak import Peak
+from jointplay.records.run_rows import RunRows
 from jointplay.storage.errors import (
     InvalidAppend,
     InvalidLayout,
@@ -148,10 +149,6 @@ def test_a_full_disk_loses_no_row_that_was_taken(tmp_path, run, writer, monkeypa
     np.testing.assert_array_equal(reader.history()[1]["slider7.q1"], run.samples[:kept, 1])
 
 
-def nothing(channels=2):
-    return np.empty(0), np.empty((0, channels)), made_up_impacts(0)
-
-
 @pytest.mark.parametrize(
     ("first", "rows", "width", "complaint"),
     [
@@ -161,16 +158,16 @@ def nothing(channels=2):
     ],
 )
 def test_rows_that_do_not_fit_are_refused_and_not_taken(writer, first, rows, width, complaint):
-    time, empty, impacts = nothing()
+    samples = np.zeros((rows, width))
     with pytest.raises(InvalidAppend, match=complaint):
-        writer.append(first, np.zeros(rows), np.zeros((rows, width)), 0, time, empty, impacts)
+        writer.append(RunRows(first_sample=first, sample_time=np.zeros(rows), samples=samples))
     assert writer.samples == 0
 
 
 def test_impacts_need_their_fields(writer):
-    time, empty, _ = nothing()
+    impacts = np.zeros(2, [("joint", "i4")])
     with pytest.raises(InvalidAppend, match="approach_rate"):
-        writer.append(0, time, empty, 0, time, empty, np.zeros(2, [("joint", "i4")]))
+        writer.append(RunRows(impacts=impacts))
 
 
 @pytest.mark.parametrize("summary", [{"seconds": float("nan")}, {"seconds": {1, 2}}])
@@ -203,13 +200,12 @@ def test_a_name_occurs_once():
 
 def test_a_million_impacts_stay_flat_in_memory(tmp_path):
     layout = made_up_layout(samples=0, sections=0, partition=ResultLayout((), 0, 0, ()).partition)
-    slice_of_impacts = made_up_impacts(10_000)
-    time, empty, _ = nothing()
+    rows = RunRows(impacts=made_up_impacts(10_000))
     tracemalloc.start()
     try:
         writer = ResultWriter.create(tmp_path / "store", layout)
         for _ in range(100):
-            writer.append(0, time, empty, 0, time, empty, slice_of_impacts)
+            writer.append(rows)
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from jointplay.records.run_rows import RunRows
 from jointplay.storage.packed import Running
 from jointplay.storage.results.intervals import ROWS, columns
 from jointplay.storage.results.reader import ResultReader
@@ -31,17 +32,16 @@ def rows(run):
 
 
 def append(writer, run, rows, first, last):
-    nothing = run.sections[:0]
     known = rows[(rows[:, 0] >= first) & (rows[:, 0] < last)]
+    part = slice(first, last)
     writer.append(
-        first,
-        run.time[first:last],
-        run.samples[first:last],
-        0,
-        np.empty(0),
-        nothing,
-        run.impacts,
-        intervals=known,
+        RunRows(
+            first_sample=first,
+            sample_time=run.time[part],
+            samples=run.samples[part],
+            impacts=run.impacts,
+            intervals=known,
+        )
     )
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from jointplay.records.run_rows import RunRows
 from jointplay.storage.errors import InvalidAppend
 from jointplay.storage.packed import Running
 from jointplay.storage.results.reader import ResultReader
@@ -81,6 +82,5 @@ def test_a_store_without_steps_says_so_and_others_are_not_taken(tmp_path):
     plain = MadeUpRun(layout, made_up_impacts(0))
     assert ResultReader(plain.write(tmp_path / "r")).steps is None
     writer = ResultWriter.create(tmp_path / "w", layout)
-    nothing = np.empty(0), np.empty((0, 2))
     with pytest.raises(InvalidAppend, match="columns"):
-        writer.append(0, *nothing, 0, *nothing, plain.impacts, np.zeros((1, 4)))
+        writer.append(RunRows(steps=np.zeros((1, 4))))
