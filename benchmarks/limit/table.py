@@ -26,6 +26,7 @@ class Row:
 ROWS = (
     Row("study", "a lane of a study, first revolution", goal="1.15 of C"),
     Row("study, extremes", "  with extremes of all channels", "study", "2 of bare"),
+    Row("study, foretold", "  that were known beforehand", "study"),
     Row("steady", "a lane of a study, steady", goal="1.15 of C"),
     Row("steady, extremes", "  with extremes of all channels", "steady", "1.5 of bare"),
     Row("steady, exponents", "  with exponents", "steady", "1.10 to 1.16 of bare"),
