@@ -136,9 +136,10 @@ def texts(kernel: Kernel, sizes: Sizes, work: Any, on_host: bool) -> dict[str, s
     def text(chosen: Sequence[Any]) -> str:
         return kernel_text(chosen, kernel.slots, sizes, on_host=on_host)
 
+    given = "ptr %W" if on_host else "ptr %W.given"
     called = text(constant).replace(
-        'define void @"slopes"(ptr %W, i64 %index) alwaysinline',
-        'define void @"slopes"(ptr %W, i64 %index) noinline',
+        f'define void @"slopes"({given}, i64 %index) alwaysinline',
+        f'define void @"slopes"({given}, i64 %index) noinline',
     )
     return {"": text(sources), "_constant": text(constant), "_called": called}
 

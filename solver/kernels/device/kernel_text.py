@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.solver.kernels.device.address_spaces import Constants, in_own_memory
 from jointplay.solver.kernels.device.lanes import ENTRY, MOVE, Sizes
 from jointplay.solver.kernels.device.one_lane import GlobalMemory
 from jointplay.solver.kernels.emit import functions
@@ -108,7 +109,7 @@ def kernel_text(
         [
             declared(1),
             LIBRARY,
-            *_functions(sources),
+            *_functions(sources, on_host=on_host),
             _words("slots", [f"i64 {word}" for word in slots.view(np.int64).reshape(-1)]),
             _lane(sizes, spare_rows(sources, sizes.slots) * INSTANTS),
             MOVED,
@@ -151,12 +152,13 @@ def spare_rows(sources: Sequence[Source], slots: int) -> int:
     return max(*used, -(-slots // INSTANTS)) + 1
 
 
-def _functions(sources: Sequence[Source]) -> Iterator[str]:
+def _functions(sources: Sequence[Source], *, on_host: bool) -> Iterator[str]:
     """Yield the text of all functions, and of a structure that has them as the loop finds them."""
-    there = {one.name for one in sources}
+    there, constants = {one.name for one in sources}, Constants()
     for one in sources:
         how = "noinline" if one.name in CALLED else "alwaysinline"
-        yield one.of_numbers(_symbol, 1, f"{how} nounwind")
+        text = constants.read_in(one.of_numbers(_symbol, 1, f"{how} nounwind"))
+        yield text if on_host else in_own_memory(text)
         if one.name in functions.SIGNATURES:
             meeting = [f"call void @{MEET}()"] if one.name == "attempt" else []
             yield one.of_arrays(_symbol, meeting)
@@ -165,6 +167,7 @@ def _functions(sources: Sequence[Source]) -> Iterator[str]:
         for name in functions.SIGNATURES
     ]
     yield _words("functions", addresses)
+    yield constants.text()
 
 
 def _symbol(name: str) -> str:

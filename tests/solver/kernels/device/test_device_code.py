@@ -1,12 +1,12 @@
 """Code for devices: whole, and every operation rounded, so that no driver decides a bit."""
 
 import re
-import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
+from benchmarks.device.assembled import assembler
 from jointplay.solver.kernels.device.compiled import code
 from jointplay.solver.kernels.device.kernel_text import spare_rows
 from jointplay.solver.kernels.device.lanes import Sizes
@@ -52,6 +52,18 @@ def test_every_operation_of_floats_is_rounded_as_written(text: str) -> None:
     assert not {one for one in found if not one.endswith(".rn.f64")}
 
 
+def test_numbers_of_a_step_are_in_the_threads_own_memory(text: str) -> None:
+    begun = text.index("barrier.sync")  # an attempt begins there
+    attempt = text[begun : text.index("\n}", begun)]
+    assert attempt.count("ld.local") > 100
+    assert re.search(r"\b(ld|st)\.(v\d\.)?b64", attempt) is None  # of any memory
+
+
+def test_constants_are_read_from_constant_memory(text: str) -> None:
+    assert ".const .align 8 .b8 constants[" in text
+    assert "ld.const" in text
+
+
 def test_tangents_are_whole_too(kernel: Kernel) -> None:
     tangents = compile_tangents(kernel)
     sources = [*kernel.module.tapes.sources, *tangents.module.tapes.sources]
@@ -77,12 +89,12 @@ def test_room_for_instants_is_that_of_the_rows_that_are_used(kernel: Kernel) -> 
     assert kernel.layout.block("impact_rate").stop <= rows < kernel.layout.size // 4
 
 
-@pytest.mark.skipif(shutil.which("ptxas") is None, reason="there is no ptxas")
+@pytest.mark.skipif(assembler() is None, reason="there is no ptxas")
 def test_the_assembler_takes_it_and_spills_little(text: str, tmp_path: Path) -> None:
     source = tmp_path / "kernel.ptx"
     source.write_text(text)
     done = subprocess.run(
-        ["ptxas", "-v", "-arch=sm_90", "-o", str(tmp_path / "kernel.cubin"), str(source)],
+        [str(assembler()), "-v", "-arch=sm_90", "-o", str(tmp_path / "kernel.cubin"), str(source)],
         capture_output=True,
         text=True,
     )
