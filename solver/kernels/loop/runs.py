@@ -114,12 +114,13 @@ DTYPE = np.dtype(
             (2,) if name in PAIRS else (),
         )
         for name, kind in Run.__annotations__.items()
-    ]
+    ],
+    align=True,  # else a device takes eight loads for a number
 )
 RUNS = from_dtype(DTYPE)[::1]
 """Type of the runs of all lanes in kernels."""
 
-GROWTH = np.dtype([("end", np.float64), ("logarithm", np.float64)])
+GROWTH = np.dtype([("end", np.float64), ("logarithm", np.float64)], align=True)
 """Growth of a tangent: end of its time, s, and logarithm of the factor."""
 
 
