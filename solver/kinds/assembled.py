@@ -78,7 +78,7 @@ def assembled_scene(scene: Mapping[str, Any] | None, *, is_whole: bool) -> Assem
             assemble(found.scene),
             found,
             None,
-            replaced(job.get("scene"), found.scene),
+            replaced(job["scene"]),
         )
     if is_whole:
         refusal = InvalidInput(
@@ -88,8 +88,7 @@ def assembled_scene(scene: Mapping[str, Any] | None, *, is_whole: bool) -> Assem
         resolved, document = _resolved(job)
     except (ValidationError, InvalidInput):
         raise refusal from None
-    told = replaced(job.get("scene"), resolved)
-    return AssembledScene(document, assemble(resolved), None, refusal, told)
+    return AssembledScene(document, assemble(resolved), None, refusal, replaced(job["scene"]))
 
 
 def resolved_scene(scene: Mapping[str, Any]) -> Scene:

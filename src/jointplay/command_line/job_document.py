@@ -1,7 +1,7 @@
 """A job's document from what was typed: a preset or a file, and the options that change it."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,9 +34,7 @@ def job_document(
     job.update(changed)
     scene = job.get("scene")
     values = once("--set", map(_setting, settings or ()))
-    axes = (changed.get("along", {}), changed.get("by", {}))
-    varied = {one.get("parameter") for one in (changed, *axes)}
-    varied |= {*changed.get("grid", ()), *changed.get("parameters", ())}
+    varied = _varied(changed)
     for name in values:
         if name in varied:
             raise Stopped(f"--set {name}: the study varies {name}; leave this value out.")
@@ -46,6 +44,28 @@ def job_document(
         except NotAScene as error:
             raise Stopped(f"--set {error}") from None
     return job
+
+
+def replaced_numbers(job: Mapping[str, Any], settings: Sequence[str] | None) -> Iterator[str]:
+    """Yield a line for every number of an admitted job's scene that a parameter's default replaces.
+
+    Parameters that are set, and those that a study varies, are told by what was typed.
+    """
+    from jointplay.solver.scene.replaced import replaced
+
+    scene = job["scene"]
+    if scene.get("parameters"):
+        told = {name for name, _ in map(_setting, settings or ())} | _varied(job)
+        for one in replaced(scene):
+            if one.parameter not in told:
+                yield f"the default of parameter {one}"
+
+
+def _varied(fields: Mapping[str, Any]) -> set[str | None]:
+    """Return the parameters that fields of a job vary."""
+    axes = (fields.get("along", {}), fields.get("by", {}))
+    named = {one.get("parameter") for one in (fields, *axes)}
+    return named | {*fields.get("grid", ()), *fields.get("parameters", ())}
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -16,6 +16,12 @@ def tell(document: object, lines: Iterable[object], *, as_json: bool) -> None:
         typer.echo(line)
 
 
+def remark(lines: Iterable[str]) -> None:
+    """Print what users should know, and what ends nothing, to stderr."""
+    for line in lines:
+        typer.echo(f"jointplay: {line}", err=True)
+
+
 def print_json(document: object) -> None:
     """Print a document."""
     typer.echo(json_text(document))

@@ -21,7 +21,7 @@ from jointplay.command_line.options import (
     listed,
     refused_as_typed,
 )
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import remark, tell
 from jointplay.command_line.typed_window import check_ends, check_start
 from jointplay.progress import progress
 from jointplay.records.figure_form import FilmForm, Form
@@ -162,8 +162,7 @@ def draw_all(
 def _tell(drawn: Drawn, *, as_json: bool) -> None:
     """Name the figures that were written, and what was refused, which is bad input."""
     found = {"figures": drawn.written} | ({"refused": drawn.refused} if drawn.refused else {})
-    for line in drawn.refused:
-        typer.echo(f"jointplay: {line}", err=True)
+    remark(drawn.refused)
     tell(found, [one["path"] for one in drawn.written], as_json=as_json)
     if drawn.refused:
         raise typer.Exit(Exit.BAD_INPUT)

@@ -6,11 +6,11 @@ from typing import Annotated, Any
 import typer
 
 from jointplay.command_line.exits import Stopped
-from jointplay.command_line.job_document import job_document
+from jointplay.command_line.job_document import job_document, replaced_numbers
 from jointplay.command_line.job_options import with_job_options
 from jointplay.command_line.local_run import compute_and_show
 from jointplay.command_line.options import AS_JSON, JOB_ARGUMENT, SET
-from jointplay.command_line.output import make_folder
+from jointplay.command_line.output import make_folder, remark
 
 
 @with_job_options()
@@ -61,7 +61,9 @@ def run(
         admission, output = unfinished(resume), resume
     else:
         source, output = _insist_on_both(source, output)
-        admission = admit(job_document(source, settings=settings, options=options))
+        job = job_document(source, settings=settings, options=options)
+        admission = admit(job)
+        remark(replaced_numbers(job, settings))
     if processes is not None and admission is not None and not isinstance(admission, Study):
         raise Stopped("--processes is of studies; this is one simulation.")
     lanes = None if admission is None else lanes_of(device, admission)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line.job_document import job_document
+from jointplay.command_line.job_document import job_document, replaced_numbers
 from jointplay.command_line.job_options import with_job_options
 from jointplay.command_line.options import (
     AS_JSON,
@@ -18,7 +18,7 @@ from jointplay.command_line.options import (
     connect,
     wait_for,
 )
-from jointplay.command_line.output import print_json, tell
+from jointplay.command_line.output import print_json, remark, tell
 
 if TYPE_CHECKING:
     from jointplay.client import Estimate
@@ -52,9 +52,11 @@ def submit(
     with connect(url) as client:
         if estimate:
             cost = client.estimate(job)
+            remark(replaced_numbers(job, settings))
             tell(asdict(cost), _lines(cost), as_json=as_json)
             return
         queued = client.submit(job)
+        remark(replaced_numbers(job, settings))
         if not as_json:
             typer.echo(queued.id)
         if wait:

@@ -9,7 +9,7 @@ import typer
 from jointplay.command_line.calibrate import computed
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, PROCESSES, URL, job_of
-from jointplay.command_line.output import aligned, tell
+from jointplay.command_line.output import aligned, remark, tell
 
 if TYPE_CHECKING:
     from jointplay.client.job import Job
@@ -82,7 +82,7 @@ def _contradict(job: "Job") -> None:
         line = "the service computes it anew when its document is submitted again"
     except ClientError as error:
         line = f"the service does not note it: {error}; `jointplay submit --anew` computes it again"
-    typer.echo(f"jointplay: {line}", err=True)
+    remark([line])
 
 
 def _calibration(path: Path, processes: int | None) -> "Verification":

@@ -26,7 +26,8 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
     scene = assemble_scene(source, settings or ())
     found = branches_of(scene)
     document = findings_of(scene, found)
-    lines = [*_lines(scene, document, found), *_overshoots(document), *_replaced(document)]
+    lines = [*_lines(scene, document, found), *_overshoots(document)]
+    lines += [f"{'parameter':22} {one}" for one in scene.replaced]
     turn = document["turn"]
     told = [*lines, f"{'turn':22} {turn['detail']}"] if turn else lines
     tell(document, told, as_json=as_json)
@@ -63,14 +64,6 @@ def _lines(scene: "AssembledScene", document: dict[str, Any], found: "Branches")
 def _overshoots(document: dict[str, Any]) -> Iterator[str]:
     for one in document["overshoots"]:
         yield f"{'overshoot':22} {one['pointer']}: {one['detail']}"
-
-
-def _replaced(document: dict[str, Any]) -> Iterator[str]:
-    for one in document["replaced"]:
-        yield (
-            f"{'parameter':22} {one['parameter']} puts {one['taken']} in place of {one['written']}"
-            f" at {one['pointer']}"
-        )
 
 
 def _kept(one: dict[str, Any]) -> str:

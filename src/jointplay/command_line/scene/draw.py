@@ -8,7 +8,7 @@ import typer
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.figure_options import form_of, page_of, with_figure_options
 from jointplay.command_line.options import AS_JSON, SCENE, SET
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import remark, tell
 from jointplay.command_line.scene.assembled import assemble_scene
 
 
@@ -44,4 +44,4 @@ def draw(
     file.write_bytes(picture)
     tell({"figure": str(file), "problems": scene.problems}, [file], as_json=as_json)
     if scene.refusal is not None:
-        typer.echo(f"jointplay: drawn, but it cannot be run. {scene.refusal}", err=True)
+        remark([f"drawn, but it cannot be run. {scene.refusal}"])
