@@ -45,15 +45,18 @@ function factsOf({ freedom, ideal_freedom: ideal, joints_with_clearance: loose, 
   return `Degrees of freedom: ${free}.${ways}${told}`;
 }
 
-/** Tells what a scene asks for that a run of it does not do, sentence by sentence. */
-function notesOf({ given, turn, overshoots }) {
+/** Tells what a scene asks for that a run of it does not do, or may do otherwise than meant. */
+function notesOf({ given, turn, overshoots, replaced, hints }) {
   const missed = given.filter(({ kept }) => !kept).map(({ pointer, unit, given: asked, taken }) => {
     const rounding = ROUNDING * Math.max(...asked.map(Math.abs), ...taken.map(Math.abs));
     const told = (numbers) => numbers.map((number) =>
       short(Math.abs(number) > rounding ? number : 0, 6)).join(", ");
     return `${pointer} asks for ${told(asked)} ${unit}; the start has ${told(taken)} ${unit}.`;
   });
-  return [...missed, ...(turn?.jams ? [turn.detail] : []), ...overshoots.map(({ detail }) => detail)];
+  const defaults = replaced.map(({ pointer, parameter, written, taken }) =>
+    `The default of parameter ${parameter} puts ${taken} in place of ${written} at ${pointer}.`);
+  const others = [...overshoots, ...hints].map(({ detail }) => detail);
+  return [...missed, ...(turn?.jams ? [turn.detail] : []), ...defaults, ...others];
 }
 
 class Editing {

@@ -86,6 +86,7 @@ def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
         "turn": turn_of(Scene.model_validate(scene.document)),
         "overshoots": [one._asdict() for one in overshoots_of(scene)],
         "replaced": [one._asdict() for one in scene.replaced],
+        "hints": [one._asdict() for one in scene.hints],
         "problems": scene.problems,
     }
 

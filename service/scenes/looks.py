@@ -80,6 +80,13 @@ class ReplacedNumber(BaseModel):
     taken: float | str
 
 
+class Hint(BaseModel):
+    """Something of the document that is allowed, and may be meant otherwise."""
+
+    pointer: str = Field(description="Where it is, or would be, in the scene.")
+    detail: str
+
+
 class SceneFindings(BaseModel):
     """Findings of a check; with `problems` the scene cannot be run, and they say why."""
 
@@ -113,6 +120,10 @@ class SceneFindings(BaseModel):
     )
     replaced: list[ReplacedNumber] = Field(
         description="Numbers of the document in whose place defaults of its parameters stand."
+    )
+    hints: list[Hint] = Field(
+        description="What is allowed and may be meant otherwise, such as a spring without a free"
+        " length."
     )
     problems: list[ErrorDetail]
 

@@ -10,6 +10,7 @@ from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.remarks import without_remarks
 from jointplay.solver.joints.curves import joint_curves
 from jointplay.solver.kinds import admit
+from jointplay.solver.kinds.hints import hints
 from jointplay.solver.kinds.mechanism import resolve
 from jointplay.solver.kinds.simulate import SimulateJob
 from jointplay.solver.mechanics.assembly import Assembly, assemble
@@ -30,13 +31,23 @@ class AssembledScene:
     assembly: Assembly
     admission: Admission | None
     refusal: InvalidInput | None
-    replaced: list[Replaced]
-    """Numbers of the document that defaults of its parameters replace."""
+    written: Mapping[str, Any]
+    """The document that was given, or the preset by name."""
 
     @property
     def problems(self) -> list[Problem]:
         """Reasons that keep it from being run."""
         return [] if self.refusal is None else list(self.refusal.problems)
+
+    @property
+    def replaced(self) -> list[Replaced]:
+        """Numbers of the document that defaults of its parameters replace."""
+        return replaced(self.written)
+
+    @property
+    def hints(self) -> list[Problem]:
+        """Parts of the document that may be meant otherwise."""
+        return hints(self.written, Scene.model_validate(self.document), self.pose())
 
     def drawn(self) -> dict[str, Any]:
         """Return the document with the `curves` that its joints are drawn by."""
@@ -73,13 +84,8 @@ def assembled_scene(scene: Mapping[str, Any] | None, *, is_whole: bool) -> Assem
     except InvalidInput as error:
         refusal = error
     else:
-        return AssembledScene(
-            found.scene_document(),
-            assemble(found.scene),
-            found,
-            None,
-            replaced(job["scene"]),
-        )
+        document, assembly = found.scene_document(), assemble(found.scene)
+        return AssembledScene(document, assembly, found, None, job["scene"])
     if is_whole:
         refusal = InvalidInput(
             Problem(pointer.removeprefix("/scene"), detail) for pointer, detail in refusal.problems
@@ -88,7 +94,7 @@ def assembled_scene(scene: Mapping[str, Any] | None, *, is_whole: bool) -> Assem
         resolved, document = _resolved(job)
     except (ValidationError, InvalidInput):
         raise refusal from None
-    return AssembledScene(document, assemble(resolved), None, refusal, replaced(job["scene"]))
+    return AssembledScene(document, assemble(resolved), None, refusal, job["scene"])
 
 
 def resolved_scene(scene: Mapping[str, Any]) -> Scene:

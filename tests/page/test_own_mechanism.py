@@ -2,6 +2,7 @@
 
 import json
 
+from jointplay.solver.scene import presets
 from tests.page.browsing import barriers, expect
 from tests.page.test_watching import MOVED
 from tests.two_assemblies import arm, toggle
@@ -81,6 +82,19 @@ def test_what_a_run_does_not_keep_is_said_in_the_editor_and_of_the_run(browsing,
         page.get_by_role("button", name="Run", exact=True).click()
         page.get_by_text("for -0.06, 0.21 at /start/points/rod.K.").wait_for()
         page.screenshot(path=artifacts / "run_notes.png")
+
+
+def test_what_may_be_meant_otherwise_is_said_in_the_editor(browsing, url):
+    document = presets.document("pendulum")
+    document["bodies"]["rod"]["mass"] = 2.0
+    document["ground"]["points"]["W"] = [1.0, 1.0]
+    ends = {"first": "ground.W", "second": "rod.tip"}
+    document["forces"] = {"spring": {"type": "spring-damper", "stiffness": 10.0} | ends}
+    with browsing.page(f"{url}/#/editor") as page:
+        page.get_by_label("Scene document").wait_for()
+        paste(page, json.dumps(document))
+        page.get_by_text("mass puts 1 in place of 2 at /bodies/rod/mass").wait_for()
+        page.get_by_text("it is 1 m long and pulls with 10 N").wait_for()
 
 
 def test_what_is_told_of_a_scene_is_told_of_the_one_that_is_there(browsing, service_url):

@@ -69,6 +69,8 @@ class ForceElement(Strict):
     """Rules that the parameters must keep."""
     channels: ClassVar[tuple[tuple[str, str, str], ...]] = ()
     """Name, unit and meaning of the channels that an element adds to a scene's."""
+    is_moment: ClassVar[bool] = False
+    """Whether it is a moment alone: then it moves only what turns."""
 
     @abstractmethod
     def effect(self, ends: Ends) -> Effect:

@@ -20,6 +20,7 @@ class Motor(ForceElement):
     motors with constant field).
     """
 
+    is_moment: ClassVar[bool] = True
     type: Literal["motor"]
     stall_torque: Annotated[float, quantity("N m", ge=-1e12, le=1e12)]
     no_load_speed: Annotated[float, quantity("rad/s", ge=-1e5, le=1e5)]

@@ -17,6 +17,7 @@ class Torque(Varying):
     Source: the definition of a couple's work, dW = M dθ; Goldstein 1980, Classical Mechanics, 1.1.
     """
 
+    is_moment: ClassVar[bool] = True
     type: Literal["torque"]
     moment: Annotated[float, quantity("N m", ge=-1e12, le=1e12)]
     channels: ClassVar[tuple[tuple[str, str, str], ...]] = (

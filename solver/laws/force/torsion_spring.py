@@ -18,6 +18,7 @@ class TorsionSpring(ForceElement):
     Source: Shabana 2020, Dynamics of Multibody Systems, 5th ed., section 3.4.
     """
 
+    is_moment: ClassVar[bool] = True
     type: Literal["torsion-spring"]
     stiffness: Annotated[float, quantity("N m/rad", ge=0.0, le=1e12, structural=[0.0])] = 0.0
     damping: Annotated[float, quantity("N m s/rad", ge=0.0, le=1e12, structural=[0.0])] = 0.0

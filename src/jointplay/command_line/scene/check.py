@@ -28,6 +28,7 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
     document = findings_of(scene, found)
     lines = [*_lines(scene, document, found), *_overshoots(document)]
     lines += [f"{'parameter':22} {one}" for one in scene.replaced]
+    lines += [f"{'hint':22} {one.pointer}: {one.detail}" for one in scene.hints]
     turn = document["turn"]
     told = [*lines, f"{'turn':22} {turn['detail']}"] if turn else lines
     tell(document, told, as_json=as_json)
