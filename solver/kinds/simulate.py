@@ -1,6 +1,7 @@
 """The kind ``simulate``: one trajectory, from the scene's start or a state."""
 
 import math
+from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
@@ -17,7 +18,7 @@ from jointplay.solver.kinds.section import CrankSection
 from jointplay.solver.kinds.start_state import StartState, check_state
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.quantities.units import quantity
-from jointplay.solver.runs.admission import Admission
+from jointplay.solver.runs.admission import STANDARD_TOLERANCE, Admission
 from jointplay.solver.scene.channels import channels, select
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.domains import domain_problems
@@ -166,10 +167,24 @@ def _admission(
         section_note=f"{period.note} Without one there is no Poincare section."
         if period.note
         else "",
-        notes=tuple(misfit.sentence for misfit in assemble(scene).misfits),
+        notes=tuple(_notes(filled, scene)),
         joints=tuple(contact_pairs(scene)),
         stored_bytes=int(limits.BYTES_PER_VALUE * (len(channels) + 1) * (samples + sections)),
     )
+
+
+def _notes(filled: dict[str, Any], scene: Scene) -> Iterator[str]:
+    """Yield sentences on what is given and the run does not keep."""
+    assembly = assemble(scene)
+    for misfit in assembly.misfits:
+        yield misfit.sentence
+    usual = {"method": "auto", "tolerance": STANDARD_TOLERANCE, "step": None}
+    chosen_otherwise = any(filled.get(name, one) != one for name, one in usual.items())
+    if chosen_otherwise and not assembly.freedom_with_play:
+        yield (
+            "Drivers alone move this mechanism, and its motion is computed without steps in time:"
+            " method, tolerance and step have no effect."
+        )
 
 
 def _told_apart(filled: dict[str, Any]) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from jointplay.scene_choice import with_parameters
-from jointplay.solver.kinds import admit, documents
+from jointplay.solver.kinds import admit, documents, parse
 from jointplay.solver.scene import presets
 from tests.presets_given import given
 
@@ -37,6 +37,21 @@ def test_the_digest_ignores_the_label_and_spelled_out_defaults_but_nothing_else(
     assert admit({**JOB, "tolerance": 1e-7}).digest != first.digest
     changed = {**JOB, "scene": {"preset": "seven-bar-press", "parameters": {"friction": 0.02}}}
     assert admit(changed).digest != first.digest
+
+
+@pytest.mark.parametrize(
+    "chosen", [{"tolerance": 1e-9}, {"accuracy": "draft"}, {"method": "rk4", "step": 1e-4}]
+)
+def test_how_steps_are_taken_is_said_to_have_no_effect_where_there_are_none(chosen) -> None:
+    scene = {"preset": "slider-crank", "parameters": {"clearance": 0.0}}
+    job = {"kind": "simulate", "scene": scene, "duration": 0.1}
+    assert admit(job).notes == ()
+    found = admit(job | chosen)
+    (note,) = found.notes
+    assert "tolerance and step have no effect" in note
+    assert parse(found.job).notes == (note,)
+    scene["parameters"]["clearance"] = 1e-4
+    assert admit(job | chosen).notes == ()
 
 
 def test_a_field_that_is_newer_than_jobs_changes_no_digest_where_it_is_not_given() -> None:
