@@ -8,15 +8,17 @@ Source: Angeles and López-Cajún 1991, Optimization of Cam Mechanisms (support 
 """
 
 from collections.abc import Iterator
+from functools import reduce
 from typing import ClassVar, Literal
 
 import numpy as np
 
-from jointplay.records.arrays import Floats
-from jointplay.solver.joints.cam import CAPTION, CamJoint, Lift
+from jointplay.records.arrays import Flags, Floats
+from jointplay.solver.joints.cam import CAPTION, TURN, CamJoint, Lift
 from jointplay.solver.joints.contact import Meeting
 from jointplay.solver.joints.drawing import ANGLES, Curve, Drawing
 from jointplay.solver.joints.holding import Distance
+from jointplay.solver.joints.starts import GuideStart
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
 from jointplay.solver.quantities.frames import Pair, dot, left, plus, scaled, turned, unit
@@ -25,6 +27,8 @@ from jointplay.solver.quantities.units import Direction, Rule, no_length
 
 HALF = 0.615
 """Half the length of a face that is drawn, in means of the profile."""
+AROUND = [TURN * k / 72 for k in range(72)]
+"""Angles at which it is looked where a cam is thin, rad."""
 
 
 class FlatFollower(CamJoint):
@@ -68,6 +72,18 @@ class FlatFollower(CamJoint):
         touching = plus(scaled(u, p.value - lash), scaled(left(u), p.slope))
         arm = plus(touching, scaled(between.gap, -1.0))
         return Meeting(scaled(u, -1.0), u, arm, -found.distance.value)
+
+    def starts_in_wall(self, start: GuideStart) -> Flags | bool:
+        """Return whether the cam's centre would be behind the face; see `Joint.starts_in_wall`.
+
+        Where the cam is nearest to it: at which angle it starts is not known here.
+        """
+        rules = self.profile.rules
+        if not np.any(start.offset < 0.0) or any(np.any(one.broken(self.profile)) for one in rules):
+            return False
+        least: Floats = reduce(np.minimum, (self.profile.at(angle).value for angle in AROUND))
+        found: Flags = -start.offset >= least
+        return found
 
     def curves(self) -> Iterator[Curve]:
         """Yield the cam's outline and the face, to its left if its normal points upwards."""

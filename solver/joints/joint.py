@@ -189,7 +189,7 @@ class Joint(Strict):
         return False
 
     def starts_in_wall(self, start: GuideStart) -> Flags | bool:
-        """Return whether half the width of what it guides, or more, would be in a wall at a start.
+        """Return whether half of what it guides, or of its cam, would be in the other at a start.
 
         Numbers may be columns.
         """

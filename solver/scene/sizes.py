@@ -25,8 +25,9 @@ def _unreachable(scene: Scene) -> Iterator[Problem]:
         if joint is not None and joint.starts_in_wall(guided):
             field = "offset" if guided.offset else "tilt"
             sentence = (
-                f"At this start half of what joint '{name}' guides, or more, would be in a wall;"
-                f" its play is {joint.slack.play if joint.slack else 0.0:g} m: give a smaller one."
+                f"At this start half of what joint '{name}' guides, or more, would be in a wall or"
+                f" a cam; its play is {joint.slack.play if joint.slack else 0.0:g} m: give a"
+                " smaller one."
             )
             yield Problem(f"/start/guides/{name}/{field}", sentence)
 

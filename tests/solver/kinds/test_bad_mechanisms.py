@@ -198,7 +198,7 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
             "/start/guides": {"guide": {"offset": -0.05}},
         },
         "/start/guides/guide/offset",
-        ["half of what joint 'guide' guides, or more, would be in a wall; its play is"],
+        ["half of what joint 'guide' guides, or more, would be in a wall or a cam; its play is"],
     ),
     "a start of a slider whose corner is in a wall": (
         {
@@ -215,7 +215,7 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
             "/start/guides": {"guide": {"offset": 5.2e-3}},
         },
         "/start/guides/guide/offset",
-        ["would be in a wall; its play is 0.0001 m"],
+        ["would be in a wall or a cam; its play is 0.0001 m"],
     ),
     "a start of a roller in its cam": (
         {
@@ -223,7 +223,15 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
             "/start/guides": {"cam": {"offset": -0.05}},
         },
         "/start/guides/cam/offset",
-        ["would be in a wall; its play is 0.0001 m"],
+        ["would be in a wall or a cam; its play is 0.0001 m"],
+    ),
+    "a start of a flat face beyond its cam": (
+        {
+            "/joints/cam": FACE | {"clearance": {"lash": 1e-4, **PUSHED}},
+            "/start/guides": {"cam": {"offset": -0.0201}},
+        },
+        "/start/guides/cam/offset",
+        ["would be in a wall or a cam; its play is 0.0001 m"],
     ),
     "a start of a journal in a guide": (
         {"/joints/B/clearance": PLAY, "/start/guides": {"B": {"offset": 1e-4}}},

@@ -124,6 +124,19 @@ def test_the_largest_offset_of_a_sweep_does_not_start_in_a_wall() -> None:
     assert_refused(job, "/grid/offset/1", "would be in a wall")
 
 
+@pytest.mark.parametrize(
+    ("path", "values"),
+    [("start/guides/cam/offset", [0.0, -0.5]), ("joints/cam/profile/offset", [0.04, 0.02])],
+)
+def test_a_flat_face_of_a_sweep_starts_before_the_centre_of_its_cam(path, values) -> None:
+    scene = valve(follower("flat", CIRCLE, lash=1e-4))
+    scene["start"]["guides"] = {"cam": {"offset": -0.015}}
+    target = {"path": f"/{path}"}
+    scene["parameters"] = {"at": {"help": "Offset.", "unit": "m", "targets": [target]}}
+    job = {"kind": "sweep", "scene": scene, "grid": {"at": values}, "periods": 1}
+    assert_refused(job, "/grid/at/1", "would be in a wall or a cam")
+
+
 @pytest.mark.parametrize("case", BAD)
 def test_a_bad_sweep_is_refused_at_its_field(case: str) -> None:
     job, changes, pointer, words = BAD[case]
