@@ -45,20 +45,22 @@ def job_of(document: Any, kind: Kind[J]) -> J:
     except ValidationError as error:
         problems = schema_problems(error, model, document)
         told = {one.pointer for one in problems}
-        others = [one for one in _wrong_parameters(document) if one.pointer not in told]
+        others = [one for one in _wrong_preset(document) if one.pointer not in told]
         raise InvalidInput([*problems, *others]) from None
     return job
 
 
-def _wrong_parameters(document: Mapping[str, Any]) -> list[Problem]:
-    """Return what is wrong with a preset's parameters, to be told with a job's other errors."""
+def _wrong_preset(document: Mapping[str, Any]) -> list[Problem]:
+    """Return what is wrong with a preset and its parameters, told with a job's other errors."""
     scene = document.get("scene")
-    if not (isinstance(scene, Mapping) and isinstance(scene.get("parameters"), Mapping)):
+    if not (isinstance(scene, Mapping) and isinstance(scene.get("preset"), str)):
         return []
-    preset = scene.get("preset")
-    if not isinstance(preset, str) or preset not in presets.names():
-        return []
-    return wrong_values(Scene.model_validate(presets.document(preset)), scene["parameters"])
+    try:
+        preset = Scene.model_validate(presets.document(scene["preset"]))
+    except InvalidInput as error:
+        return list(error.problems)
+    values = scene.get("parameters")
+    return wrong_values(preset, values) if isinstance(values, Mapping) else []
 
 
 def filled(

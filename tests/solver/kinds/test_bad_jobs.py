@@ -105,6 +105,17 @@ def test_every_problem_is_reported_at_once() -> None:
     assert {p.pointer for p in refused.value.problems} == {"/duration", "/tolerance", "/extra"}
 
 
+@pytest.mark.parametrize(
+    ("preset", "pointer"),
+    [("seven-bar-pres", "/scene/preset"), ("seven-bar-press", f"{P}/clearence")],
+)
+def test_what_is_wrong_with_a_preset_is_reported_beside_other_fields(preset, pointer) -> None:
+    scene = {"preset": preset, "parameters": {"clearence": 1e-4}}
+    with pytest.raises(InvalidInput) as refused:
+        admit({**JOB, "duration": "2", "scene": scene})
+    assert [p.pointer for p in refused.value.problems] == ["/duration", pointer]
+
+
 @pytest.mark.parametrize("duration", [1e300, 1.7e308, 1e12, 1.0, 1e-12, 1e-300, 5e-324])
 def test_extreme_durations_are_refused_or_admitted_but_never_crash(duration: float) -> None:
     for output_step in (None, 1e-300, 1e-16, 1e12, 1e300, 5e-324):
