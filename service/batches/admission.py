@@ -1,6 +1,6 @@
 """All jobs of a batch are checked before one of them is queued."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.strict_json import escaped
 from jointplay.service.idempotency import SentKey
-from jointplay.service.jobs.submission import checked
+from jointplay.service.jobs.submission import checked, repeated
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.quotas import Quota
 from jointplay.storage.catalogue.records import NewJob, SubmittedBatch
@@ -17,6 +17,7 @@ from jointplay.storage.settings import Settings
 
 MOST_JOBS = 10_000
 LONGEST_LABEL = 200
+Check = Callable[[Any, Settings], NewJob]
 _MOST_PROBLEMS = 100  # that are looked for: as many as one problem document carries
 
 
@@ -52,12 +53,12 @@ class QueueBatch:
         self, document: object, settings: Settings, catalogue: Catalogue
     ) -> SubmittedBatch:
         """Check and queue a document's jobs; raises what `admit_batch` and `submit_batch` do."""
-        jobs, label = admit_batch(document, settings)
-        repeated = self.retries or (None,) * len(jobs)
+        jobs, label = admit_batch(document, settings, repeated if self.retries else _submitted)
+        ended = self.retries or (None,) * len(jobs)
         return catalogue.submit_batch(
             [
                 replace(job, owner=self.owner, retry_of=old)
-                for job, old in zip(jobs, repeated, strict=True)
+                for job, old in zip(jobs, ended, strict=True)
             ],
             label=label or None,
             key=self.key.with_document(document),
@@ -66,8 +67,8 @@ class QueueBatch:
         )
 
 
-def admit_batch(document: object, settings: Settings) -> tuple[list[NewJob], str]:
-    """Check a batch and return its jobs, filled in, and its label.
+def admit_batch(document: object, settings: Settings, check: Check) -> tuple[list[NewJob], str]:
+    """Check a batch and return its jobs, each by a check of its own, and its label.
 
     Raises
     ------
@@ -82,7 +83,7 @@ def admit_batch(document: object, settings: Settings) -> tuple[list[NewJob], str
     only_limits = True
     for index, one in enumerate(jobs):
         try:
-            admitted.append(checked(one, settings)[0])
+            admitted.append(check(one, settings))
         except InvalidInput as error:
             only_limits &= isinstance(error, LimitExceeded)
             problems += [
@@ -94,6 +95,10 @@ def admit_batch(document: object, settings: Settings) -> tuple[list[NewJob], str
     if problems:
         raise (LimitExceeded if only_limits else InvalidInput)(problems)
     return admitted, label
+
+
+def _submitted(job: object, settings: Settings) -> NewJob:
+    return checked(job, settings)[0]
 
 
 def _parts(document: object) -> tuple[Sequence[object], str]:

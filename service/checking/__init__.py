@@ -7,13 +7,13 @@ themselves when idle.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 
 from jointplay.records.failure import LimitExceeded
 from jointplay.records.strict_json import parse
 from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
 from jointplay.service.idempotency import SentKey
-from jointplay.service.jobs.submission import checked
+from jointplay.service.jobs.submission import checked, repeated
 from jointplay.service.problems import RequestRefused, unavailable
 from jointplay.solver.kernels.trace.length import SURELY_SHORT
 from jointplay.solver.kinds import KINDS
@@ -38,6 +38,15 @@ class Checked:
     key: SubmissionKey | None
     reuse: bool
     """Whether an identical job will do."""
+
+
+@dataclass(frozen=True)
+class RepeatJob:
+    """The check of a stored job that is computed again; raises what `repeated` does."""
+
+    def __call__(self, document: object, settings: Settings, _catalogue: Catalogue) -> NewJob:
+        """Check a document that was filled in."""
+        return repeated(cast("dict[str, Any]", document), settings)
 
 
 @dataclass(frozen=True)
@@ -82,7 +91,7 @@ class Checker:
             document = parse(body)
             if not _takes_much(document):
                 return what(document, self._settings, self._catalogue)
-        process = self._jobs if isinstance(what, CheckJob) else self._others
+        process = self._jobs if isinstance(what, CheckJob | RepeatJob) else self._others
         try:
             answer = process.answer((what, body, self._settings))
         except Busy:

@@ -11,7 +11,7 @@ from jointplay.records.strict_json import parse
 from jointplay.service.access import Caller
 from jointplay.service.access.quotas import quota_of
 from jointplay.service.batches.admission import QueueBatch
-from jointplay.service.checking import Checker, CheckJob
+from jointplay.service.checking import Checker, CheckJob, RepeatJob
 from jointplay.service.idempotency import Repeatable, SentKey
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.bell import Bell
@@ -79,8 +79,8 @@ class Queueing:
         if job.state not in RETRIABLE:
             detail = f"Job {job.id} is {job.state}; what failed or was cancelled can be retried."
             raise RequestRefused(kinds.NOTHING_TO_RETRY, detail)
-        found = self._checker.check(CheckJob(), json.dumps(job.spec).encode())
-        own = replace(found.job, owner=job.owner, retry_of=job.id)
+        found = self._checker.check(RepeatJob(), json.dumps(job.spec).encode())
+        own = replace(found, owner=job.owner, retry_of=job.id)
         quota = quota_of(caller, self._settings)
         submitted = self._catalogue.submit(own, reuse=True, quota=quota)
         if submitted.created:

@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 from typing import Any
 
 from jointplay.records.failure import InvalidInput, Problem
-from jointplay.solver.kinds import Study, admit
+from jointplay.solver.kinds import Admission, Study, admit, parse
 from jointplay.solver.kinds.compilation import check_compilation
 from jointplay.solver.kinds.limits import check_room
 from jointplay.solver.version import SOLVER_VERSION
@@ -60,17 +60,37 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
                 problems.append(Problem("/expires", sentence))
         document = {name: value for name, value in document.items() if name not in FIELDS}
     try:
-        admission = admit(document)
-        check_compilation(admission, settings.longest_compilation)
-        check_room(admission, settings.place.largest)
+        new = _within_limits(admit(document), settings, expires)
     except InvalidInput as error:
         if not problems:
             raise
         raise InvalidInput([*problems, *error.problems]) from None
     if problems:
         raise InvalidInput(problems)
+    return new, cache is True
+
+
+def repeated(document: dict[str, Any], settings: Settings) -> NewJob:
+    """Return what the catalogue takes to compute a stored job again; raises what `checked` does.
+
+    An earlier version may have admitted what is refused today: it is repeated as it was.
+    """
+    expires = None if settings.keep is None else time.time() + settings.keep
+    try:
+        admission = parse(document)
+    except (InvalidInput, KeyError):  # of a version whose documents this one cannot read
+        return checked(document, settings)[0]
+    return _within_limits(admission, settings, expires)
+
+
+def _within_limits(
+    admission: Admission | Study, settings: Settings, expires: float | None
+) -> NewJob:
+    """Return what the catalogue takes; LimitExceeded if it is too much for this service."""
+    check_compilation(admission, settings.longest_compilation)
+    check_room(admission, settings.place.largest)
     scene = admission.job["scene"]
-    new = NewJob(
+    return NewJob(
         kind=admission.job["kind"],
         label=admission.job["label"] or None,
         spec=admission.job,
@@ -81,7 +101,6 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
         blocks=admission.blocks if isinstance(admission, Study) else ((0, 1),),
         seal=isinstance(admission, Study),
     )
-    return new, cache is True
 
 
 def _to_come(text: object) -> float | None:
