@@ -8,7 +8,7 @@ from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.idle_fields import check_idle
 from jointplay.solver.kinds.map import AlongStart
 from jointplay.solver.kinds.motion_map import MotionMap, MotionMapJob
-from jointplay.solver.kinds.perturbed import Seed, spread_up_to
+from jointplay.solver.kinds.perturbed import Seed, check_spread, spread_up_to
 from jointplay.solver.kinds.section_study import indicators_of
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
@@ -65,6 +65,7 @@ class Chart(MotionMap[ChartJob]):
             raise InvalidInput.at("/refine", sentence)
         if job.starts > 1:
             _check_starts(job)
+            check_spread(job.spread)
         else:
             check_idle(job, "several 'starts'", "spread", "seed")
         return super().admit(job)

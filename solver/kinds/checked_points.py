@@ -17,7 +17,7 @@ from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_GEOMETRIES
 from jointplay.solver.kinds.mechanism import Echo, check, declared, with_parameters
 from jointplay.solver.kinds.periods import check_period, differently_driven
-from jointplay.solver.kinds.points import MOST_NAMED, Points, check_parameters, with_rest
+from jointplay.solver.kinds.points import MOST_NAMED, Points, check_map, check_parameters, with_rest
 from jointplay.solver.kinds.studies import PlacedPoints, of_parameters
 from jointplay.solver.runs.study.fields import (
     distinct,
@@ -47,6 +47,7 @@ def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
     """
     document, scene, given = declared(job)
     check_parameters(points, scene)
+    check_map(points)
     kept, echo = set_parameters(document, scene, given, points.parameters)
     one = _One(points, document, scene, given)
     base = one.first()

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Literal
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.idle_fields import check_idle
 from jointplay.solver.kinds.limits import check_count
-from jointplay.solver.kinds.perturbed import Seed, spread_up_to
+from jointplay.solver.kinds.perturbed import Seed, check_spread, spread_up_to
 from jointplay.solver.kinds.points import Points, one_point
 from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
 from jointplay.solver.quantities.units import quantity
@@ -32,6 +32,8 @@ class Ensemble(SectionStudy[EnsembleJob]):
         """Check and fill in; see `Kind.admit`."""
         if job.members == 1:
             check_idle(job, "several 'members'", "spread", "seed")
+        else:
+            check_spread(job.spread)
         return super().admit(job)
 
     def points(self, job: EnsembleJob) -> Points:

@@ -3,10 +3,8 @@
 from dataclasses import replace
 from typing import Annotated, Any
 
-import numpy as np
 from pydantic import Field
 
-from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_POINTS, check_count
 from jointplay.solver.kinds.points import Axis, Points, plane
@@ -93,8 +91,4 @@ def _axis(one: Along | AlongStart, pointer: str) -> Axis:
     start = one.start if isinstance(one, AlongStart) else ""
     field = "start" if start else "parameter"
     found = axis(one.name, one.values, f"{pointer}/{field}", f"{pointer}/values")
-    values, times = np.unique(found.values, return_counts=True)
-    if times.max() > 1:
-        sentence = f"{values[times.argmax()]:g} is there twice, and a map has it once; drop one."
-        raise InvalidInput.at(f"{pointer}/values", sentence)
     return replace(found, start=start)

@@ -2,14 +2,22 @@
 
 from typing import Annotated, Any
 
+from jointplay.records.failure import InvalidInput
 from jointplay.solver.quantities.units import quantity
+
+
+def check_spread(spread: float) -> None:
+    """Refuse (InvalidInput) several starts that are one."""
+    if spread == 0.0:
+        sentence = "Starts that are perturbed by nothing are all the same; it must be above 0."
+        raise InvalidInput.at("/spread", sentence)
 
 
 def spread_up_to(most: float) -> Any:
     """Return the field of how far starts lie apart, which may be as large as this."""
     return quantity(
         "1",
-        gt=0.0,
+        ge=0.0,
         le=most,
         description=(
             "standard deviation of the starts' perturbation: positions relative to the finest"

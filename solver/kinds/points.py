@@ -116,6 +116,20 @@ def plane(y: Axis, x: Axis, pointer: str, job: Mapping[str, Any]) -> Points:
     return Points((y, x), written, lambda _point: pointer, grid=shape)
 
 
+def check_map(points: Points) -> None:
+    """Refuse (InvalidInput) a value that an axis of a map has twice."""
+    problems = []
+    for axis in points.axes if points.grid else ():
+        values, times = np.unique(axis.values, return_counts=True)
+        if times.max() > 1:
+            value = values[times.argmax()]
+            again = int(np.flatnonzero(axis.values == value)[1])
+            sentence = f"{value:g} is there twice, and a map has it once; drop one."
+            problems.append(Problem(axis.pointer(again), sentence))
+    if problems:
+        raise InvalidInput(problems)
+
+
 def check_parameters(points: Points, scene: Scene) -> None:
     """Refuse (InvalidInput) parameters that are not declared or no numbers, and wild values.
 

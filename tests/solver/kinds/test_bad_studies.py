@@ -201,7 +201,7 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
     ),
     "a fixed step": (P, {"method": "rk4", "step": 1e-4}, "/method", "error control"),
     "no member": (E, {"members": 0}, "/members", "at least 1"),
-    "no spread": (E, {"spread": 0.0}, "/spread", "greater than 0"),
+    "no spread": (E, {"spread": 0.0}, "/spread", "all the same; it must be above 0"),
     "spread of one member": (E, {"members": 1, "spread": 0.1}, "/spread", "several 'members'"),
     "negative seed": (E, {"seed": -1}, "/seed", "at least 0"),
     "an ensemble in absolute coordinates": (

@@ -31,7 +31,7 @@ def across(count, parameter="speed"):
         ({"along": {"parameter": "speed", "values": []}}, "/along/values", "at least 1"),
         (
             {"along": {"parameter": "speed", "values": [9, 8, 9]}},
-            "/along/values",
+            "/along/values/2",
             "9 is there twice",
         ),
         ({"settle": "auto", "statistics": ["impacts"]}, "/settle", "not 'auto'"),
@@ -46,6 +46,7 @@ def across(count, parameter="speed"):
         ({"refine": 1, "indicators": []}, "/indicators", "where the motion differs"),
         ({"refine": 7}, "/refine", "at most 6"),
         ({"starts": 65}, "/starts", "at most 64"),
+        ({"starts": 2, "spread": 0.0}, "/spread", "all the same"),
         ({"spread": 0.1}, "/spread", "no effect without several 'starts'"),
         ({"seed": 4}, "/seed", "no effect without several 'starts'"),
         ({"continuation": "both"}, "/continuation", "backward"),
@@ -116,6 +117,14 @@ def test_a_planned_chart_is_the_one_that_was_admitted(rule):
     assert planned.perturbation == admitted.perturbation
     assert (planned.starts, planned.refine) == (admitted.starts, admitted.refine)
     assert len(planned.chain_order) == len(admitted.chain_order)
+
+
+def test_a_stored_chart_with_a_value_twice_and_no_spread_is_still_planned():
+    stored = admit(CHART | {"starts": 2}).job
+    stored["along"] = {"parameter": "speed", "values": [9.0, 8.0, 9.0]}
+    planned = parse(stored | {"spread": 0.0})
+    assert planned.shape == (7, 3)
+    assert planned.perturbation.spread == 0.0
 
 
 @pytest.mark.parametrize("rule", [{}, {"refine": 3}])

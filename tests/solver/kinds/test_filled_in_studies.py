@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from jointplay.solver.kinds import parse
 from tests.solver.runs.study.jobs_of_studies import (
     ACCURACY_STUDY,
     BIFURCATION,
@@ -38,6 +39,7 @@ def test_what_the_job_leaves_out_is_filled_in() -> None:
     assert filled["scene"]["parameters"]["friction"] == 0.01
     spread = study(ENSEMBLE).job
     assert (spread["spread"], spread["seed"]) == (1e-3, 0)
+    assert parse(spread | {"spread": 0.0}).perturbation.spread == 0.0  # admitted once
 
 
 def test_indicators_are_listed_once_and_in_order() -> None:
