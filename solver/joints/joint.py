@@ -78,6 +78,8 @@ class Joint(Strict):
     one_sided: ClassVar[bool] = False
     """Whether a real one only pushes and may lift off: then its channel `normal_force` is below
     zero where it pulls without play, and what starts apart is not carried along."""
+    needs_direction: ClassVar[bool] = False
+    """Whether it holds its points apart on the line between them, which must have a direction."""
     parts: ClassVar[tuple[str, ...]] = ("",)
     """Names of its contact pairs; empty where there is one."""
     ideal_channels: ClassVar[Table] = ()

@@ -30,6 +30,7 @@ class RollerFollower(CamJoint):
     """
 
     drawing: ClassVar[Drawing] = Drawing(picture="surface", caption=CAPTION)
+    needs_direction: ClassVar[bool] = True
     type: Literal["roller-follower"]
     roller_radius: Radius
 

@@ -15,7 +15,7 @@ from jointplay.solver.kinds.redundant import (
     closes,
     redundant_while_held,
 )
-from jointplay.solver.mechanics.assembly import Assembly, assemble, directionless
+from jointplay.solver.mechanics.assembly import Assembly, assemble, directionless, undecided
 from jointplay.solver.mechanics.misfit import opening
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
@@ -126,6 +126,9 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
     tree = spanning_tree(scene)
     if formulation is not None and tree.coordinates and not tree.closing:
         check_length(scene, tree, formulation)  # first: the assembly of many bodies takes longer
+    anywhere = undecided(scene)
+    if anywhere:
+        raise InvalidInput(_of_undecided(name, scene) for name in anywhere)
     assembly = assemble(scene)
     coordinates = 3 * len(scene.bodies)
     only_held = redundant_while_held(scene, assembly)
@@ -191,6 +194,15 @@ def _open(scene: Scene) -> list[Problem]:
         " or give start angles nearer to the assembly you mean."
     )
     return [Problem("/scene/start/angles", sentence)]
+
+
+def _of_undecided(name: str, scene: Scene) -> Problem:
+    first, second = scene.joints[name].points
+    return Problem(
+        "/scene/start/points",
+        f"'{second}' of joint '{name}' begins in one place with '{first}', and may go to any side"
+        f" of it. Say to which: give a place of '{second}'.",
+    )
 
 
 def _left_open(scene: Scene) -> str:

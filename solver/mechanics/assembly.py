@@ -1,7 +1,7 @@
 """Assembly: the pose and velocity at the start, degrees of freedom, redundant constraints."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any, Final
@@ -119,14 +119,34 @@ def link_lengths(scene: Scene) -> list[float]:
 def directionless(scene: Scene, pose: Floats) -> list[str]:
     """Return the force elements that need a direction and whose points start in one place."""
     elements = {name: e for name, e in scene.forces.items() if e.needs_direction}
-    if not elements:
+    return _in_one_place(scene, pose, {n: (e.first, e.second) for n, e in elements.items()})
+
+
+def undecided(scene: Scene) -> list[str]:
+    """Return the joints that hold points apart which begin in one place, and may go to any side.
+
+    Those of bodies that `start.points` places are not among them.
+    """
+    placed = {point.split(".")[0] for point in scene.start.points}
+    pairs = {
+        name: joint.points
+        for name, joint in scene.joints.items()
+        if joint.needs_direction and placed.isdisjoint(joint.bodies)
+    }
+    if not pairs:
+        return []
+    return _in_one_place(scene, _guess(Places.of(scene, shortest_link(scene))), pairs)
+
+
+def _in_one_place(scene: Scene, pose: Floats, pairs: Mapping[str, tuple[str, str]]) -> list[str]:
+    if not pairs:
         return []
     mechanism = AbsoluteMechanism(scene, view(scene), close_play=False)
     near, still = ASSEMBLED * shortest_link(scene), np.zeros_like(pose)
     return [
         name
-        for name, element in elements.items()
-        if math.hypot(*mechanism.ends((element.first, element.second), pose, still).gap) <= near
+        for name, pair in pairs.items()
+        if math.hypot(*mechanism.ends(pair, pose, still).gap) <= near
     ]
 
 
@@ -190,8 +210,7 @@ def _geometry(scene: Scene) -> str:
 
 def _assembled(scene: Scene) -> _Found:
     places = Places.of(scene, shortest_link(scene))
-    angles = first_angles(scene)
-    guess = first_pose(places.closed, angles, places.driven, drawn_places(scene, angles))
+    guess = _guess(places)
     pose = guess.copy()
     close(places.closed, pose, places.driven, places.scale)
     pose = in_given_turns(places, pose)
@@ -203,6 +222,11 @@ def _assembled(scene: Scene) -> _Found:
         _assembly(places, places.closed, _nearer(places, pose)),
         None if found is None else _assembly(places, places.loose, found),
     )
+
+
+def _guess(places: Places) -> Floats:
+    angles = first_angles(places.scene)
+    return first_pose(places.closed, angles, places.driven, drawn_places(places.scene, angles))
 
 
 def _nearer(places: Places, pose: Floats) -> Floats:

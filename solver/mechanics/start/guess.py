@@ -63,6 +63,7 @@ def first_pose(
 ) -> Floats:
     """Return a pose with these angles, rad by body, in which joints are as near as they come.
 
+    Those that need a direction count for nothing, as their points have no places yet.
     Slides of which nothing else says where they are begin at their guides' points.
     places : centres of mass, (2,) m by body, of those that keep theirs.
     """
@@ -74,7 +75,9 @@ def first_pose(
         if body in places:
             pose[3 * i : 3 * i + 2] = places[body]
             positions[3 * i : 3 * i + 2] = False
-    residual, jacobian = arrays(ideal.rows(pose.tolist(), [0.0] * count, driven), count)
+    rows = ideal.rows(pose.tolist(), [0.0] * count, driven)
+    aimless = {name for name, joint in ideal.numbers.joints.items() if joint.needs_direction}
+    residual, jacobian = arrays([row for row in rows if row.joint not in aimless], count)
     if len(residual) and positions.any():  # revolute joints are linear in x and y
         found = Decomposition(jacobian[:, positions], RANK_TOLERANCE)
         pose[positions] += found.least_squares(-residual)

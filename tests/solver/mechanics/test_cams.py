@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
+from jointplay.solver.kinds.assembled import assembled_scene
 from jointplay.solver.quantities.frames import cross
 from tests.solver.cams import CIRCLE, ECCENTRICITY, RADIUS, follower, pitch_table, rocker, valve
 from tests.solver.mechanics.test_mechanics import assert_formulations_agree
@@ -136,3 +137,27 @@ def test_knots_that_end_a_turn_to_seven_digits_end_it_and_no_others_do() -> None
     profile["knots"][-1] = 6.28320
     with pytest.raises(InvalidInput, match="this one repeats after"):
         admit({"kind": "simulate", "scene": valve(joint), "duration": 0.1})
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_roller_begins_on_the_side_of_its_cam_where_the_point_of_its_guide_is(
+    side: float,
+) -> None:
+    scene = valve(follower("roller", pitch_table()))
+    scene["ground"]["points"]["G"] = [0.0, 0.05 * side]
+    del scene["start"]
+    _, y, _ = assembled_scene(scene, is_whole=True).pose()["tappet"]
+    assert (y - 0.02) * side > ECCENTRICITY
+
+
+def test_a_roller_that_begins_at_the_centre_of_its_cam_needs_a_place() -> None:
+    scene = valve(follower("roller", pitch_table()))
+    scene["joints"]["guide"]["guide"] = "ground.O"
+    job = {"kind": "simulate", "scene": scene, "duration": 0.1}
+    assert admit(job)
+    del scene["start"]
+    with pytest.raises(InvalidInput) as refused:
+        admit(job)
+    (problem,) = refused.value.problems
+    assert problem.pointer == "/scene/start/points"
+    assert "'tappet.F' of joint 'cam' begins in one place with 'shaft.O'" in problem.detail
