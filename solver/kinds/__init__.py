@@ -22,6 +22,7 @@ from jointplay.solver.kinds.chart import Chart
 from jointplay.solver.kinds.continuation import Continuation
 from jointplay.solver.kinds.documents import job_of, kind_of
 from jointplay.solver.kinds.ensemble import Ensemble
+from jointplay.solver.kinds.idle_fields import check_varied
 from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.poincare import Poincare
 from jointplay.solver.kinds.sensitivity import SensitivityKind
@@ -73,7 +74,11 @@ def admit(document: object) -> Admission | Study:
     """
     document = without_remarks(document)
     kind = kind_of(document, KINDS)
-    return kind.admit(job_of(document, kind))
+    job = job_of(document, kind)
+    admitted = kind.admit(job)
+    if isinstance(admitted, Study):
+        check_varied(job, kind.varied(job, admitted))
+    return admitted
 
 
 def admit_calibration(document: object) -> Calibration:

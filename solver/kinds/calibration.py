@@ -1,6 +1,6 @@
 """The kind ``calibration``: parameters of a scene that give numbers that were measured."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
 import numpy as np
@@ -68,6 +68,10 @@ class CalibrationKind(Kind[CalibrationJob]):
     def plan(self, job: CalibrationJob, filled: dict[str, Any]) -> CalibrationStudy:
         """Return what `admit` returned; the checked cases are what candidates are made from."""
         return self.admit(job)
+
+    def varied(self, job: CalibrationJob, study: Study) -> Iterable[str]:
+        """Return the parameters that are to be found."""
+        return job.parameters
 
     def outputs(self, study: Study) -> Mapping[str, Output]:
         """Return the cost, and the parameters that were found."""

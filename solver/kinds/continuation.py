@@ -1,6 +1,6 @@
 """The kind ``continuation``: periodic orbits followed over a parameter, stable or not."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
 import numpy as np
@@ -82,6 +82,10 @@ class Continuation(Kind[ContinuationJob]):
         """Return what `admit` returned; see `Kind.plan`."""
         placed = place_points(job, _branches(job))
         return _study(job, filled, placed, periods(placed.scenes))
+
+    def varied(self, job: ContinuationJob, study: Study) -> Iterable[str]:
+        """Return the first parameter; the scene's value of a second one is where it begins."""
+        return (job.parameter,)
 
     def outputs(self, study: Study) -> Mapping[str, Output]:
         """Return counts of orbits and of special ones."""

@@ -1,7 +1,7 @@
 """One kind of job: its document, its admission, what it plans and what can be asked of it."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar, Generic, TypeVar, get_args
 
 from jointplay.solver.kinds.job import MechanismJob
@@ -53,6 +53,10 @@ class Kind(ABC, Generic[J]):
 
         `job` is parsed from `filled`: `Admission.job` or `Study.job`, as it was stored.
         """
+
+    def varied(self, job: J, study: Study) -> Iterable[str]:
+        """Return the parameters that it varies: values that a scene has of them have no effect."""
+        return study.parameters
 
     def outputs(self, study: Study) -> Mapping[str, Output]:
         """Return unit and long name of numbers a point that not every study has, by name."""

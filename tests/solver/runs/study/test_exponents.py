@@ -15,9 +15,10 @@ from jointplay.solver.runs.study.run import StudyRun
 from tests.solver.completed_runs import CASE_3
 from tests.solver.runs.study.test_run import Computed
 
+SETTINGS = {name: value for name, value in CASE_3.items() if name != "dynamic_velocity"}
 DIAGRAM: dict[str, Any] = {
     "kind": "bifurcation",
-    "scene": {"preset": "seven-bar-press", "parameters": CASE_3},
+    "scene": {"preset": "seven-bar-press", "parameters": SETTINGS},
     "parameter": "dynamic_velocity",
     "values": [1e-3, 1e-2],
     "settle": 1,
