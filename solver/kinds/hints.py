@@ -37,7 +37,20 @@ def hints(written: Mapping[str, Any], scene: Scene, pose: Pose) -> list[Problem]
         if "free_length" not in given.get(name, {}) and length not in setting:
             found += [Problem(length, text) for text in _relaxed(name, element, scene, pose)]
         found += [Problem(pointer, text) for text in _idle_moment(name, element, scene)]
-    return found
+    return [*found, *_deep_journals(scene)]
+
+
+def _deep_journals(scene: Scene) -> Iterator[Problem]:
+    """Yield the journals that start deeper in their bearings than they have room."""
+    for name, start in scene.start.joints.items():
+        slack = scene.joints[name].slack
+        depth = math.hypot(*start.eccentricity) - (slack.play if slack else 0.0)
+        if slack and depth > slack.play:
+            yield Problem(
+                f"/start/joints/{name}/eccentricity",
+                f"The journal of '{name}' starts {depth:.{DIGITS}g} m deep in its bearing, whose"
+                f" radial clearance is {slack.play:g} m: contact throws it out.",
+            )
 
 
 def _relaxed(name: str, element: ForceElement, scene: Scene, pose: Pose) -> Iterator[str]:

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from jointplay.solver.kinds.assembled import assembled_scene
+from jointplay.solver.scene import presets
 from tests.solver.sliders import block, swinging
 
 
@@ -82,6 +83,16 @@ def test_a_moment_on_what_turns_or_may_tilt_is_not():
     assert hints(turned(aslant, "ground.O")) == []  # the link turns, and the block with it
     ((_, detail),) = hints(turned(aslant, "link.G"))
     assert "against 'link', as 'guide'" in detail
+
+
+def test_a_journal_that_starts_deep_in_its_bearing_is_told():
+    scene = presets.document("bouncing-journal")
+    (name, joint), *_ = scene["joints"].items()
+    play = joint["clearance"]["radial_clearance"]
+    del scene["parameters"]
+    for factor, told in ((1.001, []), (2.5, [f"/start/joints/{name}/eccentricity"])):
+        scene["start"] = {"joints": {name: {"eccentricity": [0.0, -factor * play]}}}
+        assert [pointer for pointer, _ in hints(scene)] == told
 
 
 def test_of_a_preset_nothing_is_told():
