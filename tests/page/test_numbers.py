@@ -1,5 +1,7 @@
 """Numbers as people read them."""
 
+import pytest
+
 READ = """async (pairs) => {
   const { notRounding, withUnit } = await import("/page/interface/numbers.js");
   return pairs.map(([value, beside]) => withUnit(notRounding(value, beside), "m"));
@@ -35,20 +37,34 @@ def test_numbers_along_an_axis_differ(browsing, service_url):
     assert labels == ["friction", "clearance [mm]"]
 
 
-HIDDEN = """async (names) => {
+HIDDEN = """async ([titles, row, look, width]) => {
   const { table } = await import("/page/interface/table.js");
-  const number = "−103600 m/s²";
-  const made = table("Extremes", ["Channel", "Smallest", "at", "Largest", "at"],
-    names.map((name) => [name, number, "2.989 ms", number, "2.989 ms"]));
+  const made = table("Numbers", titles, [row], look);
   const panel = document.createElement("div");
-  panel.style.width = "677px"; // beside another on a page of 1280 px
+  panel.style.width = `${width}px`;
   panel.append(made);
   document.querySelector("main").replaceChildren(panel);
   return [made.scrollWidth - made.clientWidth, made.querySelector("tbody th").textContent];
 }"""
+NAME = "guide.upper_right_corner.penetration_rate"
+NUMBER = "−103600\u00a0m/s²"
+EXTREMES = (["Channel", "Smallest", "at", "Largest", "at"], [NAME, *[NUMBER, "2.989 ms"] * 2])
+SPREADS = (["Channel", "Smallest", "Largest"], [NAME, *[f"{NUMBER} … {NUMBER}"] * 2])
+ORBITS = (
+    ["Orbit", "speed", "±", "there"],
+    ["LP", "31.93 rad/s", "2e−12 rad/s", "fold: a multiplier passes 1 and the branch turns back"],
+)
 
 
-def test_a_table_of_long_names_shows_all_its_columns(browsing, service_url):
+@pytest.mark.parametrize(
+    ("shown", "look", "width"),
+    [
+        pytest.param(EXTREMES, "", 677, id="names beside another table on a page of 1280 px"),
+        pytest.param(SPREADS, "small ranges", 480, id="ranges"),
+        pytest.param(ORBITS, "small explained", 600, id="sentences"),
+    ],
+)
+def test_a_table_of_long_texts_shows_all_its_columns(browsing, service_url, shown, look, width):
     with browsing.page(f"{service_url}/") as page:
-        hidden, name = page.evaluate(HIDDEN, ["guide.upper_right_corner.penetration_rate"])
-    assert (hidden, name) == (0, "guide.upper_right_corner.penetration_rate")
+        hidden, name = page.evaluate(HIDDEN, [*shown, look, width])
+    assert (hidden, name) == (0, shown[1][0])
