@@ -10,7 +10,7 @@ import sqlite3
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any, Literal
 from urllib.parse import quote
@@ -65,12 +65,15 @@ class SQLite:
         @event.listens_for(engine, "connect")
         def _configure(dbapi_connection: Any, _record: object) -> None:
             dbapi_connection.isolation_level = None  # no implicit BEGIN: ours comes below
-            cursor = dbapi_connection.cursor()
-            cursor.execute(f"PRAGMA busy_timeout={patience * 1000:.0f}")
-            _write_ahead(cursor)
-            cursor.execute(f"PRAGMA synchronous={synchronous}")
-            cursor.execute("PRAGMA foreign_keys=ON")
-            cursor.close()
+            try:
+                with closing(dbapi_connection.cursor()) as cursor:
+                    cursor.execute(f"PRAGMA busy_timeout={patience * 1000:.0f}")
+                    _write_ahead(cursor)
+                    cursor.execute(f"PRAGMA synchronous={synchronous}")
+                    cursor.execute("PRAGMA foreign_keys=ON")
+            except sqlite3.Error:
+                dbapi_connection.close()  # the pool does not know it yet
+                raise
 
         @event.listens_for(engine, "begin")
         def _begin(connection: Connection) -> None:

@@ -48,7 +48,8 @@ def test_of_a_catalogue_that_is_broken_nothing_else_is_asked(
     for path in tmp_path.glob("catalogue.sqlite-*"):
         path.unlink()
     harm(tmp_path / "catalogue.sqlite")
-    told = [*findings(settings, Catalogue(settings.catalogue_url))]
+    with closing(Catalogue(settings.catalogue_url)) as broken:
+        told = [*findings(settings, broken)]
     assert {one.where for one in told} == {"catalogue"}
     assert found in told[0].found
     assert all(one.mend is None for one in told)
