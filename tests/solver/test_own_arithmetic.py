@@ -29,6 +29,7 @@ OF_PYTHON = {"hypot"}
 SHOWN = {
     "joints/prismatic.py": "whether sizes fit",
     "joints/revolute.py": "whether a start fits",
+    "kinds/hints.py": "sentences",
     "kinds/observables.py": "a name of an axis",
     "mechanics/dragging.py": "poses that are shown",
     "mechanics/misfit.py": "a sentence",

@@ -26,7 +26,7 @@ from jointplay.worker.study_block import run_block
 from tests.solver.calibration.calibrations import bounce
 from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker
 
-OTHER: Final = {"scene": {"preset": "seven-bar-press", "parameters": {"clearance": 3e-4}}}
+OTHER: Final = {"scene": {"preset": "seven-bar-press", "parameters": {"restitution": 0.8}}}
 """Makes a job of the same shape and another document."""
 RUN: Final = {"channels": ["slider7.*", "A.*"]}
 SMALL: Final = Partition(chunk_rows=64, shard_chunks=4, buffer_bytes=2**24)  # 256 samples a file
