@@ -131,7 +131,8 @@ def _nearly(
     lowest: NDArray[np.float64], highest: NDArray[np.float64]
 ) -> dict[str, NDArray[np.float64]]:
     """Return extremes that are a millionth of each range short of these."""
-    short = 1e-6 * np.maximum(highest - lowest, 0.0)  # what has no range yet is left
+    spread = highest - lowest
+    short = 1e-6 * np.where(np.isfinite(spread), spread, 0.0)  # of what is sought, and was seen
     return {"lowest": lowest + short, "highest": highest - short}
 
 
