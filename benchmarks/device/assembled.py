@@ -1,8 +1,8 @@
 """`python -m benchmarks.device.assembled`: what a device's code comes to, where there is no device.
 
 NVIDIA's assembler makes code of the kernel, and its disassembler shows that: instructions of an
-attempt at a step, in all and by kind. Where an attempt is no function of its own, the loop counts,
-too. Both programs come with CUDA, or with the wheels nvidia-cuda-nvcc-cu12 and
+attempt at a step, of how many in all, and by kind. Where an attempt is no function of its own, the
+loop counts, too. Both programs come with CUDA, or with the wheels nvidia-cuda-nvcc-cu12 and
 nvidia-cuda-nvdisasm.
 """
 
@@ -42,10 +42,11 @@ def main() -> None:
         )
     for name in MECHANISMS:
         for variant, text in code_of(name).items():
-            found = Counter(INSTRUCTION.findall(attempt_in(shown(text, *map(str, programs)))))
+            lines = shown(text, *map(str, programs))
+            found = Counter(INSTRUCTION.findall(attempt_in(lines)))
             kinds = (f"{sum(found[one] for one in of)} {kind}" for kind, of in KINDS.items())
-            total = f"{found.total():7d} instructions, of these"
-            print(f"{name + variant:<28}{total} {', '.join(kinds)}", flush=True)
+            total = f"{found.total():6d} instructions of {len(INSTRUCTION.findall(lines)):5d}"
+            print(f"{name + variant:<26}{total}; {', '.join(kinds)}", flush=True)
 
 
 def shown(text: str, assemble: str, show: str) -> str:

@@ -1,8 +1,8 @@
 """Where functions of a device find what: numbers of a lane, and constants.
 
-An address may be of any memory until it is said of which: each use of it then takes three
-instructions more. A constant of more than 32 bits that is written into an instruction takes two,
-and one where it is read from constant memory.
+An address may be of any memory until it is said of which: most uses of it then take one instruction
+more. A constant of more than 32 bits that is written out takes two, and one where it is read
+from constant memory.
 """
 
 import re
