@@ -21,8 +21,8 @@ TABLE = Path(__file__).with_name("dear.json")
 TIMES = Path(__file__).parents[1] / "build" / "test-times.json"
 LEAST = 1.0
 """Seconds of processor from which on a test is dear."""
-SHARE = 0.15
-"""Share of the dear tests of a folder that are run, at least one."""
+SHARE = 0.1
+"""Share of the seconds of a folder's dear tests that is spent on some of them, at least on one."""
 ALWAYS = ("tests/test_readme.py", "tests/command_line/test_demo.py")
 
 
@@ -36,9 +36,19 @@ def draw(times: Mapping[str, Mapping[str, float]], seed: int) -> dict[str, Any]:
             dear.setdefault(folder, {})[name] = round(spent["processor"], 1)
     draws, left_out = random.Random(seed), {}
     for tests in dear.values():
-        kept = set(draws.sample(list(tests), max(1, round(SHARE * len(tests)))))
+        kept = _kept(tests, draws)
         left_out |= {name: seconds for name, seconds in tests.items() if name not in kept}
     return {"seed": seed, "left_out": left_out}
+
+
+def _kept(tests: Mapping[str, float], draws: random.Random) -> set[str]:
+    """Return the tests of a folder that are run: those drawn that fit, or the shortest of all."""
+    room, kept = SHARE * sum(tests.values()), set()
+    for name in draws.sample(list(tests), len(tests)):
+        if tests[name] <= room:
+            kept.add(name)
+            room -= tests[name]
+    return kept or {min(tests, key=tests.__getitem__)}
 
 
 def mark(items: list[pytest.Item]) -> None:

@@ -14,11 +14,20 @@ TIMES = {f"tests/a/b/test_{i}.py::test": {"processor": 3.0 + i} for i in range(8
 }
 
 
-def test_a_share_of_the_dear_tests_of_a_folder_is_run_and_at_least_one() -> None:
-    left_out = dear.draw(TIMES, 1)["left_out"]
-    assert len(left_out) == 8 - round(8 * dear.SHARE)
-    assert all(name.startswith("tests/a/b/") for name in left_out)
-    assert all(left_out[name] == TIMES[name]["processor"] for name in left_out)
+MANY = {name: spent for name, spent in TIMES.items() if name.startswith("tests/a/b/")}
+SECONDS = sum(spent["processor"] for spent in MANY.values())
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_share_of_the_seconds_of_a_folder_is_spent(seed: int) -> None:
+    left_out = dear.draw(TIMES, seed)["left_out"]
+    assert left_out.items() < {name: spent["processor"] for name, spent in MANY.items()}.items()
+    assert 0.0 < SECONDS - sum(left_out.values()) <= dear.SHARE * SECONDS
+
+
+def test_where_none_fits_the_shortest_is_run() -> None:
+    times = {f"tests/a/test_{i}.py::test": {"processor": 4.0 + i} for i in range(3)}
+    assert sorted(dear.draw(times, 1)["left_out"].values()) == [5.0, 6.0]
 
 
 def test_another_seed_leaves_out_others() -> None:
