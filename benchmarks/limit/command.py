@@ -3,8 +3,8 @@
     python -m benchmarks limit [--lanes 4,8] [--turns 15] [--beside WHEEL]
 
 The press in C++, scalar and in lanes, written for this comparison and built with the compiler that
-is found, beside the product in one run: all take turns, processor time counts, ratios are medians
-of those of the turns, with their quartiles.  C++ computes the motion and nothing else; in a second
+is found, beside the product in one run: all take turns on one processor, processor time counts,
+ratios are medians of those of the turns, with their quartiles.  C++ computes the motion and nothing else; in a second
 program of it sines are exact to rounding, as in the product.  With the wheel of an earlier version
 both versions run one text, for the press and for the slider-crank.
 """
@@ -43,6 +43,7 @@ def main() -> None:
     parser.add_argument("--turns", type=int, default=15)
     parser.add_argument("--beside", type=Path, metavar="WHEEL", help="an earlier version")
     options = parser.parse_args()
+    stay_on_one_processor()
     load = os.getloadavg()[0]
     print(
         f"load of the machine {load:.1f} on {os.cpu_count()} cores; C++ by {compiler() or 'nobody'}"
@@ -67,6 +68,15 @@ def main() -> None:
             measure(PRESS, lanes, limits, wheel, options.turns)
             if wheel:
                 measure(SLIDER_CRANK, lanes, {}, wheel, options.turns)
+
+
+def stay_on_one_processor() -> None:
+    """Have this process and those that it starts run on one processor: each has its own clock.
+
+    On a shared machine clocks change by a third from one second to the next, and not together.
+    """
+    if hasattr(os, "sched_setaffinity"):  # on Linux alone
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
 
 def compare(programs: Mapping[int, Program]) -> None:
