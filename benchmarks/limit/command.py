@@ -4,9 +4,9 @@
 
 The press in C++, scalar and in lanes, written for this comparison and built with the compiler that
 is found, beside the product in one run: all take turns on one processor, processor time counts,
-ratios are medians of those of the turns, with their quartiles.  C++ computes the motion and nothing else; in a second
-program of it sines are exact to rounding, as in the product.  With the wheel of an earlier version
-both versions run one text, for the press and for the slider-crank.
+ratios are medians of those of the turns, with their quartiles.  C++ computes the motion and nothing
+else; in a second program of it sines are exact to rounding, as in the product.  With the wheel of
+an earlier version both versions run one text, for the press and for the slider-crank.
 """
 
 import argparse
