@@ -22,8 +22,10 @@ def solve_symmetric(
     """Solve A x = b for each b by elimination in order of minimum degree.
 
     A : (n, n) symmetric positive definite, b : (n,). A tree fills in nothing: for a serial or
-    branching chain this is the Schur elimination of the coordinates that do not couple. With
-    `floors`, (n,), an unknown whose pivot is not above its floor is 0.
+    branching chain this is the Schur elimination of the coordinates that do not couple. Divisions
+    take long, so few wait for one another: among unknowns of the same degree one comes first whose
+    pivot waits for fewer others, and the last two unknowns are solved for together. With `floors`,
+    (n,), each has a pivot, and an unknown whose pivot is not above its floor is 0.
     """
     n = len(rights[0])
     rows: list[dict[int, Scalar]] = [{} for _ in range(n)]
@@ -35,9 +37,10 @@ def solve_symmetric(
     order: list[int] = []
     pivots: dict[int, Scalar] = {}
     factors: dict[int, dict[int, Scalar]] = {}
+    waits = [0] * n
     remaining = set(range(n))
-    while remaining:
-        k = min(remaining, key=lambda i: (len(rows[i]), i))
+    while len(remaining) > (0 if floors else 2):
+        k = min(remaining, key=lambda i: (len(rows[i]), waits[i], i))
         remaining.discard(k)
         order.append(k)
         pivot = rows[k].get(k, 0.0) if floors else rows[k][k]
@@ -46,6 +49,7 @@ def solve_symmetric(
         factors[k] = {j: rows[k][j] for j in neighbours}
         scaled = {j: rows[k][j] * pivots[k] for j in neighbours}
         for i in neighbours:
+            waits[i] = max(waits[i], waits[k] + 1)
             for j in neighbours:
                 if j > i:
                     continue
@@ -57,16 +61,34 @@ def solve_symmetric(
                 if not is_zero(b[k]):
                     b[i] = b[i] - scaled[i] * b[k]
             rows[i].pop(k, None)
-    return [_substituted(b, order, pivots, factors) for b in reduced]
+    last = sorted(remaining)
+    return [_substituted(b, _last_ones(rows, last, b), order, pivots, factors) for b in reduced]
+
+
+def _last_ones(
+    rows: Sequence[Mapping[int, Scalar]], last: Sequence[int], right: Sequence[Scalar]
+) -> list[Scalar]:
+    """Return x, (n,), of which the last one or two unknowns are solved for: by determinants."""
+    x: list[Scalar] = [0.0] * len(right)
+    if len(last) == 2 and last[1] in rows[last[0]]:
+        (i, j), coupling = last, rows[last[0]][last[1]]
+        inverse = 1.0 / (rows[i][i] * rows[j][j] - coupling * coupling)
+        if not (is_zero(right[i]) and is_zero(right[j])):
+            x[i] = (rows[j][j] * right[i] - coupling * right[j]) * inverse
+            x[j] = (rows[i][i] * right[j] - coupling * right[i]) * inverse
+    else:
+        for k in last:
+            x[k] = right[k] if is_zero(right[k]) else right[k] * (1.0 / rows[k][k])
+    return x
 
 
 def _substituted(
     reduced: Sequence[Scalar],
+    x: list[Scalar],
     order: Sequence[int],
     pivots: Mapping[int, Scalar],
     factors: Mapping[int, Mapping[int, Scalar]],
 ) -> list[Scalar]:
-    x: list[Scalar] = [0.0] * len(reduced)
     for k in reversed(order):
         known = reduced[k]
         for j, factor in factors[k].items():
