@@ -63,8 +63,8 @@ def campaign(
     for name in faults:
         if (hindrance := FAULTS[name].hindrance(installation)) is not None:
             report.left_out[name] = hindrance
-    installation.start()
     try:
+        installation.start()
         user = _strike(installation, mix, report, [*faults], workers, tell)
         installation.stop()
     finally:

@@ -70,14 +70,18 @@ def chaos(
     folder = Path(tempfile.mkdtemp(prefix="jointplay-chaos-")) if output is None else output
     if output is not None:
         make_folder(output)
-    report = carry_out(
-        folder.absolute(),
-        seed=seed,
-        duration=duration,
-        faults=fault or names(),
-        workers=workers,
-        places=(catalogue, results),
-    )
+    try:
+        report = carry_out(
+            folder.absolute(),
+            seed=seed,
+            duration=duration,
+            faults=fault or names(),
+            workers=workers,
+            places=(catalogue, results),
+        )
+    except KeyboardInterrupt:
+        line = f"interrupted; what it left is in {folder}"
+        raise Stopped(line, Exit.INTERRUPTED) from None
     if output is None and not report.wrong:
         shutil.rmtree(folder)
     lines = [*aligned([*report.rows()]), *report.closing()]

@@ -1,6 +1,7 @@
 """A campaign in a process of its own, which has a small disk of its own if that is to be full."""
 
 import json
+import signal
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -32,6 +33,8 @@ def carry_out(
     ------
     StartFailed
         It broke off; its own words are on stderr.
+    KeyboardInterrupt
+        By Ctrl-C or SIGTERM; nothing that it started runs any more.
     """
     plan = {
         "folder": str(folder),
@@ -44,11 +47,30 @@ def carry_out(
     command = [sys.executable, "-P", "-m", "jointplay.chaos", json.dumps(plan)]
     if "disk-full" in faults:
         command = on_small_disk(folder / "data", room_for(duration), command)
-    done = subprocess.run(  # noqa: S603 - our own program
-        command, stdout=subprocess.PIPE, check=False
-    )
-    if done.returncode != 0:
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        code, told = _told(command)
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    if code != 0:
         raise StartFailed(f"the campaign broke off; what it left is in {folder}")
-    report = Report.of_document(json.loads(done.stdout))
+    report = Report.of_document(json.loads(told))
     report.kept = str(folder)
     return report
+
+
+def _told(command: Sequence[str]) -> tuple[int, bytes]:
+    """Run a program that ends with its standard input. Returns its exit code and its output."""
+    with subprocess.Popen(  # noqa: S603 - our own program
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        process_group=0,  # Ctrl-C reaches us alone
+    ) as program:
+        try:
+            told = program.stdout.read() if program.stdout else b""
+        finally:
+            if program.stdin:
+                program.stdin.close()
+            program.wait()
+    return program.returncode, told

@@ -9,8 +9,11 @@ from typing import Any
 import pytest
 
 from jointplay.chaos.faults import FAULTS
+from jointplay.chaos.processes import running
+from jointplay.command_line.exits import Exit
 from tests.postgresql_server import running_server
 from tests.seaweedfs_server import BUCKET, running_store
+from tests.waiting import until
 
 
 def campaign(folder: Path, *options: str) -> dict[str, Any]:
@@ -32,6 +35,18 @@ def test_a_service_keeps_its_word_under_faults(tmp_path: Path) -> None:
     assert report["struck"][0]["fault"] == "garbage-handed-in"
     assert all(one["recovery"] is not None for one in report["struck"])
     assert report["jobs"]["succeeded"] >= 3
+
+
+def test_nothing_is_left_of_a_campaign_that_is_ended(tmp_path: Path) -> None:
+    folder = tmp_path / "chaos"
+    command = [sys.executable, "-P", "-m", "jointplay", "chaos", "--output", str(folder)]
+    with subprocess.Popen([*command, "--workers", "1"], stderr=subprocess.PIPE) as process:
+        until(lambda: {one.role for one in running(folder)} >= {"worker", "device"})
+        process.terminate()
+        _, told = process.communicate()
+    assert running(folder) == []
+    assert f"jointplay: interrupted; what it left is in {folder}\n" in told.decode()
+    assert process.returncode == Exit.INTERRUPTED
 
 
 @pytest.mark.long
