@@ -29,6 +29,7 @@ class Passing(ABC):
 
     def __init__(self, port: Port, encrypted: ssl.SSLContext | None = None) -> None:
         self._port, self._encrypted = port, encrypted
+        self._answering: set[asyncio.Task[None] | None] = set()
         with port.inside():
             self._listening = socket.create_server((port.address, 0), backlog=256)
         scheme = "http" if encrypted is None else "https"
@@ -49,11 +50,14 @@ class Passing(ABC):
         await server.serve_forever()
 
     async def _answer(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        task = asyncio.current_task()
+        self._answering.add(task)  # asyncio lets go of it when the connection ends, and it waits on
         try:
             await self.answer((reader, writer))
         except (OSError, asyncio.IncompleteReadError, asyncio.CancelledError):
             writer.transport.abort()
         finally:
+            self._answering.discard(task)
             writer.close()
 
 

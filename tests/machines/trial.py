@@ -1,5 +1,6 @@
 """A balancer, and faults of the network and of the store, do what they say, without a service."""
 
+import gc
 import http.server
 import os
 import socket
@@ -84,6 +85,27 @@ def _try_balancer(server: Port, number: int) -> None:
             trusted = ssl.create_default_context(cafile=file)
             assert [_answer(balancer.url, trusted) for _ in range(2)] == [expected, expected]
             assert _answer(balancer.url) is None  # its authority is unknown
+        _try_early_end(between, server, authority)
+
+
+def _try_early_end(between: Port, server: Port, authority: CA) -> None:
+    """End an encrypted connection whose server says nothing: what passes it on still waits."""
+    with server.inside():
+        silent = socket.create_server((server.address, 0))
+    port: int = silent.getsockname()[1]
+    balancer = Balancer(between, [(server.address, port)], certified(authority, between))
+    trusted = ssl.create_default_context()
+    authority.configure_trust(trusted)
+    address = httpx.URL(balancer.url)
+    held = []
+    for _ in range(2):  # with the second one, the end of the first has been seen to
+        plain = socket.create_connection((address.host, address.port))
+        with trusted.wrap_socket(plain, server_hostname=address.host) as client:
+            client.sendall(b"abc")
+            held.append(silent.accept()[0])
+            client.unwrap().close()
+        assert b"".join(iter(lambda: held[-1].recv(3), b"")) == b"abc"
+    gc.collect()
 
 
 def _try_clock() -> None:
