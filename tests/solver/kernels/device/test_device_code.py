@@ -20,6 +20,8 @@ from tests.solver.readable_mechanics import preset
 OF_FLOATS = re.compile(r"\b(?:add|sub|mul|div|sqrt|fma|mad|rcp)\.(?:\w+\.)*f(?:32|64)\b")
 MOST_SPILLED = 1024
 """Bytes of registers that the press's loop may keep elsewhere, with 254 registers a thread."""
+BY_BYTES = re.compile(r"\b(?:ld|st)\.b8\b")
+"""Single bytes: a number takes eight where its record is not aligned, as that of contacts."""
 EXTERNAL = {"sqrt", "numba_frexp", "NRT_MemInfo_call_dtor"}
 """Functions that Numba's text may call, beside LLVM's own, and Python's where one is null."""
 
@@ -64,12 +66,18 @@ def test_constants_are_read_from_constant_memory(text: str) -> None:
     assert "ld.const" in text
 
 
-def test_tangents_are_whole_too(kernel: Kernel) -> None:
+def test_numbers_of_runs_are_read_whole(text: str) -> None:
+    assert "ld.b64" in text
+    assert {*BY_BYTES.findall(text)} == {"st.b8"}  # of contacts
+
+
+def test_tangents_are_whole_too(kernel: Kernel, text: str) -> None:
     tangents = compile_tangents(kernel)
     sources = [*kernel.module.tapes.sources, *tangents.module.tapes.sources]
     found = code(sources, tangents.slots, Sizes(0, tangents.layout.size, 8, 16, 8), on_host=False)
     assert ".extern" not in found
     assert ".callprototype" not in found
+    assert BY_BYTES.findall(found) == BY_BYTES.findall(text)
 
 
 def test_what_a_job_does_not_ask_for_makes_code_shorter(kernel: Kernel, text: str) -> None:
