@@ -146,7 +146,7 @@ def unfinished(folder: Path) -> "Admission | Study | None":
         raise Refused(f"{path}: {error}") from None
     if not isinstance(document, dict):
         raise Refused(f"{path}: a job is a JSON object.")
-    return None if ended(folder) else _admitted(document)
+    return None if ended(folder) else _begun(document)
 
 
 def _computed(
@@ -167,6 +167,17 @@ def _computed(
     if check:
         found.check()
     return found
+
+
+def _begun(document: dict[str, Any]) -> "Admission | Study":
+    """Return a stored job as it was admitted, maybe by a version that refused less than this."""
+    from jointplay.records.failure import InvalidInput
+    from jointplay.solver.kinds import parse
+
+    try:
+        return parse(document)
+    except (InvalidInput, KeyError):  # of a version whose documents this one cannot read
+        return _admitted(document)
 
 
 def _admitted(document: Mapping[str, Any]) -> "Admission | Study":

@@ -1,5 +1,6 @@
 """Runs that were cut short go on to the bits of a run in one piece, however they were cut."""
 
+import copy
 import errno
 import json
 import math
@@ -14,7 +15,8 @@ import zarr
 import jointplay
 from jointplay import jobs
 from jointplay.client import JobCancelled, JobFailed, NotFound
-from jointplay.solver.kinds import admit
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import admit, parse
 from jointplay.storage import durable
 from jointplay.storage.results.comparison import compared_arrays, differing_attributes
 from jointplay.worker.local import computing, keeping, study
@@ -41,7 +43,7 @@ def whole(tmp_path_factory):
     return folders
 
 
-def begun(job, folder, *, at=0.3, by=signal.SIGTERM, processes=1):
+def begun(job, folder, *, at=0.3, by=signal.SIGTERM, processes=1, admitted=admit):
     """Begin a job, and have a signal end it once a part of it is done."""
     folder.mkdir()
 
@@ -49,7 +51,7 @@ def begun(job, folder, *, at=0.3, by=signal.SIGTERM, processes=1):
         if fraction > at:
             os.kill(os.getpid(), by)
 
-    return computing.compute(admit(job), folder, processes, report)
+    return computing.compute(admitted(job), folder, processes, report)
 
 
 def assert_equal(folder, other):
@@ -74,6 +76,18 @@ def test_a_signal_ends_a_simulation_which_goes_on_bit_for_bit(number, whole, tmp
     changed = (folder / computing.STORE).stat().st_mtime_ns
     assert jointplay.resume(folder).state == "succeeded"  # which had ended: nothing is computed
     assert (folder / computing.STORE).stat().st_mtime_ns == changed
+
+
+def test_what_an_earlier_version_began_goes_on_though_it_is_refused_today(tmp_path):
+    press = jobs.simulate("seven-bar-press", stiffness=1e10, duration=0.25, output_step=1e-4)
+    fields = copy.deepcopy(admit(press).job)
+    fields["scene"]["parameters"]["youngs_modulus"] = 7e10
+    with pytest.raises(InvalidInput):
+        admit(fields)
+    folder = tmp_path / "OUT"
+    assert begun(fields, folder, admitted=parse).state == "cancelled"
+    finished = jointplay.resume(folder)
+    assert (finished.state, finished.job) == ("succeeded", fields)
 
 
 @pytest.mark.parametrize("processes", [1, pytest.param(2, marks=LONG)])
