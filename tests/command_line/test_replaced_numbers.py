@@ -37,6 +37,16 @@ def test_a_submission_and_an_estimate_tell_it(jointplay, edited, service_url):
     assert jointplay("submit", *typed, "--estimate").lines() == [TOLD]
 
 
+def test_a_batch_tells_it_once(jointplay, edited, service_url, tmp_path):
+    scene = json.loads(edited.read_text())
+    job = {"kind": "simulate", "scene": scene, "duration": 0.01}
+    sweep = {"kind": "sweep", "scene": scene, "grid": {"mass": [1.0, 2.0]}, "duration": 0.01}
+    batch = tmp_path / "batch.json"
+    batch.write_text(json.dumps([job, job | {"duration": 0.02}, sweep]))
+    ended = jointplay("batch", batch, "--url", service_url)
+    assert ended.err.splitlines() == [TOLD.replace("the", "in 2 of 3 jobs the", 1)]
+
+
 @pytest.mark.parametrize(
     "typed",
     [

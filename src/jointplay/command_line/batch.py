@@ -1,5 +1,7 @@
 """``jointplay batch``: many jobs of a service at once."""
 
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -7,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.job_document import replaced_numbers
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import remark, tell
 
 if TYPE_CHECKING:
     from jointplay.client import Batch
@@ -56,6 +59,7 @@ def batch(
         else:
             jobs, own_label = _jobs_in(Path(source))
             found = client.submit_batch(jobs, label if label is not None else own_label)
+            remark(_replaced(jobs))
             if not as_json:
                 typer.echo(found.id)
         if wait:
@@ -75,6 +79,13 @@ def _jobs_in(path: Path) -> tuple[list[Any], str]:
     if not isinstance(document, list):
         raise Stopped(f"{path}: a batch is a list of jobs, or an object with a list of 'jobs'.")
     return document, ""
+
+
+def _replaced(jobs: Sequence[Any]) -> Iterator[str]:
+    """Yield a line for every number that the default of a parameter replaces in jobs of a batch."""
+    lines = Counter(line for job in jobs for line in replaced_numbers(job, None))
+    for line, count in lines.items():
+        yield f"in {count} of {len(jobs)} jobs {line}"
 
 
 def _wait_for(found: "Batch") -> None:
