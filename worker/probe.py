@@ -35,6 +35,9 @@ from jointplay.worker.own_device import trial_scenes
 
 BUDGET = 0.5
 """Seconds of computing spent on one estimate; more where nothing has moved by then."""
+_LEAST_STEPS, _LONGEST = 20_000, 4.0
+"""Accepted steps of a simulation that are made though they take longer than that, up to so many
+seconds: the few that a busy machine makes in it do not show the pace."""
 _MOST_BLOCKS = 3
 """Blocks of a study of which the beginning is computed: first, middle and last."""
 _BEGINNING = 0.2
@@ -132,7 +135,8 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
         spent = time.process_time() - began
         marks.append(Mark(spent, progress.fraction, progress.steps() or 0))
         moved = len(marks) > 1 and progress.fraction > 0.0
-        return Answer.cancel if moved and spent > budget else Answer.go_on
+        shown = marks[-1].steps >= _LEAST_STEPS or spent > _LONGEST
+        return Answer.cancel if moved and shown and spent > budget else Answer.go_on
 
     with tempfile.TemporaryDirectory(prefix="jointplay-", dir=_scratch()) as name:
         target = StoredObject(Folder(name), "store.zip")
