@@ -81,7 +81,8 @@ def test_a_legend_says_what_the_colours_mean_and_a_click_offers_the_run(browsing
         place = page.get_by_label(MAP).bounding_box()
         page.mouse.click(place["x"] + place["width"] / 2, place["y"] + place["height"] / 2)
         page.get_by_role("button", name="Run this simulation").wait_for()
-        page.get_by_role("status").filter(has_text="kind of motion ").wait_for()
+        told = page.get_by_role("status").filter(has_text="kind of motion: ")
+        expect(told).to_have_text(re.compile(r"after which the motion recurs: (\d+|none); "))
 
 
 def test_a_map_is_moved_with_keys(browsing, url, chart):

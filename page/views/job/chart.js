@@ -163,9 +163,14 @@ class Chart {
     const found = await get(`${this.job.links.chart}/point`, { column, row }, this.signal);
     const words = found.status !== "done" ? found.detail || found.status : [Object.entries(found.quantities)
       .filter(([, { value }]) => value !== null)
-      .map(([, { long_name: name, value, unit, label }]) => `${name} ${label ?? withUnit(value, unit, 4)}`)
-      .join(", "), found.detail].filter(Boolean).join("; ");
+      .map(([, quantity]) => told(quantity)), found.detail].flat().filter(Boolean).join("; ");
     const others = { ...this.cuts(), ...this.branches(found.quantities?.period?.value) };
     offer(this.chosen, this.job, this.values(point), words, "", others, this.starts(point));
   }
+}
+
+/** Returns a quantity of a point in words, as its name says what a value of 0 means. */
+function told({ long_name: named, value, unit, label }) {
+  const [name, none] = named.split("; 0: ");
+  return `${name}: ${(value === 0 && none) || (label ?? withUnit(value, unit, 4))}`;
 }
