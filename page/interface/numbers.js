@@ -7,7 +7,7 @@ const RAISED = Object.fromEntries([..."-0123456789n"].map((one, i) => [one, [...
 const PREFIXED = new Set(["m", "s", "N", "J", "W", "Pa", "N m", "N s", "Hz"]);
 const AXIS_PREFIXES = PREFIXES.filter(([one]) => one <= 1e6 && one >= 1e-9);
 const SCALED = /^(m|s|N|J|W|N m|N s|m\/s|m\/s\^2)$/;
-const NEVER_LARGER = /^(m|s)(\/s(\^2)?)?$/; // no mechanism is measured in kilometres
+const NEVER_LARGER = /^(m|s|rad)(\/s(\^2)?)?$/; // no mechanism is measured in kilometres
 const ROUNDING = 1e-14;
 
 /** Returns a number with few digits: 0.0005, 1569, 2.07e+11. */
@@ -25,8 +25,11 @@ export function short(value, digits = 4) {
 
 /** Returns a unit with its exponents raised: m/s². */
 export function unitText(unit) {
-  return unit.replace(/\^(-?\d+|n)(?![\d.])/g, (_, power) =>
-    [...power].map((one) => RAISED[one]).join(""));
+  return unit.replace(/\^(-?\d+|n)(?![\d.])/g, (_, power) => raised(power));
+}
+
+function raised(power) {
+  return [...power].map((one) => RAISED[one]).join("");
 }
 
 /** Returns a value with its unit and a prefix that suits it: 0.5 mm, 1.57 kN, 3.14 rad/s. */
@@ -39,11 +42,15 @@ export function withUnit(value, unit, digits = 4) {
   return `${short(value / factor, digits)} ${prefix}${unit}`;
 }
 
-/** Returns what one of an axis's unit is in SI, and the unit with its prefix, as figures have it. */
+/** Returns what one of an axis's unit is in SI, and the unit with its prefix or factor, as figures have it. */
 export function axisUnit(unit, largest) {
   const plain = [1, unit === "1" ? "" : unitText(unit)];
-  if (!SCALED.test(unit) || !(largest > 0) || (largest >= 0.1 && largest < 1e4)) return plain;
-  if (largest >= 1e4 && NEVER_LARGER.test(unit)) return plain;
+  if (!(largest > 0) || (largest >= 0.1 && largest < 1e4)) return plain;
+  if (largest >= 1e4 && NEVER_LARGER.test(unit)) {
+    const thousands = 3 * Math.floor(Math.log10(largest) / 3);
+    return [10 ** thousands, `10${raised(String(thousands))} ${plain[1]}`];
+  }
+  if (!SCALED.test(unit)) return plain;
   const [one, prefix] = AXIS_PREFIXES.find(([factor]) =>
     largest >= (factor > 1 ? factor : 0.1 * factor)) ?? AXIS_PREFIXES.at(-1);
   return [one, prefix + unitText(unit)];

@@ -2,7 +2,7 @@
 
 import uPlot from "../vendor/uplot/uPlot.esm.min.js";
 import { element, fill } from "../interface/element.js";
-import { apart, short, unitText, withUnit } from "../interface/numbers.js";
+import { apart, axisUnit, short, withUnit } from "../interface/numbers.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
 import { pause } from "../requests/service.js";
 import { histories } from "./history_data.js";
@@ -145,6 +145,7 @@ export class HistoryPlots {
   options(channel, unit, value, last) {
     const colours = palette();
     const size = letters();
+    const suited = ({ scales: { y } }) => axisUnit(unit, Math.max(Math.abs(y.min), Math.abs(y.max)));
     const axis = {
       font: axisFont(), labelFont: axisFont(),
       stroke: colours.quiet, grid: { stroke: colours.faint, width: 0.3 }, ticks: { width: 0.5 },
@@ -164,8 +165,8 @@ export class HistoryPlots {
       axes: [
         { ...axis, show: true, size: size * (last ? 44 : 18), label: last ? "time [s]" : null, labelSize: 20 * size,
           values: (_, ticks) => ticks.map((one) => (last ? short(one, 6) : "")) },
-        { ...axis, size: 74 * size, label: unit === "1" ? "" : unitText(unit), labelSize: 18 * size,
-          values: (_, ticks) => apart(ticks).map(([, text]) => text) },
+        { ...axis, size: 74 * size, label: (plot) => suited(plot)[1], labelSize: 18 * size,
+          values: (plot, ticks) => apart(ticks.map((one) => one / suited(plot)[0])).map(([, text]) => text) },
       ],
       hooks: {
         drawAxes: [(plot) => {

@@ -77,7 +77,9 @@ UNITS = {
     (0.00035, "m"): [1e-3, "mm"],
     (0.05, "m"): [1e-3, "mm"],
     (0.5, "m"): [1, "m"],
-    (25000, "m"): [1, "m"],
+    (25000, "m"): [1e3, "10³ m"],
+    (2e5, "m/s^2"): [1e3, "10³ m/s²"],
+    (3e6, "rad/s^2"): [1e6, "10⁶ rad/s²"],
     (25000, "N"): [1e3, "kN"],
     (2e-5, "m/s"): [1e-6, "µm/s"],
     (0.001, "rad"): [1, "rad"],
@@ -106,6 +108,27 @@ def test_axes_have_the_units_of_figures_and_few_points_are_large(browsing, servi
             assert found == expected, (largest, unit)
         two, some, many = (page.evaluate(DOTS, count) for count in (2, 200, 2000))
     assert two > 28 > some > 5 > many, (two, some, many)
+
+
+WRITTEN = """() => {
+  const write = CanvasRenderingContext2D.prototype.fillText;
+  window.written = new Set();
+  CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
+    window.written.add(text);
+    write.call(this, text, ...at);
+  };
+}"""
+
+
+def test_axes_of_histories_have_the_units_of_figures(browsing, url, press):
+    shown = "channels=displacement,acceleration,A.normal_force,A.penetration"
+    with browsing.page(f"{url}/#/job/{press}?{shown}", still=True) as page:
+        page.locator(".uplot").nth(3).wait_for()
+        page.evaluate(WRITTEN)
+        page.get_by_title("Zoom in").click()
+        page.wait_for_function("() => window.written.has('time [s]')")
+        written = page.evaluate("() => [...window.written]")
+    assert {"mm", "m/s²", "N"} <= {*written}  # of a penetration
 
 
 def test_two_runs_are_compared_in_the_same_plots(browsing, url, press, artifacts):
