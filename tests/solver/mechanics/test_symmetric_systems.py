@@ -1,4 +1,4 @@
-"""Symmetric systems written out in scalars: solutions against NumPy's, zeros that stay, divisions."""
+"""Symmetric systems in scalars: solutions against NumPy's, zeros that stay, divisions."""
 
 from functools import cache
 
