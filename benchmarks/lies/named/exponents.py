@@ -151,7 +151,7 @@ LIES = (
             partial(
                 _holds,
                 job({"preset": "slider-crank", "parameters": HARD}, 30, 60, tolerance=tolerance),
-                25.0,
+                29.0,  # 29.0 +- 0.7 over 5000 turns at 1e-8, 28.3 +- 1.1 over 3000 at 1e-10
                 chaotic=True,
                 decided=tolerance < 1e-6,  # at 1e-6 three of ten starts 3e-13 apart are undecided
             ),

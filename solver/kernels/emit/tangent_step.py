@@ -16,16 +16,25 @@ from functools import reduce
 from operator import add, mul
 
 from jointplay.solver.kernels.emit.emit import lane_function, statements
+from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.emit.kinks import MEMORY
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
-from jointplay.solver.quantities.scalars import select_positive
+from jointplay.solver.quantities.scalars import Scalar, maximum, select_positive
 
 NODES = (0.0, 0.5, 0.75)
 """Stages of a half step; stage s starts from the slope of the stage before alone, weight NODES."""
 WEIGHTS = (2.0 / 9.0, 3.0 / 9.0, 4.0 / 9.0)
 STAGES = 2 * len(NODES)
+BEHIND_ONSET = 0.05
+"""Node 0 of the first half step of a step with which a contact begins.
+
+The slope may jump there, such as by the stiffness of a linear law, and the state is on either side
+of the jump, by rounding. The length of that step does not depend on the tolerance, and neither
+would the error. With the node here the weights integrate a jump exactly, and powers of time up to
+the root within 4e-3.
+"""
 
 
 def allocate(layout: Layout, states: int) -> None:
@@ -42,6 +51,7 @@ class TangentTracer:
         self.states, self.coordinates = equations.states, len(equations.coordinates)
         self.closed = equations.loops is not None
         self.kinks, self.layout = kinks, layout
+        self.pairs = len(equations.pairs)
         self.tracer = Tracer()
 
     def source(self) -> str:
@@ -60,12 +70,25 @@ class TangentTracer:
         return "\n\n".join([*parts, step])
 
     def _begin(self) -> str:
-        """Stage 0, where the step begins."""
+        """Stage 0, where the step begins, or just behind."""
         v = self.tracer.variable
-        outputs = [("passing_time", v("time"))]
-        for i in range(self.states):
-            outputs += [(f"passing{i}", v(f"y{i}")), (f"carried{i}", v(f"tangent{i}"))]
+        if self.pairs:
+            share = self._begins()
+            outputs = [("passing_time", v("time") + share * v("tried"))]
+            outputs += [(f"passing{i}", self._passed(share, i)) for i in range(self.states)]
+        else:
+            outputs = [("passing_time", v("time"))]
+            outputs += [(f"passing{i}", v(f"y{i}")) for i in range(self.states)]
+        outputs += [(f"carried{i}", v(f"tangent{i}")) for i in range(self.states)]
         return lane_function("carry_0", outputs, self.layout)
+
+    def _begins(self) -> Scalar:
+        """Share of the step at which stage 0 is: not 0 where a contact begins with the step."""
+        v, share = self.tracer.variable, 0.0
+        for j in range(self.pairs):
+            began = select_positive(v(f"gap_start{j}") - LANDED, 0.0, 0.5 * BEHIND_ONSET)
+            share = select_positive(v(f"mode{j}"), maximum(share, began), share)
+        return share
 
     def _carry(self, s: int) -> str:
         """Stage s: the point that the base passes there, and the tangent carried there."""
@@ -92,7 +115,7 @@ class TangentTracer:
         name = f"carried{count + i}" if i < count else f"carried_slope{i}"
         return self.tracer.variable(name)
 
-    def _passed(self, share: float, i: int) -> Expression:
+    def _passed(self, share: Scalar, i: int) -> Expression:
         """State i after a share of the step: the cubic through both ends and their slopes."""
         v, rest = self.tracer.variable, 1.0 - share
         start, end = v(f"y{i}"), v(f"stage{i}")
