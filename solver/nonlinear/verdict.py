@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from jointplay.solver.nonlinear.estimate import Estimate
+from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from jointplay.solver.nonlinear.lyapunov import confirmed, contradicts
 from jointplay.solver.nonlinear.zero_one import FEWEST_TELLING
 
@@ -71,6 +71,8 @@ def grounds(found: Mapping[str, float]) -> str:
     lyapunov, zero_one, rotation = (
         _kept(found, name) for name in ("lyapunov", "zero_one", "rotation")
     )
+    if rotation is None and "rotation" in found:
+        rotation = UNKNOWN
     verdict = decide(lyapunov, zero_one, recurrence, rotation)
     if verdict.code == found["verdict"]:
         return verdict.reason
@@ -94,9 +96,9 @@ def decide(
 
     lyapunov : largest exponent, other than the zero along an autonomous flow. zero_one : K.
     period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
-    number; None where the section is no closed curve. finer : the exponent in far smaller steps.
-    None: not known. An exponent that is not finite, and a K with an error of 0.5 or more (too few
-    sections), are as good as none.
+    number; not finite where the section is no closed curve. finer : the exponent in far smaller
+    steps. None: not known. An exponent that is not finite, and a K with an error of 0.5 or more
+    (too few sections), are as good as none.
 
     chaotic : the exponent exceeds zero by more than three errors, in smaller steps too, nothing
         recurs, and K > 0.9. An exponent that does not drift will do where there is no K.
@@ -203,8 +205,14 @@ def _neutral(
     if rotation is None:
         missing = "'rotation'" if period == 0 else "'rotation' or 'recurrence'"
         return _undecided(
-            f"{neutral}, K is {zero_one}, but the section is no closed curve: {LONGER}, {SMALLER},"
-            f" or add the indicator {missing}"
+            f"{neutral}, K is {zero_one}, but whether the section is a closed curve is not known:"
+            f" add the indicator {missing}"
+        )
+    if not math.isfinite(rotation.value):
+        missing = "" if period == 0 else ", or add the indicator 'recurrence'"
+        return _undecided(
+            f"{neutral}, K is {zero_one}, but the section is no closed curve: {LONGER}, {SMALLER}"
+            f" or {MORE}{missing}"
         )
     if not rotation.error < LOOSE:
         return _undecided(

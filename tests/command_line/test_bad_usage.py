@@ -33,6 +33,7 @@ WRONG = {
     "duration 1e400": ([*PRESS, "--duration", "1e400"], "/duration"),
     "duration a word": ([*PRESS, "--duration", "long"], "--duration"),
     "too many periods": ([*PRESS, "--duration", "1e7"], "/duration"),
+    "no members": ([*PRESS, "--ensemble", "0", "--record", "1"], "/members"),
     "unknown preset": (["run", "six-bar-press", "-o", "OUT", "--duration", "2"], "/scene/preset"),
     "unknown parameter": ([*TIMED, "--set", "clearence=1e-4"], "clearence"),
     "a value twice": (

@@ -70,6 +70,7 @@ def indicators_of(
         rotation = rotation_number(principal_plane(states)) if len(states) > 2 else None
         found["rotation"] = rotation.value if rotation else math.nan
         found["rotation_error"] = rotation.error if rotation else math.nan
+        rotation = rotation or UNKNOWN
     if "spectrum" in chosen and len(states) < FEWEST_FOR_SPECTRUM:
         found |= dict.fromkeys(("line_frequency", "line_share", "flatness"), math.nan)
     elif "spectrum" in chosen:

@@ -120,7 +120,11 @@ def with_job_options(*only: str) -> Callable[[Command], Command]:
 
 def fields_of(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return options as fields of a job, without those that were not given."""
-    given = {name: value for name, value in options.items() if value not in (None, [], False)}
+    given = {  # 0 is given, though it equals False
+        name: value
+        for name, value in options.items()
+        if value is not None and value is not False and value != []
+    }
     kinds = [kind for kind, name in _NAMES.items() if name.replace("-", "_") in given]
     if len(kinds) > 1:
         raise Stopped(f"--{_NAMES[kinds[0]]} and --{_NAMES[kinds[1]]} are two jobs; give one.")
