@@ -206,7 +206,7 @@ def _neutral(
         missing = "'rotation'" if period == 0 else "'rotation' or 'recurrence'"
         return _undecided(
             f"{neutral}, K is {zero_one}, but whether the section is a closed curve is not known:"
-            f" add the indicator {missing}"
+            f" {LONGER}, {SMALLER}, or add the indicator {missing}"
         )
     if not math.isfinite(rotation.value):
         missing = "" if period == 0 else ", or add the indicator 'recurrence'"
