@@ -37,7 +37,7 @@ def page(folder: Path, size: Size, pictures: Sequence[tuple[Picture, bytes]]) ->
     Parameters
     ----------
     folder
-        Of the stores that `runs.compute` made.
+        Of the stores that `reproduction.reproduce` made.
     size
         What was computed.
     pictures
