@@ -223,8 +223,15 @@ class StepTracer(JudgedStep):
         )
 
     def _where_accepted(self, outputs: Outputs) -> list[Output]:
-        taken = self.variable("accept")
-        return [(slot, select_positive(taken, new, self.variable(slot))) for slot, new in outputs]
+        """Return outputs that leave slots as they are in lanes that do not take the step.
+
+        Nodes have an order within one trace only, and some outputs are of that of the equations.
+        """
+        found = []
+        for slot, new in outputs:
+            v = new.tracer.variable
+            found.append((slot, select_positive(v("accept"), new, v(slot))))
+        return found
 
     def dense(self) -> list[Output]:
         """Return time, state, modes and impact rates at the share `theta` of the step."""

@@ -17,12 +17,14 @@ from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.trace.tracer import Tracer
+from jointplay.solver.scene.document import Scene
 from tests.solver.readable_mechanics import preset
 
 ROUNDED = 4.5e-16
 """Two units in the last place of 1: those of sines at the start, and sums of three terms."""
 LANES = own_target().lanes
 STARTS = ("angle_start", "sine_start", "cosine_start")
+CONTACT = {"contact": {"law": "lankarani-nikravesh", "stiffness": 1e8, "restitution": 0.5}}
 
 
 @pytest.fixture(scope="module")
@@ -103,3 +105,47 @@ def test_slopes_of_a_press_and_of_its_tangents_take_turned_sines() -> None:
     ):
         (tape,) = (one.tape for one in module.tapes.sources if one.name == name)
         assert tape.count(" either ") == 2 * 5  # two cranks, three links
+
+
+def with_a_hand(pieces: int) -> Scene:
+    """Return a journal that four forces over x pull, and one that turns with a driven hand."""
+    origin = {"points": {"O": [0.0, 0.0]}}
+    ends = {"first": "ground.O", "second": "ball.O"}
+    force = {"type": "force", "magnitude": 1.0, "direction": [1.0, 0.0]}
+    over = {"over": {"quantity": "x", **ends}}
+    knots = np.linspace(-2e-3, 2e-3, pieces + 1).tolist()
+    pull = {
+        "type": "piecewise-polynomial",
+        "knots": knots,
+        "coefficients": [  # of one cubic, whatever the pieces
+            [1.0 + x * (1e2 + x * (1e5 + x * 1e8)), 1e2 + x * (2e5 + x * 3e8), 1e5 + x * 3e8, 1e8]
+            for x in knots[:-1]
+        ],
+        "outside": "held",
+    }
+    document = {
+        "name": "hand",
+        "ground": origin,
+        "bodies": {name: {"mass": 1.0, "inertia": 1.0} | origin for name in ("ball", "hand")},
+        "joints": {
+            "J": {"type": "revolute", "bearing": "ground.O", "journal": "ball.O"}
+            | {"clearance": {"radial_clearance": 1e-3, "bearing_radius": 0.01} | CONTACT},
+            "pivot": {"type": "revolute", "bearing": "ground.O", "journal": "hand.O"},
+        },
+        "drivers": {"motor": {"joint": "pivot", "speed": 20.0}},
+        "forces": {
+            **{f"pull{i}": force | ends | over | {"course": pull} for i in range(4)},
+            "turning": force | {"first": "hand.O", "second": "ball.O", "axes": "first"},
+        },
+    }
+    return Scene.model_validate(document)
+
+
+def test_an_angle_that_is_traced_behind_long_functions_is_kept_as_any_other() -> None:
+    ends = []
+    for pieces in (1, 60):
+        kernel = ready_kernel(with_a_hand(pieces), "reduced", "tsitouras")
+        bundle = Bundle(kernel, [LaneProblem(with_a_hand(pieces), 1.0, 1e-9, 1.0, 0, 0, 0.0)])
+        bundle.advance(100_000)
+        ends.append(bundle.lane(0)["y"].copy())
+    assert ends[1] == pytest.approx(ends[0], rel=1e-5)
