@@ -204,7 +204,9 @@ def _piece(
 def _vague(orbit: Orbit) -> bool:
     """Return whether an orbit without contacts tells nothing of its stability."""
     touches = orbit.curve.sections.kernel.pairs
-    return not touches and orbit.error > VAGUE * max(1.0, largest(orbit.multipliers))
+    if touches or orbit.sure:
+        return False
+    return orbit.error > VAGUE * max(1.0, largest(orbit.multipliers))
 
 
 def _alike(orbit: Orbit, other: Orbit, along: Floats) -> Orbit:
