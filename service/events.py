@@ -49,7 +49,9 @@ class JobEvent(BaseModel):
 
     seq: int = Field(description="Counts from 1 without gaps.")
     type: str = Field(
-        description="A state of the job, or claimed, compiling, released, lost, refused, retried."
+        description=(
+            "A state of the job, or claimed, compiling, released, put-off, lost, refused, retried."
+        )
     )
     time: str = Field(description="When it happened, RFC 3339 in UTC.")
     data: dict[str, Any] = Field(
