@@ -1,4 +1,4 @@
-"""What a job will cost, from its beginning."""
+"""Cost of a job, estimated from its beginning."""
 
 from typing import cast
 
