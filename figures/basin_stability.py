@@ -13,7 +13,7 @@ _HEIGHT = 55.0  # mm
 _ROW, _LEAST = 6.0, 20.0
 _MOST = 12
 """Attractors that are drawn: those of the largest shares."""
-_CAPTION = "Bars: standard errors of shares, binomial."
+_CAPTION = "Bars: standard errors of shares."
 
 
 def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:

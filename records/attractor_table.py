@@ -17,6 +17,7 @@ from jointplay.records.coarse_to_fine import order_of, over_axes
 from jointplay.records.cycles import MEAN, SPREAD
 from jointplay.records.motion import WAITING
 from jointplay.records.point import PointStatus
+from jointplay.records.share_error import share_error
 from jointplay.records.strict_json import finite
 from jointplay.records.study import StudySource
 
@@ -25,7 +26,7 @@ def attractor_table(source: StudySource) -> dict[str, Any]:
     """Return the attractors that are known of many starts.
 
     Each has its label, name and colour, its points and their share of those that have ended with
-    the binomial standard error, and one point that ends on it with what is known of that; over a
+    its standard error, and one point that ends on it with what is known of that; over a
     parameter also its shares at each value. A map has the dimension of its boundary.
     """
     found = attractors_of(source)
@@ -66,8 +67,8 @@ class SharesAlong:
         with np.errstate(invalid="ignore", divide="ignore"):
             self.shares: Floats = counts / ended
             """(attractors, values) of these; NaN where none has."""
-            self.errors: Floats = np.sqrt(self.shares * (1.0 - self.shares) / ended)
-            """(attractors, values) binomial standard errors."""
+        self.errors: Floats = share_error(counts, ended)
+        """(attractors, values) standard errors."""
 
     def document(self, source: StudySource) -> dict[str, Any]:
         """Return the parameter, its values, and how many points of each have ended."""

@@ -6,7 +6,6 @@ apart where these differ beyond their own scatter (`scattered`). Over a paramete
 those of the value before that they are nearest to.
 """
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
@@ -29,6 +28,7 @@ from jointplay.records.motion import (
     name_of,
 )
 from jointplay.records.scattered import Places, told_apart
+from jointplay.records.share_error import share_error
 from jointplay.records.study import StudySource
 
 CARRIED: Final = 0.2
@@ -50,7 +50,7 @@ class Attractor:
     share: float
     """Part of the points that have ended."""
     error: float
-    """Standard error of the share, binomial."""
+    """Standard error of the share, see `share_error`."""
     example: int
     """Index of the first point that ends on it."""
 
@@ -188,9 +188,8 @@ def _table(labels: Labels, names: Mapping[int, str]) -> list[Attractor]:
     found = []
     for code, point, count in zip(codes.tolist(), first.tolist(), counts.tolist(), strict=True):
         if code != WAITING:
-            share = count / ended
-            error = math.sqrt(share * (1.0 - share) / ended)
-            found.append(Attractor(code, names[code], count, share, error, point))
+            error = float(share_error(count, ended))
+            found.append(Attractor(code, names[code], count, count / ended, error, point))
     return found
 
 

@@ -81,7 +81,9 @@ class Attractor(BaseModel):
     colour: str = Field(description="In the tiles, as #rrggbb.")
     points: int
     share: float = Field(description="Of the points that have ended.")
-    share_error: float = Field(description="Standard error of the share, binomial.")
+    share_error: float = Field(
+        description="Standard error of the share (Wilson 1927); not 0 where all points ended alike."
+    )
     shares: list[float | None] | None = Field(
         description="At each value of `along`; null: nothing has ended there, or no parameter."
     )

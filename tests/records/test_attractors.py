@@ -9,6 +9,7 @@ from jointplay.records.basin_boundary import boundary_dimension
 from jointplay.records.coarse_to_fine import coarse_to_fine
 from jointplay.records.motion import CHAOTIC, FAILED, NAMES
 from jointplay.records.point import PointStatus
+from jointplay.records.share_error import share_error
 from tests.starts_by_hand import study
 
 
@@ -47,12 +48,12 @@ def test_what_does_not_recur_is_told_by_its_verdict_and_failures_are_counted():
     assert [(one.code, one.name) for one in failed.found] == [(FAILED, "failed")]
 
 
-def test_shares_have_binomial_errors_and_points_that_wait_do_not_count():
+def test_shares_have_errors_and_points_that_wait_do_not_count():
     one = study([1] * 4, [[0.0, 0.0], [0.5, 0.0], [0.0, 0.0], [0.0, 0.0]])
     one.status[3] = PointStatus.waiting
     first, second = attractors_of(one).found
     assert (first.share, second.share) == (2 / 3, 1 / 3)
-    assert first.error == pytest.approx(np.sqrt(2 / 9 / 3))
+    assert first.error == second.error == share_error(2, 3)
 
 
 def test_further_attractors_than_have_labels_share_the_last():

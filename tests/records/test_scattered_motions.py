@@ -6,6 +6,7 @@ import pytest
 from jointplay.records.attractor_table import attractor_table
 from jointplay.records.attractors import attractors_of
 from jointplay.records.motion import CHAOTIC
+from jointplay.records.share_error import share_error
 from tests.starts_by_hand import study
 
 CHAOS, REST = 3, 4
@@ -103,7 +104,7 @@ def test_shares_are_of_the_points_of_each_value_that_have_ended():
     first, second = found["attractors"]
     assert first["shares"] == pytest.approx([1 / 4, 2 / 3])
     assert second["shares"] == pytest.approx([3 / 4, 1 / 3])
-    assert first["share_errors"] == pytest.approx([np.sqrt(3 / 64), np.sqrt(2 / 27)])
+    assert first["share_errors"] == [share_error(1, 4), share_error(2, 3)]
     assert (first["row"], first["column"], first["point"]) == (None, None, 0)
     assert found["boundary"] is None
 
