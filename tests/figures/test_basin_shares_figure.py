@@ -8,6 +8,7 @@ from matplotlib.colors import to_hex
 from jointplay.figures import NotDrawable
 from jointplay.records.attractors import colour_of_attractor
 from jointplay.records.motion import NAMES
+from jointplay.records.share_error import share_error
 from tests.starts_by_hand import study
 
 
@@ -31,7 +32,7 @@ def test_shares_stand_on_one_another_with_their_errors():
         if len(one.get_segments())
     ]
     lengths = [np.ptp(segment[:, 1]) for segment in lines.get_segments()]
-    assert lengths == pytest.approx([2.0 * np.sqrt(3 / 64), 2.0 * np.sqrt(1 / 16)])
+    assert lengths == pytest.approx([2.0 * share_error(3, 4), 2.0 * share_error(2, 4)])
 
 
 def test_without_a_parameter_each_attractor_has_a_bar():
