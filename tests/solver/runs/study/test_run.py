@@ -131,7 +131,9 @@ def test_interrupted_anywhere_and_resumed_it_gives_the_same_bits(
 
 def test_a_sweep_has_the_extremes_of_single_runs() -> None:
     grid = {"clearance": [3e-4, 5e-4], "friction": [0.0, 0.1]}
-    swept = Computed({"kind": "sweep", "scene": SCENE, "grid": grid, "duration": 0.5})
+    constant = {name: x for name, x in SCENE["parameters"].items() if name not in grid}
+    scene = SCENE | {"parameters": constant}
+    swept = Computed({"kind": "sweep", "scene": scene, "grid": grid, "duration": 0.5})
     assert len(set(swept.study.structure.tolist())) == 2  # without friction another kernel
     _, _, simulation = run_alone(0.5, clearance=5e-4)
     peaks = simulation.summary().peaks
