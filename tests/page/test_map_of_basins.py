@@ -41,7 +41,7 @@ def test_attractors_stand_in_a_table_and_a_click_runs_a_start(browsing, url, bas
         assert barriers(page) == []
         place = page.get_by_label(MAP).bounding_box()
         page.mouse.click(place["x"] + place["width"] / 2, place["y"] + place["height"] / 2)
-        page.get_by_role("status").filter(has_text="attractor period-1").wait_for()
+        page.get_by_role("status").filter(has_text="attractor: period-1").wait_for()
         page.get_by_role("button", name="Run this simulation").click()
         page.get_by_role("heading", name=re.compile("stop.eccentricity_x = ")).wait_for()
         (job,) = re.findall(r"#/job/(\w+)", page.url)
