@@ -60,8 +60,10 @@ def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
         if crossing:
             crossed, filled = cross_lanes(group, rows)
             quiet, full = quiet and not crossed, full or filled
-        if watch and (not quiet or call.foresee_looks(work) > 0.0):
+        foreseen = watch and call.foresee_looks(work) > 0.0
+        if foreseen:
             call.foresee_bends(work)
+        if watch and (foreseen or not quiet):
             look_closer_at_lanes(group)
         if watch or crossing:  # a scan also keeps the values from which channels go on
             candidates = call.scan(work) if quiet else call.scan_some(work)

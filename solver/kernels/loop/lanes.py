@@ -11,7 +11,7 @@ from jointplay.solver.kernels.loop.events import has_all_events, may_cross, reco
 from jointplay.solver.kernels.loop.extremes.closer_look import look_closer
 from jointplay.solver.kernels.loop.extremes.peaks import refine_peaks
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers
-from jointplay.solver.kernels.loop.step import Group, step_of
+from jointplay.solver.kernels.loop.step import Group, Step, step_of
 
 
 @kernel()
@@ -43,16 +43,21 @@ def still_landing(runs: np.ndarray) -> bool:
     return landing > 0
 
 
+@inner_kernel(forceinline=True, borrows=True)
+def wants_attention(s: Step) -> bool:
+    """Whether a lane is looked after by itself: for what its step did, or to land on an onset."""
+    flag = int(s.work[s.at.flag, s.lane])
+    return bool(flag & ATTENTION != 0 or s.run.landing != NO_PAIR)
+
+
 @inner_kernel(borrows=True)
 def attend_lanes(group: Group, rows: np.ndarray) -> bool:
     """Look after lanes between their attempts and the commit. Returns whether a buffer is full."""
     full = False
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
-        flag = int(s.work[s.at.flag, lane])
-        wanted = flag & ATTENTION != 0 or s.run.landing != NO_PAIR
-        if wanted and s.work[s.at.active, lane] > 0.0:
-            full |= attend(flag, s, rows)
+        if wants_attention(s) and s.work[s.at.active, lane] > 0.0:
+            full |= attend(int(s.work[s.at.flag, lane]), s, rows)
     return full
 
 
@@ -73,10 +78,15 @@ def cross_lanes(group: Group, rows: np.ndarray) -> tuple[bool, bool]:
 
 @inner_kernel(borrows=True)
 def look_closer_at_lanes(group: Group) -> None:
-    """Seek extremes that no scan of step ends finds, in the steps that lanes take."""
+    """Seek extremes that no scan of step ends finds, in the steps that lanes take.
+
+    Only first and last steps, and those that land on an onset, may have some that are not foreseen.
+    """
     for lane in range(len(group.runs)):
-        if group.work[group.at.accept, lane] > 0.0:
-            look_closer(step_of(lane, group))
+        s = step_of(lane, group)
+        wanted = s.work[s.at.may_look, lane] > 0.0 or wants_attention(s)
+        if wanted and s.work[s.at.accept, lane] > 0.0:
+            look_closer(s)
 
 
 @inner_kernel(borrows=True)
@@ -106,8 +116,7 @@ def settle_lanes(group: Group, buffers: Buffers) -> bool:
     full = False
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
-        flag = int(s.work[s.at.flag, lane])
-        wanted = flag & ATTENTION != 0 or s.run.landing != NO_PAIR or has_all_events(s.run)
+        wanted = wants_attention(s) or has_all_events(s.run)
         if wanted and s.work[s.at.accept, lane] > 0.0:
-            full |= settle(flag, s, buffers)
+            full |= settle(int(s.work[s.at.flag, lane]), s, buffers)
     return full

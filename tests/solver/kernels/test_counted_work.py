@@ -42,7 +42,7 @@ CALLS = {
         "extremes": {
             "gaps_within": 2.047,
             "scan_some": 0.643,
-            "foresee_bends": 0.809,
+            "foresee_bends": 0.675,
             "channels_within": 0.518,
             "channels_around": 3.344,  # rounding of forces that nothing carries is not followed
         },
@@ -52,7 +52,7 @@ CALLS = {
         "bare": {"gaps_within": 0.552, "weigh": 0.078},
         "extremes": {
             "scan_some": 0.6,
-            "foresee_bends": 0.7,
+            "foresee_bends": 0.22,
             "channels_within": 0.244,
             "channels_around": 0.342,
         },
@@ -61,7 +61,7 @@ CALLS = {
     "driven pendulum": {
         "extremes": {
             "scan_some": 0.01,
-            "foresee_bends": 0.02,
+            "foresee_bends": 0.004,
             "channels_within": 0.032,
             "channels_around": 0.107,
         },
@@ -72,7 +72,7 @@ CALLS = {
         "extremes": {
             "gaps_within": 0.989,
             "scan_some": 0.858,
-            "foresee_bends": 0.947,
+            "foresee_bends": 0.791,
             "channels_within": 0.38,
             "channels_around": 1.524,
         },

@@ -43,7 +43,7 @@ def look_closer(s: Step) -> None:
         look_inside(wanted, due, s)
     if at.inner_states > 0:
         look_at_inner_states(s)
-    if work[at.may_pass_bend, lane] > 0.0:
+    if work[at.may_look, lane] > 0.0 and work[at.may_pass_bend, lane] > 0.0:
         rows = np.empty(at.rows, np.int64)
         look_between_bends(rows[: find_in_reach(s, rows)], 0.0, 1.0, s)
 
