@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from jointplay.records.failure import Problem
+from jointplay.solver.kinds.declared_hints import idle_widths, other_units
 from jointplay.solver.laws.force import ForceElement
 from jointplay.solver.laws.force.spring_damper import SpringDamper
 from jointplay.solver.quantities.frames import WORLD
@@ -37,7 +38,8 @@ def hints(written: Mapping[str, Any], scene: Scene, pose: Pose) -> list[Problem]
         if "free_length" not in given.get(name, {}) and length not in setting:
             found += [Problem(length, text) for text in _relaxed(name, element, scene, pose)]
         found += [Problem(pointer, text) for text in _idle_moment(name, element, scene)]
-    return [*found, *_deep_journals(scene)]
+    found += [*_deep_journals(scene), *idle_widths(written, scene, setting)]
+    return [*found, *other_units(scene)]
 
 
 def _deep_journals(scene: Scene) -> Iterator[Problem]:

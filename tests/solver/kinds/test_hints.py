@@ -5,7 +5,9 @@ from typing import Any
 import pytest
 
 from jointplay.solver.kinds.assembled import assembled_scene
+from jointplay.solver.kinds.declared_hints import other_units
 from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Scene
 from tests.solver.sliders import block, swinging
 
 
@@ -53,7 +55,7 @@ def test_it_is_told_of_a_scene_that_cannot_be_run():
 def test_a_free_length_that_is_given_is_meant():
     scene = pulled()
     target = {"path": "/forces/spring/free_length"}
-    scene["parameters"] = {"length": {"help": "Free length.", "targets": [target]}}
+    scene["parameters"] = {"length": {"help": "Free length.", "unit": "m", "targets": [target]}}
     assert hints(scene) == []
     assert hints(pulled(free_length=0.0)) == []
     assert hints(pulled(stiffness=0.0, damping=1.0)) == []
@@ -93,6 +95,82 @@ def test_a_journal_that_starts_deep_in_its_bearing_is_told():
     for factor, told in ((1.001, []), (2.5, [f"/start/joints/{name}/eccentricity"])):
         scene["start"] = {"joints": {name: {"eccentricity": [0.0, -factor * play]}}}
         assert [pointer for pointer, _ in hints(scene)] == told
+
+
+LINE = {
+    "law": "stiffness-and-dissipation",
+    "stiffness": {"law": "johnson", "youngs_modulus": 2e11, "poisson_ratio": 0.3},
+    "dissipation": {"law": "none"},
+}
+
+
+def test_a_width_that_no_law_uses_is_told():
+    scene = presets.document("bouncing-journal")
+    (name, joint), *_ = scene["joints"].items()
+    del scene["parameters"]
+    pointer = f"/joints/{name}/clearance"
+    assert hints(scene) == []
+    joint["clearance"]["bearing_width"] = 0.01
+    ((told, detail),) = hints(scene)
+    assert told == f"{pointer}/bearing_width"
+    assert detail.startswith("No law of this clearance uses the bearing_width")
+    joint["clearance"]["contact"] = LINE
+    assert hints(scene) == []
+
+
+def test_a_width_is_not_told_where_a_parameter_chooses_the_law():
+    scene = presets.document("bouncing-journal")
+    (name, joint), *_ = scene["joints"].items()
+    stiffness = {"law": "hertz-spheres", "youngs_modulus": 2e11, "poisson_ratio": 0.3}
+    joint["clearance"] |= {"bearing_width": 0.01, "contact": LINE | {"stiffness": stiffness}}
+    path = f"/joints/{name}/clearance/contact/stiffness/law"
+    law = {"help": "The law.", "choices": ["hertz-spheres", "johnson"], "targets": [{"path": path}]}
+    scene["parameters"] = {"law": law}
+    assert hints(scene) == []
+
+
+UNITS = {
+    "another": ("N", 1.0, True),
+    "left out": (None, 1.0, True),
+    "its own": ("N/m", 1.0, False),
+    "its own, written otherwise": ("kg/s^2", -1.0, False),
+    "converted": ("mm", 1e3, False),
+}
+
+
+@pytest.mark.parametrize(("unit", "factor", "is_told"), UNITS.values(), ids=UNITS)
+def test_a_unit_that_is_not_that_of_the_target_is_told(unit, factor, is_told):
+    scene = pulled(free_length=0.1)
+    target = {"path": "/forces/spring/stiffness", "factor": factor}
+    parameter = {"help": "Stiffness of the spring.", "targets": [target]}
+    scene["parameters"] = {"k": parameter | ({} if unit is None else {"unit": unit})}
+    found = hints(scene)
+    assert [pointer for pointer, _ in found] == ["/parameters/k/unit"] * is_told
+    assert all("counts in N/m" in detail and '"unit": "N/m"' in detail for _, detail in found)
+
+
+def test_units_of_coordinates_and_starts_are_known():
+    scene = pulled(free_length=0.1)
+    paths = {
+        "/ground/points/W/1": "m",
+        "/gravity/1": "m/s^2",
+        "/start/angular_velocities/block": "rad/s",
+        "/bodies/block/inertia": "kg m^2",
+    }
+    scene["gravity"] = [0.0, -9.81]
+    scene["parameters"] = {
+        f"p{at}": {"help": "A number.", "unit": "Pa", "targets": [{"path": path}]}
+        for at, path in enumerate(paths)
+    }
+    found = hints(scene)
+    assert [pointer for pointer, _ in found] == [f"/parameters/p{at}/unit" for at in range(4)]
+    for (_, detail), unit in zip(found, paths.values(), strict=True):
+        assert f"counts in {unit}," in detail
+
+
+def test_units_of_presets_are_those_of_their_targets():
+    for name in presets.names():
+        assert list(other_units(Scene.model_validate(presets.document(name)))) == []
 
 
 def test_of_a_preset_nothing_is_told():
