@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
+from jointplay.solver.joints.joint import Joint
 from jointplay.solver.mechanics.closing import NEAR, close, close_many
 from jointplay.solver.mechanics.start.guess import first_angles, first_pose
 from jointplay.solver.mechanics.start.pose import Places
@@ -14,6 +15,8 @@ DRAWN, SEED = 24, 11
 MOST_BODIES = 16
 """Bodies up to which closed poses are sought, within seconds; of more the time would be felt."""
 MOST_ITERATIONS = 40
+MOST_FACING = 32
+"""Poses of which each roller is moved to the other side of its cam."""
 ALIKE = 1e-6
 """Distance of poses, in rad and lengths of the shortest link, below which they are one."""
 
@@ -36,14 +39,43 @@ def closings(
     if start is not None:
         poses[:, kept] = start[kept]
     close_many(places.closed, poses, places.driven, places.scale, kept, MOST_ITERATIONS)
+
+    def fresh(pose: Floats) -> bool:
+        """Tell whether a pose closes, and as no other does."""
+        close(places.closed, pose, places.driven, places.scale, kept, MOST_ITERATIONS)
+        known = any(alike(pose, other, places.scale) for other in found)
+        return not known and places.is_closed(places.closed, pose)
+
     for pose in poses:
         if any(alike(pose, other, places.scale, NEAR) for other in found):
             continue
-        close(places.closed, pose, places.driven, places.scale, kept, MOST_ITERATIONS)
-        fresh = not any(alike(pose, other, places.scale) for other in found)
-        if fresh and places.is_closed(places.closed, pose):
+        if fresh(pose):
             found.append(pose)
             yield pose
+    for joint in _facing(places):
+        for pose in tuple(found)[:MOST_FACING]:
+            other = _across(places, joint, pose, kept)
+            if fresh(other):
+                found.append(other)
+                yield other
+
+
+def _facing(places: Places) -> list[Joint]:
+    """Return the joints that hold a body apart from another, on one side of it or the other."""
+    bodies = places.closed.bodies
+    joints = places.scene.joints.values()
+    return [one for one in joints if one.needs_direction and one.bodies[1] in bodies]
+
+
+def _across(places: Places, joint: Joint, pose: Floats, kept: Flags) -> Floats:
+    """Return a pose with a joint's second body moved to the other side of the first.
+
+    Drawn angles do not bring a roller that slides to the other side of its cam.
+    """
+    moved, first = pose.copy(), 3 * places.closed.bodies.index(joint.bodies[1])
+    gap = places.closed.ends(joint.points, pose, np.zeros_like(pose)).gap
+    moved[first : first + 2] -= 2.0 * np.array(gap)
+    return np.where(kept, pose, moved)
 
 
 def _drawn(places: Places, deviates: Floats) -> Floats:

@@ -10,6 +10,7 @@ from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.branches import branches
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
+from tests.solver.cams import ECCENTRICITY, RADIUS, ROLLER, follower, pitch_table, valve
 
 PINS = {"O": (0.0, 0.0), "A": (0.1, 0.17), "B": (0.8, 0.7), "C": (1.0, 0.0)}
 BARS = {"crank": ("O", "A"), "coupler": ("A", "B"), "rocker": ("B", "C")}
@@ -77,3 +78,14 @@ def test_what_moves_is_held_where_it_starts() -> None:
     assert {round(angles["K1"], 12) for angles in found.angles} == {-0.061713890014}
     # K4 with K5, and K6 with K7, each close in two ways
     assert len(found.angles) == 4
+
+
+@pytest.mark.parametrize("drawn_at", [0.03, -0.03])
+def test_a_roller_also_closes_on_the_other_side_of_its_cam(drawn_at: float) -> None:
+    scene = valve(follower("roller", pitch_table()))
+    scene["start"] = {"points": {"tappet.F": [0.0, drawn_at]}}
+    found = branches(Scene.model_validate(scene))
+    sides = [centre["tappet"][1] - 0.02 for centre in found.places]  # of the roller
+    reach = RADIUS + ROLLER  # of the pitch circle, whose centre is below that of the shaft
+    both = sorted([reach - ECCENTRICITY, -reach - ECCENTRICITY], key=lambda y: abs(y - drawn_at))
+    assert sides == pytest.approx(both, abs=1e-6)  # the table's
