@@ -28,7 +28,7 @@ SENTENCES = {
     "less_than_equal": "'{field}' must be at most {le:g}{unit}, not {given:g}.",
     "finite_number": "'{field}' must be a finite number{in_unit}.",
     "float_type": "'{field}' must be a number{in_unit}.",
-    "int_type": "'{field}' must be a whole number{of_unit}.",
+    "int_type": "'{field}' must be a whole number{of_unit}{meant}",
     "int_from_float": "'{field}' must be a whole number{of_unit}.",
     "string_type": "'{field}' must be a string.",
     "list_type": "'{field}' must be a list.",
@@ -101,8 +101,15 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
     elif r"\." in pattern:
         kind = "reference"
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
-    more = units | {"meant": _meant_word(item)}
+    more = units | {"meant": _meant_number(item) if kind == "int_type" else _meant_word(item)}
     return SENTENCES[kind].format(field=field, given=item["input"], **more, **context)
+
+
+def _meant_number(item: ErrorDetails) -> str:
+    """Return the end of a sentence on a wrong number: how a whole one is written."""
+    given = item["input"]
+    is_whole = isinstance(given, float) and given.is_integer()
+    return f", written without a point or an exponent: {given:.0f}." if is_whole else "."
 
 
 def _meant_word(item: ErrorDetails) -> str:

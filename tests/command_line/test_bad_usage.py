@@ -34,6 +34,9 @@ WRONG = {
     "duration a word": ([*PRESS, "--duration", "long"], "--duration"),
     "too many periods": ([*PRESS, "--duration", "1e7"], "/duration"),
     "no members": ([*PRESS, "--ensemble", "0", "--record", "1"], "/members"),
+    "a share of a section": ([*PRESS, "--poincare", "--record", "1.5"], "'1.5' is not a whole"),
+    "a share of a period": ([*PRESS, "--poincare", "--settle", "1.5"], "/settle"),
+    "a word for a number": ([*PRESS, "--ensemble", "ten"], "'--ensemble': 'ten' is not a whole"),
     "unknown preset": (["run", "six-bar-press", "-o", "OUT", "--duration", "2"], "/scene/preset"),
     "unknown parameter": ([*TIMED, "--set", "clearence=1e-4"], "clearence"),
     "a value twice": (

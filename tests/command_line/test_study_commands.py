@@ -42,6 +42,10 @@ ASKED = {
             "settle": "auto",
         },
     ),
+    "whole numbers with an exponent": (
+        ["--bifurcation", "speed=3:9:1e1", "--settle", "1e2", "--record", "2e1"],
+        {"settle": 100, "record": 20},
+    ),
     "a sweep": (
         [
             *["--sweep", "clearance=1e-4:5e-4:3", "--sweep", "friction=0,0.1"],

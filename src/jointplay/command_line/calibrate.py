@@ -10,7 +10,7 @@ import typer
 from jointplay.command_line.calibration_options import calibration_document
 from jointplay.command_line.compact_json import compact_json
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.options import PROCESSES, SET
+from jointplay.command_line.options import PROCESSES, SET, whole
 
 if TYPE_CHECKING:
     from jointplay.solver.calibration.outcome import Outcome
@@ -42,9 +42,16 @@ DURATION = Annotated[
 TOLERANCE = Annotated[
     float | None, typer.Option(help="Error that one step may make, relative to the scene.")
 ]
-POPULATION = Annotated[int | None, typer.Option(help="Candidates a parameter.")]
-GENERATIONS = Annotated[int | None, typer.Option(help="Most generations of the search.")]
-SEED = Annotated[int | None, typer.Option(help="The same seed finds the same.")]
+POPULATION = Annotated[
+    int | None, typer.Option(metavar="INTEGER", help="Candidates a parameter.", parser=whole)
+]
+GENERATIONS = Annotated[
+    int | None,
+    typer.Option(metavar="INTEGER", help="Most generations of the search.", parser=whole),
+]
+SEED = Annotated[
+    int | None, typer.Option(metavar="INTEGER", help="The same seed finds the same.", parser=whole)
+]
 FACTOR = Annotated[float | None, typer.Option(help="How many times the best cost is equally good.")]
 AS_JSON = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
 OUTPUT = Annotated[

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Final, TypeVar
 import typer
 
 from jointplay.command_line.exits import Stopped
-from jointplay.command_line.options import listed
+from jointplay.command_line.options import listed, whole
 from jointplay.job_fields import KINDS, help_of
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -76,7 +76,16 @@ def _short_option(kind: str) -> Any:
     names = [f"--{_NAMES[kind]}"] if form is bool else []  # without one, typer adds the contrary
     text = KINDS[kind]["help"].removesuffix(".").partition("; ")[0] + _ENDS.get(kind, end)
     metavar = metavar or "".join(option["fields"]).upper() or None
-    return Annotated[form | None, typer.Option(*names, metavar=metavar, help=text)]
+    return _typed(form, *names, metavar=metavar, help=text)
+
+
+def _typed(kind: Any, *names: str, metavar: str | None, help: str) -> Any:  # noqa: A002  (typer's)
+    """Return the type of an option as typer reads it; whole numbers may be written 1e3."""
+    if kind is int:
+        option = typer.Option(*names, metavar=metavar or "INTEGER", help=help, parser=whole)
+    else:
+        option = typer.Option(*names, metavar=metavar, help=help)
+    return Annotated[kind | None, option]
 
 
 def _option(name: str) -> Any:
@@ -89,7 +98,7 @@ def _option(name: str) -> Any:
         owner = "study" if len(field["kinds"]) > 1 else field["kinds"][0]
         text = f"Of {'an' if owner[0] in 'ae' else 'a'} {owner}: {text[:1].lower()}{text[1:]}"
     kind = str if field["words"] else _TYPES.get(field["form"], str)
-    return Annotated[kind | None, typer.Option(metavar=metavar, help=text)]
+    return _typed(kind, metavar=metavar, help=text)
 
 
 def with_job_options(*only: str) -> Callable[[Command], Command]:
@@ -240,10 +249,12 @@ def _section(text: str) -> dict[str, object]:
 
 
 def _number(option: str, text: str) -> object:
-    """Return a number as JSON reads it, so that it means the same in a document."""
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            pass
-    raise Stopped(f"{option}: {text!r} is not a number.")
+    """Return a number as JSON reads it; one that is whole, such as 1e2, without a point."""
+    try:
+        return whole(text)
+    except ValueError:
+        pass
+    try:
+        return float(text)
+    except ValueError:
+        raise Stopped(f"{option}: {text!r} is not a number.") from None

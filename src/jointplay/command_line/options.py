@@ -1,5 +1,6 @@
 """Arguments and options that several commands have, and the jobs and services that they mean."""
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -50,6 +51,31 @@ START = Annotated[
 STOP = Annotated[
     float | None, typer.Option(metavar="SECONDS", help="To this time; before this point.")
 ]
+
+
+LARGEST_WHOLE = 2.0**53
+"""Beyond it, numbers with an exponent are not told apart from their neighbours."""
+
+
+def whole(text: str) -> int:
+    """Return a whole number, which may be written 1e3 up to 2^53.
+
+    Raises
+    ------
+    ValueError
+        It is none, as a sentence.
+    """
+    try:
+        return int(text)
+    except ValueError:
+        pass
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not number.is_integer() or abs(number) > LARGEST_WHOLE:
+        raise ValueError(f"{text!r} is not a whole number.")
+    return int(number)
 
 
 def listed(text: str | None) -> list[str] | None:

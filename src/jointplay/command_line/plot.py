@@ -20,6 +20,7 @@ from jointplay.command_line.options import (
     job_of,
     listed,
     refused_as_typed,
+    whole,
 )
 from jointplay.command_line.output import remark, tell
 from jointplay.command_line.typed_window import check_ends, check_start
@@ -59,7 +60,9 @@ RATE = Annotated[
         help="Of an animation, seconds of motion in one second; default so that it lasts 6 s.",
     ),
 ]
-FRAMES = Annotated[int | None, typer.Option(metavar="N", help="Of an animation; default 20.")]
+FRAMES = Annotated[
+    int | None, typer.Option(metavar="N", help="Of an animation; default 20.", parser=whole)
+]
 IMPACTS = Annotated[
     bool, typer.Option("--impact-to-impact", help="Of an animation, a frame for each impact.")
 ]
