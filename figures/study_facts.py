@@ -10,7 +10,7 @@ from jointplay.figures.kind import NotDrawable, Selection
 from jointplay.records.arrays import Flags
 from jointplay.records.channel import Channel, by_name
 from jointplay.records.channel_choice import no_such_channel
-from jointplay.records.study import StudySource
+from jointplay.records.study import BACKWARD, FORWARD, StudySource, directions_of
 
 _RATES = {
     "eccentricity_x": "eccentricity_rate_x",
@@ -115,10 +115,11 @@ def everything(source: StudySource) -> Group:
 
 def directions(source: StudySource) -> tuple[Group, ...]:
     """Give forward and backward points of a continuation in both directions, else nothing."""
-    if source.attributes["job"].get("continuation") != "both":
+    found = directions_of(source)
+    if found is None:
         return ()
-    forward = np.arange(source.points) < source.points // 2
-    return Group("forward", colours.FORWARD, forward), Group("backward", colours.BACKWARD, ~forward)
+    told = {FORWARD: colours.FORWARD, BACKWARD: colours.BACKWARD}
+    return tuple(Group(name, colour, found == name) for name, colour in told.items())
 
 
 def by_verdict(source: StudySource) -> tuple[Group, ...]:

@@ -196,3 +196,14 @@ class StudyDataset:
     def peaks(self, channel: str) -> PeakColumns:
         """Give the extremes of a channel at every point."""
         return self.extremes[channel]
+
+
+FORWARD, BACKWARD = "forward", "backward"
+"""Directions in which a continuation passes its values."""
+
+
+def directions_of(source: StudySource) -> NDArray[np.str_] | None:
+    """Return the direction of each point of a continuation that goes both ways; None: of others."""
+    if source.attributes["job"].get("continuation") != "both":
+        return None
+    return np.where(np.arange(source.points) < source.points // 2, FORWARD, BACKWARD)

@@ -23,6 +23,7 @@ from jointplay.service.studies.queries import (
     chosen,
     page,
 )
+from jointplay.solver.nonlinear.reasons import reasons_of
 from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies.reader import StudyReader
 
@@ -168,7 +169,7 @@ def _judged(
         "verdicts": None
         if codes is None
         else [None if code < 0 else names[code] for code in codes[part]],
-        "reasons": None if codes is None else [store.reasons.get(point) for point in points],
+        "reasons": None if codes is None else reasons_of(store, points),
     }
 
 

@@ -76,7 +76,7 @@ def grounds(found: Mapping[str, float]) -> str:
     verdict = decide(lyapunov, zero_one, recurrence, rotation)
     if verdict.code == found["verdict"]:
         return verdict.reason
-    seen = "" if lyapunov is None else f": it is {lyapunov}"
+    seen = "" if lyapunov is None else f": it is {lyapunov} 1/s"
     return f"by the errors of the record, or the exponent in far smaller steps{seen}"
 
 
@@ -94,7 +94,7 @@ def decide(
 ) -> Verdict:
     """Return the verdict on a motion from the indicators of the whole system.
 
-    lyapunov : largest exponent, other than the zero along an autonomous flow. zero_one : K.
+    lyapunov : largest exponent, 1/s, other than the zero along an autonomous flow. zero_one : K.
     period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
     number; not finite where the section is no closed curve. finer : the exponent in far smaller
     steps. None: not known. An exponent that is not finite, and a K with an error of 0.5 or more
@@ -120,8 +120,8 @@ def decide(
         zero_one = None
     if lyapunov is not None and finer is not None and contradicts(finer, lyapunov):
         return _undecided(
-            f"the exponent is {lyapunov}, but {finer} in far smaller steps: the steps of this"
-            " tolerance are too long for it; choose a smaller tolerance"
+            f"the exponent is {lyapunov} 1/s, but {finer} 1/s in far smaller steps: the steps of"
+            " this tolerance are too long for it; choose a smaller tolerance"
         )
     exponent = "" if lyapunov is None else f"the exponent is {_told(lyapunov, finer)}"
     if period:
@@ -144,8 +144,8 @@ def _told(lyapunov: Estimate, finer: Estimate | None) -> str:
     """Return an exponent in words; see `decide`."""
     whole = lyapunov if finer is None else confirmed(lyapunov, finer)
     if not lyapunov.error < whole.error < math.inf:
-        return str(lyapunov)
-    return f"{lyapunov}, in all {whole}"
+        return f"{lyapunov} 1/s"
+    return f"{lyapunov} 1/s, in all {whole} 1/s"
 
 
 def _recurrent(
@@ -170,15 +170,15 @@ def _recurrent(
 
 
 def _diverging(lyapunov: Estimate, zero_one: Estimate | None, finer: Estimate | None) -> Verdict:
-    parts = f"neighbours part, the exponent is {lyapunov}"
+    parts = f"neighbours part, the exponent is {lyapunov} 1/s"
     if finer is not None and not finer.exceeds(0.0):
         return _undecided(
-            f"{parts}, but {finer} in far smaller steps, not different from zero: {MORE}, or"
+            f"{parts}, but {finer} 1/s in far smaller steps, not different from zero: {MORE}, or"
             f" {SMALLER}"
         )
     if finer is not None:
-        parts = f"neighbours part, the exponent is {_told(lyapunov, finer)}, {finer} in far"
-        parts += " smaller steps"
+        parts = f"neighbours part, the exponent is {_told(lyapunov, finer)}, {finer} 1/s"
+        parts += " in far smaller steps"
     if zero_one is None and lyapunov.drifting:
         return _undecided(
             f"{parts}, but it still drifts, and there is no 0-1 test to confirm it: {LONGER},"

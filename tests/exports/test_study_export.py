@@ -7,6 +7,7 @@ import sys
 import tracemalloc
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
 from closed_form_study import bifurcation, one_point, sweep
 
 from jointplay.exports.study import point_json, point_lines, section_json, section_lines
+from jointplay.exports.table_columns import columns_of
+from jointplay.records.window_query import WindowQuery
 
 UNITS = {"lyapunov": "1/s", "lyapunov_error": "1/s"}
 OBSERVED = ["left.eccentricity_x", "block.vx"]
@@ -59,6 +62,41 @@ def test_points_have_a_word_for_what_became_of_them_and_a_verdict():
     column = header.index("lyapunov [1/s]")
     assert float(rows[3][column]) == source.indicators["lyapunov"][3]
     assert rows[1][column] == "nan"
+
+
+def test_a_continuation_that_goes_both_ways_has_a_direction():
+    source = bifurcation(points=3, record=2, both=True)
+    told = ["forward"] * 3 + ["backward"] * 3
+    header, *rows = rows_of(point_lines(source, [], range(6), UNITS))
+    assert header[:3] == ["point", "direction", "status"]
+    assert [row[1] for row in rows] == told
+    header, *rows = rows_of(section_lines(source, OBSERVED, range(2, 5)))
+    assert header[:3] == ["point", "direction", "play [m]"]
+    assert [row[1] for row in rows] == ["forward"] * 2 + ["backward"] * 4
+    for pieces in (point_json(source, [], range(6), UNITS), section_json(source, [], range(6))):
+        assert json.loads("".join(pieces))["direction"] == told
+    job = SimpleNamespace(is_study=True, study=lambda *_: source)
+    for table in ("points", "poincare"):
+        (column,) = (
+            one for one in columns_of(job, table, WindowQuery()) if one.name == "direction"
+        )
+        assert list(column.values) == (told if table == "points" else np.repeat(told, 2).tolist())
+
+
+def test_undecided_points_of_which_only_numbers_are_kept_have_a_reason():
+    source = bifurcation(points=3, judged=True)
+    indicators = {
+        "verdict": np.array([0.0, 1.0, 0.0]),
+        "lyapunov": np.array([0.5, -0.5, np.nan]),
+        "lyapunov_error": np.array([0.01, 0.01, np.nan]),
+        "period": np.array([2.0, 2.0, 0.0]),
+    }
+    source = replace(source, indicators=indicators, verdicts=np.array([0, 1, 0]))
+    header, *rows = rows_of(point_lines(source, [], range(3), UNITS))
+    first, second, third = (row[header.index("reason")] for row in rows)
+    assert "yet neighbours part, the exponent is 0.500 ± 0.010 1/s: chaos in bands" in first
+    assert second == ""  # charts keep no sentence, and the numbers say it
+    assert "without an exponent nothing is certain" in third
 
 
 def test_extremes_of_a_sweep_stand_beside_its_parameters():

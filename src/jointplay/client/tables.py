@@ -16,7 +16,8 @@ from jointplay.client.results import Results, Store
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
 from jointplay.records.point import PointStatus
-from jointplay.records.study import StudySource
+from jointplay.records.study import StudySource, directions_of
+from jointplay.solver.nonlinear.reasons import reasons_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -151,7 +152,7 @@ class TabledJob(JobRecord, ABC):
         if study.verdicts is not None:
             names = [*study.verdict_names, None]
             columns["verdict"] = [names[code] for code in study.verdicts]
-            columns["reason"] = [study.reasons.get(point) for point in range(study.points)]
+            columns["reason"] = reasons_of(study, range(study.points))
         numbers = {**study.indicators, **study.statistics}
         columns |= {name: one for name, one in numbers.items() if name != "verdict"}
         units = {one.name: one.unit for one in study.parameters}
@@ -192,7 +193,12 @@ class TabledJob(JobRecord, ABC):
 
 
 def _values(study: StudySource) -> dict[str, Any]:
-    return {one.name: study.values[:, column] for column, one in enumerate(study.parameters)}
+    """Return the direction, where there are two, and the parameters of each point."""
+    directions = directions_of(study)
+    words = {} if directions is None else {"direction": directions}
+    return words | {
+        one.name: study.values[:, column] for column, one in enumerate(study.parameters)
+    }
 
 
 def _table(columns: Mapping[str, Any], units: Mapping[str, str], *index: str) -> "pd.DataFrame":

@@ -11,8 +11,9 @@ from jointplay.records.attractors import attractors_of
 from jointplay.records.channel import TIME, by_name
 from jointplay.records.point import PointStatus
 from jointplay.records.run import Floats
-from jointplay.records.study import StudySource
+from jointplay.records.study import StudySource, directions_of
 from jointplay.records.text_tables import csv_lines, json_list, json_numbers, json_object
+from jointplay.solver.nonlinear.reasons import reasons_of
 
 _BLOCK = 200_000  # values that are held at a time
 
@@ -29,16 +30,22 @@ def section_lines(
     ------
     str
         Whole lines: the comments, one header row `point,clearance [m],section,time [s],A.x [m]`,
-        then one row a section with 17 significant digits.
+        then one row a section with 17 significant digits. Points of a continuation that goes both
+        ways have a `direction` after `point`.
     """
     described = by_name(source.observables)
-    titles = ["point", *(one.title for one in source.parameters), "section", TIME.title]
+    directions = directions_of(source)
+    titles = ["point", *([] if directions is None else ["direction"])]
+    titles += [*(one.title for one in source.parameters), "section", TIME.title]
     titles += [described[name].title for name in observables]
-    yield from csv_lines(titles, _section_blocks(source, observables, points), comments)
+    yield from csv_lines(titles, _section_blocks(source, observables, points, directions), comments)
 
 
 def _section_blocks(
-    source: StudySource, observables: Sequence[str], points: range
+    source: StudySource,
+    observables: Sequence[str],
+    points: range,
+    directions: NDArray[np.str_] | None,
 ) -> Iterator[list[NDArray[Any]]]:
     """Give the columns of `section_lines` for a few points at a time."""
     width = len(source.parameters) + len(observables) + 1
@@ -47,6 +54,7 @@ def _section_blocks(
         row, section = np.nonzero(inside)
         yield [
             first + row,
+            *([] if directions is None else [directions[first + row]]),
             *source.values[first + row].T,
             section,
             source.section_times(first, last)[inside],
@@ -86,10 +94,14 @@ def section_json(source: StudySource, observables: Sequence[str], points: range)
     Yields
     ------
     str
-        Pieces of `{"complete", "values": {parameter: [...]}, "status": [...], "time": [[...]],
-        "sections": {observable: [[...]]}}`: one inner list a point.
+        Pieces of `{"complete", "values": {parameter: [...]}, "status": [...], "direction": [...],
+        "time": [[...]], "sections": {observable: [[...]]}}`: one inner list a point.
     """
-    document = _head(source, points) | {"time": _rows(source, points, "")}
+    document = _head(source, points)
+    directions = directions_of(source)
+    if directions is not None:
+        document["direction"] = [json.dumps(directions[points.start : points.stop].tolist())]
+    document["time"] = _rows(source, points, "")
     sections = {name: _rows(source, points, name) for name in observables}
     yield from json_object({**document, "sections": json_object(sections)})
     yield "\n"
@@ -103,13 +115,13 @@ def point_json(
     Yields
     ------
     str
-        Pieces of `{"complete", "values", "status", "verdict", "reason", "attractor", "columns"}`,
-        the last by title.
+        Pieces of `{"complete", "values", "status", "direction", "verdict", "reason", "attractor",
+        "columns"}`, the last by title.
     """
     part = slice(points.start, points.stop)
     document = _head(source, points)
     words = words_of_points(source)
-    for name in ("verdict", "reason", "attractor"):
+    for name in ("direction", "verdict", "reason", "attractor"):
         if name in words:
             document[name] = [json.dumps(words[name][part])]
     found = columns_of_points(source, channels, units)
@@ -168,12 +180,17 @@ def columns_of_points(
 
 
 def words_of_points(source: StudySource) -> dict[str, list[str]]:
-    """Return status, verdict with its reason, attractor, and code of a failure of all points."""
-    words = {"status": [PointStatus(code).name for code in source.status]}
+    """Return status, verdict with its reason, attractor, and code of a failure of all points.
+
+    Where a continuation goes both ways, the direction is the first of them.
+    """
+    directions = directions_of(source)
+    words = {} if directions is None else {"direction": directions.tolist()}
+    words["status"] = [PointStatus(code).name for code in source.status]
     if source.verdicts is not None:
         names: NDArray[np.str_] = np.array([*source.verdict_names, ""])
         words["verdict"] = names[source.verdicts].tolist()
-        words["reason"] = [source.reasons.get(point, "") for point in range(source.points)]
+        words["reason"] = [one or "" for one in reasons_of(source, range(source.points))]
     if "states" in source.attributes:
         found = attractors_of(source)
         named = {code: found.name_of(code) for code in np.unique(found.labels).tolist()}

@@ -11,6 +11,7 @@ from jointplay.records.channel_choice import choose
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
 from jointplay.records.run import inside
+from jointplay.records.study import directions_of
 from jointplay.records.table_files import Column
 from jointplay.records.window_query import WindowQuery
 
@@ -104,6 +105,9 @@ def _of_study(
     counted = np.arange(source.record) < source.counts[first:last, None]
     row, section = np.nonzero(counted)
     yield Column("point", "", first + row)
+    directions = directions_of(source)
+    if directions is not None:
+        yield Column("direction", "", directions[first + row])
     for at, one in enumerate(source.parameters):
         yield Column(one.name, one.unit, source.values[first + row, at])
     yield Column("section", "", section)

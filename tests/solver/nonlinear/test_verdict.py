@@ -145,8 +145,8 @@ def test_who_decides_nothing_says_what_to_try(
 def test_a_reason_names_the_error_of_the_record_and_the_error_in_all() -> None:
     exponent, finer = Estimate(-0.5, 0.01), Estimate(-0.53, 0.02)
     reason = decide(exponent, None, 1, None, finer).reason
-    assert f"the exponent is {exponent}, in all {confirmed(exponent, finer)}" in reason
-    assert "-0.500 ± 0.010, in all -0.500 ± 0.030" in reason
+    assert f"the exponent is {exponent} 1/s, in all {confirmed(exponent, finer)} 1/s" in reason
+    assert "-0.500 ± 0.010 1/s, in all -0.500 ± 0.030 1/s" in reason
     assert "in all" not in decide(exponent, None, 1).reason
 
 
@@ -250,7 +250,8 @@ def test_driven_oscillators_are_what_they_are_known_to_be(system, name: str) -> 
 def test_reasons_are_sentences_with_numbers() -> None:
     assert not math.isnan(POSITIVE.value)
     assert decide(POSITIVE, IRREGULAR, 0).reason == (
-        "neighbours part, the exponent is 0.50 ± 0.10, and the 0-1 test agrees, K is 0.990 ± 0.020"
+        "neighbours part, the exponent is 0.50 ± 0.10 1/s, and the 0-1 test agrees,"
+        " K is 0.990 ± 0.020"
     )
 
 
