@@ -7,6 +7,7 @@ import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.linear_algebra.principal_directions import along_principal_directions
+from jointplay.solver.nonlinear.batch_means import FEWEST_BATCHES
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from jointplay.solver.nonlinear.lyapunov import (
     confirmed,
@@ -50,21 +51,23 @@ def indicators_of(
     vector's growth in each period of the record. finer_growth : the same behind the record, in far
     smaller steps. period : s. settled : periods of the vector before the record.
     """
+    by_period = len(states) == len(log_growth)
     states = unwound(states[:MOST_SECTIONS], angles) / scales
     found: dict[str, float] = {}
     lyapunov = finer = zero_one = rotation = None
     recurrence: int | None = None
+    if "recurrence" in chosen and len(states) >= FEWEST_FOR_RECURRENCE:
+        widths = np.maximum(np.ptp(states, axis=0), 1.0)
+        recurrence = recurrence_period(states, widths, RECURS)
     if "lyapunov" in chosen:
-        lyapunov, finer = exponents(log_growth, finer_growth, period, settled)
+        turns = recurrence if recurrence and by_period else 1
+        lyapunov, finer = exponents(log_growth, finer_growth, period, settled, turns)
         stated = confirmed(lyapunov, finer)
         found |= {"lyapunov": stated.value, "lyapunov_error": stated.error}
     if "zero_one" in chosen:
         zero_one = zero_one_test(states, resolution=RECURS) if len(states) else UNKNOWN
         found |= {"zero_one": zero_one.value, "zero_one_error": zero_one.error}
     if "recurrence" in chosen:
-        if len(states) >= FEWEST_FOR_RECURRENCE:
-            widths = np.maximum(np.ptp(states, axis=0), 1.0)
-            recurrence = recurrence_period(states, widths, RECURS)
         found["period"] = math.nan if recurrence is None else float(recurrence)
     if "rotation" in chosen:
         rotation = rotation_number(principal_plane(states)) if len(states) > 2 else None
@@ -82,18 +85,32 @@ def indicators_of(
 
 
 def exponents(
-    log_growth: Floats, finer_growth: Floats, period: float, settled: int
+    log_growth: Floats, finer_growth: Floats, period: float, settled: int, turns: int = 1
 ) -> tuple[Estimate, Estimate]:
     """Return the exponent of a record and the one in far smaller steps, as `indicators_of` has it.
 
     Each has the error of its length alone; one about which nothing is known is UNKNOWN.
+
+    turns : periods after which the motion recurs. Growth comes and goes along an orbit, and is the
+    same over each whole one; a record of eight orbits or more is taken by them.
     """
     if not len(log_growth) or not _known(log_growth):
         return UNKNOWN, UNKNOWN
-    record = exponent_from_growth(log_growth, period, settled)
+    whole = turns if len(log_growth) >= FEWEST_BATCHES * turns else 1
+    orbits, time = _by_orbit(log_growth, whole), whole * period
+    record = exponent_from_growth(orbits, time, settled // whole)
     if not len(finer_growth) or not _known(finer_growth):
         return record, UNKNOWN
-    return record, in_smaller_steps(log_growth, finer_growth, period)
+    if len(finer_growth) < whole:
+        return record, in_smaller_steps(log_growth, finer_growth, period)
+    return record, in_smaller_steps(orbits, _by_orbit(finer_growth, whole), time)
+
+
+def _by_orbit(log_growth: Floats, turns: int) -> Floats:
+    """Return the growth over each whole orbit, (orbits,), the last ones."""
+    orbits = len(log_growth) // turns
+    last = log_growth[len(log_growth) - orbits * turns :]
+    return np.asarray(last.reshape(orbits, turns).sum(axis=1), np.float64)
 
 
 def _known(log_growth: Floats) -> bool:
