@@ -1,7 +1,9 @@
 """Run all measurements: ``python -m benchmarks [NAME ...]``, options behind the names."""
 
 import importlib
+import inspect
 import sys
+from collections.abc import Callable
 
 ALL = (
     "dense",
@@ -59,6 +61,12 @@ ALL = (
 )
 
 
+def has_options(command: Callable[[], object]) -> bool:
+    """Return whether a measurement reads options of its own."""
+    program = inspect.getsource(sys.modules[command.__module__])
+    return "sys.argv" in program or "argparse" in program
+
+
 def main() -> int:
     """Run the named measurements, or all."""
     given = sys.argv[1:]
@@ -68,10 +76,17 @@ def main() -> int:
     if unknown:
         print(f"there is no measurement {', '.join(unknown)}; there are {', '.join(ALL)}")
         return 2
+    if not given[:first] and options in (["-h"], ["--help"]):
+        print(f"{__doc__}\nThey are {', '.join(ALL)}.")
+        return 0
     for name in names:
+        command = importlib.import_module(f"benchmarks.{name}").main
+        if options and not has_options(command):
+            print(f"{inspect.getdoc(sys.modules[command.__module__])}\n\n{name} has no options.")
+            return 0 if options in (["-h"], ["--help"]) else 2
         print(f"\n== {name}")
         sys.argv = [name, *options]
-        importlib.import_module(f"benchmarks.{name}").main()
+        command()
     return 0
 
 
