@@ -1,7 +1,7 @@
 """Jobs as the API shows them."""
 
 from datetime import UTC, datetime
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Final, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
@@ -11,10 +11,12 @@ from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.catalogue.records import JobPage as Page
 
+_LATEST: Final = datetime(9999, 12, 31, 23, 59, 59, tzinfo=UTC)
+
 
 def moment(epoch_seconds: float) -> datetime:
-    """Return a time of the catalogue as it is shown."""
-    return datetime.fromtimestamp(epoch_seconds, UTC)
+    """Return a time of the catalogue as it is shown; what no date can say as the last one."""
+    return datetime.fromtimestamp(min(epoch_seconds, _LATEST.timestamp()), UTC)
 
 
 def _moment_of(value: object) -> object:

@@ -54,7 +54,8 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
             expires = _to_come(document["expires"])
             if expires is None:
                 sentence = (
-                    "'expires' is a moment to come, in RFC 3339 with its offset, such as "
+                    "'expires' is a moment to come, before the year 10000 in UTC, in RFC 3339 with"
+                    " its offset, such as "
                     f"{datetime.now(UTC).year + 1}-01-01T00:00:00Z."
                 )
                 problems.append(Problem("/expires", sentence))
@@ -109,6 +110,6 @@ def _to_come(text: object) -> float | None:
         moment = datetime.fromisoformat(text) if isinstance(text, str) else None
         if moment is None or moment.tzinfo is None or moment <= datetime.now(UTC):
             return None
-        return moment.timestamp()
+        return moment.astimezone(UTC).timestamp()  # an offset may lead beyond the year 9999
     except (ValueError, OverflowError):
         return None

@@ -6,11 +6,13 @@ from datetime import UTC, datetime, timedelta
 
 import httpx
 import pytest
+from sqlalchemy import update
 
 from jointplay.records.job import JobError
 from jointplay.service import checking
 from jointplay.service.app import create_app
 from jointplay.service.jobs.submission import checked
+from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockEnd, BlockState
 from jointplay.storage.settings import Settings
@@ -192,6 +194,7 @@ def test_a_key_that_is_none_is_refused(http, key):
         ("expires", 1e10),
         ("expires", "2001-01-01T00:00:00Z"),
         ("expires", "2101-01-01T00:00:00"),  # of which time zone?
+        ("expires", "9999-12-31T23:59:59-12:00"),  # which is in the year 10000
     ],
 )
 def test_wrong_wishes_are_refused_together_with_a_wrong_job(http, field, value):
@@ -199,6 +202,22 @@ def test_wrong_wishes_are_refused_together_with_a_wrong_job(http, field, value):
     assert answer.status_code == 422
     assert {one["pointer"] for one in answer.json()["errors"]} == {f"/{field}", "/duration"}
     assert http.post("/v1/jobs", json=JOB | {field: value}).status_code == 422
+
+
+def test_a_job_may_expire_at_the_last_moment_that_there_is(own):
+    http, _ = own
+    job = http.post("/v1/jobs", json=JOB | {"expires": "9999-12-31T23:59:59Z"}).json()
+    assert job["expires"] == "9999-12-31T23:59:59Z"
+
+
+def test_lists_show_a_job_that_expires_when_no_date_can_say(own):
+    http, catalogue = own
+    job = http.post("/v1/jobs", json=JOB).json()["id"]
+    with catalogue.connections.writing(durable=True) as connection:  # as earlier versions could
+        connection.execute(update(tables.job).values(expires=1e12))
+    (listed,) = http.get("/v1/jobs").json()["jobs"]
+    assert (listed["id"], listed["expires"]) == (job, "9999-12-31T23:59:59Z")
+    assert http.post(f"/v1/jobs/{job}/cancel").status_code == 202
 
 
 def test_an_expired_job_is_gone(own):
