@@ -40,7 +40,12 @@ class PageQuery(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    page_size: int = Field(default=50, ge=1, le=1000, description="Most entries of one page.")
+    page_size: int = Field(
+        default=50,
+        ge=1,
+        le=1000,
+        description="Most entries of one page; of jobs with long documents there are fewer.",
+    )
     page_token: str | None = Field(default=None, description="next_page_token of the page before.")
 
     def checked_token(self) -> str | None:

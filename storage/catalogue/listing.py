@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import fields
-from typing import Any
+from typing import Any, Final
 
-from sqlalchemy import and_, func, not_, or_, select
+from sqlalchemy import Text, and_, cast, func, not_, or_, select
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
@@ -24,6 +24,8 @@ from jointplay.storage.catalogue.records import (
 )
 
 LARGEST_PAGE = 1000
+LONGEST_PAGE: Final = 2**23
+"""Characters of the documents of a page's jobs; a single job may have more."""
 
 
 def page_of_jobs(
@@ -39,7 +41,7 @@ def page_of_jobs(
 
     `oldest_first` turns it round: the jobs of a batch then come as they were submitted. The other
     arguments are fields of `JobFilter`. Expired jobs are left out; pages do not shift when jobs
-    arrive.
+    arrive. A page ends early where its documents are long: see `LONGEST_PAGE`.
 
     Raises
     ------
@@ -67,10 +69,22 @@ def page_of_jobs(
         statement = statement.where(columns.id < earliest(wanted.before))
     expired = and_(columns.expires <= unit.now, columns.state.in_(TERMINAL))
     statement = statement.where(columns.expires.is_(None) | not_(expired))
-    found = [Job(**row._mapping) for row in unit.execute(statement)]
-    more = len(found) > limit
-    jobs = tuple(labelled(unit, found[:limit]))
-    return JobPage(jobs, jobs[-1].id if more else None)
+    sizes = statement.with_only_columns(columns.id, func.length(cast(columns.spec, Text)))
+    listed = [size for _, size in unit.execute(sizes)]
+    count = min(_fitting(listed), limit)
+    found = [Job(**row._mapping) for row in unit.execute(statement.limit(count))]
+    jobs = tuple(labelled(unit, found))
+    return JobPage(jobs, jobs[-1].id if len(listed) > count else None)
+
+
+def _fitting(sizes: Sequence[int]) -> int:
+    """Return how many of the first documents, of so many characters each, fit a page."""
+    total = 0
+    for count, size in enumerate(sizes):
+        total += size
+        if count and total > LONGEST_PAGE:
+            return count
+    return len(sizes)
 
 
 def blocks_of(unit: Unit, job_id: str) -> tuple[Block, ...]:

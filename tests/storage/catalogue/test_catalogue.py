@@ -11,6 +11,7 @@ from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import JobNotFound, KeyReused
 from jointplay.storage.catalogue.identifiers import Identifiers
+from jointplay.storage.catalogue.listing import LONGEST_PAGE
 from jointplay.storage.catalogue.records import (
     BlockEnd,
     BlockState,
@@ -52,6 +53,23 @@ def test_pages_follow_each_other_while_jobs_arrive(catalogue: Catalogue, clock: 
         page = catalogue.jobs(limit=3, after=page.next)
         seen += [job.id for job in page.jobs]
     assert seen == first[::-1]
+
+
+def test_pages_of_long_documents_have_fewer_jobs(catalogue: Catalogue, clock: Clock) -> None:
+    spec = {"points": "x" * (LONGEST_PAGE // 2 - 100)}
+    longer = {"points": "x" * (2 * LONGEST_PAGE)}
+    made = []
+    for one in (spec, spec, spec, longer, spec):
+        clock.now += 0.001
+        made.append(catalogue.submit(replace(NEW, spec=one)).job.id)
+    page, pages = catalogue.jobs(limit=1000), []
+    while True:
+        pages.append([job.id for job in page.jobs])
+        if page.next is None:
+            break
+        page = catalogue.jobs(limit=1000, after=page.next)
+    a, b, c, d, e = made
+    assert pages == [[e], [d], [c, b], [a]]
 
 
 def test_lists_are_filtered(catalogue: Catalogue) -> None:
