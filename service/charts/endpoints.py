@@ -61,13 +61,20 @@ class RectangleQuery(BaseModel):
 class TileQuery(BaseModel):
     """Colours of a tile, and which state of the chart it is of."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True)
 
     low: float | None = Field(default=None, description="Value of the darkest colour.")
     high: float | None = Field(default=None, description="Value of the lightest colour.")
     ended: int | None = Field(
         default=None, ge=0, description="As `ended` of the chart: tiles of one state are kept."
     )
+
+    def checked(self) -> tuple[float | None, float | None]:
+        """Return both values, or refuse them where the darkest colour has the larger one."""
+        if self.low is not None and self.high is not None and self.low > self.high:
+            sentence = f"high ({self.high:g}) is below low ({self.low:g}); swap them."
+            raise RequestRefused.of_parameter("high", sentence)
+        return self.low, self.high
 
 
 @router.get("/chart", response_model=schemas.Chart)
@@ -170,11 +177,10 @@ def show_tile(
 ) -> Response:
     """Return a picture of 256 x 256 cells of a chart; what is not known is clear."""
     results.insist("chart")
-    state = query.ended
-    if state is None:
-        state = int(grids.has_ended(results.study()).sum())
+    lowest, highest = query.checked()
+    state = _state(results, quantity, query.ended)
     labels = quantity in LABELS
-    finest = grids.GRIDS.of(results, state, _checked(results, state, quantity), 1)
+    finest = grids.GRIDS.of(results, state, quantity, 1)
     levels = _levels(finest.shape)
     if z >= levels:
         sentence = f"The chart has levels 0 to {levels - 1}."
@@ -188,17 +194,27 @@ def show_tile(
         picture = colouring.picture_of_labels(part.astype(np.uint8), grids.colours_of(quantity))
     else:
         known = values[np.isfinite(values)]
-        low = query.low if query.low is not None else float(known.min(initial=np.inf))
-        high = query.high if query.high is not None else float(known.max(initial=-np.inf))
+        low = lowest if lowest is not None else float(known.min(initial=np.inf))
+        high = highest if highest is not None else float(known.max(initial=-np.inf))
         picture = colouring.picture_of_values(part.astype(np.float64), low, high)
     return Response(picture, media_type=PNG, headers={"Cache-Control": _KEPT})
 
 
-def _checked(results: ResultsOfThePath, state: int, quantity: str) -> str:
-    """Return a quantity's name; it is refused unless the chart has it."""
-    if not grids.GRIDS.has(results.job.id, state, quantity):
-        _known(results.study(), quantity)
-    return quantity
+def _state(results: ResultsOfThePath, quantity: str, asked: int | None) -> int:
+    """Return how many points have ended in the state of a chart that a tile shows; default: now's.
+
+    A quantity that there is not is refused, and so is a state to come: what is kept as that state
+    would be shown when the chart gets there.
+    """
+    if asked is not None and grids.GRIDS.has(results.job.id, asked, quantity):
+        return asked
+    study = results.study()
+    _known(study, quantity)
+    ended = int(grids.has_ended(study).sum())
+    if asked is not None and asked > ended:
+        sentence = f"Of the chart {ended} points have ended, and not {asked}."
+        raise RequestRefused.of_parameter("ended", sentence)
+    return ended if asked is None else asked
 
 
 def _known(study: StudyReader, quantity: str) -> Channel:

@@ -116,6 +116,21 @@ def test_a_growing_chart_shows_the_nearest_point_that_is_known(http, growing):
     assert steps[0][299] is None  # 256 and 299 wait, and so does what is coarser
 
 
+def test_a_tile_of_a_state_to_come_is_not_kept_as_that_state(http, worker):
+    job = worker.submit(**CHART)
+    claim = worker.start(job)
+    worker.compute(claim, points=4)
+    early = http.get(f"/v1/jobs/{job}/tiles/steps/0/0/0.png?ended=8")
+    worker.compute(claim, points=8)
+    assert get(http, f"/v1/jobs/{job}/chart")["ended"] == 8
+    steps = get(http, f"/v1/jobs/{job}/chart/values", quantity="steps")["values"]
+    known = over_axes(1000.0 + np.arange(1500.0), ORDER, (HEIGHT, WIDTH))
+    for place in ORDER[:8].tolist():
+        row, column = divmod(place, WIDTH)
+        assert steps[row][column] == known[row, column]
+    assert early.status_code == 422
+
+
 @pytest.mark.parametrize("rule", [{"refine": 2}, {"continuation": "backward"}])
 def test_values_lie_where_their_points_are_in_other_orders(http, worker, rule):
     order = order_of(rule, (HEIGHT, WIDTH))
@@ -150,6 +165,9 @@ def test_a_refined_chart_says_how_many_points_inherit(http, worker, chart):
         ("tiles/weight/0/0/0.png", 422, "There is no quantity"),
         ("tiles/steps/2/0/0.png", 422, "levels 0 to 1"),
         ("tiles/steps/1/2/0.png", 422, "no tile"),
+        ("tiles/steps/1/0/0.png?low=nan", 422, "'low' must be a finite number"),
+        ("tiles/steps/1/0/0.png?low=2&high=1", 422, "high (1) is below low (2)"),
+        ("tiles/steps/1/0/0.png?ended=1501", 422, "1500 points have ended, and not 1501"),
     ],
 )
 def test_what_a_chart_has_not_is_refused(http, chart, path, status, words):
