@@ -23,10 +23,11 @@ _log = logging.getLogger(__name__)
 async def answer_damage(request: Request, error: Exception) -> Response:
     """Answer a request for results with the problem that names the damaged file."""
     job, catalogue = request.path_params["job_id"], request.app.state.catalogue
-    return await answer(request, await run_in_threadpool(_refusal, job, catalogue, str(error)))
+    return await answer(request, await run_in_threadpool(refusal_of, job, catalogue, str(error)))
 
 
-def _refusal(job_id: str, catalogue: Catalogue, found: str) -> RequestRefused:
+def refusal_of(job_id: str, catalogue: Catalogue, found: str) -> RequestRefused:
+    """Return the refusal of a job's results that are damaged, and mark a finished one as such."""
     try:
         job = catalogue.get(job_id)
         if catalogue.expired(job):  # its files go while it is read

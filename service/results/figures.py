@@ -11,11 +11,13 @@ from jointplay.service.dependencies import NO_PARAMETERS, of_the_application
 from jointplay.service.fields import BINARY
 from jointplay.service.jobs.schemas import address
 from jointplay.service.problems import RequestRefused, clipped, kinds, problems
+from jointplay.service.results.damage import refusal_of
 from jointplay.service.results.figure_query import FigureQuery, FigureSelection
 from jointplay.service.results.queries import unknown_channels
 from jointplay.service.results.schemas import FigureLink, Figures
 from jointplay.service.results.stores import ResultsOfAParameter, ResultsOfJob, ResultsOfThePath
 from jointplay.service.windows import WindowProcess
+from jointplay.storage.errors import CorruptStore
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
 
@@ -76,7 +78,8 @@ def draw_figure(
     store = _reader(results, windows)
     if isinstance(store, ResultReader):
         selection.checked()
-    over = None if selection.over is None else _map(results_of, selection.over)
+    beneath = None if selection.over is None else _beneath(results_of, selection.over)
+    over = None if beneath is None else _map(beneath)
     channels, joints = (
         [] if one is None else one.split(",") for one in (selection.channels, selection.joints)
     )
@@ -89,19 +92,40 @@ def draw_figure(
         raise RequestRefused.of_parameter(error.cause, str(error), kinds.NOT_DRAWABLE) from None
     except NoSuchChannel as error:
         raise unknown_channels(error) from None
+    except CorruptStore as error:
+        if beneath is None or beneath.job.id not in str(error):
+            raise
+        raise _damaged(beneath, error) from error
     return Response(picture, media_type=MEDIA_TYPES[form])
 
 
-def _map(results_of: ResultsOfAParameter, job_id: str) -> StudyReader:
-    """Return the results that lie beneath a figure; what refuses them names the parameter."""
+def _beneath(results_of: ResultsOfAParameter, job_id: str) -> ResultsOfJob:
+    """Return the job whose results lie beneath a figure; what refuses it names the parameter."""
     try:
-        beneath = results_of(job_id, "over")
-        beneath.insist("bifurcation" if beneath.job.kind == "bifurcation" else "chart")
+        found = results_of(job_id, "over")
+        found.insist("bifurcation" if found.job.kind == "bifurcation" else "chart")
+    except RequestRefused as error:
+        raise _naming_over(error) from None
+    return found
+
+
+def _map(beneath: ResultsOfJob) -> StudyReader:
+    """Return these results; what refuses them names the parameter."""
+    try:
         return beneath.study()
     except RequestRefused as error:
-        raise RequestRefused.of_parameter(
-            "over", error.detail, error.kind, headers=error.headers
-        ) from None
+        raise _naming_over(error) from None
+    except CorruptStore as error:
+        raise _damaged(beneath, error) from error
+
+
+def _damaged(beneath: ResultsOfJob, error: CorruptStore) -> RequestRefused:
+    """Return the refusal of results that are damaged, which are not those of the path."""
+    return _naming_over(refusal_of(beneath.job.id, beneath.catalogue, str(error)))
+
+
+def _naming_over(error: RequestRefused) -> RequestRefused:
+    return RequestRefused.of_parameter("over", error.detail, error.kind, headers=error.headers)
 
 
 def _reader(results: ResultsOfJob, windows: WindowProcess) -> ResultReader | StudyReader:

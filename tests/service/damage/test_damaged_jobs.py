@@ -1,14 +1,18 @@
 """A job whose results are damaged: what is answered, and how it is computed anew."""
 
+from typing import Any, cast
+
 import httpx
 import pytest
 import zarr
 
+from jointplay import figures
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.settings import Settings
-from tests.worker_by_hand import Worker
+from jointplay.storage.studies.reader import StudyReader
+from tests.worker_by_hand import BIFURCATION, Worker
 
 # aiohttp leaves its connections to the garbage collector
 pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
@@ -36,6 +40,36 @@ def test_a_damaged_job_is_computed_anew_when_it_is_submitted_again(
     again = http.post("/v1/jobs", json=document)
     assert again.status_code == 202
     assert again.json()["id"] != job
+
+
+@pytest.mark.parametrize("file", ["", "sections/time/c/0/0"])
+def test_a_damaged_diagram_beneath_a_figure_is_the_one_that_is_marked(
+    http: httpx.Client,
+    worker: Worker,
+    settings: Settings,
+    finished_job: str,
+    monkeypatch: pytest.MonkeyPatch,
+    file: str,
+) -> None:
+    """Results of the figure's own job are whole; the damage is found early, or in the drawing."""
+    diagram = worker.finished_study(**BIFURCATION)
+    path = settings.data / "results" / settings.sealed_study(diagram).key
+    content = bytearray(path.read_bytes())
+    packed = Packed(StoredObject(Folder(str(path.parent)), path.name))
+    content[packed.entry(file).offset + 7 if file else -3] ^= 1
+    path.write_bytes(content)
+
+    def drawn(_store: Any, _name: str, _form: str, chosen: figures.Selection, *_: Any) -> bytes:
+        return bytes(cast("StudyReader", chosen.over).section_times(0, 8))
+
+    monkeypatch.setattr(figures, "render", drawn)
+    address = f"/v1/jobs/{finished_job}/figures/outputs.svg"
+    answer = http.get(address, params={"over": diagram})
+    (told,) = answer.json()["errors"]
+    assert (answer.status_code, told["parameter"]) == (410, "over")
+    assert path.name in told["detail"]
+    assert http.get(f"/v1/jobs/{finished_job}").json()["damaged"] is None
+    assert path.name in http.get(f"/v1/jobs/{diagram}").json()["damaged"]
 
 
 def test_stock_zarr_raises_and_shows_no_fill_values(
