@@ -70,11 +70,12 @@ def page_of_jobs(
     expired = and_(columns.expires <= unit.now, columns.state.in_(TERMINAL))
     statement = statement.where(columns.expires.is_(None) | not_(expired))
     sizes = statement.with_only_columns(columns.id, func.length(cast(columns.spec, Text)))
-    listed = [size for _, size in unit.execute(sizes)]
-    count = min(_fitting(listed), limit)
-    found = [Job(**row._mapping) for row in unit.execute(statement.limit(count))]
-    jobs = tuple(labelled(unit, found))
-    return JobPage(jobs, jobs[-1].id if len(listed) > count else None)
+    listed = [(job_id, size) for job_id, size in unit.execute(sizes)]
+    count = min(_fitting([size for _, size in listed]), limit)
+    page = [job_id for job_id, _ in listed[:count]]
+    found = [Job(**row._mapping) for row in unit.execute(statement.where(columns.id.in_(page)))]
+    more = len(listed) > count
+    return JobPage(tuple(labelled(unit, found)), page[-1] if more else None)
 
 
 def _fitting(sizes: Sequence[int]) -> int:
