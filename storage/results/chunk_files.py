@@ -1,6 +1,5 @@
 """Files of an array's chunks: which there can be, and whether one holds what its document says."""
 
-import struct
 from collections.abc import Iterator
 from itertools import product
 from math import ceil, prod
@@ -12,8 +11,6 @@ from jointplay.storage.errors import CorruptStore
 from jointplay.storage.results import shards
 from jointplay.storage.results.metadata import Document
 
-_HEADER: Final = struct.Struct("<4x3I")
-"""Begins a chunk: bytes of its values, of a block, and of the chunk."""
 _OVERHEAD: Final = 64
 """Bytes of a chunk at most beside its values: header, and offset and length in an index."""
 
@@ -84,13 +81,6 @@ class ChunkFiles:
 
     def _decode(self, chunk: bytes) -> None:
         """Decode one chunk, whose header says how much memory that takes."""
-        expected = prod(self._chunk) * self._dtype.itemsize
-        if len(chunk) < _HEADER.size:
+        if not chunk:
             raise CorruptStore("a chunk is cut off")
-        values, _, whole = _HEADER.unpack_from(chunk)
-        if (values, whole) != (expected, len(chunk)):
-            raise CorruptStore(f"a chunk has {values} bytes of values instead of {expected}")
-        try:
-            shards.decompress(chunk, self._dtype)
-        except (RuntimeError, ValueError, SystemError) as error:
-            raise CorruptStore(f"a chunk cannot be decoded: {error}") from error
+        shards.decompress(chunk, self._dtype, prod(self._chunk))

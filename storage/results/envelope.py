@@ -67,7 +67,7 @@ class StoredLevel:
             index = self._indices[file] = shards.unpack_index(packed)
         offset, length = index[column]
         content = self._files.read(key, offset, offset + length)
-        return shards.decompress(content, DOUBLE).reshape(-1, 2)
+        return shards.decompress(content, DOUBLE, 2 * self._rows).reshape(-1, 2)
 
 
 class Envelope:

@@ -109,7 +109,7 @@ def loosened(array: Document | None, content: bytes) -> bytes | None:
     if shard_rows == chunk_rows:
         return None
     dtype = np.dtype(array["data_type"])
-    chunks = shards.chunks_of(content, shard_rows // chunk_rows, dtype)
+    chunks = shards.chunks_of(content, shard_rows // chunk_rows, dtype, chunk_rows)
     return shards.loose(chunks, chunk_rows)
 
 

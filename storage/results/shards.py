@@ -20,6 +20,8 @@ COMPRESSOR: Final = "lz4"
 COMPRESSION_LEVEL: Final = 5
 _NAME: Final = COMPRESSOR.encode()
 _ABSENT: Final = 2**64 - 1
+_HEADER: Final = struct.Struct("<4x3I")
+"""Begins a chunk: bytes of its values, of a block, and of the chunk."""
 _codec: Final = blosc.Blosc(cname=COMPRESSOR, clevel=COMPRESSION_LEVEL, shuffle=blosc.SHUFFLE)
 _uncompressed: Final = blosc.Blosc(cname=COMPRESSOR, clevel=0, shuffle=blosc.NOSHUFFLE)
 
@@ -95,10 +97,10 @@ def unpack_index(packed: bytes) -> list[tuple[int, int]]:
     ]
 
 
-def chunks_of(content: bytes, chunks: int, dtype: np.dtype[Any]) -> list[NDArray[Any]]:
-    """Decode all chunks of a shard; those that are not there are empty."""
+def chunks_of(content: bytes, chunks: int, dtype: np.dtype[Any], values: int) -> list[NDArray[Any]]:
+    """Decode all chunks of a shard, of so many values each; those that are not there are empty."""
     index = unpack_index(content[-index_bytes(chunks) :])
-    return [decompress(content[o : o + length], dtype) for o, length in index]
+    return [decompress(content[o : o + length], dtype, values) for o, length in index]
 
 
 def loose(chunks: Sequence[NDArray[Any]], chunk_rows: int) -> bytes:
@@ -124,11 +126,26 @@ def loose(chunks: Sequence[NDArray[Any]], chunk_rows: int) -> bytes:
     return b"".join((bytes(begin), *encoded, _packed_index(index)))
 
 
-def decompress(content: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Decode one chunk; empty for no bytes."""
+def decompress(content: bytes, dtype: np.dtype[Any], values: int) -> NDArray[Any]:
+    """Decode one chunk of so many values; empty for no bytes.
+
+    Raises
+    ------
+    CorruptStore
+        It is none, or says that it has more: memory for them is not asked for.
+    """
     if not content:
         return np.empty(0, dtype)
-    return np.frombuffer(_codec.decode(content), dtype)
+    if len(content) < _HEADER.size:
+        raise CorruptStore("a chunk is cut off")
+    found, _, whole = _HEADER.unpack_from(content)
+    expected = values * dtype.itemsize
+    if (found, whole) != (expected, len(content)):
+        raise CorruptStore(f"a chunk has {found} bytes of values instead of {expected}")
+    try:
+        return np.frombuffer(_codec.decode(content), dtype)
+    except (RuntimeError, ValueError, SystemError) as error:
+        raise CorruptStore(f"a chunk cannot be decoded: {error}") from error
 
 
 def compress(chunk: NDArray[Any]) -> bytes:

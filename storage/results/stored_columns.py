@@ -82,7 +82,7 @@ class StoredColumns:
     def _in_file(self, key: str, first: int, last: int, column: int) -> NDArray[Any]:
         rows = self.chunk_rows
         if self._file_rows == rows and not self._behind:  # the file is a chunk
-            return shards.decompress(self._files.read(key), self._dtype)[first:last]
+            return shards.decompress(self._files.read(key), self._dtype, rows)[first:last]
         begin, end = first // rows, -(-last // rows)
         index = self._index(key)[begin * self._columns + column : end * self._columns :]
         chunks = [self._chunk(key, *place) for place in index[:: self._columns]]
@@ -98,4 +98,5 @@ class StoredColumns:
         return found
 
     def _chunk(self, key: str, offset: int, length: int) -> NDArray[Any]:
-        return shards.decompress(self._files.read(key, offset, offset + length), self._dtype)
+        content = self._files.read(key, offset, offset + length)
+        return shards.decompress(content, self._dtype, self.chunk_rows)

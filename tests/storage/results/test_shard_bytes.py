@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numcodecs import blosc
 
+from jointplay.storage.errors import CorruptStore
 from jointplay.storage.results import shards
 from jointplay.storage.results.layout import Partition
 
@@ -24,6 +25,18 @@ def test_threads_do_not_show_in_the_bytes(chunk_rows):
         assert shards.encode(rows, chunk_rows, LONG) == here
     finally:
         blosc.set_nthreads(before)
+
+
+def test_a_chunk_that_says_it_has_more_values_is_not_decoded():
+    bomb = shards.compress(np.zeros(2**24))
+    assert len(bomb) < 2**20
+    with pytest.raises(CorruptStore, match="134217728 bytes of values instead of 131072"):
+        shards.decompress(bomb, np.dtype("<f8"), 16_384)
+    sound = shards.compress(np.arange(16_384.0))
+    assert shards.decompress(sound, np.dtype("<f8"), 16_384)[-1] == 16_383.0
+    for cut in (sound[:10], sound[:-1], sound[:16] + b"\xff" * (len(sound) - 16)):
+        with pytest.raises(CorruptStore):
+            shards.decompress(cut, np.dtype("<f8"), 16_384)
 
 
 @pytest.mark.parametrize(
