@@ -28,6 +28,8 @@ STUDY: Final = "study"
 _PIECE: Final = 2**20
 _PART: Final = 2**23
 """Bytes that are read from a place at once, where each reading is a request."""
+LEAST: Final = 4096
+"""Bytes that a file of an attempt counts at least: names and places of files take room, too."""
 _DROPS: Final = "drops"
 """Where workers put what is not found right yet, below what else a running job needs."""
 
@@ -149,12 +151,16 @@ class AttemptFiles:
         return StoredObject(self.running.place, f"{self._drops()}{digest}")
 
     def stored(self, is_own: Callable[[str], bool]) -> int:
-        """Return the bytes of files of the attempt, by their names, and of what it dropped."""
+        """Return the bytes of files of the attempt, by their names, and of what it dropped.
+
+        A file counts `LEAST` at least.
+        """
         found = 0
         for name in [*filter(is_own, self.running.names()), *self.own_sealed()]:
             with suppress(FileNotFoundError):
                 sealed = self.sealed(name)
-                found += self.running.size(name) if sealed is None else sealed.size()
+                size = self.running.size(name) if sealed is None else sealed.size()
+                found += max(size, LEAST)
         if isinstance(self.running, InPlace):
             for key in self.running.place.list(self._drops()):
                 with suppress(FileNotFoundError):

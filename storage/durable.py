@@ -19,7 +19,11 @@ def write(path: Path, pieces: Iterable[bytes], *, lasting: bool = True) -> None:
         It cannot be written, for example because the disk is full; nothing is left of it.
     """
     partial = draft(path, pieces, lasting=lasting)
-    os.replace(partial, path)
+    try:
+        os.replace(partial, path)
+    except OSError:  # a folder has the name
+        partial.unlink(missing_ok=True)
+        raise
     if lasting:
         sync(path.parent)
 

@@ -15,6 +15,7 @@ from jointplay.storage.catalogue.errors import (
     JobNotFinished,
     KeyReused,
     QuotaExceeded,
+    TooManyWorkers,
     Unavailable,
 )
 from jointplay.worker.handed_in.errors import NotTheJobs
@@ -85,6 +86,11 @@ def _(error: KeyReused) -> RequestRefused:
 @refusal.register
 def _(error: QuotaExceeded) -> RequestRefused:
     return RequestRefused(kinds.QUOTA_EXCEEDED, f"{error}.")
+
+
+@refusal.register
+def _(error: TooManyWorkers) -> RequestRefused:
+    return RequestRefused(kinds.TOO_MANY_REQUESTS, f"{error}.", headers={"Retry-After": "60"})
 
 
 @refusal.register

@@ -62,7 +62,7 @@ def note_activity(
     catalogue: CatalogueDependency,
     block: BlockId,
     attempt: Attempt,
-    message: Annotated[protocol.Activity, said(protocol.Activity)],
+    message: Annotated[protocol.Busy, said(protocol.Busy)],
 ) -> None:
     """Show what takes long."""
     catalogue.note_activity(block, attempt, message.activity)

@@ -44,7 +44,7 @@ async def claim_block(
     """
     _require_same_program(asked.program)
     worker = own_name(caller, asked.worker)
-    await run_in_threadpool(_begin, catalogue, worker, asked)
+    await run_in_threadpool(_begin, catalogue, worker, asked, own_name(caller, ""))
     deadline = time.monotonic() + asked.wait
     pause = _FIRST_PAUSE
     while not await request.is_disconnected():
@@ -89,10 +89,10 @@ def _shown(claim: Claim) -> Claim:
     return replace(claim, job=replace(claim.job, owner="", label=None))
 
 
-def _begin(catalogue: Catalogue, worker: str, asked: ClaimRequest) -> None:
+def _begin(catalogue: Catalogue, worker: str, asked: ClaimRequest, of_key: str) -> None:
     """Note that the worker is there, and take back what it was given without hearing of it."""
     device = None if asked.device is None else WorkerDevice(**dict(asked.device))
-    catalogue.note_worker(worker, asked.solver, device)
+    catalogue.note_worker(worker, asked.solver, device, of_key=of_key)
     if asked.spent:
         catalogue.note_spent(worker, asked.spent)
     for block in catalogue.held_by(worker):

@@ -83,7 +83,7 @@ def _naming(name: str) -> Iterator[None]:
     """Refuse what cannot be done with a file of a name."""
     try:
         yield
-    except (ValueError, FileNotFoundError) as error:
+    except (ValueError, FileNotFoundError, IsADirectoryError, NotADirectoryError) as error:
         raise _no_file(name, error) from error
     except OSError as fault:
         if not is_full(fault):

@@ -6,7 +6,7 @@ from functools import partial
 from typing import IO, Final
 
 from jointplay.service.workers.uploads import Uploads
-from jointplay.storage.attempt_files import AttemptFiles
+from jointplay.storage.attempt_files import LEAST, AttemptFiles
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block, BlockState, Job
@@ -48,7 +48,8 @@ class HandedIn:
             with self._taking_back():
                 if (offset or 0) + size > largest:
                     raise CorruptStore(f"{name} would have more than {largest} bytes")
-                counted.enter_context(uploads.of_attempt(self._held, size, expected.most, stored))
+                counts = max(size, LEAST)
+                counted.enter_context(uploads.of_attempt(self._held, counts, expected.most, stored))
             yield
 
     def offered(

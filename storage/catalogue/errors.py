@@ -75,6 +75,13 @@ class QuotaExceeded(CatalogueError):
     """An owner would have more than he may have of what the sentence names."""
 
 
+class TooManyWorkers(CatalogueError):
+    """A key has as many workers already as one may have."""
+
+    def __init__(self, most: int) -> None:
+        super().__init__(f"{most} workers of this key were heard of in the last minute")
+
+
 class Fenced(CatalogueError):
     """The block is no longer this attempt's: stop, write nothing, report nothing."""
 

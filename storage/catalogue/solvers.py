@@ -9,10 +9,11 @@ from collections.abc import Collection, Sequence
 from dataclasses import fields
 from typing import Any, Final
 
-from sqlalchemy import and_, bindparam, delete, insert, or_, select, update
+from sqlalchemy import and_, bindparam, delete, func, insert, or_, select, update
 
 from jointplay.storage.catalogue import tables, tally, turns
 from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.errors import TooManyWorkers
 from jointplay.storage.catalogue.records import (
     LIVE,
     QUEUES,
@@ -25,6 +26,8 @@ from jointplay.storage.catalogue.records import (
 PATIENCE: Final = 60.0
 """Seconds after which a worker that is silent, or a job that none has taken, is on its own."""
 UNSERVED: Final = tables.NO_SOLVER
+MOST_OF_KEY: Final = 1000
+"""Workers that may join with one key in a minute: whoever has it makes up their names."""
 _CANDIDATES: Final = 8
 """Abandoned blocks that a worker tries to take over: others may be quicker."""
 _FORGOTTEN: Final = 3600.0  # s
@@ -160,13 +163,31 @@ _HEARD_OF: Final = (
 )
 
 
-def note_worker(unit: Unit, name: str, solver: Solver, device: WorkerDevice | None = None) -> None:
-    """Remember that a worker was heard of just now, and its device if it has one."""
+def note_worker(
+    unit: Unit,
+    name: str,
+    solver: Solver,
+    device: WorkerDevice | None = None,
+    *,
+    of_key: str | None = None,
+) -> None:
+    """Remember that a worker was heard of just now, and its device if it has one.
+
+    `of_key` : begins the names of all workers of its key, of which there may be `MOST_OF_KEY`;
+    `TooManyWorkers` if there are. None: it is the service's own.
+    """
     facts = {"version": solver.version, "processor": solver.processor, "seen": unit.now}
     facts |= dict.fromkeys(_OF_DEVICES) if device is None else vars(device)
     known = update(_worker).where(_worker.c.name == name).values(facts)
-    if not unit.execute(known).rowcount:
-        unit.execute(insert(_worker).values(name=name, since=unit.now, **facts))
+    if unit.execute(known).rowcount:
+        return
+    if of_key is not None:
+        lately = _worker.c.seen > unit.now - PATIENCE
+        of_one = _worker.c.name.startswith(of_key, autoescape=True)
+        found = select(func.count()).select_from(_worker).where(lately, of_one)
+        if unit.execute(found).scalar_one() >= MOST_OF_KEY:
+            raise TooManyWorkers(MOST_OF_KEY)
+    unit.execute(insert(_worker).values(name=name, since=unit.now, **facts))
 
 
 def note_holder(unit: Unit, block_id: str) -> None:

@@ -10,11 +10,15 @@ import httpx
 import pytest
 
 from jointplay.service.app import create_app
-from jointplay.service.workers import arriving
-from jointplay.storage.attempt_files import AttemptFiles
+from jointplay.service.workers import arriving, handed_in
+from jointplay.storage.attempt_files import LEAST, AttemptFiles
+from jointplay.storage.catalogue import solvers
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Claim
+from jointplay.storage.results.examination import LARGEST_DOCUMENT
 from jointplay.storage.settings import Settings
+from jointplay.worker.handed_in.expected import expected_of
+from jointplay.worker.handed_in.names import largest
 from jointplay.worker.own_solver import own_solver
 from tests.service.guarded import SWING, Guarded
 from tests.service_in_thread import serving
@@ -66,6 +70,8 @@ def test_what_a_worker_says_is_read_strictly(
     for words in ("", "a\0b", "a\nb", 33 * "a"):
         for verb in ("activity", "put-off"):
             assert http.post(f"{address}/{verb}", json={"activity": words}).status_code == 422
+    for event in ("succeeded", "retried"):  # which a job's history has for other things
+        assert http.post(f"{address}/activity", json={"activity": event}).status_code == 422
     fault = {"error_class": "platform", "code": "odd", "detail": "a\0b", "time": None}
     ended = http.post(f"{address}/finish", json={"outcome": "failed", "error": fault})
     assert ended.status_code == 422
@@ -132,6 +138,59 @@ def test_a_block_is_that_of_the_key_that_claimed_it(tmp_path: Path) -> None:
             assert second.get(f"{address}/files").status_code == 409
             assert first.post(f"{address}/heartbeat").status_code == 200
     catalogue.close()
+
+
+def test_names_of_workers_are_no_more_than_a_key_may_have(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each has a row in the catalogue, and may have a line in the metrics."""
+    monkeypatch.setattr(solvers, "MOST_OF_KEY", 3)
+    settings = Settings(data=tmp_path, keys="required")
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    catalogue.note_worker("own", own_solver())
+    asked = {**vars(own_solver()), "program": version("jointplay"), "wait": 0}
+    with serving(create_app(settings)) as url:
+        guarded = Guarded(url, catalogue, "", "")
+        with guarded.as_("lab", "worker") as first, guarded.as_("cloud", "worker") as second:
+
+            def claim(client: httpx.Client, name: str) -> httpx.Response:
+                return client.post("/v1/worker/claims", json=asked | {"worker": name})
+
+            assert [claim(first, name).status_code for name in "abcabc"] == 6 * [204]
+            refused = claim(first, "d")
+            assert (refused.status_code, refused.headers["Retry-After"]) == (429, "60")
+            assert "3 workers of this key" in refused.json()["detail"]
+            assert claim(second, "d").status_code == 204
+    assert len(catalogue.workers()) == 5
+    catalogue.close()
+
+
+def test_a_file_in_place_of_a_folder_is_refused_and_leaves_nothing(
+    http: httpx.Client, settings: Settings, claim: Claim, address: str
+) -> None:
+    put = {"content": b"rows", "headers": digest(b"rows")}
+    assert http.put(f"{address}/files/a1/parts/00000001", **put).status_code == 204
+    for name in ("a1/parts", "a1/parts/00000001/more"):
+        assert http.put(f"{address}/files/{name}", **put).status_code in (404, 422)
+    found = [one.name for one in settings.running_folder(claim.job.id).rglob("*") if one.is_file()]
+    assert found == ["00000001"]
+
+
+def test_empty_files_count_too(
+    http: httpx.Client, claim: Claim, address: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    few = expected_of(claim.job)._replace(most=3 * LEAST)
+    monkeypatch.setattr(handed_in, "expected_of", lambda _: few)
+    put = {"content": b"", "headers": digest(b"")}
+    answers = [http.put(f"{address}/files/a1/parts/{k}", **put).status_code for k in range(5)]
+    assert answers == [204, 204, 204, 422, 409]  # the block is taken back
+
+
+def test_documents_that_are_read_whole_are_small(claim: Claim) -> None:
+    expected = expected_of(claim.job)._replace(most=2**35)
+    assert largest("a1/documents.zip", expected) == LARGEST_DOCUMENT
+    assert largest("a1/rows/history-0.zip", expected) == 2**35
 
 
 UPWARDS = ("../x", "a1/../../x", "/etc/x", "a1/rows/../../../x", "sealed/../x")

@@ -54,7 +54,7 @@ def removes(name: str, job: Job, block: Block, expected: Expected) -> bool:
 
 def largest(name: str, expected: Expected) -> int:
     """Return the bytes that a file of a name may have: what is read whole is small."""
-    if name == STUDY_DOCUMENTS:
+    if name.endswith(f"/{DOCUMENTS}"):
         return LARGEST_DOCUMENT
     if _PART.fullmatch(name):
         return LARGEST_PART

@@ -1,6 +1,6 @@
 """Documents between a service and the workers that joined it."""
 
-from typing import Annotated, Final, Self
+from typing import Annotated, Final, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
@@ -158,8 +158,14 @@ class Checkpoint(Document):
     progress: Progress | None = None
 
 
+class Busy(Document):
+    """What takes long before a block advances: a word of the job's history, which has others."""
+
+    activity: Literal["compiling"]
+
+
 class Activity(Document):
-    """A few words for what takes long."""
+    """A few words for what a block waits for."""
 
     activity: Annotated[str, Field(min_length=1, max_length=32, pattern=r"^[ -~]+$")]
 
