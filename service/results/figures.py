@@ -2,14 +2,17 @@
 
 from typing import Annotated, Any, cast
 
-from fastapi import APIRouter, Path, Query, Response
+from fastapi import APIRouter, Path, Query, Request, Response
+from fastapi.concurrency import run_in_threadpool
 
 from jointplay import figures
 from jointplay.records.channel_choice import NoSuchChannel
-from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES
+from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES, Form
 from jointplay.service.dependencies import NO_PARAMETERS, of_the_application
 from jointplay.service.fields import BINARY
 from jointplay.service.jobs.schemas import address
+from jointplay.service.owners import OWNER
+from jointplay.service.places import Places
 from jointplay.service.problems import RequestRefused, clipped, kinds, problems
 from jointplay.service.results.damage import refusal_of
 from jointplay.service.results.figure_query import FigureQuery, FigureSelection
@@ -62,19 +65,35 @@ def list_figures(
     response_class=Response,
     responses=_DRAWN | problems(kinds.UNKNOWN_FIGURE, kinds.NOT_DRAWABLE, kinds.UNKNOWN_CHANNEL),
 )
-def draw_figure(
+async def draw_figure(
+    request: Request,
     results: ResultsOfThePath,
     name: Annotated[str, Path(description="Name of a figure, or of any channel.")],
     form: Annotated[str, Path(description="File type: png, svg, pdf or eps.")],
     query: Annotated[FigureQuery, Query()],
     windows: Annotated[WindowProcess, of_the_application("windows")],
     results_of: ResultsOfAParameter,
+    drawing: Annotated[Places, of_the_application("drawing")],
 ) -> Response:
     """Draw a figure of the job's results, also as it runs."""
-    selection = cast("FigureSelection", query)
     if form not in FORMS:
         sentence = f"Figures are drawn as {IN_WORDS}, not as {clipped(form)!r}."
         raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
+    selection = cast("FigureSelection", query)
+    async with drawing.place(OWNER.get()):
+        if await request.is_disconnected():
+            return Response(status_code=204)  # which nobody reads
+        return await run_in_threadpool(_drawn, results, name, form, selection, windows, results_of)
+
+
+def _drawn(
+    results: ResultsOfJob,
+    name: str,
+    form: Form,
+    selection: FigureSelection,
+    windows: WindowProcess,
+    results_of: ResultsOfAParameter,
+) -> Response:
     store = _reader(results, windows)
     if isinstance(store, ResultReader):
         selection.checked()

@@ -1,0 +1,53 @@
+"""Places for what keeps a thread for long: owners wait for them in turn, and without a thread."""
+
+import asyncio
+from collections import OrderedDict, deque
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Final
+
+DRAWN_AT_ONCE: Final = 4
+"""Figures: of the 40 threads that answer requests the others are left for what takes no time, such
+as heartbeats of workers."""
+
+
+class Places:
+    """Gives so many places, to owners in turn; used by one event loop."""
+
+    def __init__(self, most: int) -> None:
+        self._free = most
+        self._waiting: OrderedDict[str, deque[asyncio.Future[None]]] = OrderedDict()
+
+    @asynccontextmanager
+    async def place(self, owner: str) -> AsyncIterator[None]:
+        """Wait for a place, and hold it while the block runs."""
+        if self._free:
+            self._free -= 1
+        else:
+            await self._turn(owner)
+        try:
+            yield
+        finally:
+            self._leave()
+
+    async def _turn(self, owner: str) -> None:
+        turn = asyncio.get_running_loop().create_future()
+        self._waiting.setdefault(owner, deque()).append(turn)
+        try:
+            await turn
+        except asyncio.CancelledError:
+            if not turn.cancelled():  # the place was given at the same moment
+                self._leave()
+            raise
+
+    def _leave(self) -> None:
+        """Give the place to the next owner, to the one of his that waits longest."""
+        while self._waiting:
+            owner, turns = self._waiting.popitem(last=False)
+            turn = turns.popleft()
+            if turns:
+                self._waiting[owner] = turns  # behind all others
+            if not turn.cancelled():
+                turn.set_result(None)
+                return
+        self._free += 1
