@@ -51,12 +51,12 @@ def test_nothing_is_left_of_a_campaign_that_is_ended(tmp_path: Path) -> None:
 
 @pytest.mark.long
 @pytest.mark.timeout(1800)
-def test_a_service_keeps_its_word_whatever_becomes_of_a_device(tmp_path: Path) -> None:
-    options = ["--seed", "4", "--duration", "60", "--workers", "2"]
-    for name in ("device-killed", "device-lost", "device-memory"):
-        options += ["--fault", name]
+@pytest.mark.parametrize("fault", ["device-killed", "device-lost", "device-memory"])
+def test_a_service_keeps_its_word_whatever_becomes_of_a_device(tmp_path: Path, fault: str) -> None:
+    # alone: its worker takes half a minute to have work on a busy machine, and others come too late
+    options = ["--seed", "4", "--duration", "20", "--workers", "2", "--fault", fault]
     report = campaign(tmp_path / "chaos", *options)
-    assert {one["fault"] for one in report["struck"]} >= {"device-lost", "device-memory"}
+    assert {one["fault"] for one in report["struck"]} == {fault}
     assert all(one["recovery"] is not None for one in report["struck"])
 
 
