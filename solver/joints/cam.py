@@ -27,14 +27,12 @@ from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.laws.function import Derivatives, Function
 from jointplay.solver.laws.function.uses import Prescribed
+from jointplay.solver.laws.function.whole_turn import TURN, whole_turn
 from jointplay.solver.quantities.frames import Pair, dot, plus, scaled
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine, sqrt
 from jointplay.solver.quantities.units import PointReference, RadialClearance, Rule
 
-TURN = 2.0 * math.pi
-NEARLY = 1e-6
-"""Mismatch within which knots that repeat are meant to do so after a turn: 2 pi to seven digits."""
 SAMPLES = 720
 """Angles of a turn at which a profile is looked at."""
 WHOLE = 1e-9
@@ -46,21 +44,6 @@ CENTRED = 1e-300
 CAPTION = "Follower of joint {} on its cam"
 FOLLOWER = (("normal_force", "N", "force of the cam on its follower along the normal; < 0: pulls"),)
 """Channel of a follower without play, which is held both ways."""
-
-
-def whole_turn(profile: Function) -> Function:
-    """Return a profile whose last knot ends a turn, or an equal share of it, to rounding.
-
-    One whose knots do so within `NEARLY` has the last one moved there.
-    """
-    knots = getattr(profile, "knots", None)
-    if not knots or getattr(profile, "outside", "") != "periodic" or not knots[-1] > knots[0]:
-        return profile
-    share = TURN / max(round(TURN / (knots[-1] - knots[0])), 1)
-    if abs(knots[-1] - knots[0] - share) > NEARLY * share:
-        return profile
-    moved = profile.model_copy(update={"knots": [*knots[:-1], knots[0] + share]})
-    return profile if any(rule.broken(moved) for rule in profile.rules) else moved
 
 
 class CamClearance(AnyClearance):

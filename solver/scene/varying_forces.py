@@ -64,8 +64,10 @@ def _driver(scene: Scene, pointer: str, element: Varying, over: Over) -> Iterato
         return
     periods = 2.0 * math.pi / period
     if math.isinf(period) or abs(periods - round(periods)) > WHOLE or round(periods) == 0:
+        after = "does not repeat" if math.isinf(period) else f"repeats after {period:.9g} rad"
         yield Problem(
             f"{pointer}/course",
-            f"A force over the angle of driver '{over.driver}' repeats every turn, 2 pi rad; this"
-            f" course repeats after {period:g}. Give a periodic one.",
+            f"A force over the angle of driver '{over.driver}' repeats every turn,"
+            f" {2.0 * math.pi:.9g} rad; this course {after}. Give a periodic one whose knots end a"
+            " turn, or a whole part of it.",
         )

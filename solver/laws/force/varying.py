@@ -1,9 +1,12 @@
 """Force elements whose strength varies: with time, a driver's position, or how points lie."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
+
+from pydantic import model_validator
 
 from jointplay.solver.laws.force.law import Ends, ForceElement, Over
 from jointplay.solver.laws.function.uses import Course
+from jointplay.solver.laws.function.whole_turn import whole_turn
 from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, knotted
 from jointplay.solver.quantities.units import quantity
 
@@ -22,6 +25,14 @@ class Varying(ForceElement):
     over: Over | None = None
     only: Literal["rising", "falling"] | None = None
     full_rate: Annotated[float, quantity("unit of `over` per s", gt=0.0, le=1e6)] = FULL_RATE
+
+    @model_validator(mode="after")
+    def _of_whole_turns(self) -> Self:
+        """End the knots of a course over an angle with the turn that they give to seven digits."""
+        over = self.over or TIME
+        if self.course is not None and over.quantity in ("driver", "angle") and not over.rate:
+            self.__dict__["course"] = whole_turn(self.course)  # frozen only from here on
+        return self
 
     def follows(self) -> Over | None:
         """Return what it is a function of, if it varies."""

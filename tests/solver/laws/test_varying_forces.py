@@ -186,7 +186,7 @@ def test_a_torsion_spring_counts_the_whole_turns_of_a_driven_crank(ideal: bool) 
         (
             {"over": {"quantity": "driver", "driver": "motor"}, "course": BUMP},
             "/course",
-            "repeats after inf",
+            "this course does not repeat",
         ),
         ({"over": {"rate": True}, "course": SINE}, "/over/rate", "Time has no rate"),
     ],
@@ -202,3 +202,33 @@ def test_what_cannot_vary_so_is_refused_at_its_field(
     (problem,) = refused.value.problems
     assert problem.pointer == f"/scene/forces/push{place}"
     assert words in problem.detail
+
+
+def turned(last: float, over: dict[str, Any]) -> dict[str, Any]:
+    """Return a driven pendulum with a torque over an angle that repeats after the last knot."""
+    scene = carried(DRIVE)
+    del scene["drivers"]["motor"]["motion"]
+    scene["drivers"]["motor"]["speed"] = 3.0
+    pair = {"first": "carrier.O", "second": "bob.P"}
+    course = BUMP | {"knots": [0.0, 0.5, 1.0, 2.0, last], "outside": "periodic"}
+    scene["forces"] = {
+        "load": {"type": "torque", "moment": 1.0, "over": over, "course": course} | pair
+    }
+    return scene
+
+
+@pytest.mark.parametrize("over", [{"quantity": "driver", "driver": "motor"}, {"quantity": "angle"}])
+def test_knots_of_a_course_end_a_turn_that_they_give_to_seven_digits(over: dict[str, Any]) -> None:
+    load = scene_of(turned(6.2831853, over)).forces["load"]
+    assert load.course.knots[-1] == 2.0 * np.pi
+    assert scene_of(turned(6.2832, over)).forces["load"].course.knots[-1] == 6.2832
+    rate = over | {"rate": True}
+    assert scene_of(turned(6.2831853, rate)).forces["load"].course.knots[-1] == 6.2831853
+
+
+def test_what_nearly_repeats_every_turn_is_told_with_its_digits() -> None:
+    job = {"kind": "simulate", "duration": 1.0}
+    over = {"quantity": "driver", "driver": "motor"}
+    assert admit(job | {"scene": turned(6.2831853, over)})
+    with pytest.raises(InvalidInput, match=r"every turn, 6\.28318531 rad; .* after 6\.2832 rad"):
+        admit(job | {"scene": turned(6.2832, over)})
