@@ -33,6 +33,11 @@ from jointplay.solver.scene.periods import (
     section_offset,
 )
 
+WITHOUT_PERIOD = (
+    "Without one a simulation has no Poincare section; a study has them where a channel crosses a"
+    " value, or at onsets of contact."
+)
+
 
 class SimulateJob(Job):
     """One trajectory, from the scene's start or a state."""
@@ -164,9 +169,7 @@ def _admission(
         samples=samples,
         sections=sections,
         period=period.seconds,
-        section_note=f"{period.note} Without one there is no Poincare section."
-        if period.note
-        else "",
+        section_note=f"{period.note} {WITHOUT_PERIOD}" if period.note else "",
         notes=tuple(_notes(filled, scene)),
         joints=tuple(contact_pairs(scene)),
         stored_bytes=int(limits.BYTES_PER_VALUE * (len(channels) + 1) * (samples + sections)),
