@@ -7,20 +7,21 @@ that is the cam's support function, so that the face touches it at p u + p' w, w
 Source: Angeles and López-Cajún 1991, Optimization of Cam Mechanisms (support functions).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import reduce
 from typing import ClassVar, Literal
 
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.solver.joints.cam import CAPTION, TURN, CamJoint, Lift
+from jointplay.solver.joints.cam import CAPTION, CamJoint, Lift
 from jointplay.solver.joints.contact import Meeting
 from jointplay.solver.joints.drawing import ANGLES, Curve, Drawing
 from jointplay.solver.joints.holding import Distance
 from jointplay.solver.joints.starts import GuideStart
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
+from jointplay.solver.laws.function.whole_turn import TURN
 from jointplay.solver.quantities.frames import Pair, dot, left, plus, scaled, turned, unit
 from jointplay.solver.quantities.scalars import Scalar, direction_angle
 from jointplay.solver.quantities.units import Direction, Rule, no_length
@@ -42,6 +43,11 @@ class FlatFollower(CamJoint):
     rules: ClassVar[tuple[Rule, ...]] = (no_length("normal"),)
     type: Literal["flat-follower"]
     normal: Direction
+
+    @property
+    def facing(self) -> Sequence[Scalar]:
+        """The normal."""
+        return self.normal
 
     def lift(self, between: Ends) -> Lift:
         """Return u·g - p(α)."""

@@ -124,6 +124,11 @@ class Joint(Strict):
         return None
 
     @property
+    def facing(self) -> Sequence[Scalar] | None:
+        """Direction in the second body's axes away from the first, where the scene gives it."""
+        return None
+
+    @property
     def driven_part(self) -> str | None:
         """Part of its constraint that a driver prescribes; None: there is no motion to drive."""
         return DRIVEN.get(self.freedom)

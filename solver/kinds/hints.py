@@ -6,15 +6,25 @@ from typing import Any
 
 from jointplay.records.failure import Problem
 from jointplay.solver.kinds.declared_hints import idle_widths, other_units
+from jointplay.solver.kinds.start_hints import (
+    DIGITS,
+    Pose,
+    behind_cams,
+    deep_journals,
+    driven_from_zero,
+    place_of,
+    reversed_drivers,
+)
+from jointplay.solver.kinds.unit_hints import in_degrees, nearly_turns, too_inert, too_soft
 from jointplay.solver.laws.force import ForceElement
 from jointplay.solver.laws.force.spring_damper import SpringDamper
+from jointplay.solver.laws.force.torsion_spring import TorsionSpring
 from jointplay.solver.quantities.frames import WORLD
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import targeted_paths
 
-Pose = Mapping[str, tuple[float, float, float]]
-"""Centre of mass, m, and angle, rad, of each body."""
-DIGITS = 4
+STRAIGHT = 1e-9
+"""Twist of a spring, rad, up to which it is drawn relaxed."""
 
 
 def hints(written: Mapping[str, Any], scene: Scene, pose: Pose) -> list[Problem]:
@@ -34,32 +44,22 @@ def hints(written: Mapping[str, Any], scene: Scene, pose: Pose) -> list[Problem]
     found = []
     for name, element in scene.forces.items():
         pointer = f"/forces/{name}"
-        length = f"{pointer}/free_length"
-        if "free_length" not in given.get(name, {}) and length not in setting:
-            found += [Problem(length, text) for text in _relaxed(name, element, scene, pose)]
+        for field, relaxed in (("free_length", _relaxed), ("free_angle", _untwisted)):
+            place = f"{pointer}/{field}"
+            if field not in given.get(name, {}) and place not in setting:
+                found += [Problem(place, text) for text in relaxed(name, element, scene, pose)]
         found += [Problem(pointer, text) for text in _idle_moment(name, element, scene)]
-    found += [*_deep_journals(scene), *idle_widths(written, scene, setting)]
-    return [*found, *other_units(scene)]
-
-
-def _deep_journals(scene: Scene) -> Iterator[Problem]:
-    """Yield the journals that start deeper in their bearings than they have room."""
-    for name, start in scene.start.joints.items():
-        slack = scene.joints[name].slack
-        depth = math.hypot(*start.eccentricity) - (slack.play if slack else 0.0)
-        if slack and depth > slack.play:
-            yield Problem(
-                f"/start/joints/{name}/eccentricity",
-                f"The journal of '{name}' starts {depth:.{DIGITS}g} m deep in its bearing, whose"
-                f" radial clearance is {slack.play:g} m: contact throws it out.",
-            )
+    found += [*deep_journals(scene), *idle_widths(written, scene, setting)]
+    found += [*other_units(scene), *in_degrees(scene), *too_inert(scene), *nearly_turns(scene)]
+    found += [*too_soft(scene), *reversed_drivers(scene), *behind_cams(scene, pose)]
+    return [*found, *driven_from_zero(written, scene, setting)]
 
 
 def _relaxed(name: str, element: ForceElement, scene: Scene, pose: Pose) -> Iterator[str]:
     """Yield that a spring without a free length pulls as it is drawn."""
     if not isinstance(element, SpringDamper) or not element.stiffness:
         return
-    drawn = math.dist(*(_place(point, scene, pose) for point in (element.first, element.second)))
+    drawn = math.dist(*(place_of(point, scene, pose) for point in (element.first, element.second)))
     length = float(f"{drawn:.{DIGITS}g}")
     if length > 0.0:
         yield (
@@ -69,15 +69,20 @@ def _relaxed(name: str, element: ForceElement, scene: Scene, pose: Pose) -> Iter
         )
 
 
-def _place(reference: str, scene: Scene, pose: Pose) -> tuple[float, float]:
-    """Return where a point is, m."""
-    body, point = reference.split(".")
-    if body == WORLD:
-        u, v = scene.ground.points[point]
-        return u, v
-    (x, y, angle), (u, v) = pose[body], scene.bodies[body].points[point]
-    c, s = math.cos(angle), math.sin(angle)
-    return x + c * u - s * v, y + s * u + c * v
+def _untwisted(name: str, element: ForceElement, scene: Scene, pose: Pose) -> Iterator[str]:
+    """Yield that a torsion spring without a free angle turns as it is drawn."""
+    if not isinstance(element, TorsionSpring) or not element.stiffness:
+        return
+    bodies = (element.first.split(".")[0], element.second.split(".")[0])
+    first, second = (0.0 if body == WORLD else pose[body][2] for body in bodies)
+    twist = float(f"{second - first:.{DIGITS}g}")
+    if abs(twist) > STRAIGHT:
+        yield (
+            f"'{name}' has no free_angle, and so is relaxed where '{bodies[1]}' is at the angle of"
+            f" '{bodies[0]}': at the start it is twisted by {twist:g} rad and turns '{bodies[1]}'"
+            f" with {-element.stiffness * twist:.{DIGITS}g} N m. If it shall be relaxed as it is"
+            f' drawn, give "free_angle": {twist:g}.'
+        )
 
 
 def _idle_moment(name: str, element: ForceElement, scene: Scene) -> Iterator[str]:

@@ -8,6 +8,7 @@ from jointplay.solver.kinds.assembled import assembled_scene
 from jointplay.solver.kinds.declared_hints import other_units
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
+from tests.solver.cams import CIRCLE, ECCENTRICITY, RADIUS, follower, valve
 from tests.solver.sliders import block, swinging
 
 
@@ -171,6 +172,119 @@ def test_units_of_coordinates_and_starts_are_known():
 def test_units_of_presets_are_those_of_their_targets():
     for name in presets.names():
         assert list(other_units(Scene.model_validate(presets.document(name)))) == []
+
+
+def crank(**more: Any) -> dict[str, Any]:
+    """A crank on a pin of the ground."""
+    points = {"O": [-0.05, 0.0], "A": [0.05, 0.0]}
+    return {
+        "name": "crank",
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {"crank": {"mass": 0.5, "inertia": 4e-4, "points": points}},
+        "joints": {"main": {"type": "revolute", "bearing": "ground.O", "journal": "crank.O"}},
+    } | more
+
+
+def test_an_angle_of_more_than_a_turn_is_told_as_degrees():
+    assert hints(crank(start={"angles": {"crank": -6.283}})) == []
+    ((pointer, detail),) = hints(crank(start={"angles": {"crank": 45.0}}))
+    assert pointer == "/start/angles/crank"
+    assert detail == "45 rad are 7.16 turns. If degrees are meant, give 0.785398163."
+    driven = crank(drivers={"motor": {"joint": "main", "position": 90.0, "speed": 1.0}})
+    assert [pointer for pointer, _ in hints(driven)] == ["/drivers/motor/position"]
+    slid = pulled(free_length=0.1)
+    slid["drivers"] = {"push": {"joint": "guide", "position": 90.0, "speed": 1.0}}
+    assert hints(slid) == []  # 90 m
+
+
+def test_an_inertia_in_square_millimetres_is_told():
+    scene = crank()
+    scene["bodies"]["crank"]["inertia"] = 400.0
+    ((pointer, detail),) = hints(scene)
+    assert pointer == "/bodies/crank/inertia"
+    assert "a radius of gyration of 28.3 m" in detail  # the root of 400 / 0.5
+    assert detail.endswith("If kg mm^2 are meant, give 0.0004.")
+
+
+def test_a_torsion_spring_without_a_free_angle_is_told_with_the_one_that_is_drawn():
+    ends = {"first": "ground.O", "second": "crank.O"}
+    spring: dict[str, Any] = {"type": "torsion-spring", "stiffness": 5.0} | ends
+    start = {"angles": {"crank": 0.3}}
+    ((pointer, detail),) = hints(crank(forces={"spring": spring}, start=start))
+    assert pointer == "/forces/spring/free_angle"
+    assert "it is twisted by 0.3 rad and turns 'crank' with -1.5 N m" in detail
+    assert '"free_angle": 0.3' in detail
+    assert hints(crank(forces={"spring": spring})) == []
+    assert hints(crank(forces={"spring": spring | {"free_angle": 0.0}}, start=start)) == []
+
+
+def test_a_driver_of_the_ground_against_a_body_is_told():
+    exchanged = {"type": "revolute", "bearing": "crank.O", "journal": "ground.O"}
+    scene = crank(drivers={"motor": {"joint": "main", "speed": 1.0}})
+    assert hints(scene) == []
+    scene["joints"]["main"] = exchanged
+    ((pointer, detail),) = hints(scene)
+    assert pointer == "/drivers/motor/joint"
+    assert "so 'crank' turns clockwise as the position of 'motor' grows" in detail
+    velocity = assembled_scene(scene, is_whole=True).assembly.velocity
+    assert velocity[2] == -1.0  # rad/s
+
+
+def test_a_driver_that_starts_elsewhere_than_its_body_is_told_with_the_position_to_give():
+    start = {"angles": {"crank": 0.3}}
+    motor: dict[str, Any] = {"joint": "main", "speed": 1.0}
+    ((pointer, detail),) = hints(crank(drivers={"motor": motor}, start=start))
+    assert pointer == "/drivers/motor/position"
+    assert "starts at 0 rad, where 'start.angles' says 0.3" in detail
+    assert '"position": 0.3' in detail
+    assert hints(crank(drivers={"motor": motor | {"position": 0.3}}, start=start)) == []
+    wave = {"type": "sinusoidal", "amplitude": 0.2, "frequency": 1.0, "offset": 0.1}
+    swung = {"body": "crank", "motion": wave}
+    ((_, detail),) = hints(crank(drivers={"motor": swung}, start=start))
+    assert '"position": 0.2' in detail
+    scene = crank(drivers={"motor": swung | {"position": 0.2}}, start=start)
+    assert not assembled_scene(scene, is_whole=True).assembly.misfits
+
+
+@pytest.mark.parametrize(("normal", "is_told"), [([0.0, 1.0], False), ([0.0, -2.0], True)])
+def test_a_face_that_starts_beyond_its_cam_is_told(normal, is_told):
+    scene = valve(follower("flat", CIRCLE) | {"normal": normal})
+    del scene["start"]
+    found = hints(scene)
+    assert [pointer for pointer, _ in found] == ["/joints/cam/normal"] * is_told
+    assert all("If it shall start there, give [0, 2]" in detail for _, detail in found)
+    height = assembled_scene(scene, is_whole=True).pose()["tappet"][1] - 0.02  # of the face
+    # the circle's centre is below that of the shaft
+    assert height == pytest.approx(-RADIUS - ECCENTRICITY if is_told else RADIUS - ECCENTRICITY)
+
+
+def test_a_modulus_in_gigapascals_is_told():
+    scene = presets.document("bouncing-journal")
+    (name, joint), *_ = scene["joints"].items()
+    del scene["parameters"]
+    joint["clearance"] |= {"bearing_width": 0.01, "contact": LINE}
+    assert hints(scene) == []
+    stiffness = LINE["stiffness"] | {"youngs_modulus": 207.0}
+    joint["clearance"]["contact"] = LINE | {"stiffness": stiffness}
+    ((pointer, detail),) = hints(scene)
+    assert pointer == f"/joints/{name}/clearance/contact/stiffness/youngs_modulus"
+    assert detail.endswith("If GPa are meant, give 2.07e+11.")
+
+
+@pytest.mark.parametrize(("last", "is_told"), [(6.28, True), (6.2831853, False), (3.0, False)])
+def test_a_course_that_repeats_after_nearly_a_turn_is_told(last, is_told):
+    course = {"type": "table", "knots": [0.0, 1.0, last], "values": [0.0, 1.0, 0.0]}
+    load: dict[str, Any] = {
+        "type": "torque",
+        "first": "ground.O",
+        "second": "crank.O",
+        "moment": 1.0,
+        "over": {"quantity": "angle"},
+        "course": course | {"outside": "periodic"},
+    }
+    found = hints(crank(forces={"load": load}))
+    assert [pointer for pointer, _ in found] == ["/forces/load/course"] * is_told
+    assert all("repeats after 6.28 rad, and so shifts by -0.0032 rad" in text for _, text in found)
 
 
 def test_of_a_preset_nothing_is_told():
