@@ -27,7 +27,7 @@ from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, not
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers, SectionKind, Status
 from jointplay.solver.kernels.loop.step import Step
-from jointplay.solver.kernels.loop.tangent import latch_tangent, record_growth
+from jointplay.solver.kernels.loop.tangent import forget_latched, latch_tangent, record_growth
 
 AT_ONSET = 1e-4
 """Share of a run's smallest step that one may have which begins where contact does: a force that
@@ -120,5 +120,7 @@ def settle(flag: int, s: Step, buffers: Buffers) -> bool:
             turn_over(lane, run, at, work)
             if tangents:
                 full |= record_growth(now, s, buffers.growths)
+                if run.periods == run.tangent_forgets:
+                    forget_latched(s)
         plan(lane, run, at, work)
     return full

@@ -189,5 +189,5 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     run["next"][..., SECTIONS], run["stop"][..., SECTIONS] = problem.first_section, problem.sections
     run["section_kind"], run["section_index"] = event.kind, event.index
     run["section_value"], run["section_sense"] = event.value, event.sense
-    run["section_turn"] = event.turn
+    run["section_turn"], run["tangent_forgets"] = event.turn, problem.tangent_forgets
     run["section_from"], run["section_offset"] = event.not_before, problem.section_offset

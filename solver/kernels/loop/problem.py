@@ -82,3 +82,5 @@ class LaneProblem:
     """Index of the first sample; sample i lies at i * output_step, the last one at the end."""
     ledger: bool = True
     """Whether works and impulses are added up, a tenth of a step's work; else they stay 0."""
+    tangent_forgets: int = 0
+    """Whole periods after which a tangent forgets latched impact rates; 0: never."""

@@ -103,6 +103,8 @@ class Run:
     """Distance of the levels at which an angle crosses; 0: there is one level."""
     section_from: float
     """Time from which events count, s."""
+    tangent_forgets: int
+    """Whole periods after which the tangent forgets latched impact rates; 0: never."""
 
 
 PAIRS = ("next", "stop", "due", "filled")

@@ -54,6 +54,19 @@ def latch_tangent(j: int, s: Step) -> None:
 
 
 @inner_kernel()
+def forget_latched(s: Step) -> None:
+    """Take from a lane's tangent the derivatives of latched impact rates.
+
+    A rate stays what it is while a contact lasts: a neighbour that has another one never comes
+    back, whatever the motion does, and the exponent would be zero. To be called once, before the
+    growth that counts: the tangent then begins with another direction. Of contacts that last from
+    then on it knows neighbours with the same rates; those that begin later it latches as ever.
+    """
+    for j in range(s.at.pairs):
+        s.work[s.at.tangent_impact_rate + j, s.lane] = 0.0
+
+
+@inner_kernel()
 def record_growth(now: float, s: Step, growths: np.ndarray) -> bool:
     """Hand out by how much a lane's tangent grew since the growth before.
 

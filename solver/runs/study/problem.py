@@ -78,7 +78,15 @@ def problem_of(
         start,
         first_sample=first_sample,
         ledger=study.keeps_ledger,
+        tangent_forgets=_settling(study),
     )
+
+
+def _settling(study: Study) -> int:
+    """Return the periods before the record, 1 at least; 0: not known, or there are no tangents."""
+    if not study.carries_exponents or study.job["settle"] == "auto":
+        return 0
+    return max(int(study.job["settle"]), 1)
 
 
 def _sampled(study: Study, point: int, duration: float) -> tuple[float, int, int]:

@@ -21,6 +21,8 @@ def goes_on(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
         bundle.extend(lane, scene, run.reached * period, ENDLESS)
         return True
     run.settled = run.reached
+    if study.carries_exponents:
+        bundle.lane(lane)["tangent_impact_rate"] = 0.0  # as `tangent.forget_latched` does
     run.seen = []
     left = float(study.duration[point] - study.settle[point])
     taken = int(bundle.lane(lane).run["next"][SECTIONS])

@@ -109,3 +109,59 @@ def test_an_exponent_interrupted_anywhere_has_the_same_bits(
         interrupted += 1
     assert interrupted > 3  # in the record, and behind it
     assert disturbed.bytes() == whole.bytes()
+
+
+GRAVITY = 9.81
+PRESSED: dict[str, Any] = {
+    "name": "pressed",
+    "gravity": [GRAVITY, 0.0],
+    "ground": {"points": {"guide": [0.0, 0.0], "stop": [-0.2, 0.0]}},
+    "bodies": {"mass": {"mass": 1.0, "inertia": 1e-3, "points": {"centre": [0.0, 0.0]}}},
+    "joints": {
+        "guide": {
+            "type": "prismatic",
+            "guide": "ground.guide",
+            "slider": "mass.centre",
+            "axis": [1.0, 0.0],
+        },
+        "stop": {
+            "type": "revolute",
+            "bearing": "ground.stop",
+            "journal": "mass.centre",
+            "clearance": {
+                "radial_clearance": 0.2,
+                "bearing_radius": 0.3,
+                "contact": {
+                    "law": "stiffness-and-dissipation",
+                    "stiffness": {"law": "power", "stiffness": 1e4, "exponent": 1.0},
+                    "dissipation": {"law": "lankarani-nikravesh", "restitution": 0.3},
+                },
+            },
+        },
+    },
+    "forces": {
+        "shaking": {
+            "type": "force",
+            "first": "ground.guide",
+            "second": "mass.centre",
+            "magnitude": 2.0,
+            "direction": [1.0, 0.0],
+            "course": {"type": "sinusoidal", "amplitude": 1.0, "frequency": 30.0},
+        }
+    },
+}
+"""A mass that falls on a stop, stays there, and is shaken: its only contact lasts."""
+
+
+@pytest.mark.parametrize("settle", [1, 10, "auto"])
+def test_an_impact_rate_that_contact_keeps_is_no_neutral_direction(settle: int | str) -> None:
+    rate = 0.05
+    start = {"joints": {"stop": {"eccentricity": [0.2 - rate**2 / (2.0 * GRAVITY), 0.0]}}}
+    job = {"kind": "poincare", "scene": PRESSED | {"start": start}, "settle": settle, "record": 60}
+    found = Computed({**job, "indicators": ["lyapunov", "recurrence"]}).ends[0].indicators
+    # both multipliers have the product exp(-∫ D dt) with D = χ K δ / (the impact's rate); in the
+    # mean K δ carries the weight, and χ = 3 (1 - e²) / 4. The force shakes the fall by 1 %.
+    expected = -0.5 * 0.75 * (1.0 - 0.3**2) * GRAVITY / rate
+    assert found["lyapunov"] == pytest.approx(expected, rel=0.02)
+    assert found["lyapunov_error"] < 2.0
+    assert found["verdict"] == PERIODIC
