@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,11 +31,23 @@ LATE = 0.1
 """Share of a period: growth is noted with the first step beyond its end, 0.01 of it at most."""
 
 
+class Sections(NamedTuple):
+    """States of the whole system at its sections, and what they are."""
+
+    states: Floats
+    """(sections, states) generalised coordinates, their speeds, inner states."""
+    scales: Floats
+    """(states,) what counts as one in each: the finest clearance, as length, turn, or rate of
+    either."""
+    angles: Flags
+    """(states,) which are angles, whose whole turns do not count."""
+    coordinates: int
+    """Number of generalised coordinates."""
+
+
 def indicators_of(
     chosen: Sequence[str],
-    states: Floats,
-    scales: Floats,
-    angles: Flags,
+    sections: Sections,
     log_growth: Floats,
     finer_growth: Floats,
     period: float,
@@ -44,15 +57,13 @@ def indicators_of(
 
     What too few sections do not give is NaN.
 
-    chosen : of ``lyapunov``, ``zero_one``, ``recurrence``, ``rotation``, ``spectrum``. states :
-    (sections, states) generalised coordinates and speeds. scales : (states,) what counts as one in
-    each: the finest clearance, as length, turn, or rate of either. angles : (states,) which are
-    angles, whose whole turns do not count. log_growth : (periods,) logarithm of the tangent
-    vector's growth in each period of the record. finer_growth : the same behind the record, in far
-    smaller steps. period : s. settled : periods of the vector before the record.
+    chosen : of ``lyapunov``, ``zero_one``, ``recurrence``, ``rotation``, ``spectrum``. log_growth :
+    (periods,) logarithm of the tangent vector's growth in each period of the record. finer_growth :
+    the same behind the record, in far smaller steps. period : s. settled : periods of the vector
+    before the record.
     """
-    by_period = len(states) == len(log_growth)
-    states = unwound(states[:MOST_SECTIONS], angles) / scales
+    by_period = len(sections.states) == len(log_growth)
+    states = unwound(sections.states[:MOST_SECTIONS], sections.angles) / sections.scales
     found: dict[str, float] = {}
     lyapunov = finer = zero_one = rotation = None
     recurrence: int | None = None
@@ -70,14 +81,15 @@ def indicators_of(
     if "recurrence" in chosen:
         found["period"] = math.nan if recurrence is None else float(recurrence)
     if "rotation" in chosen:
-        rotation = rotation_number(principal_plane(states)) if len(states) > 2 else None
+        plane = principal_plane(states, sections.coordinates)
+        rotation = rotation_number(plane) if len(states) > 2 else None
         found["rotation"] = rotation.value if rotation else math.nan
         found["rotation_error"] = rotation.error if rotation else math.nan
         rotation = rotation or UNKNOWN
     if "spectrum" in chosen and len(states) < FEWEST_FOR_SPECTRUM:
         found |= dict.fromkeys(("line_frequency", "line_share", "flatness"), math.nan)
     elif "spectrum" in chosen:
-        spectrum = power_spectrum(principal_plane(states)[:, 0], period)
+        spectrum = power_spectrum(principal_plane(states, sections.coordinates)[:, 0], period)
         frequency, share = strongest_line(spectrum)
         found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
     verdict = decide(lyapunov, zero_one, recurrence, rotation, finer)
@@ -142,7 +154,16 @@ def unwound(states: Floats, angles: Flags) -> Floats:
     return np.asarray(states - 2.0 * np.pi * turns * angles, np.float64)
 
 
-def principal_plane(states: Floats) -> Floats:
-    """Return the states seen along the two directions in which they spread most, (n, 2)."""
+def principal_plane(states: Floats, coordinates: int) -> Floats:
+    """Return the states seen along the two directions in which they spread most, (n, 2).
+
+    From the side from which free oscillations turn counter-clockwise: positive speeds, which
+    follow the first coordinates, are below. So a motion that changes little keeps its sense, even
+    where another state begins to spread most.
+    """
     centred = states - states.mean(axis=0)
-    return np.column_stack(along_principal_directions(centred, 2))
+    along = np.column_stack(along_principal_directions(centred, 2))
+    first, second = (np.add.reduce(centred * part[:, None], axis=0) for part in along.T)
+    place, speed = slice(0, coordinates), slice(coordinates, 2 * coordinates)
+    clockwise = (first[place] * second[speed] - second[place] * first[speed]).sum() > 0.0
+    return along * [1.0, -1.0] if clockwise else along

@@ -15,6 +15,7 @@ from jointplay.solver.runs.study.finer import go_on_finer, go_on_longer
 from jointplay.solver.runs.study.grounds import limits
 from jointplay.solver.runs.study.indicators import (
     MOST_SECTIONS,
+    Sections,
     exponents,
     growth_by_period,
     indicators_of,
@@ -56,9 +57,8 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     states = np.concatenate(run.seen) if run.seen else np.zeros((0, kernel.states))
     scales, angles = scales_of(study, kernel, run.point)
     period, growths = float(study.period[run.point]), _growths(study, run)
-    found, verdict = indicators_of(
-        study.indicators, states, scales, angles, *growths, period, run.settled
-    )
+    sections = Sections(states, scales, angles, len(kernel.coordinates))
+    found, verdict = indicators_of(study.indicators, sections, *growths, period, run.settled)
     if run.rest:
         states, verdict = np.stack(run.rest), RESTS
         found["verdict"] = float(verdict.code)
@@ -68,8 +68,8 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
         run.ended = replace(run.ended, statistics={**run.ended.statistics, **cycle})
     if study.brief:
         return replace(run.ended, indicators=found)
-    sections, periods = len(states[:MOST_SECTIONS]), len(growths[0])
-    remarks = limits(study.point_scene(run.point), found, sections, periods)
+    seen, periods = len(states[:MOST_SECTIONS]), len(growths[0])
+    remarks = limits(study.point_scene(run.point), found, seen, periods)
     reason = "; ".join(filter(None, [verdict.reason, run.lasting, *remarks]))
     return replace(run.ended, indicators=found, reason=reason)
 
