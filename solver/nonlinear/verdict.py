@@ -165,7 +165,8 @@ def _recurrent(
         )
     if lyapunov is None:
         return Verdict(PERIODIC, period, f"{recurs}; the exponent is not known")
-    near = "close to a bifurcation, or known too poorly to tell it from zero"
+    near = "close to a bifurcation, known too poorly to tell it from zero, or along the motion"
+    near += " of a scene that nothing drives, where it is zero"
     return Verdict(PERIODIC, period, f"{recurs}; {exponent}, {near}")
 
 

@@ -27,6 +27,10 @@ in the record if that is more, as rates have that impacts make. Far above the so
 MOST_SECTIONS = 5000
 """That indicators look at: the first ones of the record."""
 FEWEST_FOR_SPECTRUM, FEWEST_FOR_RECURRENCE = 16, 4
+CUT = 0.508
+"""Turn beyond the first section from which an angle has made another one. Not half a turn, where a
+wheel is that turns at half the speed of the drive, or a quarter of it: rounding would send it to
+either side. All fractions with denominators up to 32 are as far from here, 0.008, or farther."""
 LATE = 0.1
 """Share of a period: growth is noted with the first step beyond its end, 0.01 of it at most."""
 
@@ -150,7 +154,7 @@ def unwound(states: Floats, angles: Flags) -> Floats:
     """Return states without the whole turns that angles have made since the first."""
     if not len(states):
         return states
-    turns = np.round((states - states[0]) / (2.0 * np.pi))
+    turns = np.ceil((states - states[0]) / (2.0 * np.pi) - CUT)
     return np.asarray(states - 2.0 * np.pi * turns * angles, np.float64)
 
 
