@@ -12,6 +12,7 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.nonlinear.batch_means import standard_error
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT
 from jointplay.solver.nonlinear.recurrence import LONGEST, largest_extent, recurrence_period
+from jointplay.solver.nonlinear.whole_turns import unwound
 
 SETTLINGS = {"unsettled": 0, "recurrence": 1, "statistics": 2}
 """Codes of settling, as they are stored; a code never changes its meaning."""
@@ -48,6 +49,7 @@ class Settling:
     tolerance : as in `recurrence_period`, in units of `scale`; columns whose mean or spread changes
         by less count as settled.
     most : sections after which it gives up.
+    angles : (d,) columns in rad whose whole turns do not count; by default there are none.
 
     Settled is what
 
@@ -71,8 +73,11 @@ class Settling:
         If a scale is not positive, the tolerance negative or `most` smaller than one.
     """
 
-    def __init__(self, scale: Floats, tolerance: float, most: int = 1000) -> None:
+    def __init__(
+        self, scale: Floats, tolerance: float, most: int = 1000, angles: Flags | None = None
+    ) -> None:
         self.scale = np.asarray(scale, np.float64)
+        self._angles = np.zeros(len(self.scale), np.bool_) if angles is None else angles
         if not (self.scale > 0.0).all() or not tolerance >= 0.0 or most < 1:
             raise ValueError("scales and `most` must be positive, the tolerance not negative")
         self.tolerance = tolerance
@@ -125,9 +130,14 @@ class Settling:
             return Settled(SETTLINGS["unsettled"], n, f"not settled after {n} sections: {why}")
         return None
 
+    def _last(self, count: int) -> Floats:
+        """Return the last sections without whole turns, in units of `scale`."""
+        recent = self._sections[self._count - count : self._count]
+        return unwound(recent, self._angles) / self.scale
+
     def _recurs(self) -> str:
         """Say why the motion recurs; empty: it does not."""
-        recent = self._sections[self._count - LOOK_BACK : self._count] / self.scale
+        recent = self._last(LOOK_BACK)
         period = recurrence_period(recent, np.ones(len(self.scale)), self.tolerance)
         if period == 0:
             return ""
@@ -144,7 +154,7 @@ class Settling:
     def _steady(self) -> str:
         """Say why the statistics are steady; empty: they are not."""
         length = self._count // 4
-        recent = self._sections[self._count - 3 * length : self._count] / self.scale
+        recent = self._last(3 * length)
         windows = [recent[i * length : (i + 1) * length] for i in range(3)]
         changing = _change_between(windows, self.tolerance)
         if changing:

@@ -19,6 +19,7 @@ from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
 from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
 from jointplay.solver.nonlinear.verdict import Verdict, decide
+from jointplay.solver.nonlinear.whole_turns import unwound
 from jointplay.solver.nonlinear.zero_one import zero_one_test
 
 RECURS = 1e-3
@@ -27,10 +28,6 @@ in the record if that is more, as rates have that impacts make. Far above the so
 MOST_SECTIONS = 5000
 """That indicators look at: the first ones of the record."""
 FEWEST_FOR_SPECTRUM, FEWEST_FOR_RECURRENCE = 16, 4
-CUT = 0.508
-"""Turn beyond the first section from which an angle has made another one. Not half a turn, where a
-wheel is that turns at half the speed of the drive, or a quarter of it: rounding would send it to
-either side. All fractions with denominators up to 32 are as far from here, 0.008, or farther."""
 LATE = 0.1
 """Share of a period: growth is noted with the first step beyond its end, 0.01 of it at most."""
 
@@ -148,14 +145,6 @@ def growth_by_period(rows: Floats, period: float, settled: int) -> Floats:
     grown = np.zeros(int(index[whole].max()) + 1)
     np.add.at(grown, index[whole], rows[whole, 1])
     return grown
-
-
-def unwound(states: Floats, angles: Flags) -> Floats:
-    """Return states without the whole turns that angles have made since the first."""
-    if not len(states):
-        return states
-    turns = np.ceil((states - states[0]) / (2.0 * np.pi) - CUT)
-    return np.asarray(states - 2.0 * np.pi * turns * angles, np.float64)
 
 
 def principal_plane(states: Floats, coordinates: int) -> Floats:

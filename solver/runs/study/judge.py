@@ -10,6 +10,7 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.nonlinear.lyapunov import undecided
 from jointplay.solver.nonlinear.verdict import RESTS
+from jointplay.solver.nonlinear.whole_turns import unwound
 from jointplay.solver.runs.study.cycles import cycle_of
 from jointplay.solver.runs.study.finer import go_on_finer, go_on_longer
 from jointplay.solver.runs.study.grounds import limits
@@ -19,7 +20,6 @@ from jointplay.solver.runs.study.indicators import (
     exponents,
     growth_by_period,
     indicators_of,
-    unwound,
 )
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun

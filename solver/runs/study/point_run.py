@@ -11,7 +11,7 @@ from jointplay.records.point import PointEnd
 from jointplay.solver.kernels.loop.bundle import LaneState
 from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.nonlinear.settling import SETTLINGS, Settling
-from jointplay.solver.runs.study.indicators import RECURS, unwound
+from jointplay.solver.runs.study.indicators import RECURS
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS, Grid
 
@@ -60,10 +60,10 @@ class PointRun:
 
     def has_settled(self, scales: Floats, angles: Flags, most: int) -> bool:
         """Look at the sections of the last leg. Returns whether the motion has settled."""
-        found = self.settling or Settling(scales, RECURS, max(most, 1))
+        found = self.settling or Settling(scales, RECURS, max(most, 1), angles)
         if found.result is None:
             states = np.concatenate([np.zeros((0, len(scales))), *self.seen])
-            found.feed(unwound(states, angles)[len(found.sections) :])
+            found.feed(states[len(found.sections) :])
         self.settling = found
         return found.result is not None and found.result.code != SETTLINGS["unsettled"]
 
