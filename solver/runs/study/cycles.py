@@ -81,10 +81,11 @@ def cycle_of(
     whole, turning = sections[len(sections) % cycle :, :count], angles[:count]
     sines, cosines = sine_cosine(np.where(turning, whole, 0.0))
     sine, cosine = sines.mean(axis=0), cosines.mean(axis=0)
-    length = np.sqrt(cosine * cosine + sine * sine)
-    direction = np.where(length < DIRECTED, 0.0, direction_angle(cosine, sine))
+    square = cosine * cosine + sine * sine
+    direction = np.where(square < DIRECTED * DIRECTED, 0.0, direction_angle(cosine, sine))
     mean = np.where(turning, direction, whole.mean(axis=0))
-    chord = np.sqrt(np.maximum(2.0 * (1.0 - length), 0.0))
+    halves, _ = sine_cosine(0.5 * np.where(turning, whole - direction, 0.0))
+    chord = 2.0 * np.sqrt((halves * halves).mean(axis=0))
     spread = np.where(turning, chord, whole.std(axis=0))
     found: dict[str, float] = {}
     for name, centre, width in zip(names_of(coordinates), mean, spread, strict=True):

@@ -32,6 +32,16 @@ def test_a_narrow_cycle_has_the_mean_and_the_spread_of_its_angles():
     assert np.isnan(found[INDEPENDENT])
 
 
+@pytest.mark.parametrize("centre", [0.7, 3.1, -300.0])
+def test_the_spread_of_an_angle_has_no_floor_of_rounding(centre):
+    """A micrometre of play in a metre of link: attractors are told apart at 2e-9 rad."""
+    angles = centre + np.array([1e-9, -1e-9] * 8)
+    found = cycle_of(NAMES, np.stack([angles, angles], axis=1), ANGLES, 2)
+    assert found["cycle_spread.rod.theta"] == pytest.approx(1e-9, rel=1e-3)
+    still = cycle_of(NAMES, np.full((16, 2), centre), ANGLES, 1)
+    assert still["cycle_spread.rod.theta"] < 1e-12
+
+
 def test_sections_that_depend_on_those_before_count_for_fewer():
     """An autoregression of lag one, phi: of n sections (1 - phi) / (1 + phi) are independent."""
     generator = np.random.default_rng(5)
