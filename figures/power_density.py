@@ -15,9 +15,9 @@ _FEWEST_SAMPLES: Final = 32
 _MOST_SAMPLES: Final = 2**20
 """Most samples: of a longer window its end is taken, where transients are over."""
 _APART: Final = 1e-5
-"""Seconds between instants of a trajectory that is known between samples, unless they are"""
-_MOST_INSTANTS: Final = 2**17
-"""more than so many."""
+"""Seconds between instants of a trajectory that is known between samples."""
+_FEWEST_INSTANTS, _MOST_INSTANTS = 2**12, 2**17
+"""Their number at least, in a window of milliseconds or less, and at most, in one of seconds."""
 _RESOLVED: Final = 2e-5
 """Seconds between instants that resolve an impact."""
 _PERIODS: Final = 8
@@ -83,7 +83,7 @@ def _samples(source: Source, name: str, selection: Selection) -> tuple[Floats, f
     first, last = sampling.window(source, selection)
     start, stop = between_samples.ends(source, selection)
     if between_samples.knows(source) and stop > start:
-        count = int(np.clip((stop - start) / _APART, _FEWEST_SAMPLES, _MOST_INSTANTS)) + 1
+        count = int(np.clip((stop - start) / _APART, _FEWEST_INSTANTS, _MOST_INSTANTS)) + 1
         exact = between_samples.at(source, [name], np.linspace(start, stop, count))
         if exact is not None:
             return exact[1][name], (stop - start) / (count - 1)

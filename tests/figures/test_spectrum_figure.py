@@ -1,5 +1,8 @@
 """The spectrum figure: lines where they are, and as much power as the signal has."""
 
+from dataclasses import replace
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 from scipy import signal
@@ -100,6 +103,35 @@ def test_units_of_the_power_are_those_of_the_channel_squared_a_hertz():
         "(N·m)²/Hz",
         "1/Hz",
     ]
+
+
+class Known(NamedTuple):
+    """A trajectory that is known between samples: a tone of so many hertz."""
+
+    reached: float
+    tone: float
+
+    @property
+    def covered(self):
+        return self.reached
+
+    @property
+    def values(self):
+        return lambda _, times: Found(np.sin(2.0 * np.pi * self.tone * times)[:, None])
+
+
+class Found(NamedTuple):
+    values: np.ndarray
+    refused: str = ""
+
+
+@pytest.mark.parametrize("lasts", [1e-4, 1e-2, 10.0])
+def test_lines_of_fast_and_slow_mechanisms_are_seen_alike(lasts):
+    """Two hundred turns in a run, whether that lasts a tenth of a millisecond or seconds."""
+    source = sampled(101, 100.0 / lasts, tone=np.sin)
+    source = replace(source, trajectory=Known(lasts, 200.0 / lasts))
+    frequency, power, _ = curve(source, "tone")
+    assert frequency[power.argmax()] == pytest.approx(200.0 / lasts, rel=0.01)
 
 
 @pytest.mark.parametrize("samples", [4000, 4001, 777])
