@@ -36,16 +36,18 @@ class Morris(Design):
         return ()
 
     def moments(self, values: Floats, outputs: Floats) -> Floats:
-        """Return effects, their magnitudes and squares, of each parameter."""
+        """Return effects, their magnitudes and squares, of each parameter, and n / (n - 1)."""
         moved = np.sign(np.diff(values, axis=1))
         gained = np.diff(outputs, axis=1)
         effects = (moved * gained[:, :, None]).sum(axis=1) / STEP
-        return np.concatenate([effects, np.abs(effects), effects * effects], axis=1)
+        rows = len(values)
+        unbiased = np.full((rows, 1), rows / max(rows - 1, 1))
+        return np.concatenate([effects, np.abs(effects), effects * effects, unbiased], axis=1)
 
     def measured(self, means: Floats, parameters: int) -> dict[str, Floats]:
         """Return mean magnitude, mean and spread."""
         mean, magnitude, square = (
             means[..., part * parameters : (part + 1) * parameters] for part in range(3)
         )
-        spread = np.sqrt(np.maximum(square - mean * mean, 0.0))
-        return {"mean_magnitude": magnitude, "mean_effect": mean, "spread": spread}
+        variance = np.maximum(square - mean * mean, 0.0) * means[..., -1:]
+        return {"mean_magnitude": magnitude, "mean_effect": mean, "spread": np.sqrt(variance)}

@@ -100,6 +100,23 @@ def test_an_interaction_shows_as_spread_of_the_effects():
     assert values_of(found, "spread") == pytest.approx(2 * [np.std([1, 3, 5, 7]) / 8], abs=0.01)
 
 
+def test_the_variance_of_effects_is_right_in_the_mean_of_small_designs():
+    found = []
+    for seed in range(300):
+        effects = study_of(lambda x: x[:, 0] * x[:, 1], 4, 2, "morris", seed=seed)
+        found.append(values_of(sensitivity(effects, MAXIMUM), "spread") ** 2)
+    assert np.mean(found) == pytest.approx(np.var([1, 3, 5, 7]) / 64, rel=0.1)
+
+
+def test_the_variance_of_a_sum_is_right_in_the_mean_of_small_hypercubes():
+    """Each parameter has all its variance in any of them, over n."""
+    found = []
+    for seed in range(100):
+        drawn = study_of(lambda x: (x > 0.5).sum(axis=1), 4, 64, "latin-hypercube", seed=seed)
+        found.append(sensitivity(drawn, MAXIMUM)["standard_deviation"] ** 2)
+    assert np.mean(found) == pytest.approx(64 / 4, rel=0.1)
+
+
 def test_correlations_of_ranks_are_scipys():
     study = study_of(lambda x: np.exp(4.0 * x[:, 0]) - x[:, 1], 200, 3, "latin-hypercube")
     found = sensitivity(study, MAXIMUM)
