@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.records.cycles import INDEPENDENT, MEAN, SPREAD
+from jointplay.records.cycles import INDEPENDENT, MEAN, SAME, SPREAD
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities.scalars import direction_angle, sine_cosine
 from jointplay.solver.runs.starts import start_scales
@@ -50,7 +50,7 @@ def attributes_of(scene: Scene, period: float) -> dict[str, Any]:
 
 
 def cycle_of(
-    coordinates: Sequence[str], sections: Floats, angles: Flags, period: int
+    coordinates: Sequence[str], sections: Floats, scales: Floats, angles: Flags, period: int
 ) -> dict[str, float]:
     """Return mean and spread of the states over the last whole cycles of a record.
 
@@ -61,6 +61,9 @@ def cycle_of(
     sections
         (sections, states) coordinates, then their speeds, then inner states, which are left out.
         Angles are without the whole turns made since the first section.
+    scales
+        (states,) what counts as one in each. What moves by less than attractors are told apart by
+        says nothing of how sections depend on those before: it may be rounding that grows.
     angles
         (states,) which are angles: their means are within half a turn of zero.
     period
@@ -90,7 +93,9 @@ def cycle_of(
     found: dict[str, float] = {}
     for name, centre, width in zip(names_of(coordinates), mean, spread, strict=True):
         found |= {f"{MEAN}{name}": float(centre), f"{SPREAD}{name}": float(width)}
-    return found | {INDEPENDENT: math.nan if period else independent(whole, turning)}
+    moves = spread > SAME * scales[:count]
+    scattered = math.nan if period else independent(whole[:, moves], turning[moves])
+    return found | {INDEPENDENT: scattered}
 
 
 DIRECTED = 1e-3

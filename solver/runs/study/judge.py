@@ -64,7 +64,7 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
         found["verdict"] = float(verdict.code)
     if study.compares_cycles or study.starts > 1:
         turned = unwound(states, angles)
-        cycle = cycle_of(kernel.coordinates, turned, angles, verdict.period)
+        cycle = cycle_of(kernel.coordinates, turned, scales, angles, verdict.period)
         run.ended = replace(run.ended, statistics={**run.ended.statistics, **cycle})
     if study.brief:
         return replace(run.ended, indicators=found)
