@@ -17,6 +17,8 @@ from jointplay.solver.continuation.section_runs import SectionRuns
 
 DIFFERENCE = 1e-5
 """Differences of states and of the parameter, in the scale of each."""
+OF_RATE = 1e-3
+"""Difference of a latched impact rate, in that rate, at most: damping goes by its inverse."""
 TURN = 2.0 * math.pi
 COARSER = 4.0
 """The second scale of differences, in the first."""
@@ -93,14 +95,23 @@ class SectionMap(SectionRuns):
         states = self.kernel.states
         return [*range(states), *(states + np.flatnonzero(section.state[states:] > 0.0)).tolist()]
 
+    def _steps(self, section: Section, scale: float) -> Floats:
+        """Return (size,) by how much the numbers of a section differ beside it."""
+        steps, states = DIFFERENCE * self.scales, self.kernel.states
+        rates = section.state[states:]
+        slow = np.where(rates > 0.0, OF_RATE * rates, np.inf)
+        steps[states:] = np.minimum(steps[states:], slow)
+        return scale * steps
+
     def _beside(self, section: Section, scale: float, over: int) -> Iterator[Section]:
         """Yield the sections beside one: both sides of each value, then of each number."""
         zero = np.zeros(self.size)
         for values in scale * DIFFERENCE * np.diag(self.widths[:over]):
             yield from (section.moved(zero, *(sign * values)) for sign in (1.0, -1.0))
+        steps = self._steps(section, scale)
         for column in self._columns(section):
             step = zero.copy()
-            step[column] = scale * DIFFERENCE * self.scales[column]
+            step[column] = steps[column]
             yield from (section.moved(sign * step) for sign in (1.0, -1.0))
 
     def _differences(
@@ -115,9 +126,10 @@ class SectionMap(SectionRuns):
         rates = [(up - down) / 2.0 for up, down in zip(ends[::2], ends[1::2], strict=True)]
         whole = np.zeros((self.size + 1, self.size + over))
         columns = [*range(self.size, self.size + over), *self._columns(section)]
-        numbers = np.append(self.scales, self.widths[:over])
+        widths = scale * DIFFERENCE * self.widths[:over]
+        steps = np.append(self._steps(section, scale), widths)
         for column, rate in zip(columns, rates, strict=True):
-            whole[:, column] = rate / (scale * DIFFERENCE * numbers[column])
+            whole[:, column] = rate / steps[column]
         jacobian, sensitivity, nearing = whole[:-1, : self.size], whole[:-1, self.size :], whole[-1]
         residual, states = self.away(base.end, section.state), self.kernel.states
         touching = section.state[states:] > 0.0

@@ -9,6 +9,8 @@ from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Scales
 from jointplay.solver.continuation.passage import Passage, Section
 from jointplay.solver.continuation.section_map import TURN, SectionMap
 from jointplay.solver.continuation.settled import NoStart, Settled
+from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.mechanics.start.states import mechanism_size
 from jointplay.solver.runs.starts import start_scales
 
 LEAST_EXTENT = 1e-3
@@ -24,6 +26,7 @@ def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
 
     Differences are shares of what counts as one in each state, or of its extent if that is less;
     lengths along the branch are in extents, so that a state that moves far does not rule them.
+    Impact rates are measured in the fastest motion, m/s: of what turns at the mechanism's size.
     """
     scene, kernel = map_.scene_at(value), map_.kernel
     if map_.crossing is not None:
@@ -32,7 +35,9 @@ def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
     pairs = len(kernel.pairs)
     extents = np.maximum(settled.extents, LEAST_EXTENT * one)
     count = len(kernel.coordinates)
-    rates = np.full(pairs, extents[count : 2 * count].max(initial=0.0) or 1.0)
+    reach = mechanism_size(scene, shortest_link(scene))
+    arms = np.array([reach if name.endswith(".theta") else 1.0 for name in kernel.coordinates])
+    rates = np.full(pairs, (arms * extents[count : 2 * count]).max(initial=0.0) or 1.0)
     scales = np.concatenate([np.minimum(one, extents), rates])
     weight = np.concatenate([np.full(kernel.states, 1.0 / kernel.states), np.zeros(pairs), [1.0]])
     whole = np.concatenate([extents, rates, [map_.width]])
