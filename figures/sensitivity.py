@@ -40,7 +40,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     label, names = _BARS[found["design"]]
     measures = [found["measures"][name] for name in names]
     columns = [_columns(one) for one in measures]
-    longest = np.nan_to_num(np.max([np.abs(values) for values, _, _ in columns], axis=0))
+    longest: Floats = np.nan_to_num(np.max([np.abs(values) for values, _, _ in columns], axis=0))
     shown = np.sort(np.argsort(-longest, kind="stable")[:_MOST])
     size = scale(measures[0]["unit"], *(high for _, _, high in columns))
     explained = _explained(found, len(shown))

@@ -7,7 +7,7 @@ by more than a derivative could say.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -83,7 +83,7 @@ def search(cost: Cost, parameters: int, settings: Search, report: Report) -> Fou
         report(min(done, 1.0), f"best cost {best:.4g}")
 
     result = differential_evolution(
-        vectorised,  # type: ignore[arg-type]  # the stubs know no vectorized=True
+        cast(Any, vectorised),  # the stubs know no vectorized=True
         Bounds(np.zeros(parameters), np.ones(parameters)),
         maxiter=settings.generations,
         popsize=settings.population,

@@ -1,6 +1,8 @@
 """The power spectrum of a series: lines for regular motion, a continuum for chaos."""
 
 from dataclasses import dataclass
+from functools import reduce
+from operator import add
 
 import numpy as np
 
@@ -46,7 +48,7 @@ def power_spectrum(series: Floats, interval: float = 1.0, segments: int = 1) -> 
         window = 0.5 - 0.5 * cosine
     columns = values.reshape(len(values), -1)
     begins = range(0, len(values) - length + 1, length - length // 2)
-    total = sum(_periodogram(columns[i : i + length], window) for i in begins)
+    total = reduce(add, (_periodogram(columns[i : i + length], window) for i in begins))
     density = total * (interval / ((window * window).sum() * len(begins)))
     frequency = np.arange(len(density)) / (length * interval)
     shape = (len(frequency), *values.shape[1:])
