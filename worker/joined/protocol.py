@@ -159,7 +159,7 @@ class Checkpoint(Document):
 
 
 class Busy(Document):
-    """What takes long before a block advances: a word of the job's history, which has others."""
+    """Activity before a block advances: a word of a job's history, which has others."""
 
     activity: Literal["compiling"]
 

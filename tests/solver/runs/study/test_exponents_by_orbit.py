@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jointplay.solver.runs.study.indicators import exponents, indicators_of
+from jointplay.solver.runs.study.indicators import Sections, exponents, indicators_of
 
 PERIOD, EXPONENT, NOISE = 2.0, -0.35, 1e-6
 
@@ -41,9 +41,7 @@ def test_sections_that_are_no_periods_are_no_measure_of_an_orbit(
     grown = growth(3)
     found, _ = indicators_of(
         ["lyapunov", "recurrence"],
-        states,
-        np.ones(1),
-        np.zeros(1, bool),
+        Sections(states, np.ones(1), np.zeros(1, bool), 1),
         grown,
         grown[:0],
         PERIOD,
