@@ -208,7 +208,7 @@ def test_a_block_that_computes_too_long_fails_with_what_it_has(
 
 def test_a_point_that_fails_leaves_the_others_standing(tmp_path: Path) -> None:
     # friction that turns round within 1e-12 m/s, at a tolerance near the rounding of doubles
-    parameters = {"static_velocity": 1e-12, "dynamic_velocity": 2e-12, "friction": 1.0}
+    parameters = {"static_velocity": 1e-12, "dynamic_velocity": 2e-12}
     study = admitted(
         {
             "kind": "sweep",
