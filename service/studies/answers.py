@@ -23,7 +23,7 @@ from jointplay.service.studies.queries import (
     chosen,
     page,
 )
-from jointplay.solver.nonlinear.reasons import reasons_of
+from jointplay.solver.nonlinear.reasons import undecided_reasons
 from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies.reader import StudyReader
 
@@ -137,6 +137,7 @@ def _judged(
 ) -> dict[str, Any]:
     """Return what every study has; without statistics of the channels that are left out."""
     codes, names = store.verdicts, store.verdict_names
+    reasons = store.reasons or undecided_reasons(store, points)
     part = slice(points.start, points.stop)
     return {
         "complete": store.complete,
@@ -169,7 +170,7 @@ def _judged(
         "verdicts": None
         if codes is None
         else [None if code < 0 else names[code] for code in codes[part]],
-        "reasons": None if codes is None else reasons_of(store, points),
+        "reasons": None if codes is None else [reasons.get(point) for point in points],
     }
 
 

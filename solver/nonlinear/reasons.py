@@ -1,4 +1,4 @@
-"""Reasons of the verdicts of a study, also of those that are kept as numbers alone."""
+"""Reasons of the verdicts of a study whose points are kept as numbers alone."""
 
 from collections.abc import Iterable
 
@@ -8,21 +8,14 @@ from jointplay.solver.nonlinear.verdict import UNDECIDED, VERDICTS, grounds
 _NAME = next(name for name, code in VERDICTS.items() if code == UNDECIDED)
 
 
-def reasons_of(source: StudySource, points: Iterable[int]) -> list[str | None]:
-    """Return the reason of each point's verdict; None where there is none.
-
-    Charts and basins keep no sentences: of their undecided points the numbers tell it.
-    """
-    verdicts, kept, names = source.verdicts, source.reasons, list(source.verdict_names)
-    if verdicts is None:
-        return [None for _ in points]
-    code = names.index(_NAME) if _NAME in names else None
-    columns = source.indicators
-
-    def told(point: int) -> str | None:
-        if point in kept or code is None or verdicts[point] != code:
-            return kept.get(point)
-        numbers = {name: float(column[point]) for name, column in columns.items()}
-        return grounds(numbers | {"verdict": float(UNDECIDED)}) or None
-
-    return [told(point) for point in points]
+def undecided_reasons(source: StudySource, points: Iterable[int]) -> dict[int, str]:
+    """Return why those of some points that are undecided are so, by point, from their numbers."""
+    verdicts, names, columns = source.verdicts, list(source.verdict_names), source.indicators
+    if verdicts is None or _NAME not in names:
+        return {}
+    code, known = names.index(_NAME), {"verdict": float(UNDECIDED)}
+    return {
+        point: grounds({name: float(column[point]) for name, column in columns.items()} | known)
+        for point in points
+        if verdicts[point] == code
+    }

@@ -1,6 +1,6 @@
 """Read a study's store, also while it is being filled: what each of its points has."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,9 @@ from jointplay.storage.studies.snapshot import StudySnapshot
 
 class StudyReader(StudySnapshot):
     """One study's store as it is at this moment: sealed, growing, or left incomplete."""
+
+    grounds: Callable[["StudyReader", Iterable[int]], Mapping[int, str]] | None = None
+    """Finds the reasons of some points where only numbers are kept; whoever knows how gives it."""
 
     @property
     def kind(self) -> str:
@@ -71,7 +74,10 @@ class StudyReader(StudySnapshot):
     @property
     def reasons(self) -> Mapping[int, str]:
         """Grounds of verdicts, by point."""
-        return self.known.reasons
+        kept = self.known.reasons
+        if kept or self.grounds is None:
+            return kept
+        return self.grounds(self, range(self.points))
 
     @property
     def documents(self) -> Mapping[int, Mapping[str, Any]]:

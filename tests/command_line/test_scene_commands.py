@@ -37,16 +37,20 @@ def test_assemblies_are_told_apart_by_where_bodies_are(jointplay, tmp_path):
     file.write_text(json.dumps(valve(follower("roller", pitch_table(24), lash=1e-4))))
     lines = jointplay("scene", "check", file).out.splitlines()
     # it starts as drawn, away from its cam; closed, it is on the side of its guide's point
-    assert "assemblies             2 found from 25 starts" in lines
-    (another,) = (line for line in lines if line.startswith("another "))
+    # or on the other one
+    assert "assemblies             3 found from 25 starts" in lines
+    another, beyond = (line for line in lines if line.startswith("another "))
     begins = 'another                "start": {"angles": {"shaft": 0.0, "tappet": 0.0}, "points": '
     assert another.startswith(begins)
+    assert beyond.startswith(begins)
     # what is pasted is taken
-    document = json.loads(file.read_text()) | json.loads(f"{{{another[23:]}}}")
-    file.write_text(json.dumps(document))
-    again = jointplay("scene", "check", file).out.splitlines()
-    assert "starts at              tappet 0, 0.048 m, 0 rad" in again
-    assert sum(line.endswith(", kept") for line in again) == 3
+    for start, height in ((another, 0.048), (beyond, -0.028)):
+        document = json.loads(file.read_text()) | json.loads(f"{{{start[23:]}}}")
+        file.write_text(json.dumps(document))
+        again = jointplay("scene", "check", file).out.splitlines()
+        (at,) = (line for line in again if line.startswith("starts at              tappet "))
+        assert float(at.split()[4]) == pytest.approx(height, abs=1e-6)  # the table's
+        assert sum(line.endswith(", kept") for line in again) == 3
 
 
 def test_a_smooth_table_that_passes_its_values_is_told_with_how_far_and_where(jointplay, tmp_path):

@@ -83,22 +83,6 @@ def test_a_continuation_that_goes_both_ways_has_a_direction():
         assert list(column.values) == (told if table == "points" else np.repeat(told, 2).tolist())
 
 
-def test_undecided_points_of_which_only_numbers_are_kept_have_a_reason():
-    source = bifurcation(points=3, judged=True)
-    indicators = {
-        "verdict": np.array([0.0, 1.0, 0.0]),
-        "lyapunov": np.array([0.5, -0.5, np.nan]),
-        "lyapunov_error": np.array([0.01, 0.01, np.nan]),
-        "period": np.array([2.0, 2.0, 0.0]),
-    }
-    source = replace(source, indicators=indicators, verdicts=np.array([0, 1, 0]))
-    header, *rows = rows_of(point_lines(source, [], range(3), UNITS))
-    first, second, third = (row[header.index("reason")] for row in rows)
-    assert "yet neighbours part, the exponent is 0.500 ± 0.010 1/s: chaos in bands" in first
-    assert second == ""  # charts keep no sentence, and the numbers say it
-    assert "without an exponent nothing is certain" in third
-
-
 def test_extremes_of_a_sweep_stand_beside_its_parameters():
     source = sweep((4, 2))
     header, *rows = rows_of(point_lines(source, ["stroke"], range(2, 8), UNITS))

@@ -17,7 +17,6 @@ from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudySource, directions_of
-from jointplay.solver.nonlinear.reasons import reasons_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -152,7 +151,8 @@ class TabledJob(JobRecord, ABC):
         if study.verdicts is not None:
             names = [*study.verdict_names, None]
             columns["verdict"] = [names[code] for code in study.verdicts]
-            columns["reason"] = reasons_of(study, range(study.points))
+            reasons = study.reasons
+            columns["reason"] = [reasons.get(point) for point in range(study.points)]
         numbers = {**study.indicators, **study.statistics}
         columns |= {name: one for name, one in numbers.items() if name != "verdict"}
         units = {one.name: one.unit for one in study.parameters}

@@ -13,7 +13,6 @@ from jointplay.records.point import PointStatus
 from jointplay.records.run import Floats
 from jointplay.records.study import StudySource, directions_of
 from jointplay.records.text_tables import csv_lines, json_list, json_numbers, json_object
-from jointplay.solver.nonlinear.reasons import reasons_of
 
 _BLOCK = 200_000  # values that are held at a time
 
@@ -190,7 +189,8 @@ def words_of_points(source: StudySource) -> dict[str, list[str]]:
     if source.verdicts is not None:
         names: NDArray[np.str_] = np.array([*source.verdict_names, ""])
         words["verdict"] = names[source.verdicts].tolist()
-        words["reason"] = [one or "" for one in reasons_of(source, range(source.points))]
+        reasons = source.reasons
+        words["reason"] = [reasons.get(point, "") for point in range(source.points)]
     if "states" in source.attributes:
         found = attractors_of(source)
         named = {code: found.name_of(code) for code in np.unique(found.labels).tolist()}

@@ -121,6 +121,7 @@ def store_in(folder: Path) -> Path:
 def results_in(folder: Path) -> "ResultReader | StudyReader":
     """Return the results in a run's folder: of a simulation, or of a study; or `NotFound`."""
     from jointplay.local.exact_windows import trajectory_of
+    from jointplay.solver.nonlinear.reasons import undecided_reasons
     from jointplay.storage.errors import NotAStore
     from jointplay.storage.results.reader import ResultReader
     from jointplay.storage.studies.reader import StudyReader
@@ -136,6 +137,8 @@ def results_in(folder: Path) -> "ResultReader | StudyReader":
         else:
             if isinstance(found, ResultReader):
                 found.trajectory = trajectory_of(found)
+            else:
+                found.grounds = undecided_reasons
             return found
     raise NotFound(f"{store} holds no results that this version reads: {why}.") from why
 
