@@ -78,9 +78,15 @@ def headlines(job: "Job") -> Iterator[str]:
     elif not document.get("lanes"):
         yield from (f"note      {one['detail']}" for one in document.get("pulling", ()))
     if (found := document.get("exponent")) is not None:
-        error = math.inf if found["error"] is None else found["error"]
-        spread = f"{found['lowest']:.2g} to {found['highest']:.2g} over {found['windows']} windows"
-        yield f"exponent  {found['value']:.3g} ± {error:.2g} 1/s, {spread}"
+        yield f"exponent  {exponent_in_words(found)}"
+
+
+def exponent_in_words(found: Mapping[str, Any]) -> str:
+    """Return the exponent of a certificate, with its error where there is one."""
+    if found["error"] is None:
+        return f"{found['value']:.3g} 1/s, of too short a time to know its error"
+    spread = f"{found['lowest']:.2g} to {found['highest']:.2g} over {found['windows']} windows"
+    return f"{found['value']:.3g} ± {found['error']:.2g} 1/s, {spread}"
 
 
 def _advice(job: Mapping[str, Any], document: Mapping[str, Any]) -> str | None:
