@@ -16,8 +16,8 @@ _MOST_SAMPLES: Final = 2**20
 """Most samples: of a longer window its end is taken, where transients are over."""
 _APART: Final = 1e-5
 """Seconds between instants of a trajectory that is known between samples."""
-_FEWEST_INSTANTS, _MOST_INSTANTS = 2**12, 2**17
-"""Their number at least, in a window of milliseconds or less, and at most, in one of seconds."""
+_FEWEST_INSTANTS, _MOST_INSTANTS = 2**10, 2**17
+"""Their number at least, in a window of 10 ms or less, and at most, in one of seconds."""
 _RESOLVED: Final = 2e-5
 """Seconds between instants that resolve an impact."""
 _PERIODS: Final = 8

@@ -49,8 +49,8 @@ def show_spectrum(
 ) -> Response:
     """Return the power spectral density of channels in a window; default: the declared outputs.
 
-    It is computed of instants 10 us apart or, in windows above 1.3 s, of 131 073 instants, where
-    the run keeps its steps; else of its samples.
+    It is computed of instants 10 us apart, but of 1025 at least and 131 073 at most, where the run
+    keeps its steps; else of its samples.
     """
     reader = exact.reader
     reader.trajectory = exact.trajectory

@@ -29,8 +29,8 @@ OF_PYTHON = {"hypot"}
 SHOWN = {
     "joints/prismatic.py": "whether sizes fit",
     "joints/revolute.py": "whether a start fits",
-    "kinds/hints.py": "sentences",
     "kinds/observables.py": "a name of an axis",
+    "kinds/start_hints.py": "sentences",
     "mechanics/dragging.py": "poses that are shown",
     "mechanics/misfit.py": "a sentence",
     "mechanics/redundancy.py": "sentences",
