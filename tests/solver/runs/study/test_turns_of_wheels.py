@@ -34,7 +34,7 @@ def geared(ratio: float) -> dict[str, Any]:
                 "type": "torsion-spring",
                 "first": "ground.B",
                 "second": "rod.pin",
-                "damping": 0.05,
+                "damping": 0.3,
             }
         },
         "start": {"angles": {"rod": -1.5}},
@@ -42,10 +42,12 @@ def geared(ratio: float) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("settle", [100, "auto"])
-@pytest.mark.parametrize("ratio", [0.5, -0.25, 1.0 / 3.0, 1.0])
+@pytest.mark.parametrize(
+    ("ratio", "period"), [(0.5, 2), (-0.5, 2), (1.5, 2), (-0.25, 4), (1.0 / 3.0, 3), (1.0, 1)]
+)
 def test_a_wheel_that_is_half_a_turn_on_is_on_one_side_of_it(
-    ratio: float, settle: int | str
+    ratio: float, period: int, settle: int | str
 ) -> None:
     job = {"kind": "poincare", "scene": geared(ratio), "settle": settle, "record": 32}
     found = Computed({**job, "indicators": ["recurrence"], "tolerance": 1e-6}).ends[0].indicators
-    assert found["period"] == round(1.0 / abs(ratio))
+    assert found["period"] == period
