@@ -21,7 +21,7 @@ TABLE = Path(__file__).with_name("dear.json")
 TIMES = Path(__file__).parents[1] / "build" / "test-times.json"
 LEAST = 1.0
 """Seconds of processor from which on a test is dear."""
-SHARE = 0.1
+SHARE = 0.06
 """Share of the seconds of a folder's dear tests that is spent on some of them, at least on one."""
 ALWAYS = ("tests/test_readme.py", "tests/command_line/test_demo.py")
 
