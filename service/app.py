@@ -41,7 +41,7 @@ from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.metrics import registry_of
 from jointplay.service.migration import migrated
 from jointplay.service.pieces import Pieces
-from jointplay.service.places import DRAWN_AT_ONCE, Places
+from jointplay.service.places import DRAWN_AT_ONCE, EXPORTED_AT_ONCE, Places
 from jointplay.service.prober import Prober
 from jointplay.service.problems.handlers import install
 from jointplay.service.problems.kinds import OF_THE_DOOR
@@ -50,6 +50,7 @@ from jointplay.service.request_log import RequestLog
 from jointplay.service.results.damage import answer_damage
 from jointplay.service.scenes.looks import scene_looker
 from jointplay.service.scenes.poses import scene_poser
+from jointplay.service.vital import VitalThreads
 from jointplay.service.windows import WindowProcess
 from jointplay.service.workers.bell import Bell
 from jointplay.service.workers.uploads import Uploads
@@ -150,14 +151,16 @@ async def _running(app: FastAPI, *, patient: bool) -> AsyncIterator[None]:
     if not patient:
         require_own_files(settings, catalogue)
     app.state.catalogue = catalogue
-    app.state.door = Door(catalogue, settings)
-    app.state.readiness = Readiness(catalogue, settings)
+    app.state.vital = vital = VitalThreads()
+    app.state.door = Door(catalogue, settings, vital)
+    app.state.readiness = Readiness(catalogue, settings, vital)
     app.state.registry = registry_of(catalogue)
     app.state.watcher = Watcher(catalogue)
     app.state.in_flight = {}
     app.state.bell = bell = Bell()
     app.state.uploads = Uploads()
     app.state.drawing = Places(DRAWN_AT_ONCE)
+    app.state.exporting = Places(EXPORTED_AT_ONCE)
     app.state.prober = prober = Prober()
     app.state.checker = checker = Checker(settings, catalogue)
     app.state.queueing = Queueing(settings, catalogue, checker, bell)

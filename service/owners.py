@@ -13,7 +13,7 @@ from jointplay.service.problems import RequestRefused, kinds
 OWNER: ContextVar[str] = ContextVar("owner", default="")
 """Owner of the key of the request that is answered; empty where none is asked for."""
 VITAL: Final = re.compile(
-    r"/(healthz|readyz|v1/worker/blocks/[^/]+/[^/]+/(heartbeat|progress|finish|cut-off))"
+    r"/(healthz|readyz|v1/worker/blocks/[^/]+/[^/]+/(heartbeat|progress|checkpoint|finish|cut-off))"
 )
 """Paths that keep the service and its workers going."""
 UNTIL_ANSWERED: Final = "jointplay.until-answered"
@@ -31,15 +31,15 @@ class Shares:
 
     def __init__(self) -> None:
         self._asked: Counter[str] = Counter()
+        self._vital: Counter[str] = Counter()  # apart, so that the others keep no worker waiting
         self._waiting: Counter[str] = Counter()
 
     def enter(self, scope: Scope, owner: str) -> None:
         """Count an owner's request until it is answered; refuse it with 429 if he has too many."""
-        if VITAL.fullmatch(scope["path"]):
-            return
-        if self._asked[owner] >= OF_ONE:
+        asked = self._vital if VITAL.fullmatch(scope["path"]) else self._asked
+        if asked[owner] >= OF_ONE:
             raise _refusal(f"{owner} has {OF_ONE} requests at once.")
-        _count(self._asked, scope, owner)
+        _count(asked, scope, owner)
 
     def wait(self, scope: Scope) -> bool:
         """Count a request that streams or waits, until it is answered; False: too many do."""

@@ -7,8 +7,9 @@ from contextlib import asynccontextmanager
 from typing import Final
 
 DRAWN_AT_ONCE: Final = 4
-"""Figures: of the 40 threads that answer requests the others are left for what takes no time, such
-as heartbeats of workers."""
+"""Figures: of the 40 threads that answer requests the others are left for what takes no time."""
+EXPORTED_AT_ONCE: Final = 2
+"""Tables in files: a second or two each."""
 
 
 class Places:

@@ -7,8 +7,7 @@ import socket
 import time
 from typing import Final
 
-from fastapi.concurrency import run_in_threadpool
-
+from jointplay.service.vital import VitalThreads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.places.fitness import require_fit
 from jointplay.storage.places.folder import Folder
@@ -23,8 +22,8 @@ _AT_ONCE: Final = 0.0  # s that this process leads: the next one that proves it 
 class Readiness:
     """Writes and reads, at most once a second, for all who ask meanwhile."""
 
-    def __init__(self, catalogue: Catalogue, settings: Settings) -> None:
-        self._catalogue, self._settings = catalogue, settings
+    def __init__(self, catalogue: Catalogue, settings: Settings, vital: VitalThreads) -> None:
+        self._catalogue, self._settings, self._vital = catalogue, settings, vital
         self._name = f"{socket.gethostname()}:{os.getpid()}"
         self._proof: asyncio.Future[None] | None = None
         self._proved = 0.0
@@ -34,7 +33,7 @@ class Readiness:
         """Return, or raise, what `prove` does now, or did less than a second ago."""
         proof = self._proof
         if proof is None or (proof.done() and time.monotonic() > self._proved + _PERIOD):
-            proof = self._proof = asyncio.ensure_future(run_in_threadpool(self.prove))
+            proof = self._proof = asyncio.ensure_future(self._vital.run(self.prove))
             proof.add_done_callback(self._note)
         await asyncio.shield(proof)  # others wait for it, too
 

@@ -6,13 +6,13 @@ from collections import OrderedDict
 from typing import Final, TypeVar
 
 from fastapi import Request
-from fastapi.concurrency import run_in_threadpool
 
 from jointplay.service.access import Caller
 from jointplay.service.access.hosts import require_own_host
 from jointplay.service.access.rates import Rates
 from jointplay.service.access.signed import SIGNED, Link
 from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.vital import VitalThreads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import KeyNotFound, Unavailable
 from jointplay.storage.catalogue.keys import Key, id_in
@@ -34,8 +34,8 @@ _log = logging.getLogger(__name__)
 class Door:
     """Looks at the key of every request, if the service asks for one."""
 
-    def __init__(self, catalogue: Catalogue, settings: Settings) -> None:
-        self._catalogue = catalogue
+    def __init__(self, catalogue: Catalogue, settings: Settings, vital: VitalThreads) -> None:
+        self._catalogue, self._vital = catalogue, vital
         self._asks = settings.keys == "required"
         self._hosts = settings.host_names
         self._rates = Rates(settings.rate, settings.redis_url)
@@ -93,7 +93,7 @@ class Door:
         if known is not None and now < known[1]:
             return known[0]
         try:
-            key = await run_in_threadpool(self._looked_up, name)
+            key = await self._vital.run(self._looked_up, name)
         except KeyNotFound:
             self._known.pop(name, None)
             _remember(self._unknown, name, now + _UNKNOWN)

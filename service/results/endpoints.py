@@ -16,7 +16,7 @@ from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results import schemas
 from jointplay.service.results.certificate_schema import Certificate
-from jointplay.service.results.forms import AS_FILES, JSON, VARY, Form, as_file
+from jointplay.service.results.forms import AS_FILES, IN_TURN, JSON, VARY, Form, as_file
 from jointplay.service.results.queries import (
     ChannelsQuery,
     HistoryQuery,
@@ -51,6 +51,7 @@ _IMPACTS: Final = 1024
     "/history",
     response_model=schemas.History | schemas.Overview,
     responses=AS_FILES | problems(kinds.NOT_ACCEPTABLE),
+    dependencies=[IN_TURN],
 )
 def show_history(
     results: ResultsOfThePath,

@@ -1,13 +1,18 @@
 """Forms of an answer that programs read, as Accept asks: JSON, or a table in a file."""
 
+from collections.abc import AsyncIterator
 from importlib.util import find_spec
 from types import ModuleType
 from typing import Annotated, Any, Final
 
 from fastapi import Depends, Request, Response
+from starlette.requests import ClientDisconnect
 
 from jointplay.records.table_files import Column, arrow, csv, matlab, npz, parquet
+from jointplay.service.dependencies import of_the_application
 from jointplay.service.fields import BINARY
+from jointplay.service.owners import OWNER
+from jointplay.service.places import Places
 from jointplay.service.problems import RequestRefused, clipped, kinds
 
 JSON = "application/json"
@@ -89,3 +94,19 @@ async def _form(request: Request) -> str:
 
 Form = Annotated[str, Depends(_form)]
 """Media type of the answer (RFC 9110, section 12.5.1); 406 if the client takes none of them."""
+
+
+async def _turn(
+    request: Request, form: Form, exporting: Annotated[Places, of_the_application("exporting")]
+) -> AsyncIterator[None]:
+    if form == JSON:
+        yield
+        return
+    async with exporting.place(OWNER.get()):
+        if await request.is_disconnected():
+            raise ClientDisconnect
+        yield
+
+
+IN_TURN: Final = Depends(_turn, scope="function")
+"""Has a place while a file is made, and no longer: a client may take it slowly."""

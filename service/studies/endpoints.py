@@ -12,7 +12,7 @@ from jointplay.records.sensitivity.analysis import NoSuchOutput, sensitivity
 from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results.endpoints import show_sections
-from jointplay.service.results.forms import AS_FILES, JSON, VARY, Form
+from jointplay.service.results.forms import AS_FILES, IN_TURN, JSON, VARY, Form
 from jointplay.service.results.schemas import Poincare
 from jointplay.service.results.stores import ResultsOfThePath, StudyOfThePath
 from jointplay.service.results.streaming import as_json
@@ -119,6 +119,7 @@ def show_calibration(results: ResultsOfThePath) -> Response:
     "/poincare",
     response_model=Poincare | schemas.Sections,
     responses=AS_FILES | problems(kinds.NOT_ACCEPTABLE),
+    dependencies=[IN_TURN],
 )
 def show_poincare(
     results: ResultsOfThePath, query: Annotated[PoincareQuery, Query()], form: Form

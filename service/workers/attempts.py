@@ -6,6 +6,7 @@ from fastapi import APIRouter
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused
+from jointplay.service.vital import VitalDependency
 from jointplay.service.workers.bell import BellDependency
 from jointplay.service.workers.handed_in import HandedIn
 from jointplay.service.workers.words import HELD, Attempt, BlockId, HeldBlock, JobOfBlock, said
@@ -21,40 +22,48 @@ router = APIRouter(
 
 
 @router.post("/heartbeat")
-def heartbeat(
-    catalogue: CatalogueDependency, settings: SettingsDependency, block: BlockId, attempt: Attempt
+async def heartbeat(
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    vital: VitalDependency,
+    block: BlockId,
+    attempt: Attempt,
 ) -> Answered:
     """Hold the block longer."""
-    return Answered(verdict=catalogue.heartbeat(block, attempt, settings.lease))
+    verdict = await vital.run(catalogue.heartbeat, block, attempt, settings.lease)
+    return Answered(verdict=verdict)
 
 
 @router.post("/progress")
-def record_progress(
+async def record_progress(
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
+    vital: VitalDependency,
     block: BlockId,
     attempt: Attempt,
     message: Annotated[protocol.Progress, said(protocol.Progress)],
 ) -> Answered:
     """Note how far the block is, and hold it longer."""
     known = message.model_dump()
-    return Answered(verdict=catalogue.record_progress(block, attempt, settings.lease, **known))
+    verdict = await vital.run(catalogue.record_progress, block, attempt, settings.lease, **known)
+    return Answered(verdict=verdict)
 
 
 @router.post("/checkpoint")
-def record_checkpoint(
+async def record_checkpoint(
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
+    vital: VitalDependency,
     block: BlockId,
     attempt: Attempt,
     message: Annotated[protocol.Checkpoint, said(protocol.Checkpoint)],
 ) -> Answered:
     """Name a restart point, whose files are there; with its progress the block is held longer."""
     point = message.model_dump(exclude={"progress"})
-    catalogue.record_checkpoint(block, attempt, **point)
+    await vital.run(catalogue.record_checkpoint, block, attempt, **point)
     if message.progress is None:
-        return Answered(verdict=catalogue.verdict(block, attempt))
-    return record_progress(catalogue, settings, block, attempt, message.progress)
+        return Answered(verdict=await vital.run(catalogue.verdict, block, attempt))
+    return await record_progress(catalogue, settings, vital, block, attempt, message.progress)
 
 
 @router.post("/activity", status_code=204)

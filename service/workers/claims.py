@@ -11,6 +11,7 @@ from fastapi.concurrency import run_in_threadpool
 from jointplay.service.access import CallerDependency
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.vital import VitalDependency
 from jointplay.service.workers.bell import BellDependency
 from jointplay.service.workers.words import Attempt, BlockId, HeldBlock, own_name, said
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -77,11 +78,15 @@ def claim_blocks_beside(
 
 
 @router.post("/blocks/{block}/{attempt}/cut-off", status_code=204)
-def note_cut_off(
-    catalogue: CatalogueDependency, caller: CallerDependency, block: BlockId, attempt: Attempt
+async def note_cut_off(
+    catalogue: CatalogueDependency,
+    caller: CallerDependency,
+    vital: VitalDependency,
+    block: BlockId,
+    attempt: Attempt,
 ) -> None:
     """Count the loss of an attempt no more: its worker lives, and could not reach the service."""
-    catalogue.note_cut_off(block, attempt, own_name(caller, ""))
+    await vital.run(catalogue.note_cut_off, block, attempt, own_name(caller, ""))
 
 
 def _shown(claim: Claim) -> Claim:

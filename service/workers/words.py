@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from jointplay.service.access import Caller, CallerDependency
 from jointplay.service.body import WordBody
 from jointplay.service.dependencies import CatalogueDependency
+from jointplay.service.vital import VitalDependency
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block, Job
 from jointplay.worker.joined.protocol import Document
@@ -39,9 +40,13 @@ Attempt = Annotated[int, Path(ge=1, le=10**9)]
 
 
 async def _held(
-    catalogue: CatalogueDependency, caller: CallerDependency, block: BlockId, attempt: Attempt
+    catalogue: CatalogueDependency,
+    caller: CallerDependency,
+    vital: VitalDependency,
+    block: BlockId,
+    attempt: Attempt,
 ) -> Block:
-    held: Block = await run_in_threadpool(catalogue.held, block, attempt)
+    held: Block = await vital.run(catalogue.held, block, attempt)
     if not (held.worker or "").startswith(own_name(caller, "")):
         raise Fenced(block, attempt)
     return held
