@@ -1,7 +1,7 @@
 /** The page begins here: the address chooses a view, and the view fills the content. */
 
 import { element, fill } from "./interface/element.js";
-import { place } from "./interface/place.js";
+import { address, place } from "./interface/place.js";
 import { trouble } from "./interface/trouble.js";
 import { Unreachable, get, onReachable, pause, report } from "./requests/service.js";
 
@@ -17,6 +17,7 @@ const VIEWS = {
   editor: ["Your own mechanism", () => import("./views/editor.js")],
 };
 const UNFETCHED = /dynamically imported module|Importing a module script failed/;
+const ONE_OF = { jobs: "job", batches: "batch" }; // as the addresses of the API are
 const BELONGS = { new: "start", job: "jobs", compare: "jobs", batch: "jobs", batches: "jobs" };
 
 const content = document.getElementById("content");
@@ -29,6 +30,10 @@ async function show() {
   leaving = new AbortController();
   const { signal } = leaving;
   const here = place();
+  if (ONE_OF[here.view] && here.parts[0]) {
+    location.replace(address([ONE_OF[here.view], ...here.parts], Object.fromEntries(here.query)));
+    return;
+  }
   const [title, load] = VIEWS[here.view] ?? [];
   mark(BELONGS[here.view] ?? here.view);
   document.title = title ? `${title} · jointplay` : "jointplay";

@@ -37,6 +37,17 @@ def test_without_jobs_the_list_says_where_they_come_from(browsing, fresh_service
         page.get_by_role("heading", name="No jobs yet").wait_for()
 
 
+def test_jobs_and_batches_have_the_addresses_of_the_api_too(browsing, http, service_url, worker):
+    """They led to the lists."""
+    job = worker.finished()
+    batch = http.post("/v1/batches", json={"jobs": [JOB]}).raise_for_status().json()["id"]
+    with browsing.page(f"{service_url}/#/jobs/{job}?phase=open") as page:
+        expect(page).to_have_url(f"{service_url}/#/job/{job}?phase=open")
+        page.locator(".view-job h1").wait_for()
+        page.goto(f"{service_url}/#/batches/{batch}")
+        expect(page).to_have_url(f"{service_url}/#/batch/{batch}")
+
+
 @pytest.mark.parametrize("width", [360, 1280])
 def test_of_400_jobs_those_are_drawn_that_are_seen(browsing, http, service_url, artifacts, width):
     jobs = [JOB | {"label": f"number {i} of {width}"} for i in range(400)]
