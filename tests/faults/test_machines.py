@@ -2,9 +2,11 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from itertools import islice
+from pathlib import Path
 
 import pytest
 
@@ -34,6 +36,17 @@ def test_faults_of_the_network_and_of_the_store_do_what_they_say() -> None:
     command = [*ALONE, sys.executable, "-m", "tests.machines.trial"]
     done = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
     assert (done.stderr, done.returncode) == ("", 0)
+
+
+def test_sigterm_ends_it_with_all_that_it_started(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "tests.machines", "--jobs", "1"]
+    variables = os.environ | {"TMPDIR": str(tmp_path)}
+    with subprocess.Popen(command, stderr=subprocess.PIPE, env=variables) as campaign:
+        assert campaign.stderr is not None
+        assert campaign.stderr.readline() == b"computing 1 jobs undisturbed\n"
+        campaign.send_signal(signal.SIGTERM)
+        campaign.stderr.read()  # until all have ended that may write there
+    assert campaign.returncode == 128 + signal.SIGTERM
 
 
 @pytest.mark.long

@@ -4,13 +4,15 @@
 
 Needs root, for network namespaces, and a compiler of C, for clocks. `--fault NAME`, repeatable,
 chooses faults, `--kind` a kind of jobs; `--json` prints a document. The exit code is 1 if anything
-was wrong, and the folder stays then.
+was wrong, and the folder stays then. SIGTERM and Ctrl-C end it, with all that it started.
 """
 
 import argparse
 import json
 import os
 import shutil
+import signal
+import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -36,7 +38,7 @@ def main() -> int:
     given = parser.parse_args()
     if not given.inside:
         command = [sys.executable, "-m", "tests.machines", _INSIDE, *sys.argv[1:]]
-        os.execvp(_ALONE[0], [*_ALONE, *command])
+        return run_alone(command)
     folder = Path(tempfile.mkdtemp(prefix="jointplay-machines-"))
     folder.chmod(0o755)  # the database is another user, whose clock is in there
     report = campaign(
@@ -56,6 +58,17 @@ def main() -> int:
         return 1
     shutil.rmtree(folder)
     return 0
+
+
+def run_alone(command: list[str]) -> int:
+    """Run a command in namespaces of its own, which end with it. Returns its exit code."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with subprocess.Popen([*_ALONE, *command]) as alone:  # which itself ignores SIGTERM
+        try:
+            return alone.wait()
+        except KeyboardInterrupt:
+            alone.kill()
+            return 128 + signal.SIGTERM
 
 
 def _tell(line: str) -> None:
