@@ -15,7 +15,8 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.solver.mechanics.assembly import link_lengths
 from jointplay.solver.quantities.units import Strict
-from jointplay.solver.runs.study.scenes import OF_STARTS, PointScenes, replaced
+from jointplay.solver.quantities.varied import REFUSALS
+from jointplay.solver.runs.study.scenes import OF_STARTS, Leaf, PointScenes, replaced
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import value_at
 
@@ -25,11 +26,15 @@ _CONFIG = ConfigDict(
 )
 HARMLESS = re.compile(
     r"/(bodies/[^/]+/(mass|inertia)|gravity/\d|drivers/[^/]+/speed"
-    r"|joints/[^/]+/clearance/([^/]+|(contact|friction)/[^/]+)"
+    r"|joints/[^/]+/clearance/([^/]+|(contact|friction)/.+)"
+    r"|forces/[^/]+/(stiffness|damping|free_angle|magnitude|moment|full_rate"
+    r"|stall_torque|no_load_speed|course/(amplitude|frequency|phase|offset|value))"
     r")"
 )
 """Numbers that neither the assembly at t = 0 nor any check of names depends on, but for what
 `structure_columns` has of them. Everything else counts as geometry."""
+OF_MOTION = re.compile(r"/drivers/([^/]+)/motion/.+")
+"""Numbers of prescribed motions, of which an assembly depends on the position at t = 0."""
 OF_CLEARANCE = re.compile(r"/joints/([^/]+)/clearance/([^/]+)")
 
 
@@ -81,8 +86,19 @@ def geometry_columns(scenes: PointScenes) -> Iterator[Floats]:
         if OF_STARTS.fullmatch(leaf.path):
             column = scenes.column(leaf)
             yield (column == column.max()).astype(np.float64) - (column == column.min())
+        elif moved := OF_MOTION.fullmatch(leaf.path):
+            yield _first_positions(scenes, moved[1], leaf)
         elif scale or not HARMLESS.fullmatch(leaf.path):
             yield scenes.column(leaf)
+
+
+def _first_positions(scenes: PointScenes, driver: str, leaf: Leaf) -> Floats:
+    """Return (points,) rad or m: where a driver begins; the leaf's numbers if only each can say."""
+    try:
+        begins = scenes.together().drivers[driver].at(0.0).value
+    except REFUSALS:
+        return scenes.column(leaf)
+    return np.broadcast_to(np.asarray(begins, np.float64), len(scenes.values))
 
 
 def distinct(columns: Sequence[NDArray[Any]], count: int) -> Integers:
