@@ -171,18 +171,28 @@ def assemble(scene: Scene) -> Assembly:
     Never raises for a mechanism that cannot close: the residual tells. Scenes of one geometry, as
     the points of most studies, share what was found for the first.
     """
-    geometry = _geometry(scene)
-    found = _found.get(geometry)
-    if found is None:
-        while len(_found) >= MOST_KEPT:
-            _found.pop(next(iter(_found)), None)
-        found = _found[geometry] = _assembled(scene)
+    found = _found_of(scene)
     if found.opened is not None and within_play(found.places, scene, found.opened.pose):
         return found.opened
     if not found.closed.misfits or not found.places.slack(found.closed.pose):
         return found.closed
     pose = opened_but_for_one(found.places, scene, found.closed.pose)
     return found.closed if pose is None else _assembly(found.places, found.places.loose, pose)
+
+
+def assemble_closed(scene: Scene) -> Assembly:
+    """Put the ideal mechanism together with all play closed, also where what is given opens it."""
+    return _found_of(scene).closed
+
+
+def _found_of(scene: Scene) -> _Found:
+    geometry = _geometry(scene)
+    found = _found.get(geometry)
+    if found is None:
+        while len(_found) >= MOST_KEPT:
+            _found.pop(next(iter(_found)), None)
+        found = _found[geometry] = _assembled(scene)
+    return found
 
 
 def start_of(scene: Scene, one: Scene) -> tuple[Floats, Floats]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.records.failure import LimitExceeded, SimulationFailed
-from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble
+from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble_closed
 from jointplay.solver.runs.ideal.constraints import Constraints
 from jointplay.solver.runs.ideal.dead_point import lost_at
 from jointplay.solver.runs.ideal.path import FEWEST_A_SCALE, Path
@@ -45,7 +45,7 @@ def follow(scene: Scene, times: Sequence[float]) -> Followed:
     LimitExceeded
         The last instant is too many turns of a driver away.
     """
-    start, constraints = assemble(scene), Constraints(scene)
+    start, constraints = assemble_closed(scene), Constraints(scene)
     instants = np.array(times, np.float64)
     if start.residual > ASSEMBLED * constraints.length:
         miss = f"The joints do not close at t = 0: {start.residual:.3g} (m or rad) remain."

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from jointplay.records.failure import SimulationFailed
-from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
+from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble_closed, shortest_link
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.ideal.constraints import Constraints
 from jointplay.solver.runs.ideal.dead_point import driven_to, locks, lost_at
@@ -38,7 +38,7 @@ class Turn(NamedTuple):
 @once_per_scene
 def turn(scene: Scene) -> Turn | None:
     """Return how far a mechanism turns; None where it moves freely, or its drivers stand."""
-    found, length = assemble(scene), shortest_link(scene)
+    found, length = assemble_closed(scene), shortest_link(scene)
     shown = drivers_time(scene, length)
     if found.freedom or found.residual > ASSEMBLED * length or shown is None:
         return None

@@ -15,6 +15,7 @@ from jointplay.solver.mechanics.observe import body_values
 from jointplay.solver.runs.ideal.following import follow
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.runs.ideal.path import Path
+from jointplay.solver.runs.ideal.turn import turn
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers_time import drivers_time
@@ -240,3 +241,39 @@ def test_an_open_mechanism_is_not_torn_further_apart() -> None:
     pose = assemble(scene).pose
     one, other = (drag(scene, pose, "crank.B", place) for place in ((0.87, 0.77), (-0.9, 0.2)))
     np.testing.assert_array_equal(one, other)
+
+
+def test_a_start_in_the_play_is_no_dead_point_of_the_ideal_mechanism() -> None:
+    beside = {"type": "pin-in-slot", "slot": "ground.S", "pin": "mass.P", "axis": [0.0, 1.0]}
+    contact = {"law": "lankarani-nikravesh", "stiffness": 1e8, "restitution": 0.8}
+    play = {"wall_clearance": 0.01, "pin_radius": 0.01, "contact": contact}
+    slide = {"type": "prismatic", "axis": [1.0, 0.0]}
+    shaken = {
+        "joint": "shaker",
+        "motion": {"type": "sinusoidal", "amplitude": 2e-3, "frequency": 20},
+    }
+    document = {
+        "name": "stopped",
+        "ground": {"points": {"O": [0.0, 0.0], "S": [-0.005, 0.0]}},
+        "bodies": {
+            name: {"mass": 1, "inertia": 1e-3, "points": {"P": [0, 0]}} for name in ("base", "mass")
+        },
+        "joints": {
+            "shaker": slide | {"guide": "ground.O", "slider": "base.P"},
+            "guide": slide | {"guide": "ground.O", "slider": "mass.P"},
+            "stop": beside | {"clearance": play},
+        },
+        "drivers": {"shake": shaken},
+        "start": {"points": {"mass.P": [0.0, 0.0]}},
+    }
+    scene = Scene.model_validate(document)
+    assert assemble(scene).pose[3] == 0.0
+    found = turn(scene)
+    assert found is not None
+    assert found.lost is None
+    quarter = math.pi / 2 / 20
+    poses = follow(scene, [0.0, quarter]).poses
+    assert poses[:, 0] == pytest.approx([0.0, 2e-3], abs=1e-12)  # the shaken base
+    assert poses[:, 3] == pytest.approx(
+        [-0.005] * 2, abs=1e-12
+    )  # the pin in the middle of its slot
