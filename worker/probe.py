@@ -129,10 +129,10 @@ def _of_simulation(admission: Admission) -> Cost:
 def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int, int, int]:
     """Compute for `budget` seconds. Returns also bytes of documents, numbers and steps."""
     marks: list[Mark] = []
-    began = time.process_time()
+    began = _worked()
 
     def report(progress: Progress) -> Answer:
-        spent = time.process_time() - began
+        spent = _worked() - began
         marks.append(Mark(spent, progress.fraction, progress.steps() or 0))
         moved = len(marks) > 1 and progress.fraction > 0.0
         shown = marks[-1].steps >= _LEAST_STEPS or spent > _LONGEST
@@ -141,7 +141,7 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
     with tempfile.TemporaryDirectory(prefix="jointplay-", dir=_scratch()) as name:
         target = StoredObject(Folder(name), "store.zip")
         outcome = execute(admission, Path(name) / "running", target, report=report)
-        marks.append(Mark(time.process_time() - began, outcome.fraction, 0))
+        marks.append(Mark(_worked() - began, outcome.fraction, 0))
         total, entries = target.size(), Packed(target).entries
     growing = steps = 0
     for key, entry in entries.items():
@@ -153,6 +153,11 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
     if outcome.state == "cancelled":
         marks.pop()  # sealing a part says nothing about the rest
     return outcome, marks, total - growing - steps, growing, steps
+
+
+def _worked() -> float:
+    """Return the processor time of this process but for compiling, also that on the way [s]."""
+    return time.process_time() - SPENT.seconds
 
 
 def _without_steps(admission: Admission, whole: Mark) -> float:

@@ -1,7 +1,9 @@
 """Cost of a job, estimated from its beginning."""
 
+import time
 from typing import cast
 
+from jointplay.solver.kernels.cache import SPENT
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.dense_output.columns import step_columns
 from jointplay.solver.runs.simulate import Simulation
@@ -22,3 +24,23 @@ def test_a_busy_machine_makes_no_estimate_of_a_few_steps(monkeypatch):
     assert steps / 2 < cost.steps < 2 * steps
     stored = admission.stored_bytes + 8 * len(step_columns(admission)) * steps
     assert 0.25 * stored < cost.bytes < 1.5 * stored
+
+
+def test_what_is_compiled_on_the_way_is_no_pace_of_a_job(monkeypatch):
+    """A second kernel, as of tangents, was: an estimate of a job of minutes said hours."""
+    late, begun, clock = [0.0], SPENT.seconds, time.process_time
+    monkeypatch.setattr(time, "process_time", lambda: clock() + late[0])
+    monkeypatch.setattr(SPENT, "seconds", begun)  # that it is again what it was
+    mark = probe.Mark
+
+    def marked(seconds, fraction, steps):
+        if fraction and not late[0]:  # from now on, as if it had been compiled
+            late[0] = 1e6
+            SPENT.seconds += 1e6
+        return mark(seconds, fraction, steps)
+
+    monkeypatch.setattr(probe, "Mark", marked)
+    job = {"kind": "simulate", "scene": given("four-bar"), "duration": 6.0}
+    cost = probe.cost_of(admit(job).job)
+    assert cost.compilation == 1e6
+    assert 0.0 < cost.seconds < 1e4
