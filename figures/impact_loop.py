@@ -11,7 +11,7 @@ from jointplay.records.arrays import Floats
 from jointplay.records.run import Source, inside
 
 _INSTANTS = 400
-"""Instants of a contact whose trajectory is known between samples."""
+"""Even instants of a contact whose trajectory is known between samples."""
 _FEWEST_SAMPLES: Final = 12
 _SINGLE_HEIGHT: Final = 60.0  # mm
 _PANEL_HEIGHT: Final = 44.0
@@ -88,12 +88,24 @@ def _is_resolved(source: Source, contact: Any) -> bool:
 def _loop_values(source: Source, pair: str, contact: Any) -> tuple[Floats, Floats]:
     """Give penetrations [m] and forces [N] during a contact, at samples or between them."""
     names = (f"{pair}.penetration", f"{pair}.normal_force")
-    times = np.linspace(float(contact["onset"]), float(contact["release"]), _INSTANTS)
-    exact = between_samples.at(source, names, times)
+    exact = between_samples.at(source, names, _instants(source, contact))
     if exact is None and not _has_samples(source, contact):
         raise _too_short(pair, contact)
     _, values = exact or sampling.joined(source, names, *_samples(source, contact))
     return values[names[0]], values[names[1]]
+
+
+def _instants(source: Source, contact: Any) -> Floats:
+    """Give times [s] at which a contact is drawn: even ones, and those at which steps show it.
+
+    Even ones alone pass over the impact with which a contact begins that lasts much longer.
+    """
+    onset, release = float(contact["onset"]), float(contact["release"])
+    even = np.linspace(onset, release, _INSTANTS)
+    if source.trajectory is None:
+        return even
+    stepped = source.trajectory.instants(onset, release, sampling.MOST_PATH_SAMPLES)
+    return even if stepped is None else np.union1d(even, stepped)
 
 
 def _draw(source: Source, selection: Selection) -> page.Figure:

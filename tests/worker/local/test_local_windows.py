@@ -187,3 +187,43 @@ def test_a_curve_of_too_many_steps_is_of_samples(job, source, monkeypatch):
     assert not overview.between_samples
     found = overview[FORCE].max()  # contacts are known anyway
     assert found == pytest.approx(source.peaks()[FORCE].maximum, rel=1e-6)
+
+
+def test_a_loop_shows_the_impact_with_which_a_long_contact_begins(tmp_path):
+    """A block falls on the floor of its guide, bounces less than it sinks in, and is lifted off."""
+    body = {"mass": 1.0, "inertia": 1.0, "points": {"P": [0.0, 0.0]}}
+    contact = {"law": "stiffness-and-dissipation", "dissipation": {"law": "exact"}}
+    contact["stiffness"] = {"law": "power", "stiffness": 1e9, "exponent": 1.5}
+    contact["dissipation"]["restitution"] = 0.1
+    play = {"wall_clearance": 1e-3, "pin_radius": 0.01, "contact": contact}
+    course = {"type": "table", "knots": [0.0, 0.4, 0.5], "values": [-1.0, -1.0, 1.0]}
+    upward = {"type": "prismatic", "guide": "ground.O", "slider": "block.P", "axis": [0.0, 1.0]}
+    floor = {"type": "pin-in-slot", "slot": "ground.O", "pin": "block.P", "axis": [1.0, 0.0]}
+    scene = {
+        "name": "block",
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {"block": body},
+        "joints": {"upward": upward, "floor": floor | {"clearance": play}},
+        "forces": {
+            "lift": {
+                "type": "force", "first": "ground.O", "second": "block.P",
+                "direction": [0.0, 1.0], "magnitude": 50.0, "course": course | {"outside": "held"},
+            }
+        },
+    }  # fmt: skip
+    job = jointplay.run(
+        {"kind": "simulate", "scene": scene, "duration": 0.6, "certificate": False},
+        output=tmp_path / "OUT",
+    )
+    source = results_in(job._folder)
+    (one,) = [r for r in sampling.impacts_of(source, "floor.wall_2") if r["release"] > 0.4]
+    assert one["onset"] < 0.1
+    with figures.page.style():
+        (axes,) = figures.draw(source, "impact-loop").axes[:1]
+    drawn = max(line.get_ydata().max() for line in axes.lines)
+    assert drawn == pytest.approx(one["peak_force"], rel=1e-3)
+    rests = (50.0 / 1e9) ** (2.0 / 3.0)  # m, where the floor carries 50 N
+    lost = (
+        50.0 * (1e-3 + rests) - 0.4 * 50.0 * rests
+    )  # J: fallen through, less what the floor gives back
+    assert f"{1e3 * lost:.3g} mJ dissipated" in axes.get_title(loc="left")
