@@ -57,6 +57,8 @@ def tidy(settings: Settings, block: Block) -> None:
                 lost.place.remove(lost.key)
         elif not settings.sealed_study(block.job).exists():
             return
+        for left in [*settings.place.cut_off(settings.results_prefix(block.job))]:
+            settings.place.remove(left)  # of who was killed while it sealed
         settings.running_files(block.job).clear()
 
 

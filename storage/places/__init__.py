@@ -75,8 +75,8 @@ class Place(Protocol):
         """Yield the keys of all objects that begin with a prefix, in no order."""
         ...
 
-    def cut_off(self) -> Iterator[str]:
-        """Yield what puts that were cut off left, and those that are under way.
+    def cut_off(self, prefix: str) -> Iterator[str]:
+        """Yield what puts of keys with a prefix left that were cut off, and those under way.
 
         Each begins with the key that it was to become, and can be removed.
         """

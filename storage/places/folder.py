@@ -80,9 +80,9 @@ class Folder:
         """Walk the folder that the prefix ends in."""
         return (key for key in self._files(prefix) if not key.endswith(durable.PARTIAL))
 
-    def cut_off(self) -> Iterator[str]:
-        """Walk all folders."""
-        return (key for key in self._files("") if key.endswith(durable.PARTIAL))
+    def cut_off(self, prefix: str) -> Iterator[str]:
+        """Walk the folder that the prefix ends in."""
+        return (key for key in self._files(prefix) if key.endswith(durable.PARTIAL))
 
     def remove(self, prefix: str) -> None:
         """Delete the files; folders stay, other jobs may be about to use them."""

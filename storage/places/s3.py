@@ -127,7 +127,7 @@ class Bucket:
             for some in obstore.list(self._store, folder or None):
                 yield from (one["path"] for one in some if one["path"].startswith(prefix))
 
-    def cut_off(self) -> Iterator[str]:
+    def cut_off(self, prefix: str) -> Iterator[str]:
         """Yield nothing: a request that was cut off leaves nothing."""
         return iter(())
 

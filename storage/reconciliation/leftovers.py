@@ -63,7 +63,7 @@ def _of_the_place(
     settings: Settings, catalogue: Catalogue, grace: float, look: Look
 ) -> Iterator[Finding]:
     place = settings.place
-    keys = sorted([*place.list(""), *place.cut_off()])
+    keys = sorted([*place.list(""), *place.cut_off("")])
     listed = set(keys)
     for done, key in enumerate(keys):
         if done % _TOLD == 0:
@@ -134,8 +134,8 @@ def _not_due(settings: Settings, job: Job, key: str) -> bool:
 
 def _clear(settings: Settings, job: Job) -> None:
     """Remove what lost attempts sealed, then what shows that there is something to remove."""
-    place = settings.place
-    for key in [*place.list(settings.results_prefix(job.id))]:
+    place, prefix = settings.place, settings.results_prefix(job.id)
+    for key in [*place.list(prefix), *place.cut_off(prefix)]:
         if _not_due(settings, job, key):
             place.remove(key)
     settings.running_files(job.id).clear()

@@ -117,12 +117,12 @@ class PlaceContract(ABC):
 
         def watched() -> Iterator[bytes]:
             for piece in pieces():
-                seen.extend(place.cut_off())
+                seen.extend(place.cut_off(""))
                 yield piece
 
         place.put(KEY, watched())
         assert all(one.startswith(KEY) and one != KEY for one in seen)
-        assert list(place.cut_off()) == []
+        assert list(place.cut_off("")) == []
 
     def test_an_object_being_put_is_not_seen_before_it_is_whole(self, place: Place) -> None:
         seen = []

@@ -40,9 +40,10 @@ def test_what_a_killed_process_left_goes_with_its_job(folder: Folder, tmp_path: 
     partial.parent.mkdir()
     partial.write_bytes(CONTENT[:100])
     assert list(folder.list("")) == []
-    assert list(folder.cut_off()) == [f"{KEY}.0123abcd.partial"]
+    for prefix, found in {"": [f"{KEY}.0123abcd.partial"], "2R/other-": []}.items():
+        assert list(folder.cut_off(prefix)) == found
     folder.remove("2R/job-")
-    assert list(folder.cut_off()) == []
+    assert list(folder.cut_off("")) == []
     assert not partial.exists()
 
 
