@@ -98,10 +98,10 @@ def _json_body(largest: int, patience: float = PATIENCE) -> Callable[[Request], 
         media_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
         body = await _bounded(request, largest, patience)
         if media_type != "application/json":
+            sent = f"as {media_type!r}" if media_type else "without a Content-Type"
             raise RequestRefused(
                 kinds.NOT_JSON,
-                f"The body was sent as {media_type or 'nothing'!r}; send it as application/json "
-                "(curl: --json @job.json).",
+                f"The body was sent {sent}; send it as application/json (curl: --json @job.json).",
             )
         coding = request.headers.get("content-encoding", "identity").strip().lower()
         if coding not in ("", "identity"):

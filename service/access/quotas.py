@@ -19,10 +19,13 @@ class Usage(BaseModel):
     most_live_jobs: int
     running_blocks: int = Field(description="Blocks that are computed now.")
     most_running_blocks: int = Field(description="Further ones wait, and others go by.")
-    stored_bytes: int = Field(description="Bytes of results, of jobs that have ended.")
+    stored_bytes: int | None = Field(
+        description="Bytes of results, of jobs that have ended; null without a key: not counted."
+    )
     most_stored_bytes: int
-    core_seconds: float = Field(
-        description="Time in the last 24 hours for which workers, of one core each, held blocks, s."
+    core_seconds: float | None = Field(
+        description="Time in the last 24 hours for which workers, of one core each, held blocks, s;"
+        " null without a key: not counted."
     )
     most_core_seconds: float
 
@@ -47,8 +50,8 @@ def show_usage(
         most_live_jobs=quota.live,
         running_blocks=use.running,
         most_running_blocks=most_running,
-        stored_bytes=use.stored,
+        stored_bytes=use.stored if caller.owner else None,
         most_stored_bytes=quota.stored,
-        core_seconds=use.computed,
+        core_seconds=use.computed if caller.owner else None,
         most_core_seconds=quota.computed,
     )

@@ -32,13 +32,16 @@ _BY_STATUS = {404: kinds.NOT_FOUND, 405: kinds.METHOD_NOT_ALLOWED}
 
 def install(app: FastAPI) -> None:
     """Let ``app`` answer every exception with a problem document."""
-    for answered in {*refusal.registry, Exception} - {object}:
+    for answered in {*refusal.registry, RequestValidationError, Exception} - {object}:
         app.add_exception_handler(answered, answer)
 
 
 async def answer(request: Request, error: Exception) -> Response:
     """Answer a request that failed with the problem document of its error."""
-    refused = refusal(error)
+    if isinstance(error, RequestValidationError):
+        refused = _of_parameters(error, request)
+    else:
+        refused = refusal(error)
     if refused.kind is kinds.METHOD_NOT_ALLOWED:
         known = _methods_at(request).union(refused.headers.get("Allow", "").split(", "))
         refused.headers["Allow"] = ", ".join(sorted(known - {""}))
@@ -85,11 +88,10 @@ def _methods_at(request: Request) -> set[str]:
     }
 
 
-@refusal.register
-def _(error: RequestValidationError) -> RequestRefused:
+def _of_parameters(error: RequestValidationError, request: Request) -> RequestRefused:
     """Name the parameters; the input is not echoed, as JSON could not carry all of it."""
     errors = [
-        ErrorDetail(parameter=clipped(str(one["loc"][-1])), detail=sentence(one))
+        ErrorDetail(parameter=clipped(str(one["loc"][-1])), detail=sentence(one, request))
         for one in error.errors()
     ]
     names = ", ".join(str(one.parameter) for one in errors)

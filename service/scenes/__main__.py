@@ -5,7 +5,7 @@ from typing import Any
 from jointplay.figures import NotDrawable, Options, render_mechanism
 from jointplay.records.figure_form import Form
 from jointplay.records.strict_json import parse
-from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 from jointplay.service.questions import answer_or_refuse
 from jointplay.service.scenes.findings import branches_of, findings_of
 from jointplay.solver.kinds.assembled import AssembledScene, assembled_scene
@@ -25,7 +25,8 @@ def _scene_in(body: bytes) -> Any:
     document = parse(body)
     if not isinstance(document, dict):
         sentence = "A scene is a JSON object: a preset with parameters, or a document."
-        raise RequestRefused(kinds.INVALID_JOB, sentence)
+        wrong = ErrorDetail(detail=sentence, pointer="")
+        raise RequestRefused(kinds.INVALID_JOB, sentence, [wrong])
     return document
 
 

@@ -32,6 +32,7 @@ SENTENCES = {
     "int_from_float": "'{field}' must be a whole number{of_unit}.",
     "string_type": "'{field}' must be a string.",
     "list_type": "'{field}' must be a list.",
+    "tuple_type": "'{field}' must be a list.",
     "dict_type": "'{field}' must be an object.",
     "model_type": "'{field}' must be an object.",
     "literal_error": "'{field}' must be {expected}{meant}",

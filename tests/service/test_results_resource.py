@@ -109,10 +109,51 @@ def test_the_sentence_on_a_parameter_says_what_would_be_right(
     assert (problem["status"], problem["errors"][0]["detail"]) == (422, sentence)
 
 
-@pytest.mark.parametrize("resource", ["", "/statistics", "/figures"])
-def test_a_parameter_where_there_are_none_is_refused(http, finished_job, resource):
+@pytest.mark.parametrize(
+    ("resource", "known"), [("", "wait"), ("/statistics", "none"), ("/figures", "none")]
+)
+def test_a_parameter_where_there_is_none_of_its_name_is_refused(
+    http, finished_job, resource, known
+):
     problem = get(http, f"/v1/jobs/{finished_job}{resource}", 422, start=1.0)
-    assert problem["errors"] == [{"parameter": "start", "detail": "There is no such parameter."}]
+    sentence = f"There is no parameter 'start' here; there are: {known}."
+    assert problem["errors"] == [{"parameter": "start", "detail": sentence}]
+
+
+@pytest.mark.parametrize(
+    ("address", "sentence"),
+    [
+        ("/v1/jobs?pagesize=3", "There is no parameter 'pagesize' here; did you mean 'page_size'?"),
+        (
+            "/v1/jobs?colour=3",
+            "there are: before, kind, label, page_size, page_token, scene, since",
+        ),
+        ("/v1/jobs?since=2026-01-01T00:00:00", "needs an offset, such as the Z of 2026-01-01"),
+        ("/v1/jobs/{job}/figures/orbit.png?widht=3", "did you mean 'width'?"),
+        ("/v1/jobs/{job}/peaks?stat=3", "did you mean 'start'?"),
+    ],
+)
+def test_an_unknown_parameter_is_answered_with_those_that_there_are(
+    http, finished_job, address, sentence
+):
+    problem = http.get(address.format(job=finished_job)).json()
+    assert problem["status"] == 422
+    assert sentence in problem["errors"][0]["detail"]
+
+
+def test_a_scene_that_is_no_object_is_named_and_a_body_without_a_type(http):
+    problem = http.post("/v1/scenes/check", json=[1]).json()
+    assert (problem["status"], problem["errors"][0]["pointer"]) == (422, "")
+    problem = http.post("/v1/scenes/drag", json={"scene": {}, "point": "a.b", "place": 1}).json()
+    told = {error["pointer"]: error["detail"] for error in problem["errors"]}
+    assert told["/place"] == "'place' must be a list."
+    problem = http.post("/v1/jobs", content=b"{}").json()
+    assert problem["detail"].startswith("The body was sent without a Content-Type; send it as")
+
+
+def test_what_is_not_counted_without_keys_is_not_said_to_be_none(http, finished_job):
+    used = http.get("/v1/usage").json()
+    assert (used["stored_bytes"], used["core_seconds"]) == (None, None)
 
 
 def test_the_energy_ledger_is_part_of_the_result(http, worker, finished_job):
