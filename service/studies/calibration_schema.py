@@ -74,6 +74,11 @@ class SearchHistory(BaseModel):
     failed: int = Field(description="Candidates that could not be computed.")
     spread_candidates: int
     spread_accepted: float = in_unit("1", "Share of the steps of the chains that were taken.")
+    spread_settled: bool | None = Field(
+        None,
+        description="Whether each chain went through most of what fits equally well; else more may"
+        " fit than ranges tell. Null: the version that computed it did not tell.",
+    )
 
 
 class Calibration(BaseModel):

@@ -99,6 +99,7 @@ class Outcome:
                 "failed": int(np.isinf(self.found.costs).sum()),
                 "spread_candidates": self.good.tried,
                 "spread_accepted": round(self.good.accepted, 4),
+                "spread_settled": self.good.settled,
             },
         }
 

@@ -1,10 +1,14 @@
 """The spread of what fits equally well: candidates spread evenly over all that cost little enough.
 
 Differential evolution Markov chains (ter Braak 2006, Statistics and Computing 16:239)
-with a target that is even over {cost <= limit} and nothing elsewhere:
+with a target that is even over {cost <= level} and nothing elsewhere:
 a step between two chains of one half is tried by a chain of the other half, and taken if the cost
-there is within the limit.  Stretched and bent valleys are followed, because steps are as long as
+there is within the level.  Stretched and bent valleys are followed, because steps are as long as
 the valley is.
+
+Chains begin all over the box, where the search did, and the level comes down to the limit by and by
+(subset simulation, Au and Beck 2001, Probabilistic Engineering Mechanics 16:263). Chains that began
+where the search ends would stay in that part of a long valley, and show no end of it.
 """
 
 from __future__ import annotations
@@ -22,8 +26,16 @@ LONG_STEPS = 10
 """Generations between steps of full length, from one end of a set to the other."""
 STIR = 1e-4
 """Standard deviation of what is added to each step, so that no direction is closed."""
+LEFT, FEW = 0.6, 60
+"""Share of the chains that stay when the level comes down, of so many generations or fewer; of more
+it comes down the slower, with the square root."""
+LATEST = 2 / 3
+"""Share of the generations in which the level comes down, at most."""
 SETTLING = 4
-"""The first 1 / SETTLING of the generations is left out: there chains come from the search."""
+"""The first 1 / SETTLING of the generations at the limit is left out."""
+SETTLED = 0.5
+"""Variance of the chains' means, in that within chains, below which the spread has settled; this is
+a ratio of 1.22 by Gelman and Rubin 1992, Statistical Science 7:457."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +54,8 @@ class EquallyGood:
         Share of the steps that were taken; a few per cent mean a thin or ragged set.
     tried : int
         Candidates that were tried.
+    settled : bool
+        Whether each chain went through most of the set; else that may be wider than its members.
     """
 
     limit: float
@@ -49,6 +63,7 @@ class EquallyGood:
     costs: Floats
     accepted: float
     tried: int
+    settled: bool
 
     def within(self, limit: float) -> EquallyGood:
         """Return those whose cost is at most a lower limit."""
@@ -60,39 +75,78 @@ def spread(
     cost: Cost, found: Found, limit: float, generations: int, seed: int, report: Report
 ) -> EquallyGood:
     """Spread over all candidates whose cost is at most `limit`; the same seed gives the same."""
-    generator = np.random.default_rng([seed, 1])
-    chains, now = _begin(found, limit, generator)
+    chains = _Chains(found, np.random.default_rng([seed, 1]))
+    left = LEFT ** min(1.0, math.sqrt(FEW / generations))
+    latest = min(math.ceil(LATEST * generations), generations - 1)
+    level, cut_short = math.inf, False
     kept: list[Floats] = []
     kept_costs: list[Floats] = []
-    taken = tried = 0
-    half = CHAINS // 2
     for generation in range(generations):
+        if level > limit:
+            level = max(limit, float(np.quantile(chains.costs, left)))
+            cut_short = generation == latest and level > limit
+            if cut_short:
+                level = limit
+                chains.join(found, limit)
+            chains.narrow(level)
+        chains.step(cost, level, generation)
+        if level <= limit:
+            kept.append(chains.places.copy())
+            kept_costs.append(chains.costs.copy())
+        report((generation + 1) / generations, "what fits equally well")
+    first = len(kept) // SETTLING
+    places, costs = np.array(kept[first:]), np.array(kept_costs[first:])
+    within, between = places.var(axis=0).mean(axis=0), places.mean(axis=0).var(axis=0)
+    return EquallyGood(
+        limit,
+        places.reshape(-1, places.shape[2]),
+        costs.ravel(),
+        chains.taken / (CHAINS * generations),
+        chains.tried,
+        not cut_short and bool((between < SETTLED * within).all()),
+    )
+
+
+class _Chains:
+    """Chains in two halves."""
+
+    def __init__(self, found: Found, generator: np.random.Generator) -> None:
+        """Begin at the first candidates of the search that could be computed."""
+        first = np.flatnonzero(np.isfinite(found.costs))[:CHAINS]
+        index = np.resize(generator.permutation(first), CHAINS)
+        self.places: Floats = found.tried[index]
+        """(CHAINS, parameters)."""
+        self.costs: Floats = found.costs[index]
+        self.taken = self.tried = 0
+        self._generator = generator
+
+    def join(self, found: Found, limit: float) -> None:
+        """Let chains beyond a limit go on from candidates of the search that are within."""
+        good, beyond = np.flatnonzero(found.costs <= limit), np.flatnonzero(self.costs > limit)
+        index = np.resize(self._generator.permutation(good), len(beyond))
+        self.places[beyond], self.costs[beyond] = found.tried[index], found.costs[index]
+
+    def narrow(self, level: float) -> None:
+        """Let chains beyond a level go on from those within, each of which is taken as often."""
+        good, beyond = np.flatnonzero(self.costs <= level), np.flatnonzero(self.costs > level)
+        index = np.resize(self._generator.permutation(good), len(beyond))
+        self.places[beyond], self.costs[beyond] = self.places[index], self.costs[index]
+
+    def step(self, cost: Cost, level: float, generation: int) -> None:
+        """Let each half try a step, and take it if its cost is within the level."""
+        half = CHAINS // 2
         for first in (0, half):
             own, other = slice(first, first + half), slice(half - first, CHAINS - first)
-            proposed = _proposals(chains[own], chains[other], generation, generator)
+            proposed = _proposals(self.places[own], self.places[other], generation, self._generator)
             inside = ((proposed >= 0.0) & (proposed <= 1.0)).all(axis=1)
             costs = np.full(half, np.inf)
             if inside.any():
                 costs[inside] = cost(proposed[inside])
-            good = costs <= limit
-            chains[own] = np.where(good[:, None], proposed, chains[own])
-            now[own] = np.where(good, costs, now[own])
-            taken, tried = taken + int(good.sum()), tried + int(inside.sum())
-        if generation >= generations // SETTLING:
-            kept.append(chains.copy())
-            kept_costs.append(now.copy())
-        report((generation + 1) / generations, "what fits equally well")
-    share = taken / (CHAINS * generations)
-    return EquallyGood(limit, np.concatenate(kept), np.concatenate(kept_costs), share, tried)
-
-
-def _begin(found: Found, limit: float, generator: np.random.Generator) -> tuple[Floats, Floats]:
-    """Start the chains from what the search tried, as far apart as it goes; the best repeated."""
-    good = np.flatnonzero(found.costs <= limit)
-    chosen = generator.permutation(good)[:CHAINS]
-    rest = np.full(CHAINS - len(chosen), int(found.costs.argmin()), np.int64)
-    index = generator.permutation(np.concatenate([chosen, rest]))
-    return found.tried[index].copy(), found.costs[index].copy()
+            good = costs <= level
+            self.places[own] = np.where(good[:, None], proposed, self.places[own])
+            self.costs[own] = np.where(good, costs, self.costs[own])
+            self.taken += int(good.sum())
+            self.tried += int(inside.sum())
 
 
 def _proposals(

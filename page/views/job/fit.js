@@ -20,8 +20,10 @@ export async function show(room, context) {
 function words({ cost, equally_good_cost: limit, search }) {
   const end = search.settled ? "" : " It ended before its candidates had become alike: more"
     + " generations may find better.";
+  const reach = search.spread_settled === false ? " More may fit equally well than the ranges"
+    + " tell: ask for more generations of the spread." : "";
   return `Cost ${short(cost, 3)}, the root mean square of the misses in tolerances; up to`
-    + ` ${short(limit, 3)} fits equally well. ${search.candidates} candidates were tried.${end}`;
+    + ` ${short(limit, 3)} fits equally well. ${search.candidates} candidates were tried.${end}${reach}`;
 }
 
 function parameters({ parameters: found }) {

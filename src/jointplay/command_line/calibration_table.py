@@ -91,6 +91,12 @@ def _notes(document: dict[str, Any]) -> Iterator[str]:
             f"the search ended after {search['generations']} generations, before its candidates"
             " had become alike; more generations may find better"
         )
+    if search.get("spread_settled") is False:
+        generations = document["calibration"]["spread"]["generations"]
+        yield (
+            f"in {generations} generations the chains did not go through all that fits equally"
+            " well: it may reach farther than these ranges; ask for more generations of 'spread'"
+        )
     if search["failed"]:
         yield f"{search['failed']} of {search['candidates']} candidates could not be computed"
 

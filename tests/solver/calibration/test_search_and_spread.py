@@ -46,6 +46,35 @@ def test_what_fits_equally_well_is_spread_evenly_over_the_whole_valley():
     )
     np.testing.assert_allclose(inside.std(axis=0), 0.5, rtol=0.15)
     np.testing.assert_allclose(inside.mean(axis=0), 0.0, atol=0.1)
+    assert good.settled
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3])
+def test_a_long_bent_valley_is_seen_over_its_whole_length_and_said_to_be_unsettled(seed):
+    """A hundredth wide along a parabola: what fits has its first coordinate even over 0..1."""
+
+    def valley(unit: np.ndarray) -> np.ndarray:
+        return abs(unit[:, 1] - unit[:, 0] ** 2) / 0.01
+
+    found = search(valley, 2, Search(seed=seed), quiet)
+    good = spread(valley, found, 1.0, 60, seed, quiet)
+    shares = [0.05, 0.5, 0.95]
+    np.testing.assert_allclose(np.quantile(good.members[:, 0], shares), shares, atol=0.2)
+    assert not good.settled
+
+
+@pytest.mark.parametrize("generations", [2, 3, 30])
+def test_a_limit_that_the_chains_do_not_come_down_to_is_reached_from_the_search(generations):
+    """Six parameters within a thousandth each: 1e-18 of the box."""
+
+    def needle(unit: np.ndarray) -> np.ndarray:
+        return abs(unit - 0.3).max(axis=1) / 1e-3
+
+    found = search(needle, 6, Search(generations=200), quiet)
+    good = spread(needle, found, 1.0, generations, 0, quiet)
+    assert good.costs.max() <= 1.0
+    assert len(good.members) > 0
+    assert not good.settled
 
 
 def test_a_spread_ends_at_the_bounds():
