@@ -9,7 +9,7 @@ import numpy as np
 
 from jointplay.local import run
 from jointplay.records.arrays import Floats
-from jointplay.records.sensitivity.analysis import Question, sensitivity
+from jointplay.records.sensitivity.analysis import SHARES, Question, sensitivity
 from jointplay.solver.distributions import DISTRIBUTIONS
 from tests.records.sensitivity.known_functions import (
     FOUR_BRANCHES,
@@ -23,6 +23,8 @@ from tests.records.sensitivity.known_functions import (
 )
 
 ROWS = (2**8, 2**12, 2**16)
+FEW_ROWS = (8, 32, 128, 512)
+SEEDS = 200
 PRESS: dict[str, Any] = {
     "kind": "sensitivity",
     "scene": {"preset": "seven-bar-press"},
@@ -78,6 +80,23 @@ def branches() -> None:
             print(f"p = {p:g} {design:16} {exact:.6e}  {shown}")
 
 
+def coverage() -> None:
+    """Print how often intervals of 95 % contain indices and quantiles of Ishigami's function."""
+    shares = np.random.default_rng(1).random((4_000_000, 3))
+    known: dict[str, Any] = {name: np.array(exact) for name, exact in ISHIGAMI.items()}
+    known["quantiles"] = np.quantile(ishigami(shares), SHARES)
+    for rows in FEW_ROWS:
+        inside = {name: np.zeros(len(exact)) for name, exact in known.items()}
+        for seed in range(SEEDS):
+            found = sensitivity(study_of(ishigami, rows, 3, seed=seed), Question())
+            answers = found["measures"] | {"quantiles": found["quantiles"]}
+            for name, exact in known.items():
+                low, high = (np.array(answers[name][end], float) for end in ("low", "high"))
+                inside[name] += ~(low > exact) & ~(high < exact)
+        shown = {name: np.round(100.0 * one / SEEDS, 1).tolist() for name, one in inside.items()}
+        print(f"{rows} rows, per cent of {SEEDS} designs whose interval has the truth: {shown}")
+
+
 def press() -> None:
     """Print indices of the press beside the shares of a plane through its points."""
     begun = time.perf_counter()
@@ -107,4 +126,5 @@ def main() -> None:
     closed_forms("Ishigami", ishigami, ISHIGAMI)
     closed_forms("g-function", g_function, G_FUNCTION)
     branches()
+    coverage()
     press()

@@ -1,7 +1,7 @@
 """One output of a design asked about: measures, quantiles and a limit, each with its interval."""
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from statistics import NormalDist
 from typing import Any, Final, Literal, NamedTuple
 
@@ -12,7 +12,8 @@ from jointplay.records.channel import Channel
 from jointplay.records.point import PointStatus
 from jointplay.records.sensitivity import DESIGNS, Design
 from jointplay.records.sensitivity.outputs import output, outputs
-from jointplay.records.sensitivity.resampled import between, quantiles, resampled, resamples_of
+from jointplay.records.sensitivity.quantiles import quantiles
+from jointplay.records.sensitivity.resampled import between, resampled_means, resamples_of
 from jointplay.records.study import StudySource
 from jointplay.records.suggestions import unknown
 
@@ -91,22 +92,16 @@ class Analysis:
             return {}, None
         centre = self.sample.mean() if self.sample.size else self.outputs.mean()
         moments = self.design.moments(self.values, self.outputs - centre)
-        order = np.argsort(self.sample, axis=None, kind="stable")
-        rows = order // max(self.sample.shape[1], 1)
-        of_sample = partial(quantiles, self.sample.ravel()[order], rows, np.array(SHARES))
-        measured = partial(self.design.measured, parameters=self.parameters)
-        sampled = [of_sample] if self.sample.size else []
-        means, *spreads = resampled(
-            len(moments), lambda counts: counts @ moments / len(moments), *sampled
-        )
-        best, others = measured(moments.mean(axis=0)), measured(means)
         confidence = self.question.confidence
+        best = self.design.measured(moments.mean(axis=0), self.parameters)
+        others = self.design.measured(resampled_means(moments), self.parameters)
         measures = {
             name: Estimate(one, *between(others[name], confidence)) for name, one in best.items()
         }
-        every = np.ones((1, len(moments)))
-        found = [Estimate(of_sample(every)[0], *between(one, confidence)) for one in spreads]
-        return measures if self.varies else {}, found[0] if found else None
+        spread = None
+        if self.sample.size:
+            spread = Estimate(*quantiles(self.sample.ravel(), np.array(SHARES), confidence))
+        return measures if self.varies else {}, spread
 
     def failure(self) -> tuple[float, float, float] | None:
         """Return the probability beyond the limit and its interval by Wilson; None: not asked."""

@@ -1,11 +1,11 @@
-"""Bootstrap over rows: how far means, and quantiles, of a sample are apart from those of others."""
+"""Bootstrap over rows: how far means of a sample are apart from those of others."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
 
-from jointplay.records.arrays import Floats, Integers
+from jointplay.records.arrays import Floats
 
 MOST_RESAMPLES: Final = 1000
 _FEWEST_RESAMPLES: Final = 200
@@ -19,13 +19,13 @@ def resamples_of(rows: int) -> int:
     return int(np.clip(_MOST_DRAWS // max(rows, 1), _FEWEST_RESAMPLES, MOST_RESAMPLES))
 
 
-def resampled(rows: int, *numbers: Callable[[Floats], Floats]) -> list[Floats]:
-    """Return (resamples, ...) what each of `numbers` makes of (some, rows) draws of each row.
+def resampled_means(moments: Floats) -> Floats:
+    """Return (resamples, moments) means over rows of each resample, from (rows, moments).
 
     The same rows are drawn whenever it is asked.
     """
-    parts = [[one(counts) for one in numbers] for counts in _counts(rows)]
-    return [np.concatenate(one) for one in zip(*parts, strict=True)]
+    rows = len(moments)
+    return np.concatenate([counts @ moments / rows for counts in _counts(rows)])
 
 
 def between(resamples: Floats, confidence: float) -> tuple[Floats, Floats]:
@@ -35,23 +35,6 @@ def between(resamples: Floats, confidence: float) -> tuple[Floats, Floats]:
     known = np.isfinite(resamples).any(axis=0)
     found[:, known] = np.nanpercentile(resamples[:, known], ends, axis=0)
     return found[0], found[1]
-
-
-def quantiles(values: Floats, rows: Integers, shares: Floats, counts: Floats) -> Floats:
-    """Return (some, shares) the least values up to which lie shares of a resample.
-
-    Parameters
-    ----------
-    values
-        (n,) in ascending order.
-    rows
-        (n,) row of each value.
-    counts
-        (some, rows) draws of each row.
-    """
-    reached = np.cumsum(counts[:, rows], axis=1)
-    places = [np.searchsorted(one, shares * one[-1] * (1.0 - 1e-12)) for one in reached]
-    return values[np.minimum(places, len(values) - 1)]
 
 
 def _counts(rows: int) -> Iterator[Floats]:

@@ -8,6 +8,7 @@ from jointplay.service.results.schemas import Described, Partial, Values
 
 OF_OUTPUT = "the field `unit`"
 _ENDS = "Of its interval."
+_OF_QUANTILES = "Of its interval; null: more points are needed."
 
 
 class SensitivityQuery(BaseModel):
@@ -48,8 +49,8 @@ class Quantiles(BaseModel):
 
     shares: list[float] = in_unit("1", "Of the points, that lie below.")
     values: Values = in_unit(OF_OUTPUT)
-    low: Values = in_unit(OF_OUTPUT, _ENDS)
-    high: Values = in_unit(OF_OUTPUT, _ENDS)
+    low: Values = in_unit(OF_OUTPUT, _OF_QUANTILES)
+    high: Values = in_unit(OF_OUTPUT, _OF_QUANTILES)
 
 
 class Failure(BaseModel):
@@ -81,7 +82,7 @@ class Sensitivity(Partial, Described):
     outputs: list[str] = Field(description="All that can be asked for.")
     rows: Rows
     confidence: float = in_unit("1", "Probability of every interval.")
-    resamples: int = Field(description="Of the rows, for the intervals that are no Wilson's.")
+    resamples: int = Field(description="Of the rows, for the intervals of measures.")
     note: str = Field(description="Why there is less than was asked for; mostly empty.")
     mean: float | None = in_unit(OF_OUTPUT, "null: too few rows, or the design is no sample.")
     standard_deviation: float | None = in_unit(OF_OUTPUT)

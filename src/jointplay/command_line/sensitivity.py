@@ -93,5 +93,7 @@ def _cell(columns: dict[str, list[float | None]], place: int) -> str:
     value, low, high = (columns[name][place] for name in ("values", "low", "high"))
     if value is None:
         return "unknown"
-    known = "" if low is None or high is None else f" ({low:.4g} to {high:.4g})"
-    return f"{value:.5g}{known}"
+    if low is None and high is None:
+        return f"{value:.5g}"
+    below, above = ("..." if end is None else f"{end:.4g}" for end in (low, high))
+    return f"{value:.5g} ({below} to {above})"

@@ -25,6 +25,7 @@ from jointplay.records.sensitivity.analysis import (
     sensitivity,
 )
 from jointplay.records.sensitivity.outputs import output, outputs
+from jointplay.records.sensitivity.quantiles import quantiles
 from jointplay.records.sensitivity.resampled import MOST_RESAMPLES, resamples_of
 from jointplay.solver.distributions import DISTRIBUTIONS
 
@@ -142,6 +143,28 @@ def test_quantiles_are_those_of_the_distribution(design):
     assert found["values"] == pytest.approx(expected, abs=0.05)
     assert (np.array(found["low"]) < expected).all()
     assert (expected < np.array(found["high"])).all()
+
+
+@pytest.mark.parametrize("rows", [8, 20, 60])
+def test_intervals_of_quantiles_contain_the_truth_as_often_as_they_say(rows):
+    """Of independent points; where few lie beyond a quantile its interval has no end there."""
+    inside, known = [], np.array([0.05, 0.25, 0.5, 0.75, 0.95])
+    drawn = np.random.default_rng(3).random((400, rows))
+    for sample in drawn:
+        values, low, high = quantiles(np.exp(5.0 * sample), known, 0.95)
+        expected = np.exp(5.0 * known)
+        inside.append(~(low > expected) & ~(high < expected))
+        assert (values == np.quantile(np.exp(5.0 * sample), known, method="inverted_cdf")).all()
+    assert (np.mean(inside, axis=0) > 0.93).all()
+    assert (np.isnan(low[0]), np.isnan(high[4])) == (True, True)
+    assert np.isfinite([low[2], high[2]]).all()
+
+
+@pytest.mark.parametrize(("count", "share", "confidence"), [(100, 0.3, 0.9), (5000, 0.05, 0.99)])
+def test_ends_of_quantiles_are_those_of_the_binomial_distribution(count, share, confidence):
+    _, low, high = quantiles(np.arange(1.0, count + 1.0), np.array([share]), confidence)
+    below, above = stats.binom.ppf([0.5 - confidence / 2, 0.5 + confidence / 2], count, share)
+    assert (low[0], high[0]) == (below, above + 1)
 
 
 @pytest.mark.parametrize(("p", "probability"), FOUR_BRANCHES.items())
