@@ -8,6 +8,7 @@ from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
 from jointplay.records.branch import VALUE
 from jointplay.records.channel import by_name
+from jointplay.records.point import PointStatus
 from jointplay.records.study import StudySource
 
 _MOST_PANELS = 8
@@ -57,7 +58,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     pairs = _pairs(source, selection)
     points = study_facts.chosen_points(source, selection)
     if not source.counts[points].any():
-        raise NotDrawable("No section was recorded there yet.", "start")
+        raise NotDrawable(_why_empty(source, points), "name" if source.points == 1 else "start")
     verdicts = [one for one in study_facts.by_verdict(source) if one.members[points].any()]
     legend_height = page.LEGEND_HEIGHT if verdicts else 0.0
     sentence = _of_point(source, points.start) if points.stop - points.start == 1 else ""
@@ -70,6 +71,12 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     page.caption(figure, sentence)
     page.legend_of_marks(figure, {one.name: ("o", one.colour) for one in verdicts})
     return figure
+
+
+def _why_empty(source: StudySource, points: slice) -> str:
+    if (source.status[points] == PointStatus.done).all():
+        return "The condition of the section was never met there."
+    return "No section was recorded there yet."
 
 
 def _scatter(

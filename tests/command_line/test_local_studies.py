@@ -264,3 +264,21 @@ def test_rows_of_a_chart_follow_their_neighbours(jointplay, tmp_path):
             rows = [row for row in csv.DictReader(file) if float(row["stop.impacts [1]"]) > 0]
         struck[way] = {(row["amplitude [m]"], row["speed [rad/s]"]) for row in rows}
     assert struck["backward"] < struck["forward"]
+
+
+def test_sections_of_a_condition_that_is_never_met_are_told(jointplay, tmp_path):
+    output = tmp_path / "OUT"
+    never = ["--set", "amplitude=1e-4", "--poincare", "--record", "3", "--section", "onset=stop"]
+    ended = jointplay("run", "impact-oscillator", *never, "--settle", "1", "-o", output)
+    assert ended.code == 0, ended.err
+    told = "sections  0 a point of 3: no onset at stop in 20 periods for each of the others"
+    assert told in ended.out.splitlines()
+    drawn = jointplay("plot", output, "-o", tmp_path / "figures")
+    assert "section: The condition of the section was never met there." in drawn.err
+
+
+def test_a_law_of_the_name_of_its_family_is_shown_below_the_list(jointplay):
+    lines = jointplay("laws", "force").out.splitlines()
+    assert [line.split()[1] for line in lines[:2]] == ["spring-damper", "torsion-spring"]
+    assert "force (force): F = magnitude * course(...)" in "\n".join(lines)
+    assert any(line.split()[:2] == ["direction", "required"] for line in lines)

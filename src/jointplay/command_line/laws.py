@@ -26,9 +26,18 @@ def laws(
     from jointplay.solver.laws import catalogue
 
     found = catalogue.laws(name)
-    alone = name is not None and name not in catalogue.FAMILIES
-    lines = (line for law in found for line in _page(law)) if alone else _list(found)
-    tell({"laws": [law.model_dump() for law in found]}, lines, as_json=as_json)
+    tell({"laws": [law.model_dump() for law in found]}, _lines(found, name), as_json=as_json)
+
+
+def _lines(found: "list[Law]", name: str | None) -> Iterator[str]:
+    """Yield the list of all laws or of a family, and the pages of laws of that name."""
+    from jointplay.solver.laws import catalogue
+
+    if name is None or name in catalogue.FAMILIES:
+        yield from _list(found)
+    for law in found:
+        if law.name == name:
+            yield from _page(law)
 
 
 def _list(found: "list[Law]") -> Iterator[str]:

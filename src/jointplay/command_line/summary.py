@@ -2,7 +2,7 @@
 
 import textwrap
 from collections import Counter
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.accuracy import accuracy_lines
@@ -123,6 +123,19 @@ def units(source: "StudySource") -> dict[str, str]:
     return {name: unit for name, (unit, _) in {**OUTPUTS, **own}.items()}
 
 
+def _missed(job: Mapping[str, Any], fewest: int) -> str:
+    """Return why points have fewer sections than were asked for; empty: they have all."""
+    section, wanted = job.get("section"), job.get("record", 0)
+    if job["kind"] == "continuation" or section is None or fewest >= wanted:
+        return ""
+    if "crank_angle" in section:
+        return f" of {wanted}"
+    from jointplay.solver.kinds.limits import EVENT_PATIENCE
+
+    met = f"no onset at {section['onset']}" if "onset" in section else "no crossing"
+    return f" of {wanted}: {met} in {EVENT_PATIENCE} periods for each of the others"
+
+
 def _study_lines(source: "StudySource") -> Iterator[str]:
     """Yield how many points ended in which way, the verdicts, extremes, and first failures."""
     import numpy as np
@@ -136,9 +149,8 @@ def _study_lines(source: "StudySource") -> Iterator[str]:
             yield f"{heading:9} {listed}"
     if (sections := summary["sections"]) is not None:
         fewest, most = sections.values()
-        yield "sections  " + (
-            f"{most} a point" if fewest == most else f"{fewest} to {most} a point"
-        )
+        counted = f"{most} a point" if fewest == most else f"{fewest} to {most} a point"
+        yield f"sections  {counted}{_missed(source.attributes['job'], fewest)}"
     if source.points == 1 and 0 in source.reasons:
         yield from textwrap.wrap(source.reasons[0], 100, initial_indent="because   ")
     done = source.status == PointStatus.done
