@@ -104,8 +104,9 @@ def test_the_press_grows_as_its_companion_does() -> None:
 @pytest.mark.long
 def test_exponents_depend_little_on_the_tolerance() -> None:
     # a chaotic press whose friction holds in 1e-3 m/s: at 1e-6 its steps are at the limit of
-    # stability, and the derivative of the base's own steps would give twice the exponent. 6.0,
-    # 4.9, 4.4 and 4.2, each ± 0.1, were found at 1e-6 to 1e-9
+    # stability, and the derivative of the base's own steps would give twice the exponent; so would,
+    # nearly, steps that end a contact with the stages of others, 6.0. Over 128 s 4.3, 4.1, 4.3 and
+    # 4.1 were found at 1e-6 to 1e-9, each +- 0.1
     scene = preset(
         "seven-bar-press",
         **CASE_3
@@ -126,5 +127,5 @@ def test_exponents_depend_little_on_the_tolerance() -> None:
         return np.array([g[1:, 1].sum() / (g[-1, 0] - g[0, 0]) for g in whole])
 
     coarse, fine = exponents(1e-6), exponents(1e-8)
-    assert fine.mean() == pytest.approx(4.4, abs=0.5)
-    assert coarse.mean() == pytest.approx(fine.mean(), rel=0.5)
+    assert fine.mean() == pytest.approx(4.2, abs=0.5)
+    assert coarse.mean() == pytest.approx(fine.mean(), rel=0.2)

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 
 from jointplay.solver.scene.document import Scene
 from tests.solver.kernels.tangent_runs import bundle_of, growth, problem
@@ -31,8 +32,12 @@ def scene() -> Scene:
     )
 
 
-def test_a_tangent_passes_onsets_where_the_stiffness_jumps() -> None:
-    bundle = bundle_of([problem(scene(), DURATION, 1e-9)])
+# an end of contact that is passed over as any other step is worth 9e-2 at 1e-6, 2e-3 at 1e-9
+@pytest.mark.parametrize(("tolerance", "accuracy"), [(1e-6, 4e-2), (1e-9, 5e-4)])
+def test_a_tangent_passes_onsets_and_openings_where_the_stiffness_jumps(
+    tolerance: float, accuracy: float
+) -> None:
+    bundle = bundle_of([problem(scene(), DURATION, tolerance)])
     lane = bundle.lane(0)
     place, rate = lane["tangent"]
     bundle.advance(10**8)
@@ -45,4 +50,4 @@ def test_a_tangent_passes_onsets_where_the_stiffness_jumps() -> None:
     assert contacts > 10
     assert bundle.lane(0).number("mode0") == 0.0  # it ends in flight
     expected = turned * np.array([place + flown * rate, rate])
-    np.testing.assert_allclose(found, expected, rtol=5e-3)
+    np.testing.assert_allclose(found, expected, rtol=accuracy)
