@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from jointplay.records.arrays import Flags
+from jointplay.records.arrays import Flags, Floats
 from jointplay.records.motion import FAILED, WAITING, Labels
 
 
@@ -20,7 +20,7 @@ class BoundaryDimension:
 
     value: float
     error: float
-    """Standard error of the slope."""
+    """Standard error of the slope, and how far it is from one that allows for the end of growth."""
     distances: tuple[int, ...]
     """Points between neighbours."""
     shares: tuple[float, ...]
@@ -29,6 +29,9 @@ class BoundaryDimension:
 
 FEWEST: Final = 30
 """Points whose neighbours end elsewhere, below which a distance says nothing."""
+MOST: Final = 0.4
+"""Share of such points, in that of independent labels, above which a distance is as long as basins
+are wide: the share cannot grow as it does at small distances."""
 
 
 def boundary_dimension(labels: Labels) -> BoundaryDimension | None:
@@ -38,24 +41,37 @@ def boundary_dimension(labels: Labels) -> BoundaryDimension | None:
     """
     known = (labels != WAITING) & (labels != FAILED)
     distances, shares, counts = [], [], []
-    distance = 1
+    most, distance = _share_of_independent(labels[known]), 1
     while distance <= min(labels.shape) // 8:
         differ, told = _uncertain(labels, known, distance)
-        if differ >= FEWEST:
+        if differ >= FEWEST and differ <= MOST * most * told:
             distances.append(distance)
             shares.append(differ / told)
             counts.append(differ)
         distance *= 2
     if len(distances) < 3:
         return None
-    x, y, weights = np.log(distances), np.log(shares), np.sqrt(np.array(counts, np.float64))
+    x, weights = np.log(distances), np.sqrt(np.array(counts, np.float64))
+    slope, error = _slope(x, np.log(shares), weights)
+    ending, _ = _slope(x, np.log(-np.log1p(-np.array(shares) / most)), weights)
+    error = math.hypot(error, ending - slope)
+    return BoundaryDimension(2.0 - slope, error, tuple(distances), tuple(shares))
+
+
+def _share_of_independent(labels: Labels) -> float:
+    """Return the share of points with a neighbour, of four, of another label, if all were drawn."""
+    _, counts = np.unique(labels, return_counts=True)
+    return 1.0 - float(np.sum((counts / max(len(labels), 1)) ** 5))
+
+
+def _slope(x: Floats, y: Floats, weights: Floats) -> tuple[float, float]:
+    """Return the slope of the line through points, and its standard error by their scatter."""
     table = np.stack([x, np.ones_like(x)], axis=1)
     inverse = np.linalg.inv((table * weights[:, None] ** 2).T @ table)
     slope, level = inverse @ (table * weights[:, None] ** 2).T @ y
     left = (y - slope * x - level) * weights
     spread = max(float(left @ left) / (len(x) - 2), 1.0)
-    error = math.sqrt(float(inverse[0, 0]) * spread)
-    return BoundaryDimension(2.0 - float(slope), error, tuple(distances), tuple(shares))
+    return float(slope), math.sqrt(float(inverse[0, 0]) * spread)
 
 
 def _uncertain(labels: Labels, known: Flags, distance: int) -> tuple[int, int]:

@@ -12,7 +12,7 @@ export function share(value, error) {
 export function mapOfAttractors({ attractors, boundary }) {
   return element("div", {}, attractorTable(attractors),
     element("p", { class: "quiet small" }, boundary === null
-      ? "Too few points lie beside a boundary to tell its dimension."
+      ? "Too few points lie beside a boundary to tell its dimension, or basins are a few points wide."
       : `The boundary between the basins has the dimension ${boundary.dimension.toFixed(2)} ± ${
         boundary.error.toFixed(2)}.`));
 }

@@ -115,7 +115,9 @@ class Boundary(BaseModel):
     """Boundary between the basins, by the uncertainty exponent."""
 
     dimension: float = Field(description="1: a smooth line; towards 2: fractal.")
-    error: float = Field(description="Standard error of the fit.")
+    error: float = Field(
+        description="Standard error of the fit, and of what ends the growth of shares."
+    )
     distances: list[int] = Field(description="Points between neighbours that are compared.")
     shares: list[float] = Field(description="Of points with a neighbour that ends elsewhere.")
 

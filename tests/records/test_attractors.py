@@ -92,6 +92,25 @@ def test_a_line_between_basins_has_the_dimension_one():
     assert abs(found.value - 1.0) < max(3.0 * found.error, 0.03)
 
 
+@pytest.mark.parametrize(("points", "radius", "count"), [(400, 0.05, 20), (400, 0.02, 60)])
+def test_edges_of_many_small_discs_have_the_dimension_one(points, radius, count):
+    """Also where the distance of neighbours is as long as a disc, or as one is from the next."""
+    y, x = (np.mgrid[0:points, 0:points] + 0.5) / points
+    for seed in range(5):
+        centres = np.random.default_rng(seed).random((count, 2))
+        away = np.min([np.hypot(x - one, y - other) for one, other in centres], axis=0)
+        found = boundary_dimension(np.where(away < radius, 5, 6).astype(np.uint8))
+        assert found is not None
+        assert abs(found.value - 1.0) < 2.0 * found.error
+        assert found.error < 0.25
+
+
+def test_stripes_as_wide_as_the_least_distances_tell_no_dimension():
+    y, x = np.mgrid[0:50, 0:50]
+    labels = np.where(np.sin(0.75 * x + 0.1 * y) > 0.0, 5, 6).astype(np.uint8)
+    assert boundary_dimension(labels) is None
+
+
 def test_lines_over_a_cantor_set_have_its_dimension_and_one():
     """The exact dimension is 1 + ln 2 / ln 3; that of a grid is biased by less than 0.1."""
     labels = np.broadcast_to(5 + cantor(3**6, 6), (729, 729)).astype(np.uint8)
