@@ -147,7 +147,7 @@ def test_quantiles_are_those_of_the_distribution(design):
 
 @pytest.mark.parametrize("rows", [8, 20, 60])
 def test_intervals_of_quantiles_contain_the_truth_as_often_as_they_say(rows):
-    """Of independent points; where few lie beyond a quantile its interval has no end there."""
+    """The points are independent; where few lie beyond a quantile its interval has no end there."""
     inside, known = [], np.array([0.05, 0.25, 0.5, 0.75, 0.95])
     drawn = np.random.default_rng(3).random((400, rows))
     for sample in drawn:
