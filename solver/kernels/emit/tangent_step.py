@@ -1,47 +1,42 @@
-"""Records the step of a tangent vector: two half steps of Ralston's method along the base's step.
+"""Records the step of a tangent vector: a method of order four along the base's step.
 
 A tangent vector must not be carried by the base's own method, although that would make it the
 exact derivative of the base's step. Where the base runs smoothly its step grows to the limit of
 stability: contact oscillations that it does not follow, at hω = 1.8, and friction that holds a
 joint, at h/τ = 3, neither grow nor die in it, which does no harm below its tolerance. A tangent has
 no tolerance: what dies in the motion must die in it, or its exponent is too large (by a factor of
-two on the press at tolerance 1e-6). Two half steps of a method of order three make the same six
-evaluations and are stable and damped up to hω = 3.4, h/τ = 5.
+two on the press at tolerance 1e-6). The method here (`solver.kernels.emit.tangent_method`) makes
+the same six evaluations.
 
-In a step that ends a contact the half steps end where the gap opens, for there the stiffness of a
-linear law is gone at once. Over the rest, a fiftieth of the step, the slope at its end is taken.
-
-Source: Ralston 1962, Mathematics of Computation 16:431 (minimum error bound of order three); the
-same nodes and weights as in Bogacki and Shampine 1989, Applied Mathematics Letters 2:321.
+In a step that ends a contact it ends where the gap opens, for there the stiffness of a linear law
+is gone at once. Over the rest, a fiftieth of the step, the slope at its end is taken.
 """
 
+from collections.abc import Sequence
 from functools import reduce
 from operator import add, mul
 
 from jointplay.solver.kernels.emit.emit import lane_function, statements
 from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.emit.kinks import MEMORY
+from jointplay.solver.kernels.emit.tangent_method import COUPLING, NODES, STAGES, WEIGHTS
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.scalars import Scalar, maximum, minimum, select_positive
 
-NODES = (0.0, 0.5, 0.75)
-"""Stages of a half step; stage s starts from the slope of the stage before alone, weight NODES."""
-WEIGHTS = (2.0 / 9.0, 3.0 / 9.0, 4.0 / 9.0)
-STAGES = 2 * len(NODES)
-BEHIND_ONSET = {0: 0.034, 1: 0.227}
+BEHIND_ONSET = {0: 0.021, 1: 0.216}
 """Shares of the step at which these stages look at the base, in a step that begins a contact.
 
 The stiffness is a power of time there, from the zeroth, a jump, whose other side the state may be
 on by rounding, to the root of Hertz's law. The length of that step does not depend on the
 tolerance, and neither would the error. With these shares the weights integrate powers up to the
-first, and their products with time, within 1e-3.
+first, and their products with time, within 5e-4.
 """
-BEFORE_OPENING = {4: 0.678, 5: 0.923}
-"""The same in a step that ends a contact: shares of the time until the gap opens.
+BEFORE_OPENING = {4: 0.461, 5: 0.89}
+"""The same in a step that ends a contact, within 2e-3: shares of the time until the gap opens.
 
-At the shares of other steps roots count for 1.2 % too much, at each end of a contact: of a press
+At the shares of other steps roots count for 1 % too much, at each end of a contact: of a press
 whose joints touch 80 times a second the exponent was 6.0 instead of 4.3 1/s at tolerance 1e-6.
 """
 
@@ -50,7 +45,8 @@ def allocate(layout: Layout, states: int) -> None:
     """Give slots to a tangent on its way through a step."""
     for name in ("passing_time", "begins", "spanned", "rest"):
         layout.add(name)
-    for name in ("passing", "carried", "carried_slope", "middle", "first_slope", "second_slope"):
+    kept = [f"kept{s}_" for s in range(STAGES - 1)]
+    for name in ("passing", "carried", "carried_slope", *kept):
         layout.add_block(name, states)
 
 
@@ -102,7 +98,7 @@ class TangentTracer:
         return begins
 
     def _spanned(self) -> Scalar:
-        """Return the share of the step that the half steps span: all, or until a gap opens.
+        """Return the share of the step that the method spans: all, or until a gap opens.
 
         Of the step little is left there (`solver.kernels.loop.openings`).
         """
@@ -116,21 +112,12 @@ class TangentTracer:
 
     def _carry(self, s: int) -> str:
         """Stage s: the point that the base passes there, and the tangent carried there."""
-        v = self.tracer.variable
-        half, stage = divmod(s, len(NODES))
-        share = self._share(s, 0.5 * (half + NODES[stage]))
+        v, share = self.tracer.variable, self._share(s, NODES[s])
         outputs = [("passing_time", v("time") + share * v("tried"))]
-        outputs += [(f"passing{i}", self._passed(share, i)) for i in range(self.states)]
         for i in range(self.states):
-            begun = v(f"middle{i}") if half else v(f"tangent{i}")
-            slope = self._slope(i)
-            if stage == 0:
-                middle = self._after_half(v(f"tangent{i}"), i)
-                outputs += [(f"middle{i}", middle), (f"carried{i}", middle)]
-                continue
-            kept = "first_slope" if stage == 1 else "second_slope"
-            outputs.append((f"carried{i}", begun + NODES[stage] * self._half() * slope))
-            outputs.append((f"{kept}{i}", slope))
+            outputs += [(f"passing{i}", self._passed(share, i))]
+            outputs += [(f"kept{s - 1}_{i}", self._slope(i))]
+            outputs += [(f"carried{i}", self._moved(COUPLING[s], i))]
         return lane_function(f"carry_{s}", outputs, self.layout)
 
     def _share(self, s: int, share: Scalar) -> Scalar:
@@ -142,9 +129,12 @@ class TangentTracer:
             share = select_positive(v("rest"), BEFORE_OPENING[s], share)
         return v("spanned") * share
 
-    def _half(self) -> Expression:
-        """Length of a half step, s."""
-        return 0.5 * (self.tracer.variable("spanned") * self.tracer.variable("tried"))
+    def _moved(self, weights: Sequence[float], i: int) -> Expression:
+        """Component i behind its start: by slopes kept, and the one just evaluated as the last."""
+        v = self.tracer.variable
+        slopes = [*(v(f"kept{s}_{i}") for s in range(len(weights) - 1)), self._slope(i)]
+        step = v("spanned") * v("tried")
+        return v(f"tangent{i}") + step * reduce(add, map(mul, weights, slopes))
 
     def _slope(self, i: int) -> Expression:
         """Slope of component i at the stage just evaluated: of a coordinate's, its speed's."""
@@ -160,15 +150,10 @@ class TangentTracer:
         slopes = (share * rest * rest) * first - (share * share * rest) * last
         return start + (share * share * (3.0 - 2.0 * share)) * (end - start) + v("tried") * slopes
 
-    def _after_half(self, begun: Expression, i: int) -> Expression:
-        v = self.tracer.variable
-        slopes = [v(f"first_slope{i}"), v(f"second_slope{i}"), self._slope(i)]
-        return begun + self._half() * reduce(add, map(mul, WEIGHTS, slopes))
-
     def _arrive(self) -> str:
-        """Bring the tangent to the end of the half steps, in the lanes that take the step."""
+        """Bring the tangent over what the method spans, in the lanes that take the step."""
         v = self.tracer.variable
-        moved = [(f"tangent{i}", self._after_half(v(f"middle{i}"), i)) for i in range(self.states)]
+        moved = [(f"tangent{i}", self._moved(WEIGHTS, i)) for i in range(self.states)]
         moved += [(f"kink_start{i}", v(f"kink_end{i}")) for i in range(MEMORY * self.kinks)]
         taken = [(name, select_positive(v("accept"), new, v(name))) for name, new in moved]
         return lane_function("arrive", taken, self.layout)
