@@ -41,7 +41,7 @@ from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.metrics import registry_of
 from jointplay.service.migration import migrated
 from jointplay.service.pieces import Pieces
-from jointplay.service.places import DRAWN_AT_ONCE, EXPORTED_AT_ONCE, Places
+from jointplay.service.places import DRAWN_AT_ONCE, EXPORTED_AT_ONCE, LISTED_AT_ONCE, Places
 from jointplay.service.prober import Prober
 from jointplay.service.problems.handlers import install
 from jointplay.service.problems.kinds import OF_THE_DOOR
@@ -161,6 +161,7 @@ async def _running(app: FastAPI, *, patient: bool) -> AsyncIterator[None]:
     app.state.uploads = Uploads()
     app.state.drawing = Places(DRAWN_AT_ONCE)
     app.state.exporting = Places(EXPORTED_AT_ONCE)
+    app.state.listing = Places(LISTED_AT_ONCE)
     app.state.prober = prober = Prober()
     app.state.checker = checker = Checker(settings, catalogue)
     app.state.queueing = Queueing(settings, catalogue, checker, bell)

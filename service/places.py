@@ -4,12 +4,19 @@ import asyncio
 from collections import OrderedDict, deque
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from typing import Final
+from typing import Annotated, Any, Final
+
+from fastapi import Depends
+
+from jointplay.service.dependencies import of_the_application
+from jointplay.service.owners import OWNER
 
 DRAWN_AT_ONCE: Final = 4
 """Figures: of the 40 threads that answer requests the others are left for what takes no time."""
 EXPORTED_AT_ONCE: Final = 2
 """Tables in files: a second or two each."""
+LISTED_AT_ONCE: Final = 4
+"""Pages of jobs, whose documents may be megabytes."""
 
 
 class Places:
@@ -52,3 +59,16 @@ class Places:
                 turn.set_result(None)
                 return
         self._free += 1
+
+
+def in_turn(of: str) -> Any:
+    """Return the dependency on a place, of those that the application has under a name.
+
+    It is held until the answer was made, and no longer: a client may take it slowly.
+    """
+
+    async def held(places: Annotated[Places, of_the_application(of)]) -> AsyncIterator[None]:
+        async with places.place(OWNER.get()):
+            yield
+
+    return Depends(held, scope="function")

@@ -14,6 +14,7 @@ from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.listing import PageQuery
 from jointplay.service.jobs.queueing import QueueingDependency
 from jointplay.service.jobs.schemas import JobPage, Moment
+from jointplay.service.places import in_turn
 from jointplay.service.problems import RequestRefused, clipped, header, kinds, problems
 from jointplay.storage.catalogue.errors import BatchNotFound
 from jointplay.storage.catalogue.records import Batch, JobState, SubmittedBatch
@@ -143,7 +144,11 @@ def show_batch(batch: BatchOfThePath) -> BatchResource:
     return BatchResource.of(batch)
 
 
-@router.get("/{batch_id}/jobs", responses=problems(kinds.UNKNOWN_BATCH, kinds.INVALID_REQUEST))
+@router.get(
+    "/{batch_id}/jobs",
+    responses=problems(kinds.UNKNOWN_BATCH, kinds.INVALID_REQUEST),
+    dependencies=[in_turn("listing")],
+)
 def list_jobs_of_batch(
     batch: BatchOfThePath, catalogue: CatalogueDependency, query: Annotated[PageQuery, Query()]
 ) -> JobPage:

@@ -14,6 +14,7 @@ from jointplay.service.jobs.queueing import QueueingDependency
 from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
 from jointplay.service.jobs.submission import REQUEST_BODY
 from jointplay.service.jobs.waiting import PatienceDependency, WaitQuery
+from jointplay.service.places import in_turn
 from jointplay.service.problems import header, kinds, problems
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
@@ -57,7 +58,7 @@ async def submit_job(
     return SubmittedJob.of(job, cached=submitted.cached)
 
 
-@router.get("", responses=problems(kinds.INVALID_REQUEST))
+@router.get("", responses=problems(kinds.INVALID_REQUEST), dependencies=[in_turn("listing")])
 def list_jobs(
     catalogue: CatalogueDependency, caller: CallerDependency, query: Annotated[JobQuery, Query()]
 ) -> JobPage:

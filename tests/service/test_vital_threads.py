@@ -12,9 +12,10 @@ from fastapi import FastAPI
 
 from jointplay.records.table_files import csv
 from jointplay.service.owners import OF_ONE, UNTIL_ANSWERED, Shares
-from jointplay.service.places import EXPORTED_AT_ONCE
+from jointplay.service.places import EXPORTED_AT_ONCE, LISTED_AT_ONCE
 from jointplay.service.problems import RequestRefused
 from jointplay.service.workers import attempts
+from jointplay.storage.catalogue.records import JobPage
 from tests.worker_by_hand import Worker
 
 ASKED = 60  # more than there are threads
@@ -81,6 +82,17 @@ def test_many_files_of_one_leave_threads_for_others(
     with asked_often(held, url, EXPORTED_AT_ONCE, accept=csv.MEDIA_TYPE):
         assert not held.begun.acquire(timeout=1.0)  # no third one
         assert http.get("/v1/jobs", timeout=20.0).status_code == 200
+
+
+def test_many_pages_of_jobs_leave_threads_for_others(
+    application: FastAPI, http: httpx.Client, service_url: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Documents of jobs have megabytes: 40 pages at once took all that there was of one core."""
+    held = Held(JobPage((), None))
+    monkeypatch.setattr(application.state.catalogue, "jobs", held)
+    with asked_often(held, f"{service_url}/v1/jobs", LISTED_AT_ONCE):
+        assert not held.begun.acquire(timeout=1.0)  # no fifth one
+        assert http.get("/v1/workers", timeout=20.0).status_code == 200
 
 
 def test_an_owner_has_no_more_words_of_workers_than_other_requests_at_once() -> None:

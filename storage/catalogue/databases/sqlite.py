@@ -59,7 +59,7 @@ class SQLite:
         self._turn = threading.Lock()  # without the database's lock, for which others only poll
 
     def _engine(self, url: URL, synchronous: Literal["NORMAL", "FULL"], *, writes: bool) -> Engine:
-        engine = create_engine(url)
+        engine = create_engine(url, max_overflow=-1)  # as many as threads, of which none waits
         patience = 0.0 if writes else self._patience  # a writer waits by itself
 
         @event.listens_for(engine, "connect")
