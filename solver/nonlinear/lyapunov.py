@@ -69,14 +69,15 @@ def in_smaller_steps(log_growth: Floats, finer_growth: Floats, block_time: float
 
     log_growth, finer_growth : (blocks,) of the record, and of the stretch behind it, which is no
         longer. A stretch has too few blocks to tell its own error; that is how far the record's
-        means over as many blocks scatter, at least the record's own error over the root of the
-        share.
+        means scatter over as many blocks as are kept of it, at least the record's own error over
+        the root of the share.
     """
     record = exponent_from_growth(log_growth, block_time)
     found = exponent_from_growth(finer_growth, block_time)
     if not math.isfinite(found.value) or not math.isfinite(record.value):
         return UNKNOWN
-    kept, blocks = log_growth[_aligned(log_growth) :], len(finer_growth)
+    kept = log_growth[_aligned(log_growth) :]
+    blocks = len(finer_growth) - _aligned(finer_growth)
     error = record.error * math.sqrt(len(kept) / blocks)
     if len(kept) > blocks:
         total = np.cumsum(np.concatenate([[0.0], kept]))

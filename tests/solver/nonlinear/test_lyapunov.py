@@ -219,8 +219,10 @@ def test_a_stretch_in_smaller_steps_is_longer_where_it_settles_nothing(
 def test_a_short_stretch_has_the_error_of_its_length() -> None:
     noise = np.random.default_rng(5).standard_normal(400)
     found = [in_smaller_steps(noise[:360] + 0.5, part + 0.5, 2.0) for part in noise.reshape(-1, 8)]
-    # eight numbers of standard deviation 1, over blocks that last 2; widened by Student's t
-    assert all(one.error == pytest.approx(1.0 / math.sqrt(8.0) / 2.0, rel=0.5) for one in found)
+    # four to eight numbers of standard deviation 1, over blocks that last 2; widened by Student's t
+    errors = [one.error for one in found]
+    assert min(errors) > 0.8 / math.sqrt(8.0) / 2.0
+    assert max(errors) < 1.5 / math.sqrt(4.0) / 2.0
     assert all(agrees(one, 0.25) for one in found[45:])
 
 
@@ -229,3 +231,32 @@ def test_on_a_torus_a_short_stretch_has_the_error_of_where_it_begins_and_ends() 
     found = in_smaller_steps(growth[:480], growth[480:488], 1.0)
     assert agrees(found, 0.0)
     assert found.error > 0.3  # half a swing
+
+
+@pytest.mark.parametrize("record", [60, 100])
+def test_smaller_steps_of_the_same_motion_do_not_contradict_it(record: int) -> None:
+    """A damped oscillator that is driven: the vector turns, and growth differs by its direction.
+
+    Its exponent is -c / (2 m), whatever drives it. Beside some drives the vector is nearly back
+    after a few periods, so that means over eight periods hardly differ, and those over seven do.
+    """
+    damping, stiffness, first = 1.2, 400.0, 21.0
+    for drive in np.arange(first, 60.0, 0.25):
+        period = 2.0 * math.pi / drive
+        free = math.sqrt(stiffness - damping**2 / 4.0)
+        turn, decay = free * period, math.exp(-damping * period / 2.0)
+        unit = np.diag([1.0, free])  # motion is a spiral in x and (v + c x / 2) / free
+        skew = np.array([[1.0, 0.0], [damping / 2.0, 1.0]])
+        spiral = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+        to_motion = np.linalg.inv(skew) @ unit
+        step = decay * to_motion @ spiral @ np.linalg.inv(to_motion)
+        scale = np.diag([1.0, 1.0 / drive])
+        step = scale @ step @ np.linalg.inv(scale)
+        vector, growth = np.array([math.cos(1.0), math.sin(1.0)]), []
+        for _ in range(record + 8):
+            vector = step @ vector
+            growth.append(math.log(np.linalg.norm(vector)))
+            vector /= np.linalg.norm(vector)
+        found = exponent_from_growth(np.array(growth[:record]), period)
+        finer = in_smaller_steps(np.array(growth[:record]), np.array(growth[record:]), period)
+        assert not contradicts(finer, found), drive
