@@ -1,4 +1,4 @@
-"""Guides with play: the walls that a slider has room between, and the slider itself."""
+"""Guides with play: the walls that a slider has room between, and the slider itself; wide slots."""
 
 import math
 from collections.abc import Mapping
@@ -17,6 +17,10 @@ _SHORTEST = 0.1
 """Length of a slider in extents of the mechanism: shorter ones are drawn larger."""
 _WALLS = 2.2
 """Length of the walls in lengths of the slider."""
+_VISIBLE = 0.02
+"""Play of a pin in extents of the mechanism from which on the walls of its slot are drawn."""
+_STOP = 0.2
+"""Length of these walls, in the same, or in their distance where that is more."""
 _CORNERS = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
 
 
@@ -26,7 +30,7 @@ class Guide:
 
     body: str
     slider: Floats
-    """(4, 2) corners, m."""
+    """(4, 2) corners, m; (0, 2) of a pin, which is drawn as a joint."""
     walls: Floats
     """(2, 2, 2) both ends of each wall, m."""
 
@@ -36,44 +40,59 @@ def guides(scene: Mapping[str, Any], pose: Pose, extent: float) -> list[Guide]:
     found = []
     for joint in scene["joints"].values():
         marks, play = marks_of(joint), play_of(joint)
-        if marks["block"] is None or not play > 0.0:
+        if marks["picture"] != "walls" or not play > 0.0:
             continue
-        length, height = (joint["clearance"][field] for field in marks["block"])
-        guide, slider = (joint[end] for end in marks["ends"])
+        slider = joint[marks["ends"][1]]
         angle = heading(joint, pose)
         along = np.array([math.cos(angle), math.sin(angle)])
         across = np.array([-along[1], along[0]])
+        if marks["block"] is None:
+            if play > _VISIBLE * extent:
+                wall = play + joint["clearance"][marks["size"]]
+                half = 0.5 * _STOP * max(extent, 2.0 * wall)
+                middle, _ = _places(scene, pose, joint, along)
+                walls = _walls(middle, half * along, wall * across)
+                found.append(Guide(slider.partition(".")[0], np.empty((0, 2)), walls))
+            continue
+        length, height = (joint["clearance"][field] for field in marks["block"])
         larger = max(1.0, _SHORTEST * extent / length)
         half = 0.5 * larger * np.array([length, height])
         wall = half[1] + larger * play
-        origin = np.array(world(scene, pose, guide))
-        centre = np.array(world(scene, pose, slider))
-        middle = origin + along * ((centre - origin) @ along)
-        ends = np.array([-1.0, 1.0])[:, None] * _WALLS * half[0] * along
+        middle, centre = _places(scene, pose, joint, along)
         corners = _CORNERS * half
         found.append(
             Guide(
                 slider.partition(".")[0],
                 centre + corners[:, :1] * along + corners[:, 1:] * across,
-                np.stack([middle + ends + side * wall * across for side in (1.0, -1.0)]),
+                _walls(middle, _WALLS * half[0] * along, wall * across),
             )
         )
     return found
+
+
+def _places(
+    scene: Mapping[str, Any], pose: Pose, joint: Mapping[str, Any], along: Floats
+) -> tuple[Floats, Floats]:
+    """Return the place on the axis that is nearest to what slides, and the place of that, m."""
+    origin, centre = (np.array(world(scene, pose, joint[end])) for end in marks_of(joint)["ends"])
+    return origin + along * ((centre - origin) @ along), centre
+
+
+def _walls(middle: Floats, half: Floats, aside: Floats) -> Floats:
+    """Return both ends of each wall; `half` leads to one of them, `aside` to the left wall."""
+    ends = np.array([-1.0, 1.0])[:, None] * half
+    return np.stack([middle + ends + side * aside for side in (1.0, -1.0)])
 
 
 def draw_guides(axes: page.Axes, drawn: list[Guide], shape: Geometry, metre: float) -> None:
     """Draw the walls in the colour of clearances, and the slider between them."""
     named = any(joint.look == WITH_CLEARANCE for joint in shape.joints)
     for guide in drawn:
-        axes.fill(
-            *(guide.slider.T / metre),
-            facecolor=colours.UNKNOWN,
-            edgecolor=EDGE,
-            linewidth=0.6,
-            zorder=1.5,
-        )
+        look: page.Look = {"facecolor": colours.UNKNOWN, "edgecolor": EDGE, "linewidth": 0.6}
+        if len(guide.slider):
+            axes.fill(*(guide.slider.T / metre), **look, zorder=1.5)
         for wall in guide.walls:
             label = "_" if named else WITH_CLEARANCE
-            look: page.Look = {"color": colours.MARKED, "linewidth": 1.4, "zorder": 1.6}
+            look = {"color": colours.MARKED, "linewidth": 1.4, "zorder": 1.6}
             axes.plot(*(wall.T / metre), solid_capstyle="butt", label=label, **look)
             named = True

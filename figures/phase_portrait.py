@@ -32,7 +32,11 @@ def _rows(source: Source, selection: Selection) -> list[list[_Panel]]:
             raise NotDrawable(sentence, "channels")
         position, rate = selection.channels
         return [[_Panel((position, rate), (position, rate))]]
-    joints = list(scene_facts.chosen_joints(source, selection))
+    try:
+        joints = list(scene_facts.chosen_joints(source, selection))
+    except NotDrawable as error:
+        sentence = f"{error} Or choose two channels: a position and its rate."
+        raise NotDrawable(sentence, error.cause) from None
     if len(joints) > _MOST_JOINTS:
         raise NotDrawable(f"Choose at most {_MOST_JOINTS} joints for one figure.", "joints")
     return [[_of_joint(joint, axis) for axis in "xy"] for joint in joints]

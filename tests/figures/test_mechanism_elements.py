@@ -91,6 +91,23 @@ def test_a_guide_with_play_is_drawn_and_named_in_the_legend() -> None:
     assert colours.MARKED not in [line.get_color() for line in axes.lines]
 
 
+def test_a_slot_that_is_wide_shows_its_walls_as_the_stops_of_a_slide() -> None:
+    place = {"slot": "ground.S", "pin": "tappet.F", "axis": [1.0, 0.0]}
+    play = {"wall_clearance": 0.02, "pin_radius": 0.005}
+    joint = {"type": "pin-in-slot", **place, "clearance": play}
+    scene = SCENE | {"joints": {"stops": joint}, "gears": {}, "forces": {}}
+    (stops,) = guides(scene, POSE, extent=0.2)
+    assert len(stops.slider) == 0
+    level = SCENE["ground"]["points"]["S"][1]  # m
+    np.testing.assert_allclose(stops.walls[:, :, 1], level + 0.025 * np.array([[1, 1], [-1, -1]]))
+    assert np.ptp(stops.walls[0, :, 0]) == pytest.approx(0.2 * 0.2)
+    (axes,) = figures.draw_mechanism(scene, POSE).axes
+    marked = [line for line in axes.lines if line.get_color() == colours.MARKED]
+    assert len(marked) == 3  # both walls, and the pin
+    narrow = joint | {"clearance": play | {"wall_clearance": 1e-3}}
+    assert guides(scene | {"joints": {"stops": narrow}}, POSE, extent=0.2) == []
+
+
 @pytest.mark.parametrize("shape", FOLLOWERS)
 def test_the_outline_of_an_eccentric_cam_is_its_circle(shape: str) -> None:
     (outline, filled), (moved, is_outline) = curves(on_cam(shape), POSE)
