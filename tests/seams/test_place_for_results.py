@@ -77,7 +77,7 @@ class OneDatabase:
         rows = self.ask("SELECT key FROM objects WHERE substr(key, 1, ?) = ?", len(prefix), prefix)
         return (str(key) for (key,) in rows)
 
-    def cut_off(self) -> Iterator[str]:
+    def cut_off(self, prefix: str) -> Iterator[str]:
         return iter(())
 
     def remove(self, prefix: str) -> None:

@@ -12,6 +12,7 @@ from prometheus_client.parser import text_string_to_metric_families
 from jointplay.service import metrics, readiness
 from jointplay.service.app import create_app
 from jointplay.service.readiness import Readiness
+from jointplay.service.vital import VitalThreads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.counters import (
     COMPILING,
@@ -158,8 +159,8 @@ def test_many_who_ask_at_once_have_it_proved_once(
     monkeypatch.setattr(readiness, "_PERIOD", 3600.0)
     catalogue = Catalogue(Settings(data=tmp_path).catalogue_url)
     catalogue.migrate()
-    ready = Counted(catalogue, Settings(data=tmp_path))
-    lacking = Counted(catalogue, Settings(data=tmp_path / "lacking"))
+    ready = Counted(catalogue, Settings(data=tmp_path), VitalThreads())
+    lacking = Counted(catalogue, Settings(data=tmp_path / "lacking"), VitalThreads())
 
     async def asked(one: Readiness) -> list[BaseException | None]:
         found = await asyncio.gather(*(one.proved() for _ in range(20)), return_exceptions=True)

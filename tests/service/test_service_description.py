@@ -10,7 +10,7 @@ import httpx
 import pytest
 
 from jointplay.records.strict_json import DEEPEST
-from jointplay.service import body, fair_queue, owners, pieces
+from jointplay.service import body, fair_queue, owners, pieces, places
 from jointplay.service.access import turns
 from jointplay.service.app import create_app
 from jointplay.service.body import LARGEST_BATCH, LARGEST_BODY
@@ -180,10 +180,11 @@ def test_the_documentation_gives_the_bounds_of_what_is_done_at_once():
         f"{turns.MOST}; of these {turns.OF_HEALTH} only for health and readiness, "
         f"{turns.OF_WORKERS} more only for these and for workers with a block",
         f"{turns.WITHOUT_KEY}; where keys are required {turns.BESIDE_KEYS}",
-        f"{owners.OF_ONE}",
+        f"{owners.OF_ONE}, and as many of workers with a block",
         f"{owners.WAITING} (where no key is asked for: of all callers together)",
         f"{body.MOST_TOGETHER // 2**20} MiB together",
         f"{pieces.MOST_TOGETHER // 2**20} MiB together",
+        f"{places.DRAWN_AT_ONCE}; {places.EXPORTED_AT_ONCE}; {places.LISTED_AT_ONCE}",
         f"{fair_queue.OF_ONE} of a kind; of all kinds together no more than are left of the"
         f" {fair_queue.MOST_EVERYWHERE} of all owners",
     ]

@@ -3,6 +3,8 @@
 import time
 from typing import cast
 
+import pytest
+
 from jointplay.solver.kernels.cache import SPENT
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.dense_output.columns import step_columns
@@ -42,5 +44,5 @@ def test_what_is_compiled_on_the_way_is_no_pace_of_a_job(monkeypatch):
     monkeypatch.setattr(probe, "Mark", marked)
     job = {"kind": "simulate", "scene": given("four-bar"), "duration": 6.0}
     cost = probe.cost_of(admit(job).job)
-    assert cost.compilation == 1e6
+    assert cost.compilation == pytest.approx(1e6, abs=1e3)  # and what is compiled here
     assert 0.0 < cost.seconds < 1e4
