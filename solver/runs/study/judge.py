@@ -11,6 +11,7 @@ from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.nonlinear.lyapunov import undecided
 from jointplay.solver.nonlinear.verdict import RESTS
 from jointplay.solver.nonlinear.whole_turns import unwound
+from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.runs.study.cycles import cycle_of
 from jointplay.solver.runs.study.finer import go_on_finer, go_on_longer
 from jointplay.solver.runs.study.grounds import limits
@@ -31,8 +32,30 @@ def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
     if run.ended is None or run.ended.code or not study.carries_exponents:
         return False
     scene, period = study.point_scene(run.point), float(study.period[run.point])
+    _forget_late_contacts(study, bundle, lane, run)
     run.finer_from = go_on_finer(bundle, lane, scene, study.tolerance, period, study.record)
     return True
+
+
+def _forget_late_contacts(study: Study, bundle: Bundle, lane: int, run: PointRun) -> None:
+    """Leave out the record's growth if a contact that began in it has lasted for most of it.
+
+    The derivative of its impact rate never dies, and the exponent would be 0: as of contacts that
+    last throughout, the tangent forgets it (`tangent.forget_latched`), and behind the record grows
+    with the motion that has settled.
+    """
+    at, begun = bundle.lane(lane), run.settled * float(study.period[run.point])
+    since = 0.5 * (begun + at.time)
+    onset = at["onset_time"]
+    late = (at["mode"] > 0.0) & (begun < onset) & (onset < since) & (at["impact_floor"] > 0.0)
+    if not late.any():
+        return
+    at["tangent_impact_rate"] = 0.0
+    run.growth = []
+    said = lasting_contacts(bundle, lane, study.point_scene(run.point), since)
+    run.lasting = (
+        f"the exponent is that behind the record, in whose first half a contact began; {said}"
+    )
 
 
 def looks_longer(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
@@ -75,10 +98,13 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
 
 
 def _growths(study: Study, run: PointRun) -> tuple[Floats, Floats]:
-    """Return logarithms of the tangent's growth by period: in the record, and behind it."""
+    """Return logarithms of the tangent's growth by period: in the record, and behind it.
+
+    Where the record's is left out, that behind it stands for both.
+    """
     period = float(study.period[run.point])
     growth, finer = (
         growth_by_period(np.concatenate([np.zeros((0, 2)), *rows]), period, since)
         for rows, since in ((run.growth, run.settled), (run.finer, run.finer_from))
     )
-    return growth, finer
+    return (growth if run.growth else finer), finer

@@ -165,3 +165,22 @@ def test_an_impact_rate_that_contact_keeps_is_no_neutral_direction(settle: int |
     assert found["lyapunov"] == pytest.approx(expected, rel=0.02)
     assert found["lyapunov_error"] < 2.0
     assert found["verdict"] == PERIODIC
+
+
+def test_an_impact_rate_is_forgotten_of_a_contact_that_begins_in_the_record_and_lasts() -> None:
+    # a fall of two periods, a bounce, and a contact that lasts: it begins in the third of 200
+    fall = 0.2**2 / (2.0 * GRAVITY)
+    shaking = PRESSED["forces"]["shaking"]
+    faster = {"shaking": shaking | {"course": shaking["course"] | {"frequency": 100.0}}}
+    start = {"joints": {"stop": {"eccentricity": [0.2 - fall, 0.0]}}}
+    scene = PRESSED | {"start": start, "forces": faster}
+    found = {}
+    for settle in (1, 20):
+        job = {"kind": "poincare", "scene": scene, "settle": settle, "record": 200}
+        end = Computed({**job, "indicators": ["lyapunov", "recurrence"]}).ends[0]
+        found[settle] = end.indicators
+        assert ("behind the record" in end.reason) == (settle == 1)
+    # with the contact begun before the record the exponent is that of the closed form above
+    assert found[20]["lyapunov"] == pytest.approx(-61.2, abs=1.0)
+    assert found[1]["lyapunov"] == pytest.approx(found[20]["lyapunov"], rel=0.02)
+    assert found[1]["verdict"] == PERIODIC
