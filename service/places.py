@@ -6,7 +6,8 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Annotated, Any, Final
 
-from fastapi import Depends
+from fastapi import Depends, Request
+from starlette.requests import ClientDisconnect
 
 from jointplay.service.dependencies import of_the_application
 from jointplay.service.owners import OWNER
@@ -61,14 +62,25 @@ class Places:
         self._free += 1
 
 
+@asynccontextmanager
+async def place_for(request: Request, places: Places) -> AsyncIterator[None]:
+    """Hold a place for who asks while the block runs; ClientDisconnect: nobody waits any more."""
+    async with places.place(OWNER.get()):
+        if await request.is_disconnected():
+            raise ClientDisconnect
+        yield
+
+
 def in_turn(of: str) -> Any:
     """Return the dependency on a place, of those that the application has under a name.
 
     It is held until the answer was made, and no longer: a client may take it slowly.
     """
 
-    async def held(places: Annotated[Places, of_the_application(of)]) -> AsyncIterator[None]:
-        async with places.place(OWNER.get()):
+    async def held(
+        request: Request, places: Annotated[Places, of_the_application(of)]
+    ) -> AsyncIterator[None]:
+        async with place_for(request, places):
             yield
 
     return Depends(held, scope="function")

@@ -11,8 +11,7 @@ from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES, Form
 from jointplay.service.dependencies import NO_PARAMETERS, of_the_application
 from jointplay.service.fields import BINARY
 from jointplay.service.jobs.schemas import address
-from jointplay.service.owners import OWNER
-from jointplay.service.places import Places
+from jointplay.service.places import Places, place_for
 from jointplay.service.problems import RequestRefused, clipped, kinds, problems
 from jointplay.service.results.damage import refusal_of
 from jointplay.service.results.figure_query import FigureQuery, FigureSelection
@@ -80,9 +79,7 @@ async def draw_figure(
         sentence = f"Figures are drawn as {IN_WORDS}, not as {clipped(form)!r}."
         raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
     selection = cast("FigureSelection", query)
-    async with drawing.place(OWNER.get()):
-        if await request.is_disconnected():
-            return Response(status_code=204)  # which nobody reads
+    async with place_for(request, drawing):
         return await run_in_threadpool(_drawn, results, name, form, selection, windows, results_of)
 
 

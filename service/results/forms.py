@@ -6,13 +6,11 @@ from types import ModuleType
 from typing import Annotated, Any, Final
 
 from fastapi import Depends, Request, Response
-from starlette.requests import ClientDisconnect
 
 from jointplay.records.table_files import Column, arrow, csv, matlab, npz, parquet
 from jointplay.service.dependencies import of_the_application
 from jointplay.service.fields import BINARY
-from jointplay.service.owners import OWNER
-from jointplay.service.places import Places
+from jointplay.service.places import Places, place_for
 from jointplay.service.problems import RequestRefused, clipped, kinds
 
 JSON = "application/json"
@@ -102,9 +100,7 @@ async def _turn(
     if form == JSON:
         yield
         return
-    async with exporting.place(OWNER.get()):
-        if await request.is_disconnected():
-            raise ClientDisconnect
+    async with place_for(request, exporting):
         yield
 
 

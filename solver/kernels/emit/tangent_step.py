@@ -37,7 +37,7 @@ BEFORE_OPENING = {4: 0.461, 5: 0.89}
 """The same in a step that ends a contact, within 2e-3: shares of the time until the gap opens.
 
 At the shares of other steps roots count for 1 % too much, at each end of a contact: of a press
-whose joints touch 80 times a second the exponent was 6.0 instead of 4.3 1/s at tolerance 1e-6.
+whose joints touch 80 times a second the exponent was 6.0 instead of 3.9 1/s at tolerance 1e-6.
 """
 
 
