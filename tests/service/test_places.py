@@ -7,9 +7,11 @@ from typing import Any
 
 import httpx
 import pytest
+from fastapi import Request
+from starlette.requests import ClientDisconnect
 
 from jointplay import figures
-from jointplay.service.places import DRAWN_AT_ONCE, Places
+from jointplay.service.places import DRAWN_AT_ONCE, Places, place_for
 
 
 def test_many_figures_of_one_leave_threads_for_others(
@@ -73,6 +75,21 @@ def test_a_place_that_is_given_to_one_who_goes_is_given_on() -> None:
             await asyncio.sleep(0)
         waits.cancel()  # its turn has come, and it has not gone on yet
         await asyncio.gather(waits, return_exceptions=True)
+        async with asyncio.timeout(5.0), places.place("last"):
+            pass
+
+    asyncio.run(happened())
+
+
+def test_nothing_is_made_for_who_has_left_meanwhile() -> None:
+    async def gone() -> dict[str, str]:
+        return {"type": "http.disconnect"}
+
+    async def happened() -> None:
+        places, asked = Places(1), Request({"type": "http"}, gone)
+        with pytest.raises(ClientDisconnect):
+            async with place_for(asked, places):
+                pytest.fail("it was made")
         async with asyncio.timeout(5.0), places.place("last"):
             pass
 
