@@ -8,6 +8,7 @@ import pytest
 
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.swinging import (
+    HIDDEN,
     MUCH,
     NEARBY,
     REACH,
@@ -22,6 +23,8 @@ CHANNEL, HIGHEST, LOWEST, LEAST, CHANGE, SLOTS, LANES = 3, 5, 40, 80, 120, 160, 
 PAUSE = 255.0
 LONGER = 1.5
 """Length of the step by that of the one before."""
+QUARTIC = np.linspace(0.0, 1.0, INSTANTS) ** 2 * np.linspace(1.0, 0.0, INSTANTS) ** 2
+"""A swing that a channel may rise through."""
 
 
 @numba.njit(error_model="numpy")
@@ -46,13 +49,15 @@ def one_by_one(values: Any, *of_lane: Any) -> tuple[Any, ...]:
         near |= below > SEEN * spread and low - REACH * below < lowest
         rough |= swing > ROUGH * spread
         most = max(most, (MUCH * spread if swing > SEEN * spread else swing) / spread)
-        if swing > SEEN * spread:
+        about = 2401.0 / 384.0 * np.abs(np.diff(channel, 4)).max()
+        by = swing if swing > SEEN * spread else about if about > HIDDEN * spread else 0.0
+        if by > 0.0:
             bend = UNKNOWN if np.isnan(change) else abs(last - first - LONGER * change)
             bend += 1e-300
-            close = max(min(highest - high, low - lowest) - REACH * swing, 0.0)
+            close = max(min(highest - high, low - lowest) - REACH * by, 0.0)
             speed = abs(last - first)
-            way = speed + np.sqrt(bend * close) + 1e-300
-            pause = min(pause, 0.5 * max(close / way, (speed - REACH * swing) / bend))
+            turning = 2.0 * np.sqrt(bend * close + 0.5 * speed * speed) - speed
+            pause = min(pause, 0.5 * max(turning, speed - REACH * by) / bend)
     return near, rough, pause, most
 
 
@@ -65,6 +70,7 @@ def test_eight_at_once_are_as_one_by_one(count: int) -> None:
         ends = random.normal(size=(count, 1)) + np.linspace(0.0, 1.0, INSTANTS) * random.normal(
             size=(count, 1)
         )
+        ends = ends + 10.0 ** random.uniform(-9.0, -2.0, (count, 1)) * QUARTIC
         own = ends + scale * random.normal(size=(count, INSTANTS)) * random.integers(0, 2)
         values[CHANNEL : CHANNEL + count] = own
         lane = draw % LANES

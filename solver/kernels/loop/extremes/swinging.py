@@ -7,6 +7,7 @@ A channel at a time, this took longer than all else that extremes take in a step
 
 from collections.abc import Callable
 from functools import reduce
+from itertools import pairwise
 from typing import Any, cast
 
 from numba import float64, int64, types
@@ -35,6 +36,9 @@ SEEN = 1e-6
 REACH = 4.0
 """Times that a swing may be larger between the instants, or in the next steps that are not looked
 at: one that swings more is. A swing that is not worth a search may grow until it is."""
+HIDDEN = 6e-6
+"""Share of its range from which on a swing counts that a channel rises through: where it no longer
+rises, extremes of the step that turns are found, and others are beyond these by a tenth of that."""
 MUCH = SEEN / REACH
 """Share of its range that stands for a swing which is worth a search: it may grow by `REACH`."""
 TINY, UNKNOWN = 1e-300, 1e300
@@ -117,15 +121,31 @@ def _add(found, values, highest, lowest, change, kept):
     found.swing(where(seen < swing, MUCH * spread, swing), spread, kept)
     rest = smaller(highest - high, low - lowest)
     bend = smaller(abs(end - start - change), UNKNOWN) + TINY
-    found.wait(_Approach(abs(end - start), bend, rest, REACH * swing), kept & (seen < swing))
+    inside = _hidden(values)
+    hidden = where(HIDDEN * spread < inside, inside, 0.0)
+    by = where(seen < swing, swing, hidden)
+    found.wait(_Approach(abs(end - start), bend, rest, REACH * by), kept & (by > 0.0))
+
+
+def _hidden(values):
+    """Return by how much channels swing about the way from end to end, if as quartics do.
+
+    Of channels that rise by more in the step than they swing, nothing else shows it. A quartic that
+    is flat at both ends has a height of 1/16, and fourth differences of 24 / 7^4.
+    """
+    differences = values
+    for _ in range(4):
+        differences = [after - one for one, after in pairwise(differences)]
+    return (INSTANTS - 1) ** 4 / (24 * 16) * reduce(larger, map(abs, differences))
 
 
 class _Approach:
     """In how many steps a swing may come to an extreme that now is farther by the `rest`.
 
     Ends of steps must come as close to it, and turn: while they change by more than that from one
-    step to the next, the next one is beyond all that is in this. They are taken to change and bend
-    twice as much as now. What bends inside the step is mostly the swing, and tells nothing of ends.
+    step to the next, the next one is beyond all that is in this. They are taken to change twice as
+    much as now, and to bend four times as much. What bends inside the step is mostly the swing, and
+    tells nothing of ends.
     """
 
     def __init__(self, speed, bend, rest, swing) -> None:
@@ -134,15 +154,15 @@ class _Approach:
         self._close, self._beyond = larger(rest - swing, 0.0), speed - swing
 
     def steps(self) -> Eight:
-        """Return that."""
-        way = self._speed + (self._bend * self._close).sqrt() + TINY
-        return 0.5 * larger(self._close / way, self._beyond / self._bend)
+        """Return that: half of the least time to turn there, gaining speed and then losing it."""
+        most = (self._bend * self._close + 0.5 * self._speed * self._speed).sqrt()
+        return 0.5 * larger(2.0 * most - self._speed, self._beyond) / self._bend
 
     def may_end(self, pause) -> Eight:
         """Return where it may be fewer than a pause, without divisions and roots."""
-        twice = 2.0 * BARELY * pause
-        bends, left = twice * self._bend, self._close - twice * self._speed
-        late = (left > 0.0) & (twice * bends * self._close < left * left)
+        bends = 2.0 * BARELY * pause * self._bend
+        most = bends * (bends + 2.0 * self._speed) - self._speed * self._speed
+        late = most < 4.0 * self._bend * self._close
         return ~(late | (bends < self._beyond))
 
 
