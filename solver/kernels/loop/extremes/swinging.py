@@ -36,7 +36,7 @@ SEEN = 1e-6
 REACH = 4.0
 """Times that a swing may be larger between the instants, or in the next steps that are not looked
 at: one that swings more is. A swing that is not worth a search may grow until it is."""
-HIDDEN = 6e-6
+HIDDEN = 1e-5
 """Share of its range from which on a swing counts that a channel rises through: where it no longer
 rises, extremes of the step that turns are found, and others are beyond these by a tenth of that."""
 MUCH = SEEN / REACH
