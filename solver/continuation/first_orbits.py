@@ -13,7 +13,7 @@ from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit
 from jointplay.solver.continuation.passage import Section
 from jointplay.solver.continuation.plan import SECTIONS, TRIES
 from jointplay.solver.continuation.section_map import SectionMap
-from jointplay.solver.continuation.settled import NoStart, settle
+from jointplay.solver.continuation.settled import NoStart, Settled, settle
 from jointplay.solver.continuation.start import (
     first_orbit,
     isolated,
@@ -35,7 +35,7 @@ def first_orbits(
     start or a given state. Several are sought in the motion behind it.
     """
     try:
-        settled = settle(map_, value, state, periods)
+        settled = _settled(map_, value, state, periods)
         section = Section(value, settled.state)
         curve = scaled(map_, value, settled)
         curve = replace(curve, map=with_cyclic(curve.sections, section))
@@ -44,6 +44,25 @@ def first_orbits(
         return embedded_orbits(curve, section, count)
     except NoStart as none:
         return [none] * count
+
+
+def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int) -> Settled:
+    """Return what `settle` does, at a section with wheels behind gears as at the start.
+
+    NoStart: they are not back after the map's periods.
+    """
+    settled = settle(map_, value, state, periods)
+    back_after = settled.back_after
+    if map_.periods % back_after:
+        raise NoStart(
+            f"A wheel behind gears is back after {back_after} periods of the motion that was"
+            f" reached, not after {map_.periods}; ask for 'period' {back_after}, or for one that is"
+            " a multiple of it."
+        )
+    missing = -periods % back_after
+    if missing and map_.crossing is None:
+        settled = settle(map_, value, state, periods + missing)
+    return settled
 
 
 def embedded_orbits(curve: Curve, section: Section, count: int) -> list[Orbit | NoStart]:
@@ -61,8 +80,9 @@ def embedded_orbits(curve: Curve, section: Section, count: int) -> list[Orbit | 
 
 def _sections(curve: Curve, section: Section, periods: int) -> list[Section]:
     """Return a section and those that follow, as far as the motion can be followed."""
-    once, sections = replace(curve.sections, periods=1), [section]
-    for _ in range(periods):
+    back_after = curve.sections.back_after
+    once, sections = replace(curve.sections, periods=back_after), [section]
+    for _ in range(periods // back_after):
         (passage,) = once.passages(sections[-1:])
         if passage.failure:
             break
@@ -117,7 +137,8 @@ class _Search:
 
     def _returns(self, sections: Sequence[Section]) -> list[tuple[float, Section]]:
         """Return how far each section is from its return, with the section, the closest first."""
-        pairs = zip(sections, sections[self.curve.sections.periods :], strict=False)
+        map_ = self.curve.sections
+        pairs = zip(sections, sections[map_.periods // map_.back_after :], strict=False)
         found = [(self._apart(one.state, other.state), one) for one, other in pairs]
         return sorted(found, key=lambda one: one[0])
 

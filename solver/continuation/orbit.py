@@ -35,6 +35,8 @@ CLOSE_ENOUGH = 1e-6
 """Residual that is taken where another round makes it no smaller: rounding of hard contacts."""
 FARTHEST = 1.0
 """Ranges by which Newton's method may move the parameter: runs farther away may not end."""
+OPEN = 1e-5
+"""Distance by which closing loops may move an orbit's section, rad or m: of one it is rounding."""
 GAIN = 0.5
 ASIDE = 3.0
 """Distance from grazing at which Newton's method begins, in squares of the step."""
@@ -281,6 +283,8 @@ class Curve:
             residual = self.map.distance(linear)
             stalled = residual > GAIN * before and rounds > 1
             if residual <= CLOSE * self.map.tolerance or (stalled and residual <= CLOSE_ENOUGH):
+                if linear.passage.moved > OPEN:
+                    return NoOrbit("a wheel behind gears is not back with the drive", residual)
                 return Orbit(self, vector, linear, residual, rounds, scale)
             late = rounds >= MOST_ROUNDS and residual > CLOSE_ENOUGH
             if late or not math.isfinite(residual) or (stalled and rounds > 3):

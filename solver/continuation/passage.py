@@ -50,6 +50,8 @@ class Passage:
     """Distances from another number of impacts, of an orbit that tells them."""
     phases: tuple[int, ...] = ()
     """Number of times that each slip sticks and slides in a period, in turn, of such an orbit."""
+    moved: float = 0.0
+    """By how much closing loops moved its start, in the unit of the coordinate that moved most."""
 
 
 @dataclass(frozen=True)

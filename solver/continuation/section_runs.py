@@ -37,9 +37,9 @@ ATTEMPTS = 20_000
 SLOWEST, SPARE = 30.0, 10 * ATTEMPTS
 """Steps of a run at most, in those of the motion that a branch begins with, and besides: a run that
 Newton's method asks for may begin deep in a contact, and then take for ever."""
-TOLD = 7
-"""Numbers of a run beside its end: margins, how near it comes to another impact, s, onsets, steps.
-"""
+TOLD = 8
+"""Numbers of a run beside its end: margins, how near it comes to another impact, s, by how much
+closing loops moved its start, onsets, steps."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +66,8 @@ class SectionRuns:
     """Accepted steps in a period of the motion that the branch begins with."""
     crossing: Crossing | None = None
     """Makes sections; none: they are at crank angle 0."""
+    back_after: int = 1
+    """Periods after which wheels behind gears are back: sections in between are others."""
 
     @property
     def size(self) -> int:
@@ -103,10 +105,10 @@ class SectionRuns:
 
         found = list[Passage]()
         for row, failure in zip(*self.recall(compute), strict=True):
-            *margins, near, duration, onsets, steps = row[-TOLD:].tolist()
+            *margins, near, duration, moved, onsets, steps = row[-TOLD:].tolist()
             phases = tuple(map(int, row[self.size : -TOLD]))
             told = int(onsets), int(steps), failure, near, duration, Margins(*margins), phases
-            found.append(Passage(row[: self.size], *told))
+            found.append(Passage(row[: self.size], *told, moved))
         return found
 
     def _bundle(self, sections: Sequence[Section]) -> Answers:
@@ -132,7 +134,8 @@ class SectionRuns:
                 margins = Margins(speed=ended.approaches.slowest(lane))
             elif self._rows(lane) and not failures[lane]:
                 margins = ended.approaches.margins(lane, interval)
-            told = *margins, near, duration, at.run["onsets"], ended.steps[lane] + steps[lane]
+            counts = at.run["onsets"], ended.steps[lane] + steps[lane]
+            told = *margins, near, duration, ended.moved[lane], *counts
             numbers[lane] = np.concatenate([self.numbers_at(at.row()[0]), phases, told])
         return numbers, failures
 
@@ -144,13 +147,15 @@ class SectionRuns:
         event: Event | None = None,
     ) -> "_Runs":
         """Return runs from sections, side by side, over times (s) or to events before that."""
-        bundle = Bundle(self.kernel, watch=False)
+        bundle, moved = Bundle(self.kernel, watch=False), list[float]()
         for lane, section in enumerate(sections):
             values = [one.values for one in sections[:lane]]
             like = values.index(section.values) if section.values in values else None
             rows = self._rows(lane) if event is None else 0
             problem = self._problem(scenes[lane], section, durations[lane], event, rows)
             bundle.load(lane, problem, like)
+            closed = bundle.lane(lane)["y"] - section.state[: self.kernel.states]
+            moved.append(float(np.abs(closed).max()))
         attempts, most = 0, SLOWEST * self.steps * self.periods + SPARE
         watched = sum(self._rows(lane) > 0 for lane in range(len(sections)))
         approaches = Approaches(bundle, watched if event is None else 0)
@@ -174,7 +179,7 @@ class SectionRuns:
                 failures.append("" if event is None else crossings.lack(lane, self.periods))
             else:
                 failures.append(failure_of(bundle, lane, self.tolerance, scene).detail)
-        return _Runs(bundle, approaches, crossings, slips, failures)
+        return _Runs(bundle, approaches, crossings, slips, failures, moved)
 
     def _rows(self, lane: int) -> int:
         """Return how many rows a run hands out, by its lane."""
@@ -214,6 +219,8 @@ class _Runs:
     crossings: Crossings
     slips: Slips | None
     failures: list[str]
+    moved: list[float]
+    """By how much closing loops moved each start, in the unit of what moved most."""
 
     @property
     def steps(self) -> Floats:

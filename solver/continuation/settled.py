@@ -7,7 +7,8 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.crossing import PATIENCE, Crossings
-from jointplay.solver.continuation.section_map import SectionMap
+from jointplay.solver.continuation.geared_wheels import geared_angles, periods_until_back
+from jointplay.solver.continuation.section_map import TURN, SectionMap
 from jointplay.solver.continuation.section_runs import ATTEMPTS, Answers
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
@@ -34,6 +35,8 @@ class Settled:
     """Time of a period, s; where nothing drives the mechanism, from crossing to crossing."""
     steps: float
     """Accepted steps a period."""
+    back_after: int = 1
+    """Periods after which wheels behind gears are back; see `geared_wheels`."""
 
 
 def settle(map_: SectionMap, value: float, state: Floats | None, periods: int) -> Settled:
@@ -50,7 +53,11 @@ def settle(map_: SectionMap, value: float, state: Floats | None, periods: int) -
     (numbers,), (failure,) = map_.recall(lambda: _settled(map_, value, state, periods))
     if failure:
         raise NoStart(failure)
-    return Settled(numbers[: map_.size], numbers[map_.size : -2], *numbers[-2:].tolist())
+    extents, gone = numbers[map_.size : -2].reshape(2, map_.kernel.states)
+    geared = geared_angles(map_.scene_at(value), map_.kernel.coordinates)
+    back_after = periods_until_back(gone[geared] / (TURN * map_.periods))
+    interval, steps = numbers[-2:].tolist()
+    return Settled(numbers[: map_.size], extents, interval, steps, back_after)
 
 
 def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int) -> Answers:
@@ -60,10 +67,11 @@ def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int)
     bundle = Bundle(kernel, [problem], watch=False)
     crossings = Crossings(bundle, 1)
     low, high = np.full(kernel.states, math.inf), np.full(kernel.states, -math.inf)
-    running = 1
+    begun, running = list[Floats](), 1
     while running:
         running = bundle.advance(ATTEMPTS)
         states = kernel.row.states(bundle.rows(SAMPLES, 0))
+        begun += [one.copy() for one in states[: 1 - len(begun)]]
         low = np.minimum(low, states.min(axis=0, initial=math.inf))
         high = np.maximum(high, states.max(axis=0, initial=-math.inf))
         crossings.collect()
@@ -77,9 +85,11 @@ def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int)
         failure = _seldom(len(rows), problem)
     elif map_.crossing is not None:
         first, last = (float(bundle.times(0, row)) for row in (rows[0], rows[-1]))
-        end, interval = rows[-1], (last - first) / map_.periods
+        begun, interval = [kernel.row.states(rows[0])], (last - first) / map_.periods
+        end = rows[-1]
         steps = at.steps * interval / last
-    numbers = [map_.numbers_at(end), high - low, [interval, steps]]
+    gone = kernel.row.states(end) - begun[0] if begun else low
+    numbers = [map_.numbers_at(end), high - low, gone, [interval, steps]]
     return np.concatenate(numbers)[None], [failure]
 
 

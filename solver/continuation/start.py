@@ -41,7 +41,7 @@ def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
     scales = np.concatenate([np.minimum(one, extents), rates])
     weight = np.concatenate([np.full(kernel.states, 1.0 / kernel.states), np.zeros(pairs), [1.0]])
     whole = np.concatenate([extents, rates, [map_.width]])
-    map_ = replace(map_, scales=scales, steps=settled.steps)
+    map_ = replace(map_, scales=scales, steps=settled.steps, back_after=settled.back_after)
     return Curve(map_, Scales(whole, weight))
 
 
@@ -99,25 +99,26 @@ def shorter_period(orbit: Orbit) -> int:
 
 
 def within_a_turn(orbit: Orbit) -> Orbit:
-    """Return an orbit whose angles that go round begin within half a turn: they round off less.
+    """Return an orbit that begins as many returns earlier as one that goes round has made.
 
-    NoStart: it is none from there.
+    Its angles round off less. NoStart: it is none from there.
     """
     curve, map_, section = orbit.curve, orbit.curve.sections, orbit.section
     passage = orbit.linear.passage
-    ahead = passage.end - section.state - map_.away(passage.end, section.state)
-    ahead[list(map_.cyclic)] = 0.0
-    if not ahead.any():
+    turned = passage.end - section.state - map_.away(passage.end, section.state)
+    turned[list(map_.cyclic)] = 0.0
+    if not turned.any():
         return orbit
-    back = np.where(ahead == 0.0, 0.0, TURN * np.round(section.state / TURN))
-    moved = replace(section, state=section.state - (back if back.any() else ahead))
+    turns, fastest = np.round(turned / TURN), np.abs(turned).argmax()
+    returns = np.round(section.state[fastest] / turned[fastest])
+    moved = replace(section, state=section.state - TURN * ((returns or -1.0) * turns))
     (again,) = map_.passages([moved])
     if again.failure or _apart(map_, again, moved) > WOUND:
         raise NoStart(
             "The motion goes round, and is another one some turns later: something in the mechanism"
             " winds up. Try a 'state' next to an orbit that comes back."
         )
-    return first_orbit(curve, moved) if back.any() else orbit
+    return first_orbit(curve, moved) if returns else orbit
 
 
 def _apart(map_: SectionMap, passage: Passage, section: Section) -> float:

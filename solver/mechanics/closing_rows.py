@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from jointplay.solver.joints.holding import Distance
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
+from jointplay.solver.laws.function.whole_turn import TURN
 from jointplay.solver.mechanics.elimination import is_zero
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.rows import RESTING
 from jointplay.solver.quantities.frames import WORLD, FrameVector, unit
-from jointplay.solver.quantities.scalars import Scalar, sine_cosine
+from jointplay.solver.quantities.scalars import Scalar, floor, sine_cosine
 
 
 @dataclass(frozen=True)
@@ -155,7 +156,7 @@ def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
 
 
 def _gear_row(kinematics: Kinematics, name: str) -> ClosingRow:
-    """Return α_2 - ratio α_1 - offset = 0."""
+    """Return α_2 - ratio α_1 - offset = 0, but for whole turns of the second joint."""
     gear, names = kinematics.numbers.gears[name], kinematics.tree.coordinates
     partials: dict[str, Scalar] = {}
     value: Scalar = -gear.offset
@@ -168,4 +169,5 @@ def _gear_row(kinematics: Kinematics, name: str) -> ClosingRow:
         for coordinate, share in frame.spin_partials.items():
             partials[coordinate] = partials.get(coordinate, 0.0) + factor * share
     found = {n: p for n, p in partials.items() if n in names and not is_zero(p)}
+    value = value - TURN * floor(value / TURN + 0.5)
     return ClosingRow(name, "angle", value, rate, found, bias)
