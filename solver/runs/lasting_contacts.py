@@ -9,7 +9,9 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
 
 
-def lasting_contacts(bundle: Bundle, lane: int, scene: Scene, since: float) -> str:
+def lasting_contacts(
+    bundle: Bundle, lane: int, scene: Scene, since: float, how_long: str = "throughout"
+) -> str:
     """Say which pairs of a lane have been in contact since a time, s, by a law with memory."""
     at, play = bundle.lane(lane), contact_pairs(scene)
     lasting = [
@@ -20,7 +22,7 @@ def lasting_contacts(bundle: Bundle, lane: int, scene: Scene, since: float) -> s
     if not lasting:
         return ""
     return (
-        f"contact lasted throughout in {', '.join(lasting)}, with the impact rate that the law"
+        f"contact lasted {how_long} in {', '.join(lasting)}, with the impact rate that the law"
         " latched at the last onset (it stays the same until the next onset, and with another rate"
         " the motion may be of another kind)"
     )

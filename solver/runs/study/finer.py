@@ -55,8 +55,16 @@ def go_on_finer(
         at[name] = finer * at[name]
     for name in ("tangent", "tangent_impact_rate"):  # its length is measured by the weights
         at[name] = at[name] / finer
-    first = math.ceil(at.time / period - LATE)
-    bundle.extend(lane, scene, (first + periods_of(record)) * period, ENDLESS)
+    return go_on_for(bundle, lane, scene, period, periods_of(record))
+
+
+def go_on_for(bundle: Bundle, lane: int, scene: Scene, period: float, periods: int) -> int:
+    """Let a lane that is done go on for some periods, of so many s each.
+
+    Returns the periods since its start after which they begin.
+    """
+    first = math.ceil(bundle.lane(lane).time / period - LATE)
+    bundle.extend(lane, scene, (first + periods) * period, ENDLESS)
     return first
 
 

@@ -13,7 +13,7 @@ from jointplay.solver.nonlinear.verdict import RESTS
 from jointplay.solver.nonlinear.whole_turns import unwound
 from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.runs.study.cycles import cycle_of
-from jointplay.solver.runs.study.finer import go_on_finer, go_on_longer
+from jointplay.solver.runs.study.finer import go_on_finer, go_on_for, go_on_longer
 from jointplay.solver.runs.study.grounds import limits
 from jointplay.solver.runs.study.indicators import (
     MOST_SECTIONS,
@@ -32,38 +32,40 @@ def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
     if run.ended is None or run.ended.code or not study.carries_exponents:
         return False
     scene, period = study.point_scene(run.point), float(study.period[run.point])
-    _forget_late_contacts(study, bundle, lane, run)
     run.finer_from = go_on_finer(bundle, lane, scene, study.tolerance, period, study.record)
     return True
 
 
-def _forget_late_contacts(study: Study, bundle: Bundle, lane: int, run: PointRun) -> None:
-    """Leave out the record's growth if a contact that began in it has lasted for most of it.
-
-    The derivative of its impact rate never dies, and the exponent would be 0: as of contacts that
-    last throughout, the tangent forgets it (`tangent.forget_latched`), and behind the record grows
-    with the motion that has settled.
-    """
-    at, begun = bundle.lane(lane), run.settled * float(study.period[run.point])
-    since = 0.5 * (begun + at.time)
-    onset = at["onset_time"]
-    late = (at["mode"] > 0.0) & (begun < onset) & (onset < since) & (at["impact_floor"] > 0.0)
-    if not late.any():
-        return
-    at["tangent_impact_rate"] = 0.0
-    run.growth = []
-    said = lasting_contacts(bundle, lane, study.point_scene(run.point), since)
-    run.lasting = (
-        f"the exponent is that behind the record, in whose first half a contact began; {said}"
-    )
-
-
 def looks_longer(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
-    """Lengthen the stretch in smaller steps while it settles nothing. Returns whether it does."""
+    """Let the stretch in smaller steps go on while it settles nothing. Returns whether it does."""
+    scene, period = study.point_scene(run.point), float(study.period[run.point])
+    if _forgets_late_contacts(study, bundle, lane, run):
+        run.finer_from = go_on_for(bundle, lane, scene, period, study.record)
+        return True
     if not open_still(study, run):
         return False
-    scene, period = study.point_scene(run.point), float(study.period[run.point])
     return go_on_longer(bundle, lane, scene, run.finer_from, period, study.record)
+
+
+def _forgets_late_contacts(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
+    """Drop the growth so far if a contact that began in the record has lasted ever since.
+
+    The derivative of its impact rate never dies, and the exponent would be 0: as of contacts that
+    last throughout, the tangent forgets it (`tangent.forget_latched`), and grows with the motion
+    that has settled. Returns whether it has forgotten one.
+    """
+    at, period = bundle.lane(lane), float(study.period[run.point])
+    onset, latched = at["onset_time"], at["tangent_impact_rate"] != 0.0
+    since = run.finer_from * period
+    late = latched & (at["mode"] > 0.0) & (run.settled * period < onset) & (onset <= since)
+    if not late.any():
+        return False
+    at["tangent_impact_rate"] = 0.0
+    run.growth, run.finer = [], []
+    scene = study.point_scene(run.point)
+    run.lasting = lasting_contacts(bundle, lane, scene, since, "from the record on")
+    run.lasting += "; the exponent is that behind the record"
+    return True
 
 
 def open_still(study: Study, run: PointRun) -> bool:
