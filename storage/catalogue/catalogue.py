@@ -4,6 +4,7 @@ It is the truth. Celery and Redis only wake workers; wiping them loses nothing.
 """
 
 from collections.abc import Callable, Collection, Iterator, Sequence
+from functools import partial
 
 from sqlalchemy import text
 from sqlalchemy.exc import DBAPIError
@@ -158,7 +159,8 @@ class Catalogue:
         now = self.clock()
         with self.connections.writing(durable=True) as connection:
             unit = Unit(connection, now)
-            return submission.submit(unit, requests, lambda: self._identifiers.next(now))
+            next_id = partial(self._identifiers.next, now)
+            return submission.submit(unit, requests, next_id, self.clock)
 
     def submit_batch(
         self,

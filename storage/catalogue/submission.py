@@ -64,11 +64,15 @@ class Request:
 
 
 def submit(
-    unit: Unit, requests: Sequence[Request], next_id: Callable[[], str]
+    unit: Unit,
+    requests: Sequence[Request],
+    next_id: Callable[[], str],
+    clock: Callable[[], float],
 ) -> list[Submitted | CatalogueError]:
     """Store jobs, their blocks and their wake-ups, or find the jobs that earlier requests made.
 
-    The requests are answered as if one came after the other; new jobs are stored together.
+    The requests are answered as if one came after the other; new jobs are stored together. The unit
+    may have waited for others since its moment: the clock tells what these did meanwhile.
     """
     looked_for = [one.new.number for one in requests if one.reuse]
     looked_for += [one.key.number for one in requests if one.key is not None]
@@ -90,7 +94,7 @@ def submit(
             found |= _look_up(unit, [request])
         seen |= names
         try:
-            answer = _earlier(unit, request, found)
+            answer = _earlier(unit, request, found, clock)
             if answer is None:
                 uses.add(request.new.owner, 1, request.quota)
         except (KeyReused, QuotaExceeded) as error:
@@ -127,7 +131,9 @@ def _computed(new: NewJob) -> Hashable:
     return new.digest, new.solver_version, new.kind, new.owner
 
 
-def _earlier(unit: Unit, request: Request, found: Mapping[Hashable, Any]) -> Submitted | None:
+def _earlier(
+    unit: Unit, request: Request, found: Mapping[Hashable, Any], clock: Callable[[], float]
+) -> Submitted | None:
     """Return the job of an earlier request with the same key, or one that computes the same."""
     key, new = request.key, request.new
     if key is not None:
@@ -137,13 +143,15 @@ def _earlier(unit: Unit, request: Request, found: Mapping[Hashable, Any]) -> Sub
     same = found[_computed(new)] if request.reuse else None
     if same is None:
         return None
-    if key is not None:
-        idempotency.remember(unit, [(key, same)])
     job = find_job(unit, same)
     if job.expires is not None and (new.expires is None or new.expires > job.expires):
+        if lock_job(unit, same).expired(clock()):  # it was deleted, which stays so
+            return None
         keep = update(tables.job).where(tables.job.c.id == same).values(expires=new.expires)
         unit.execute(keep)
         job = replace(job, expires=new.expires)
+    if key is not None:
+        idempotency.remember(unit, [(key, same)])
     if job.label is None and new.label is not None:
         unit.execute(update(tables.job).where(tables.job.c.id == same).values(label=new.label))
         job = replace(job, label=new.label)

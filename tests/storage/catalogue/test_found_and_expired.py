@@ -1,5 +1,7 @@
 """Jobs that are found again, by what they ask for or by filters, and jobs that expire."""
 
+from collections.abc import Callable
+from contextlib import closing
 from dataclasses import replace
 
 import pytest
@@ -49,6 +51,28 @@ def test_what_ended_badly_or_is_being_cancelled_is_not_found_again(catalogue: Ca
     error = JobError("solver", "step-size-underflow", "The step fell below 1e-15 s.")
     catalogue.finish(f"{failed}-0", 1, BlockEnd(BlockState.failed, error))
     assert len({queued, cancelling, failed, catalogue.submit(NEW, reuse=True).job.id}) == 4
+
+
+def test_a_job_that_is_deleted_while_it_is_asked_for_again_stays_deleted(
+    new_url: Callable[[], str], clock: Clock
+) -> None:
+    url = new_url()
+    with closing(Catalogue(url, clock=clock)) as other:
+        job = succeed(other, NEW)
+
+        def deleting() -> float:
+            """Tell the time, after which the job is deleted before anything else is done."""
+            now = clock.now
+            if not other.expired(other.get(job)):
+                clock.now += 1.0
+                other.delete(job)
+            return now
+
+        with closing(Catalogue(url, clock=deleting)) as catalogue:
+            found = catalogue.submit(NEW, reuse=True)
+        assert (found.created, found.cached) == (True, False)
+        assert other.expired(other.get(job))
+        assert other.submit(NEW, reuse=True).job.id == found.job.id
 
 
 def test_a_job_that_is_wanted_again_expires_later_and_an_expired_one_is_not_found(

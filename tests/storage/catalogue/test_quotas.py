@@ -77,7 +77,7 @@ def test_keys_of_one_owner_have_quotas_of_their_own(catalogue: Catalogue, clock:
         ids = (f"{clock.now:.0f}{number:016}" for number in range(3))
         with catalogue.connections.writing() as connection:
             unit = Unit(connection, clock.now)
-            answers = submission.submit(unit, requests, ids.__next__)
+            answers = submission.submit(unit, requests, ids.__next__, clock)
         assert [isinstance(answer, QuotaExceeded) for answer in answers] == [False, True, False]
         clock.now += 1.0
 

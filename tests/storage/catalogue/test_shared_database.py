@@ -99,6 +99,30 @@ def test_cancelling_reaping_and_progress_never_end_a_unit(apis: Sequence[Catalog
         assert states[JobState.running] == states[JobState.queued] == 0
 
 
+def test_a_submission_that_waits_for_a_deletion_leaves_the_job_deleted(
+    url: str, apis: Sequence[Catalogue]
+) -> None:
+    later = apis[0].clock() + 3600.0
+    job = apis[0].submit(replace(NEW, expires=later)).job.id
+    apis[0].request_cancel(job)
+    with psycopg.connect(url, autocommit=True) as server, ThreadPoolExecutor(2) as threads:
+        server.execute("UPDATE job SET state = 'succeeded'")
+
+        def wait_for_a_lock(count: int) -> None:
+            waiting = "SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'"
+            until(lambda: server.execute(waiting).fetchone() == (count,))
+
+        with psycopg.connect(url) as other:
+            other.execute("SELECT * FROM job FOR UPDATE")
+            deleted = threads.submit(apis[0].delete, job)
+            wait_for_a_lock(1)
+            found = threads.submit(apis[1].submit, NEW, reuse=True)  # which does not expire
+            wait_for_a_lock(2)
+        assert deleted.result().expires < later
+        assert found.result().created
+    assert apis[0].expired(apis[0].get(job))
+
+
 def test_of_last_blocks_that_end_together_one_has_the_study_sealed(
     apis: Sequence[Catalogue],
 ) -> None:
