@@ -89,18 +89,23 @@ def cancel_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource
 @router.post(
     "/{job_id}/retry",
     status_code=202,
-    responses=MADE_OR_FOUND | problems(*kinds.OF_A_JOB, *kinds.OF_RETRIES),
+    responses=MADE_OR_FOUND | problems(*kinds.OF_A_JOB, *kinds.OF_RETRIES, *kinds.OF_KEYS),
 )
 def retry_job(
-    job: JobOfThePath, queueing: QueueingDependency, caller: CallerDependency, response: Response
+    job: JobOfThePath,
+    queueing: QueueingDependency,
+    repeatable: RepeatableRequest,
+    caller: CallerDependency,
+    response: Response,
 ) -> SubmittedJob:
     """Queue a job that failed or was cancelled once more.
 
     What has ended never changes: the document is queued as a new job with the same label, whose
     first event has `retry_of`; an event `retried` of the old job names it.  Asked again, the answer
-    is that job, with 200 and `cached`, until it has failed or was cancelled itself.
+    is that job, with 200 and `cached`, until it has failed or was cancelled itself; with the same
+    Idempotency-Key also after that.
     """
-    submitted = queueing.retry(job, caller)
+    submitted = queueing.retry(job, repeatable, caller)
     if submitted.cached:
         response.status_code = 200
     response.headers["Location"] = address(submitted.job.id)

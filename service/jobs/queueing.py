@@ -71,7 +71,7 @@ class Queueing:
                 submitted = self._checker.check(what, body)
         return self._woken_for(submitted)
 
-    def retry(self, job: Job, caller: Caller) -> Submitted:
+    def retry(self, job: Job, repeatable: Repeatable, caller: Caller) -> Submitted:
         """Queue a job's document again as a new job, or find the one that computes the same.
 
         The job must have failed or been cancelled; the new one belongs to its owner.
@@ -79,10 +79,13 @@ class Queueing:
         if job.state not in RETRIABLE:
             detail = f"Job {job.id} is {job.state}; what failed or was cancelled can be retried."
             raise RequestRefused(kinds.NOTHING_TO_RETRY, detail)
-        found = self._checker.check(RepeatJob(), json.dumps(job.spec).encode())
-        own = replace(found, owner=job.owner, retry_of=job.id)
-        quota = quota_of(caller, self._settings)
-        submitted = self._catalogue.submit(own, reuse=True, quota=quota)
+        sent = repeatable.sent_key
+        key = None if sent is None else sent.with_document(None)
+        with repeatable.in_flight():
+            found = self._checker.check(RepeatJob(), json.dumps(job.spec).encode())
+            own = replace(found, owner=job.owner, retry_of=job.id)
+            quota = quota_of(caller, self._settings)
+            submitted = self._catalogue.submit(own, key, reuse=True, quota=quota)
         if submitted.created:
             self._wake(len(own.blocks))
         return submitted

@@ -270,6 +270,8 @@ OF_A_JOB = UNKNOWN_JOB, EXPIRED_JOB
 """Problems of every address of a job."""
 OF_RETRIES = NOTHING_TO_RETRY, INVALID_JOB, LIMIT_EXCEEDED, QUOTA_EXCEEDED, DISK_FULL, UNAVAILABLE
 """Problems of retries: a document may be one that this version refuses."""
+OF_KEYS = KEY_REUSED, KEY_IN_FLIGHT, INVALID_REQUEST
+"""Problems of an Idempotency-Key."""
 OF_A_BODY = (
     MALFORMED_JSON,
     BODY_TOO_LARGE,
@@ -282,9 +284,7 @@ OF_A_BODY = (
 )
 OF_SUBMISSIONS = (
     *OF_A_BODY,
-    KEY_REUSED,
-    KEY_IN_FLIGHT,
-    INVALID_REQUEST,
+    *OF_KEYS,
     SCOPE_MISSING,
     QUOTA_EXCEEDED,
 )

@@ -111,6 +111,25 @@ def test_a_repeated_submission_queues_one_job(connect, fresh_service, pauses, tr
     assert len(pauses) == 2
 
 
+def test_a_retry_whose_answer_was_lost_is_not_done_again_after_it_has_ended(
+    connect, fresh_service, monkeypatch
+):
+    with Client(fresh_service) as other:
+
+        def sleep(network, seconds):
+            for job in other.jobs(state="queued"):
+                job.cancel()  # meanwhile what was made has ended
+
+        for network in (BlockingNetwork, AwaitedNetwork):
+            monkeypatch.setattr(network, "sleep", sleep)
+        failed = other.submit(PENDULUM).cancel()
+        with front([None, "unheard"], fresh_service) as (url, _), connect(url) as client:
+            again = client.job(failed.id).retry()
+            assert again.state == "cancelled"
+            assert number_of_jobs(fresh_service) == 2
+            assert client.job(failed.id).retry().id != again.id  # which was another call
+
+
 def test_every_submission_has_a_key_of_its_own(connect, fresh_service):
     with front([], fresh_service) as (url, heard), connect(url) as client:
         first, second = client.submit(PENDULUM), client.submit(PENDULUM)
