@@ -3,7 +3,7 @@
 import { element, fill } from "./interface/element.js";
 import { address, place } from "./interface/place.js";
 import { trouble } from "./interface/trouble.js";
-import { Unreachable, get, onReachable, pause, report } from "./requests/service.js";
+import { Unreachable, get, isBusy, onReachable, pause, report } from "./requests/service.js";
 
 const VIEWS = {
   start: ["Mechanisms", () => import("./views/start.js")],
@@ -16,6 +16,7 @@ const VIEWS = {
   workers: ["Workers", () => import("./views/workers.js")],
   editor: ["Your own mechanism", () => import("./views/editor.js")],
 };
+const COME_BACK = 5000; // ms after which a view that a busy service did not fill is tried again
 const UNFETCHED = /dynamically imported module|Importing a module script failed/;
 const ONE_OF = { jobs: "job", batches: "batch" }; // as the addresses of the API are
 const BELONGS = { new: "start", job: "jobs", compare: "jobs", batch: "jobs", batches: "jobs" };
@@ -49,6 +50,7 @@ async function show() {
     const unfetched = UNFETCHED.test(error.message); // a part of the page itself did not come
     fill(content, trouble(unfetched ? new Unreachable() : error, here));
     if (unfetched) report(false);
+    else if (isBusy(error)) pause(COME_BACK, signal).then(show).catch(() => {});
   }
 }
 

@@ -2,6 +2,7 @@
 
 import { element, fill } from "./element.js";
 import { bytes, short, span } from "./numbers.js";
+import { patiently } from "../requests/patiently.js";
 import { pause, post } from "../requests/service.js";
 
 const QUIET = 600; // ms without a change before it is asked
@@ -31,7 +32,8 @@ export class Estimate {
       const slow = setTimeout(() => !signal.aborted && fill(this.element,
         "Estimating the cost … (equations are compiled the first time they are met)"), 1500);
       signal.addEventListener("abort", () => clearTimeout(slow));
-      const found = await post("/v1/estimates", job, signal).finally(() => clearTimeout(slow));
+      const ask = () => post("/v1/estimates", job, signal);
+      const found = await patiently(ask, signal).finally(() => clearTimeout(slow));
       fill(this.element, words(found));
       this.onWrong([]);
     } catch (error) {

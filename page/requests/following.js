@@ -1,7 +1,7 @@
 /** Follows one job: what happens to it, and how far it is, until it is finished. */
 
 import { keyHeaders } from "./key.js";
-import { pause, report } from "./service.js";
+import { mayPass, pause, report } from "./service.js";
 
 export const TERMINAL = new Set(["succeeded", "failed", "cancelled"]);
 const COME_BACK = 1000; // ms after which a stream that was cut is opened again
@@ -31,8 +31,8 @@ export async function follow(address, { onEvent, onProgress, signal }) {
       const seen = last ? { "Last-Event-ID": String(last) } : {};
       const answer = await fetch(`${address}/events`, { headers: { ...keyHeaders(), ...seen }, signal });
       report(true);
-      if (answer.status !== 200) return;
-      await read(answer.body, take);
+      if (answer.status === 200) await read(answer.body, take);
+      else if (!mayPass(answer)) return;
       if (!over) await pause(COME_BACK, signal);
     } catch (error) {
       if (error.name === "AbortError") return;

@@ -1,20 +1,20 @@
 /** Asks a service again that is busy, or does not answer for a moment. */
 
-import { Unreachable, pause } from "./service.js";
+import { Unreachable, isBusy, pause } from "./service.js";
 
-const BUSY = new Set([429, 503]);
 const TRIES = 5;
-const COME_BACK = 1000; // ms
+const COME_BACK = 1; // s
+const LONGEST = 10; // s: who would have to wait longer is told so
 
 /** Returns what `ask` returns; what asks must be safe to be sent again. */
-export async function patiently(ask, signal) {
+export async function patiently(ask, signal, again = (error) => isBusy(error) || error instanceof Unreachable) {
   for (let tries = 1; ; tries++) {
     try {
       return await ask();
     } catch (error) {
-      const again = BUSY.has(error.status) || error instanceof Unreachable;
-      if (!again || tries === TRIES) throw error;
-      await pause(COME_BACK, signal);
+      const after = error.after ?? COME_BACK;
+      if (!again(error) || tries === TRIES || after > LONGEST) throw error;
+      await pause(1000 * after, signal);
     }
   }
 }

@@ -1,12 +1,18 @@
 /** Requests to the service: JSON in both directions, and problems as errors that can be shown. */
 
 import { keyHeaders } from "./key.js";
+import { patiently } from "./patiently.js";
 
-/** A problem document (RFC 9457): title, detail, and the fields that are wrong. */
+/**
+ * A problem document (RFC 9457): title, detail, and the fields that are wrong.
+ *
+ * @property after seconds after which the service would like to be asked again; null: it did not say
+ */
 export class Problem extends Error {
-  constructor(status, document) {
+  constructor(status, document, after = null) {
     super(document.detail ?? document.title ?? `The service answered with status ${status}.`);
     this.status = status;
+    this.after = after;
     this.title = document.title ?? "The service refused this";
     this.type = document.type ?? "";
     this.errors = document.errors ?? [];
@@ -18,6 +24,16 @@ export class Unreachable extends Error {
   constructor() {
     super("The service does not answer. What it accepted goes on; this page tries again.");
   }
+}
+
+/** Whether the service had too much to do (429, 503), or refused this for another reason. */
+export function isBusy({ status }) {
+  return status === 429 || status === 503;
+}
+
+/** Whether a fault may pass by itself: the service is away, busy, or broken behind its proxy. */
+export function mayPass(error) {
+  return error instanceof Unreachable || isBusy(error) || error.status >= 500;
 }
 
 const listeners = new Set();
@@ -32,9 +48,9 @@ export function report(reachable) {
   for (const listener of listeners) listener(reachable);
 }
 
-/** Returns what a GET answers; `query` values of null and "" are left out. */
+/** Returns what a GET answers, of a busy service later; `query` values of null and "" are left out. */
 export function get(path, query = {}, signal = undefined) {
-  return request("GET", withQuery(path, query), undefined, signal);
+  return patiently(() => request("GET", withQuery(path, query), undefined, signal), signal, isBusy);
 }
 
 /** Returns what a POST of a document answers. */
@@ -56,7 +72,8 @@ export function withQuery(path, query) {
 
 /** Returns the bytes that a GET answers in a form. */
 export async function getBytes(path, form, signal) {
-  return (await answered("GET", path, undefined, signal, form)).arrayBuffer();
+  const ask = () => answered("GET", path, undefined, signal, form);
+  return (await patiently(ask, signal, isBusy)).arrayBuffer();
 }
 
 async function request(method, path, document, signal) {
@@ -78,8 +95,9 @@ async function answered(method, path, document, signal, form) {
     throw new Unreachable();
   }
   report(true);
-  if (!answer.ok) throw new Problem(answer.status, await answer.json().catch(() => ({})));
-  return answer;
+  if (answer.ok) return answer;
+  const after = Number.parseFloat(answer.headers.get("Retry-After") ?? "");
+  throw new Problem(answer.status, await answer.json().catch(() => ({})), Number.isNaN(after) ? null : after);
 }
 
 /** Waits, or throws AbortError as soon as the view is left. */

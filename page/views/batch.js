@@ -5,7 +5,7 @@ import { declaredFor, differing } from "../interface/job_words.js";
 import { span } from "../interface/numbers.js";
 import { address, go } from "../interface/place.js";
 import { sceneName, stateMark } from "../interface/state.js";
-import { Unreachable, get, pause, post, remove } from "../requests/service.js";
+import { get, mayPass, pause, post, remove } from "../requests/service.js";
 import { counts } from "./batches.js";
 
 const SHOWN = 200;
@@ -20,7 +20,7 @@ export async function show(room, { parts, signal }) {
       draw(room, batch, jobs, differing(jobs, declared), path);
       if (batch.finished) return;
     } catch (error) {
-      if (!(error instanceof Unreachable) || !room.childElementCount) throw error;
+      if (!(mayPass(error)) || !room.childElementCount) throw error;
     }
     await pause(1500, signal);
   }

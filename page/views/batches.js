@@ -4,7 +4,7 @@ import { element, fill } from "../interface/element.js";
 import { ago } from "../interface/numbers.js";
 import { address } from "../interface/place.js";
 import { stateMark } from "../interface/state.js";
-import { Unreachable, get, pause } from "../requests/service.js";
+import { get, mayPass, pause } from "../requests/service.js";
 
 const SHOWN = 100;
 
@@ -20,7 +20,7 @@ export async function show(room, { signal }) {
         + " /v1/batches, or client.submit_batch, submits many jobs together."),
       more && element("p", { class: "quiet small" }, `The newest ${SHOWN} are shown.`));
     } catch (error) {
-      if (!(error instanceof Unreachable) || !content.childElementCount) throw error;
+      if (!(mayPass(error)) || !content.childElementCount) throw error;
     }
     await pause(2000, signal);
   }

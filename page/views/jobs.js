@@ -11,7 +11,7 @@ import { whyQueued, workers } from "../interface/workers.js";
 import { trouble } from "../interface/trouble.js";
 import { TERMINAL } from "../requests/following.js";
 import { describedKinds } from "../requests/kinds.js";
-import { Unreachable, get, pause } from "../requests/service.js";
+import { get, mayPass, pause } from "../requests/service.js";
 
 const FIRST_PAGE = 50; // more are asked for as soon as the list is scrolled
 const PAGE = 200;
@@ -113,7 +113,7 @@ class JobList {
         this.draw();
       } catch (error) {
         if (error.name === "AbortError") return;
-        if (!(error instanceof Unreachable) && !(error.status >= 500)) return this.failed(error);
+        if (!mayPass(error)) return this.failed(error);
       }
     }
   }
@@ -165,7 +165,7 @@ class JobList {
       this.next = page.next;
       this.draw();
     } catch (error) {
-      if (error.name !== "AbortError" && !(error instanceof Unreachable)) this.failed(error);
+      if (error.name !== "AbortError" && !mayPass(error)) this.failed(error);
     } finally {
       this.loading = false;
     }

@@ -4,7 +4,7 @@ import { element, fill } from "../interface/element.js";
 import { ago, span } from "../interface/numbers.js";
 import { address } from "../interface/place.js";
 import { processOf, whyQueued, workers } from "../interface/workers.js";
-import { Unreachable, pause } from "../requests/service.js";
+import { mayPass, pause } from "../requests/service.js";
 
 const AGAIN = 2000; // ms
 
@@ -18,7 +18,7 @@ export async function show(room, { signal }) {
       said.textContent = alive.length === 1 ? "1 is alive" : `${alive.length} are alive`;
       fill(content, alive.length ? table(alive) : whyQueued(alive));
     } catch (error) {
-      if (!(error instanceof Unreachable) || !content.childElementCount) throw error;
+      if (!(mayPass(error)) || !content.childElementCount) throw error;
     }
     await pause(AGAIN, signal);
   }
