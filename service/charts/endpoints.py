@@ -197,7 +197,8 @@ def show_tile(
         low = lowest if lowest is not None else float(known.min(initial=np.inf))
         high = highest if highest is not None else float(known.max(initial=-np.inf))
         picture = colouring.picture_of_values(part.astype(np.float64), low, high)
-    return Response(picture, media_type=PNG, headers={"Cache-Control": _KEPT})
+    kept = "no-cache" if query.ended is None else _KEPT
+    return Response(picture, media_type=PNG, headers={"Cache-Control": kept})
 
 
 def _state(results: ResultsOfThePath, quantity: str, asked: int | None) -> int:

@@ -131,6 +131,15 @@ def test_a_tile_of_a_state_to_come_is_not_kept_as_that_state(http, worker):
     assert early.status_code == 422
 
 
+def test_only_tiles_of_a_state_that_is_named_are_kept_by_clients(http, growing):
+    address = f"/v1/jobs/{growing}/tiles/steps/0/0/0.png"
+    answers = [http.get(address), http.get(f"{address}?ended=4")]
+    assert [one.headers["Cache-Control"] for one in answers] == [
+        "no-cache",
+        "private, max-age=3600",
+    ]
+
+
 @pytest.mark.parametrize("rule", [{"refine": 2}, {"continuation": "backward"}])
 def test_values_lie_where_their_points_are_in_other_orders(http, worker, rule):
     order = order_of(rule, (HEIGHT, WIDTH))
