@@ -39,6 +39,11 @@ class JobField(BaseModel):
     members: dict[str, list[str]] = Field(
         default={}, description="Of distributions, the numbers that each is made of."
     )
+    varied: list[Literal["parameter", "start"]] = Field(
+        default=[],
+        description="What an axis or a distribution may be of: a parameter of the scene, by its"
+        " name, or a number of its start, by its JSON pointer; empty: parameters alone.",
+    )
     own: bool = Field(default=False, description="Whether kinds that are alike do not have it.")
     required: bool = False
 

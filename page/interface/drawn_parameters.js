@@ -1,16 +1,18 @@
 /** Fields of parameters that have distributions: a name, a distribution and its two numbers each. */
 
 const SLOTS = [1, 2, 3];
-const NONE = "–";
+export const NONE = "–"; // nothing is drawn, or varies
 
 export class DrawnParameters {
   /**
-   * @param field   of the document
-   * @param members numbers of each distribution; those of two can be typed here
-   * @param choice  makes the field of a parameter
+   * @param field    of the document
+   * @param members  numbers of each distribution; those of two can be typed here
+   * @param of       what may be drawn: see `choice`
+   * @param choice   makes the field of a parameter
+   * @param proposed gives a range of its values
    */
-  constructor(field, members, choice) {
-    Object.assign(this, { field, members, choice });
+  constructor(field, { members, varied: of }, choice, proposed) {
+    Object.assign(this, { field, members, of, choice, proposed });
     this.kinds = Object.keys(members).filter((kind) => members[kind].length === 2);
     this.titles = [0, 1].map((place) =>
       [...new Set(this.kinds.map((kind) => members[kind][place].replaceAll("_", " ")))].join(" or "));
@@ -23,21 +25,24 @@ export class DrawnParameters {
   fields(document) {
     return Object.assign({}, ...SLOTS.map((nth) => {
       const [name, kind, a, b] = this.names(nth);
-      const title = `Parameter ${nth}`;
-      const one = this.choice(document, nth > 1 ? [NONE] : [], nth - 1);
-      const first = document.parameters?.[one.default]?.default || 1;
+      const title = `${this.of.includes("start") ? "Number of the start" : "Parameter"} ${nth}`;
+      const one = this.choice(document, { of: this.of, none: nth > 1 });
+      const proposes = (chosen) => {
+        const { from, to } = this.proposed(document, chosen);
+        return { [a]: from, [b]: to };
+      };
       const number = (place, value) => ({
-        title: `${title}, ${this.titles[place]}`, help: "", unit: "1", required: nth === 1,
-        default: nth === 1 ? Number(value.toPrecision(2)) : null, empty: "",
+        title: `${title}, ${this.titles[place]}`, help: "", unit: "1", required: nth === 1, default: value, empty: "",
       });
+      const range = proposes(one.default);
       return {
-        [name]: { ...one, title, help: "What is drawn.", ...(nth > 1 ? { default: NONE } : {}) },
+        [name]: { ...one, title, help: "What is drawn.", proposes },
         [kind]: {
           title: `${title}, distribution`, help: "", unit: "1", choices: this.kinds,
           default: this.kinds[0],
         },
-        [a]: number(0, first * 0.5),
-        [b]: number(1, first * 1.5),
+        [a]: number(0, range[a]),
+        [b]: number(1, range[b]),
       };
     }));
   }

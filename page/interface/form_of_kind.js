@@ -1,6 +1,6 @@
 /** The form of a kind of job, made of what the service says of its fields. */
 
-import { DrawnParameters } from "./drawn_parameters.js";
+import { DrawnParameters, NONE } from "./drawn_parameters.js";
 
 /** Fields that other parts of the form ask for, or whose values nobody types. */
 const ELSEWHERE = new Set(["label", "tolerance", "method", "step", "formulation"]);
@@ -15,13 +15,15 @@ const DURATION = "duration"; // which periods stand for
  * @param described what `/v1/kinds` says of it
  * @param axis      makes the fields of a parameter that varies, and of its values
  * @param choice    makes the field of a parameter
+ * @param proposed  gives a range of its values
  */
-export function formOfKind(name, described, { axis, ends, choice }) {
+export function formOfKind(name, described, { axis, ends, choice, proposed }) {
   const shown = Object.entries(described.fields).filter(([field, { form, choices }]) =>
     !ELSEWHERE.has(field) && (OF_PARAMETERS.has(form) || TYPED.has(form) || (form === "text" && choices.length)));
   const axes = shown.filter(([, { form }]) => form === "axis").map(([field]) => field);
+  const own = described.option?.form === "values"; // a parameter and its values are fields themselves
   const drawn = shown.filter(([, { form }]) => form === "distributions")
-    .map(([field, { members }]) => new DrawnParameters(field, members, choice));
+    .map(([field, one]) => new DrawnParameters(field, one, choice, proposed));
   const others = shown.filter(([, { form }]) => !OF_PARAMETERS.has(form));
   return {
     title: titled(name),
@@ -29,14 +31,16 @@ export function formOfKind(name, described, { axis, ends, choice }) {
     fields: (document, duration) => Object.assign(
       {},
       ...drawn.map((one) => one.fields(document)),
+      own ? axis(document, "parameter", "Parameter", inWords(described.fields.parameter), 0, "") : {},
       ...axes.map((field, nth) =>
-        axis(document, field, titled(field), sentence(described.fields[field].help), nth)),
+        axis(document, field, titled(field), inWords(described.fields[field]), nth + Number(own))),
       Object.fromEntries(others.map(([field, one]) => [field, ofField(field, one, duration)])),
     ),
     made: (all) => ({
       ...Object.fromEntries(drawn.map((one) => [one.field, one.made(all)])),
-      ...Object.fromEntries(axes.map((field) => [field, {
-        parameter: all[field],
+      ...(own ? { parameter: all.parameter, values: { from: all.from, to: all.to, count: all.count } } : {}),
+      ...Object.fromEntries(axes.filter((field) => all[field] !== NONE).map((field) => [field, {
+        [isStart(all[field]) ? "start" : "parameter"]: all[field],
         values: { from: all[`${field}_from`], to: all[`${field}_to`], count: all[`${field}_count`] },
       }])),
       ...Object.fromEntries(others.map(([field]) => [field, all[field]])
@@ -46,8 +50,9 @@ export function formOfKind(name, described, { axis, ends, choice }) {
     given: (document) => Object.assign(
       {},
       ...drawn.map((one) => one.given(document[one.field])),
+      own ? { parameter: document.parameter, ...ends(document.values) } : {},
       ...axes.filter((field) => document[field]).map((field) => ({
-        [field]: document[field].parameter, // a number of the start is typed in the document
+        [field]: document[field].parameter ?? document[field].start,
         ...Object.fromEntries(Object.entries(ends(document[field].values))
           .map(([part, value]) => [`${field}_${part}`, value])),
       })),
@@ -58,6 +63,15 @@ export function formOfKind(name, described, { axis, ends, choice }) {
 }
 
 const STANDARD = "as usual";
+
+/** Whether what varies is a number of the start, by its JSON pointer. */
+function isStart(name) {
+  return name.startsWith("/");
+}
+
+function inWords(described) {
+  return { ...described, help: sentence(described.help) };
+}
 
 function ofField(name, { help, unit, choices, required }, duration) {
   const shown = { title: titled(name), help: sentence(help), unit: unit ?? "1" };

@@ -79,15 +79,17 @@ function literal(value, indent) {
   return lines.length ? `{\n${lines.join("")}${" ".repeat(indent)}}` : "{}";
 }
 
-function commandLine(job) {
-  const { scene } = job;
-  if (!scene.preset || job.kind !== "simulate") {
-    return `# save the JSON of this job as job.json, then\njointplay submit job.json --wait`;
+const OPTIONS = { duration: "--duration", settle: "--settle", output_step: "--output-step", accuracy: "--accuracy" };
+
+/** Returns a command; of a document with more than it can say, one that takes it from a file. */
+function commandLine({ kind, scene, label, ...given }) {
+  if (!scene.preset || kind !== "simulate" || Object.keys(given).some((name) => !OPTIONS[name])) {
+    return "# save the JSON of this job as job.json, then\njointplay submit job.json --wait";
   }
-  const set = Object.entries(scene.parameters ?? {}).map(([name, value]) =>
-    ` --set ${name}=${value}`);
-  const label = job.label ? ` --label '${job.label.replaceAll("'", "'\\''")}'` : "";
-  const tolerance = job.accuracy ? ` --accuracy ${job.accuracy}` : "";
-  return `jointplay submit ${scene.preset}${set.join("")} --duration ${job.duration}${tolerance}${
-    label} --wait`;
+  const words = [
+    ...Object.entries(scene.parameters ?? {}).map(([name, value]) => `--set ${name}=${value}`),
+    ...Object.entries(OPTIONS).filter(([name]) => given[name]).map(([name, option]) => `${option} ${given[name]}`),
+    ...(label ? [`--label '${label.replaceAll("'", "'\\''")}'`] : []),
+  ];
+  return `jointplay submit ${[scene.preset, ...words].join(" ")} --wait`;
 }

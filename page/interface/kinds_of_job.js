@@ -1,9 +1,11 @@
 /** Kinds of jobs as the page offers them: fields, and the document that they make. */
 
 import { CalibrationFields } from "./calibration_fields.js";
+import { NONE } from "./drawn_parameters.js";
 import { formOfKind } from "./form_of_kind.js";
 import { linesOf } from "./measured_table.js";
 import { ParameterFields } from "./parameter_fields.js";
+import { startNumbers } from "./start_numbers.js";
 import { bounds } from "../mechanism/bounds.js";
 import { withParameters } from "../mechanism/parameters.js";
 import { describedKinds } from "../requests/kinds.js";
@@ -18,6 +20,7 @@ const ACCURACY = {
   default: "standard",
 };
 const WITHOUT_TURNING = 0.05; // s, of mechanisms that neither turn nor fall
+const SAMPLES = 2000; // of a run whose output step is not given
 const TURNS = 4; // of the slowest driver
 const SWINGS = 20; // in times of a fall through the mechanism
 
@@ -69,8 +72,8 @@ export const KINDS = {
       },
       accuracy: ACCURACY,
       output_step: {
-        title: "Output step", help: "Between stored samples; 1/2000 of the duration if empty.",
-        unit: "s", minimum: 1e-15, default: null, empty: "duration / 2000",
+        title: "Output step", help: `Between stored samples; 1/${SAMPLES} of the duration if empty.`,
+        unit: "s", minimum: 1e-15, default: null, empty: `duration / ${SAMPLES}`,
       },
       settle: {
         title: "Settling", help: "What comes before does not count in peaks.", unit: "s",
@@ -80,7 +83,9 @@ export const KINDS = {
     made: ({ duration, accuracy, output_step: step, settle }) => ({
       duration, settle, ...accurate(accuracy), ...(step === null ? {} : { output_step: step }),
     }),
-    given: ({ duration, accuracy }) => ({ duration, accuracy }),
+    given: ({ duration, accuracy, settle, output_step: step }) => ({
+      duration, accuracy, settle, output_step: Math.abs(step * SAMPLES - duration) < 1e-9 * duration ? null : step,
+    }),
   },
   bifurcation: {
     title: "Bifurcation diagram",
@@ -118,10 +123,13 @@ export const KINDS = {
     title: "Sweep",
     help: "Extremes of forces and motions over one or two parameters.",
     fields: (document, duration) => ({
-      ...varied(document, "first", "First parameter", 5),
+      ...varied(document, "first", "First parameter", { count: 5 }),
       second: {
-        ...choice(document, ["–"]), title: "Second parameter", default: "–",
-        help: "For a map over two parameters.",
+        ...choice(document, { none: true }), title: "Second parameter", help: "For a map over two parameters.",
+        proposes: (chosen) => {
+          const { from, to } = proposed(document, chosen);
+          return { second_from: from, second_to: to };
+        },
       },
       second_from: { title: "Second: from", help: "", unit: "1", default: null, empty: "" },
       second_to: { title: "Second: to", help: "", unit: "1", default: null, empty: "" },
@@ -135,7 +143,7 @@ export const KINDS = {
     made: (given) => ({
       grid: {
         [given.first]: { from: given.from, to: given.to, count: given.count },
-        ...(given.second === "–" ? {} : {
+        ...(given.second === NONE ? {} : {
           [given.second]: {
             from: given.second_from, to: given.second_to, count: given.second_count,
           },
@@ -180,7 +188,7 @@ export const KINDS = {
 /** Returns the kinds by name: those above, and of all others those that can be typed. */
 export async function kindsOfJobs(signal) {
   for (const [name, described] of Object.entries(await describedKinds(signal))) {
-    if (described.option) KINDS[name] ??= formOfKind(name, described, { axis, ends, choice });
+    if (described.option) KINDS[name] ??= formOfKind(name, described, { axis, ends, choice, proposed });
   }
   return KINDS;
 }
@@ -191,29 +199,51 @@ export function fieldsOf(kind, document, duration, given, onchange) {
   return new ParameterFields(KINDS[kind].fields(document, duration), given, onchange, "");
 }
 
-function varied(document, name, title, count = 48, help = "What is varied.", before = "", nth = 0) {
-  const choices = choice(document, [], nth);
-  const first = document.parameters?.[choices.default];
-  const middle = first?.default || 1;
+/**
+ * Returns the fields of what varies, and of its values.
+ *
+ * @param before begins the names of the fields of its values, and their titles; "": they are the only ones
+ * @param which  see `choice`
+ */
+function varied(document, name, title, { count = 48, help = "What is varied.", before = "", ...which } = {}) {
+  const choices = choice(document, which);
   const part = (end) => (before ? `${before}_${end}` : end);
   const titled = (end) => (before ? `${title}, ${end}` : `${end[0].toUpperCase()}${end.slice(1)}`);
+  const proposes = (chosen) => {
+    const { from, to } = proposed(document, chosen);
+    return { [part("from")]: from, [part("to")]: to };
+  };
+  const end = (one) => ({
+    title: titled(one), help: "", unit: "1", required: !which.none, empty: "",
+    default: proposes(choices.default)[part(one)],
+  });
   return {
-    [name]: { ...choices, title, help },
-    [part("from")]: {
-      title: titled("from"), help: "", unit: "1", required: true, default: rounded(middle * 0.5),
-    },
-    [part("to")]: {
-      title: titled("to"), help: "", unit: "1", required: true, default: rounded(middle * 1.5),
-    },
+    [name]: { ...choices, title, help, proposes },
+    [part("from")]: end("from"),
+    [part("to")]: end("to"),
     [part("count")]: {
       title: titled("values"), help: "", unit: "1", minimum: 1, maximum: 100000, default: count,
     },
   };
 }
 
-/** Returns the fields of the `nth` of several axes: each proposes another parameter. */
-function axis(document, name, title, help, nth) {
-  return varied(document, name, title, 24, help, name, nth);
+/**
+ * Returns the fields of an axis, of which there may be several: each proposes another parameter.
+ *
+ * @param described what the service says of the field
+ * @param nth       how many axes come before
+ * @param before    see `varied`
+ */
+function axis(document, name, title, { help, required, varied: of }, nth, before = name) {
+  return varied(document, name, title, { count: 24, help, before, none: !required, of, nth });
+}
+
+/** Returns the range that is proposed for a parameter, or a number of the start. */
+function proposed(document, name) {
+  if (name === NONE) return { from: null, to: null };
+  const { from, to } = startNumbers(document)[name] ?? {};
+  const middle = document.parameters?.[name]?.default || 1;
+  return { from: rounded(from ?? middle * 0.5), to: rounded(to ?? middle * 1.5) };
 }
 
 /** Returns from, to and count of values that are given so, or one by one. */
@@ -222,12 +252,25 @@ function ends(values) {
   return { from: values[0], to: values.at(-1), count: values.length };
 }
 
-function choice(document, before = [], nth = 0) {
-  const names = Object.entries(document.parameters ?? {})
-    .filter(([, { choices }]) => !choices)
-    .map(([name]) => name);
-  const likely = names.filter((name) => document.parameters[name].default > 0)[nth] ?? names[nth];
-  return { unit: "1", choices: [...before, ...names], default: likely };
+/**
+ * Returns the field of what varies.
+ *
+ * @param of   what may: parameters, numbers of the start, or both; none given: parameters
+ * @param none whether nothing may, too
+ * @param nth  how many others are proposed before
+ */
+function choice(document, { of = [], none = false, nth = 0 } = {}) {
+  const starts = of.includes("start") ? startNumbers(document) : {};
+  const parameters = of.length && !of.includes("parameter") ? {} : document.parameters ?? {};
+  const names = [
+    ...Object.entries(parameters).filter(([, { choices }]) => !choices).map(([name]) => name),
+    ...Object.keys(starts),
+  ];
+  const likely = names.filter((name) => !parameters[name] || parameters[name].default > 0)[nth] ?? names[nth];
+  return {
+    unit: "1", choices: [...(none ? [NONE] : []), ...names], default: none ? NONE : likely,
+    words: Object.fromEntries(Object.entries(starts).map(([pointer, { name }]) => [pointer, `start: ${name}`])),
+  };
 }
 
 function accurate(accuracy) {

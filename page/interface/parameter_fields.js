@@ -15,7 +15,10 @@ export class ParameterFields {
   constructor(parameters, given = {}, onchange = () => {}, place = "/scene/parameters") {
     this.place = place;
     this.fields = Object.entries(parameters).map(([name, parameter]) =>
-      new Field(name, parameter, given[name], onchange, `${place.replaceAll("/", "-")}-${name}`));
+      new Field(name, parameter, given[name], () => {
+        this.propose(name);
+        onchange();
+      }, `${place.replaceAll("/", "-")}-${name}`));
     const required = this.fields.filter(({ parameter }) => parameter.required);
     const rare = place === "" ? [] : required.length
       ? this.fields.filter((one) => !required.includes(one))
@@ -32,6 +35,14 @@ export class ParameterFields {
         element("div", { class: "fields" }, rest.map((one) => one.element)),
       ),
     );
+  }
+
+  /** Shows in other fields what the choice in one proposes for them. */
+  propose(name) {
+    const { parameter, input } = this.fields.find((one) => one.name === name);
+    for (const [other, value] of Object.entries(parameter.proposes?.(input.value) ?? {})) {
+      this.fields.find((one) => one.name === other).show(value);
+    }
   }
 
   get valid() {
@@ -73,7 +84,7 @@ class Field {
       ? element(
           "select",
           { id, onchange: checked, "aria-describedby": `${id}-help` },
-          parameter.choices.map((one) =>
+          [...new Set([...parameter.choices, shown])].map((one) => // what a job had may be none of them
             element("option", { value: one, selected: one === shown },
               parameter.words?.[one] ?? one)),
         )
@@ -106,6 +117,12 @@ class Field {
     if (text === "") return undefined;
     const value = typed(text);
     return value === this.parameter.default ? undefined : value;
+  }
+
+  /** Shows a value that is not typed. */
+  show(value) {
+    this.input.value = written(value);
+    this.check();
   }
 
   check() {

@@ -13,6 +13,7 @@ from jointplay.solver.distributions import DISTRIBUTIONS
 from jointplay.solver.kinds import KINDS
 from jointplay.solver.kinds.job import Job, MechanismJob
 from jointplay.solver.kinds.section_study import SectionStudyJob
+from jointplay.solver.scene import start_numbers
 
 ELSEWHERE = ("kind", "scene")
 SHARED = (Job, SectionStudyJob)
@@ -24,8 +25,9 @@ def description() -> dict[str, Any]:
 
     A field has its ``help``, the ``form`` of its values (number, integer, flag, text, names,
     numbers, values, grid, axis, distributions or other), and where there are any its ``unit``,
-    ``choices``, ``words`` that may stand in place of such a value, and ``members``, the numbers
-    that each distribution is made of; ``own`` fields are those of no other kind's documents.  A
+    ``choices``, ``words`` that may stand in place of such a value, ``members``, the numbers that
+    each distribution is made of, and what ``varied`` may name, if that is not a parameter alone;
+    ``own`` fields are those of no other kind's documents.  A
     kind that can be asked for by one option of a command line has its ``option``: the ``fields``
     that it stands for, the ``form`` in which they are typed, and its ``name`` if that is not the
     kind's.
@@ -85,6 +87,7 @@ def _own_fields(document: type[MechanismJob]) -> list[str]:
 
 def _field(schema: dict[str, Any]) -> dict[str, Any]:
     forms = schema.get("anyOf") or schema.get("oneOf") or [schema]
+    varied = ["parameter", "start"] if any(_is(form, "AlongStart") for form in forms) else []
     forms = [form for form in forms if form.get("type") != "null" and not _is(form, "AlongStart")]
     words = [form["const"] for form in forms if "const" in form]
     (form, *others) = [form for form in forms if "const" not in form]
@@ -101,11 +104,13 @@ def _field(schema: dict[str, Any]) -> dict[str, Any]:
         values = [one.get("oneOf", [{}])[0] for one in form.get("patternProperties", {}).values()]
         kind = "grid" if any(_is(one, "Range") for one in values) else kind
         kind = "distributions" if any(_is(one, "Uniform") for one in values) else kind
+        varied = ["start"] if start_numbers.PATTERN in form.get("patternProperties", {}) else varied
     facts = {
         "unit": schema.get("unit", items.get("unit")),
         "choices": [one for one in form.get("enum", items.get("enum", [])) if one not in words],
         "words": words,
         "members": _members() if kind == "distributions" else None,
+        "varied": varied,
     }
     found = {"help": schema.get("description", ""), "form": kind}
     return found | {name: fact for name, fact in facts.items() if fact not in (None, [], "1")}

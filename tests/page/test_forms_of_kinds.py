@@ -72,3 +72,93 @@ def test_kinds_without_a_form_of_their_own_have_one(browsing, service_url):
             "scene": {"preset": "slider-crank"},
             "record": 7,
         }
+
+
+def filled(page, **texts):
+    """Type texts into fields, by their labels with _ for a blank."""
+    for label, text in texts.items():
+        page.get_by_label(label.replace("_", " "), exact=True).fill(text)
+
+
+def test_a_continuation_is_filled_in_submitted_and_changed(browsing, service_url):
+    lacking = ("422", "404")  # while fields are empty; the figures of what was cancelled
+    address = f"{service_url}/#/new/impact-oscillator?kind=continuation"
+    with browsing.page(address, expected=lacking) as page:
+        page.get_by_label("Parameter", exact=True).select_option("speed")
+        expect(page.get_by_label("From", exact=True)).to_have_value("13")  # of 25 rad/s a half
+        expect(page.get_by_label("To", exact=True)).to_have_value("38")
+        filled(page, From="20", To="30", Values="5")
+        page.get_by_role("button", name="JSON").click()
+        document = {
+            "kind": "continuation",
+            "scene": {"preset": "impact-oscillator"},
+            "parameter": "speed",
+            "values": {"from": 20, "to": 30, "count": 5},
+        }
+        assert shown_document(page) == document
+        assert admit(document).points
+        page.get_by_label("Second", exact=True).select_option("amplitude")
+        second = {"parameter": "amplitude", "values": {"from": 0.0025, "to": 0.0075, "count": 24}}
+        assert shown_document(page)["second"] == second
+        assert barriers(page) == []
+        page.get_by_role("button", name="Run", exact=True).click()
+        expect(page).to_have_url(re.compile("#/job/"))
+        page.get_by_role("button", name="Cancel").click()
+        page.get_by_role("link", name="Run with changes").click()
+        expect(page.get_by_label("Parameter", exact=True)).to_have_value("speed")
+        expect(page.get_by_label("To", exact=True)).to_have_value("30")
+        expect(page.get_by_label("Second", exact=True)).to_have_value("amplitude")
+
+
+def test_numbers_of_the_start_vary_and_are_drawn(browsing, service_url):
+    lacking = ("422", "404")
+    place, rate = ("/start/joints/stop/eccentricity/0", "/start/joints/stop/rate/0")
+    address = f"{service_url}/#/new/impact-oscillator?kind=basins"
+    with browsing.page(address, expected=lacking) as page:
+        page.get_by_label("Along", exact=True).select_option("start: stop.eccentricity_x")
+        page.get_by_label("By", exact=True).select_option("start: stop.eccentricity_rate_x")
+        page.get_by_role("button", name="JSON").click()
+        document = shown_document(page)
+        values = {"from": -0.18, "to": 0.18, "count": 24}  # nine tenths of the play
+        assert document["along"] == {"start": place, "values": values}
+        assert document["by"]["start"] == rate
+        assert admit(document).shape == (24, 24)
+        page.get_by_role("button", name="Run", exact=True).click()
+        expect(page).to_have_url(re.compile("#/job/"))
+        page.get_by_role("button", name="Cancel").click()
+        page.get_by_role("link", name="Run with changes").click()
+        expect(page.get_by_label("Along", exact=True)).to_have_value(place)
+        expect(page.get_by_label("Along, to", exact=True)).to_have_value("0.18")
+        page.get_by_label("What to compute").select_option("basin-stability")
+        filled(page, Samples="7", Record="5")
+        page.get_by_role("button", name="JSON").click()
+        document = shown_document(page)
+        assert document == {
+            "kind": "basin-stability",
+            "scene": {"preset": "impact-oscillator"},
+            "starts": {place: {"distribution": "uniform", "low": -0.18, "high": 0.18}},
+            "samples": 7,
+            "record": 5,
+        }
+        assert admit(document).points == 7
+
+
+def test_the_command_line_says_all_of_a_run_or_takes_it_from_a_file(browsing, service_url):
+    lacking = ("422", "404")
+    with browsing.page(f"{service_url}/#/new/slider-crank", expected=lacking) as page:
+        filled(page, Duration="0.05", Settling="0.01", Output_step="1e-4", Label="it's mine")
+        page.get_by_role("button", name="Command line").click()
+        text = page.get_by_label("The same job", exact=True)
+        expect(text).to_have_text(
+            "jointplay submit slider-crank --duration 0.05 --settle 0.01 --output-step 0.0001"
+            r" --label 'it'\''s mine' --wait"
+        )
+        page.get_by_role("button", name="Run", exact=True).click()
+        expect(page).to_have_url(re.compile("#/job/"))
+        page.get_by_role("button", name="Cancel").click()
+        page.get_by_role("link", name="Document").click()
+        page.get_by_role("button", name="Command line").click()
+        expect(text).to_contain_text("jointplay submit job.json")  # it has a tolerance, for example
+        page.get_by_role("link", name="Run with changes").click()
+        expect(page.get_by_label("Settling", exact=True)).to_have_value("0.01")
+        expect(page.get_by_label("Output step", exact=True)).to_have_value("0.0001")
