@@ -34,9 +34,13 @@ class Steps:
     """The smallest changes, (3 bodies,), that do for each level what they can.
 
     scale : (3 bodies,) what changes are measured in, m and rad.
+    tolerance : a combination of rows counts as impossible below this share of the longest row.
+    The first level counts to `RANK_TOLERANCE`.
     """
 
-    def __init__(self, jacobians: Sequence[Floats], scale: Floats) -> None:
+    def __init__(
+        self, jacobians: Sequence[Floats], scale: Floats, tolerance: float = RANK_TOLERANCE
+    ) -> None:
         self._scale = scale
         self._levels: list[tuple[int, Floats, Floats, Decomposition]] = []
         free = np.eye(len(scale))
@@ -44,7 +48,7 @@ class Steps:
             if not len(jacobian) or not free.shape[1]:
                 continue
             scaled = jacobian * scale
-            least = RANK_TOLERANCE * float(lengths(scaled).max())
+            least = (tolerance if i else RANK_TOLERANCE) * float(lengths(scaled).max())
             left = Decomposition(product(scaled, free) if self._levels else scaled, 0.0, least)
             self._levels.append((i, scaled, free, left))
             free = product(free, left.free) if self._levels[1:] else left.free

@@ -4,7 +4,8 @@ In this order: ideal joints, drivers and the rates of `start.joints` and `start.
 velocities and velocities as given, those that do not hold all together in the scene's order; joints
 with play, whose parts move with one another unless a body of theirs is thrown, by a velocity of its
 centre, or a follower is away from its cam; bodies of which nothing is given do not turn, then
-others do not; slides rest; at last centres rest.
+others do not; slides rest; at last centres rest. A rate that is possible only where something else
+moves more than a million times as fast, as at a dead point, does not hold.
 """
 
 from collections.abc import Iterator
@@ -12,16 +13,18 @@ from collections.abc import Iterator
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.start.given import Given, Rows, given_rates, without_rounding
-from jointplay.solver.mechanics.start.levels import Steps, off, step_of
+from jointplay.solver.mechanics.start.levels import Steps, off
 from jointplay.solver.mechanics.start.pose import KEPT, Places
 from jointplay.solver.quantities.scalars import greatest
 
 HOLDS = 1e-12
 """Share of the largest rate that is given or driven by which one that holds may be off."""
+DEAD_POINT = 1e-6
+"""Least share of other rates that a rate may be. A pose at a dead point is off by up to the root of
+rounding, 1e-8."""
 
 
 def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
@@ -39,19 +42,18 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     every = [held, *wanted.values()]
     size = greatest(np.abs(rows.value).max(axis=0, initial=0.0) for rows in every)
     rest: list[Rows] = []
-    together = _joined([held, *wanted.values()], pose)
-    if len(wanted) > 1 and _hold(together, places.scale, size):
-        held, wanted = together, {}
+    together = _joined([*wanted.values()], pose)
+    if len(wanted) > 1 and _hold(held, together, places.scale, size):
+        held, wanted = _joined([held, together], pose), {}
     for also in wanted.values():
-        more = _joined([held, also], pose)
-        if _hold(more, places.scale, size):
-            held = more
+        if _hold(held, also, places.scale, size):
+            held = _joined([held, also], pose)
         else:
             rest.append(also)
     slides = places.closed.slides(pose.tolist(), still.tolist())
     levels = [held, _joined(rest, pose), _rates(soft, pose)]
     levels += [*_still(places, pose), _rates(slides, pose)]
-    steps = Steps([rows.jacobian for rows in levels], places.scale)
+    steps = Steps([rows.jacobian for rows in levels], places.scale, DEAD_POINT)
     velocity = steps.step([rows.value for rows in levels])
     # once more, from there: what is left is the rounding of the first
     left = [off(rows, velocity) for rows in levels]
@@ -60,10 +62,13 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     return velocity, given
 
 
-def _hold(rows: Rows, scale: Floats, size: float) -> bool:
-    """Whether some rates meet all rows, which are of a size."""
-    velocity = step_of([rows], scale)
-    return bool(np.abs(rows.value + applied(rows.jacobian, velocity)).max() <= HOLDS * size)
+def _hold(held: Rows, also: Rows, scale: Floats, size: float) -> bool:
+    """Whether rates that meet what is held meet other rows as well; all are of a size."""
+    steps = Steps([held.jacobian, also.jacobian], scale, DEAD_POINT)
+    velocity = steps.step([held.value, also.value])
+    return all(
+        bool(np.abs(off(rows, velocity)).max(initial=0.0) <= HOLDS * size) for rows in (held, also)
+    )
 
 
 def _rates(rows: list[Row], pose: Floats) -> Rows:

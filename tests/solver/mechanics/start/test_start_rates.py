@@ -164,3 +164,57 @@ def test_guides_and_followers_have_rates_as_journals_have() -> None:
     }
     _, _, velocity = put_together(document)
     np.testing.assert_allclose(velocity["block"], [0.0, 0.2, -0.5], rtol=0, atol=1e-13)
+
+
+def four_bar_at_a_dead_point(start: dict[str, Any]) -> tuple[float, dict[str, Any]]:
+    """Return the crank's angle at which rod and rocker are in line, and the mechanism there."""
+    crank, together, ground = 0.1, 0.25 + 0.2, 0.4
+    angle = math.acos((crank**2 + ground**2 - together**2) / (2.0 * crank * ground))
+    return angle, {
+        "name": "four-bar",
+        "ground": {"points": {"O": [0, 0], "C": [ground, 0]}},
+        "bodies": {"crank": bar(0.05), "rod": bar(0.125), "rocker": bar(0.1)},
+        "joints": {
+            "A": revolute("ground.O", "crank.a"),
+            "B": revolute("crank.b", "rod.a"),
+            "C": revolute("rod.b", "rocker.b"),
+            "D": revolute("ground.C", "rocker.a"),
+        },
+        "start": {"angles": {"crank": angle}, **start},
+    }
+
+
+def test_a_rate_that_a_dead_point_forbids_is_told_and_moves_nothing() -> None:
+    """The crank was kept at 5 rad/s, with a rod of 5e7 rad/s: the pose is off by rounding."""
+    start = {"angular_velocities": {"crank": 5.0}}
+    found, _, velocity = put_together(four_bar_at_a_dead_point(start)[1])
+    assert [one.pointer for one in found.misfits] == ["/start/angular_velocities/crank"]
+    rest = np.array([velocity[name] for name in ("crank", "rod", "rocker")])
+    np.testing.assert_allclose(rest, 0.0, rtol=0, atol=1e-6)
+
+
+def test_at_a_dead_point_the_rocker_turns_rod_and_no_crank() -> None:
+    """The joint of rod and rocker moves across their line, the other end of the rod rests."""
+    start = {"angular_velocities": {"rocker": 5.0}}
+    found, _, velocity = put_together(four_bar_at_a_dead_point(start)[1])
+    assert not found.misfits
+    assert velocity["rod"][2] == pytest.approx(-5.0 * 0.2 / 0.25, rel=1e-6)
+    assert velocity["crank"][2] == pytest.approx(0.0, abs=1e-6)  # the pose is off by 1e-8 rad
+
+
+@pytest.mark.parametrize("loose", ["B", "C", "D"])
+def test_a_driver_at_a_dead_point_does_not_throw_what_play_lets_rest(loose: str) -> None:
+    """Rod and rocker had 6e8 rad/s. They follow the crank's pin across their line, none faster."""
+    angle, document = four_bar_at_a_dead_point({})
+    play = STOPS["pin"]["clearance"] | {"radial_clearance": 1e-4, "bearing_radius": 0.01}
+    document["joints"][loose]["clearance"] = play
+    document["drivers"] = {"motor": {"joint": "A", "position": angle, "speed": 5.0}}
+    _, pose, velocity = put_together(document)
+    assert velocity["crank"][2] == pytest.approx(5.0, abs=1e-13)
+    along = pose["rod"][2]
+    across = np.array([-math.sin(along), math.cos(along)])
+    pin = 5.0 * 0.1 * np.array([-math.sin(angle), math.cos(angle)])
+    rod = velocity["rod"][:2] - 0.125 * velocity["rod"][2] * across  # its end at the crank
+    assert rod @ across == pytest.approx(pin @ across, abs=1e-6)
+    assert np.hypot(*velocity["rod"][:2]) <= np.hypot(*pin)
+    assert np.hypot(*velocity["rocker"][:2]) <= np.hypot(*pin)
