@@ -13,6 +13,8 @@ class SpringDamper(ForceElement):
     T is the tension (N, positive: it pulls the points together), L the distance of the points (m),
     k the stiffness, L_0 the free length, c the damping.
 
+    With k = 0 and without a damping it measures the distance, and exerts nothing.
+
     Assumes a massless element, whose force depends on its own length alone. Fails where the points
     meet: a free length above zero has no direction there, and the force turns over at once.
 
@@ -26,8 +28,11 @@ class SpringDamper(ForceElement):
     rules: ClassVar[tuple[Rule, ...]] = (
         Rule(
             "stiffness",
-            lambda element: (element.stiffness == 0.0) & (element.damping == 0.0),
-            lambda _element: "Without stiffness and damping there is no force; give one of them.",
+            lambda element: element.model_fields_set.isdisjoint(("stiffness", "damping")),
+            lambda _element: (
+                "Without stiffness and damping there is no force; give one of them. A stiffness of"
+                " 0 measures the distance."
+            ),
         ),
     )
     channels: ClassVar[tuple[tuple[str, str, str], ...]] = CHANNELS
@@ -50,5 +55,5 @@ class SpringDamper(ForceElement):
 
     @property
     def needs_direction(self) -> bool:
-        """True with a free length."""
-        return self.free_length > 0.0
+        """True with a free length and a stiffness."""
+        return self.stiffness * self.free_length > 0.0

@@ -10,7 +10,8 @@ class TorsionSpring(ForceElement):
     """M = -k (φ - φ_0) - c dφ/dt, on the second point's body; its opposite acts on the first's.
 
     φ is the angle of the second point's body less that of the first's (rad), of which whole turns
-    count, φ_0 the free angle, k the stiffness, c the damping.
+    count, φ_0 the free angle, k the stiffness, c the damping. With k = 0 and without a damping it
+    measures the angle, and exerts nothing.
 
     Assumes a massless element whose moment depends on its own angle alone; where the points are
     does not matter. Fails for springs wound so far that their coils touch.
@@ -26,8 +27,11 @@ class TorsionSpring(ForceElement):
     rules: ClassVar[tuple[Rule, ...]] = (
         Rule(
             "stiffness",
-            lambda element: (element.stiffness == 0.0) & (element.damping == 0.0),
-            lambda _element: "Without stiffness and damping there is no moment; give one of them.",
+            lambda element: element.model_fields_set.isdisjoint(("stiffness", "damping")),
+            lambda _element: (
+                "Without stiffness and damping there is no moment; give one of them. A stiffness of"
+                " 0 measures the angle."
+            ),
         ),
     )
     channels: ClassVar[tuple[tuple[str, str, str], ...]] = (

@@ -284,7 +284,6 @@ def test_a_torque_spins_one_body_up_against_another(formulation: str) -> None:
         ({"second": "mas.eye"}, "/second", "'mass'"),
         ({"second": "ground.guide"}, "", "a force acts between two bodies"),
         ({"stiffness": -1.0}, "/stiffness", "'stiffness' must be at least 0 N/m, not -1."),
-        ({"stiffness": 0.0}, "/stiffness", "no force"),
         ({"elasticity": 1.0}, "/elasticity", "no field"),
         ({"first": "ground.guide"}, "", "start in one place"),
     ],
@@ -299,6 +298,13 @@ def test_an_element_that_cannot_act_is_refused_at_its_field(
     assert words in problem.detail
 
 
+def test_a_spring_whose_stiffness_was_forgotten_is_refused() -> None:
+    scene = oscillator()
+    del scene["forces"]["spring"]["stiffness"]
+    with pytest.raises(InvalidInput, match="A stiffness of 0 measures the distance"):
+        admit({"kind": "simulate", "scene": scene, "duration": 1.0})
+
+
 def test_a_tension_has_no_direction_where_its_points_meet() -> None:
     scene = oscillator()
     ends = {"first": "ground.guide", "second": "mass.eye"}
@@ -310,6 +316,37 @@ def test_a_tension_has_no_direction_where_its_points_meet() -> None:
 def test_points_that_meet_at_the_start_need_no_direction_without_a_free_length() -> None:
     scene = oscillator(first="ground.guide", free_length=0.0)
     np.testing.assert_allclose(run(scene, 1.0)["mass.x"], 0.0, atol=1e-12)
+
+
+def test_springs_without_stiffness_measure_and_exert_nothing() -> None:
+    """A pendulum that turns over: its end passes a point in its way, and its angle has no end."""
+    ends = {"first": "ground.O", "second": "rod.O", "stiffness": 0.0}
+    end = {"first": "ground.low", "second": "rod.low", "stiffness": 0.0, "free_length": 0.1}
+    scene = {
+        "name": "pendulum",
+        "ground": {"points": {"O": [0.0, 0.0], "low": [0.0, -1.0]}},
+        "bodies": {
+            "rod": {"mass": 1.0, "inertia": 0.1, "points": {"O": [0.0, 0.5], "low": [0.0, -0.5]}}
+        },
+        "joints": {"pin": {"type": "revolute", "bearing": "ground.O", "journal": "rod.O"}},
+        "gravity": [0.0, -9.81],
+        "start": {"angular_velocities": {"rod": 9.0}},
+    }
+    measures = {
+        "turn": {"type": "torsion-spring", **ends},
+        "way": {"type": "spring-damper", **end},
+    }
+    found, alone = run({**scene, "forces": measures}, 2.0), run(scene, 2.0)
+    angle = found["rod.theta"]
+    np.testing.assert_array_equal(angle, alone["rod.theta"])
+    assert angle[-1] > 4.0 * math.pi
+    np.testing.assert_array_equal(found["turn.angle"], angle)
+    chord = 2.0 * np.abs(np.sin(0.5 * angle))
+    np.testing.assert_allclose(found["way.length"], chord, rtol=0, atol=1e-14)
+    assert found.peaks["way.length"].minimum == pytest.approx(0.0, abs=2e-6)  # 1e-6 of its range
+    assert found.peaks["way.length"].maximum == pytest.approx(2.0, rel=1e-6)
+    for quiet in ("turn.moment", "way.force"):
+        np.testing.assert_array_equal(found[quiet], 0.0)
 
 
 def test_a_parameter_may_turn_a_damper() -> None:
