@@ -20,7 +20,7 @@ export async function show(room, { parts, signal }) {
       draw(room, batch, jobs, differing(jobs, declared), path);
       if (batch.finished) return;
     } catch (error) {
-      if (!(mayPass(error)) || !room.childElementCount) throw error;
+      if (!mayPass(error) || !room.childElementCount) throw error;
     }
     await pause(1500, signal);
   }

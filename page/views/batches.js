@@ -20,7 +20,7 @@ export async function show(room, { signal }) {
         + " /v1/batches, or client.submit_batch, submits many jobs together."),
       more && element("p", { class: "quiet small" }, `The newest ${SHOWN} are shown.`));
     } catch (error) {
-      if (!(mayPass(error)) || !content.childElementCount) throw error;
+      if (!mayPass(error) || !content.childElementCount) throw error;
     }
     await pause(2000, signal);
   }

@@ -18,7 +18,7 @@ export async function show(room, { signal }) {
       said.textContent = alive.length === 1 ? "1 is alive" : `${alive.length} are alive`;
       fill(content, alive.length ? table(alive) : whyQueued(alive));
     } catch (error) {
-      if (!(mayPass(error)) || !content.childElementCount) throw error;
+      if (!mayPass(error) || !content.childElementCount) throw error;
     }
     await pause(AGAIN, signal);
   }
