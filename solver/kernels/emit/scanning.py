@@ -9,7 +9,7 @@ from jointplay.solver.kernels.emit.emit import Output, Tape
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.target import WIDTHS
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
-from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
+from jointplay.solver.quantities.scalars import minimum, select_positive
 
 BLOCKS = ("channel", "previous", "change", "highest", "lowest")
 
@@ -23,9 +23,6 @@ The parabola through three step ends reaches (r q² + c)² / (4 q (q + 1) |c - r
 one, if the changes are r (before) and c (after) and the second step is q times as long; a sine
 sampled every 1.5 rad, the limit of stability, up to 1.6 times as far. REACH covers that, SPARE the
 even case: steps of a third order at that limit turn at every end, 0.035 of both changes beyond."""
-
-BARELY = 1.0 + 1e-9
-"""A factor that is more than all rounding here."""
 
 
 def allocate(layout: Layout, rows: int, rest: int) -> None:
@@ -43,10 +40,7 @@ def allocate(layout: Layout, rows: int, rest: int) -> None:
 def reach(step: Expression, before: Expression) -> list[Output]:
     """Return what all rows need of the lengths of this step and of the one before."""
     longer = step / before
-    far = 0.25 * REACH / (longer * (longer + 1.0))
-    farther = maximum(longer, 1.0)
-    nearness = BARELY * (SPARE + far * farther * farther)
-    return [("lengthening", longer), ("reach", far), ("nearness", nearness)]
+    return [("lengthening", longer), ("reach", 0.25 * REACH / (longer * (longer + 1.0)))]
 
 
 def source(layout: Layout, rows: int) -> str:
@@ -67,18 +61,13 @@ def _scan(name: str, layout: Layout, rows: int) -> str:
     onwards = longer * rose
     both, uneven = abs(onwards - change), longer * onwards + change
     found = far * uneven * uneven + (SPARE * both - nearest) * both
-    near = tracer.variable("nearness") * both - nearest
-    # signs differ where it turned
-    found, near = (select_positive(rose * change, 0.0, one) for one in (found, near))
+    found = select_positive(rose * change, 0.0, found)  # signs differ where it turned
     if name == "scan_some":
         accepted = tracer.variable("accept")
         value = select_positive(accepted, value, before)
         change = select_positive(accepted, change, rose)
     blocks = {f"{block}0" for block in BLOCKS}
     tape = Tape(layout, fetch=lambda name: f"load {layout[name]}{'+' * (name in blocks)}")
-    tape.mark("marked0", tracer.constant(0.0))
-    tape.evaluate(near)  # of what the rows hold before
+    tape.mark("marked0", found)  # of what the rows hold before
     tape.store_rows([("previous0", value), ("change0", change)])
-    tape.go_on_where(near)
-    tape.mark("marked0", found)
     return tape.function(name, "rows", rows)

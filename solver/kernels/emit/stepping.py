@@ -27,7 +27,7 @@ ONSET = ("onset_time", "approach", "onset_total", "opened", "abrupt")
 def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) -> None:
     """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
     layout.add("time", "step", "tried", "arrival", "stage_time", "theta")
-    layout.add("lengthening", "reach", "nearness")
+    layout.add("lengthening", "reach")
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
     layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
     layout.add("look_at", "look_beyond", "looked_into", "rough_until")

@@ -19,7 +19,7 @@ BESIDE = 1e-3
 
 def scans() -> tuple[Layout, ModuleType]:
     layout = Layout()
-    layout.add("accept", "lengthening", "reach", "nearness")
+    layout.add("accept", "lengthening", "reach")
     scanning.allocate(layout, ROWS, 0)
     return layout, load(module_source([scanning.source(layout, ROWS)], LANES))
 

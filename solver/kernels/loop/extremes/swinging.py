@@ -14,7 +14,6 @@ from numba import float64, int64, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from jointplay.solver.kernels.emit.scanning import BARELY
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.eights import (
     WORD,
@@ -41,6 +40,8 @@ HIDDEN = 1e-5
 rises, extremes of the step that turns are found, and others are beyond these by a tenth of that."""
 MUCH = SEEN / REACH
 """Share of its range that stands for a swing which is worth a search: it may grow by `REACH`."""
+BARELY = 1.0 + 1e-9
+"""A factor that is more than all rounding here."""
 TINY, UNKNOWN = 1e-300, 1e300
 """The least bend of a channel, and what stands for that where there is no step before."""
 NEARBY, UNEVEN = 0xFF, 0xFF00
