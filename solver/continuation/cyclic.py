@@ -16,7 +16,8 @@ SAME = 1e-6
 ALIKE = 1e-3
 """Share of a step along a coordinate within which the ends of runs are as far apart."""
 FAR = 1.0
-"""Distance, rad or m, by which a run is moved along what seems to be one."""
+"""Distance, rad or m, by which a run is moved along what seems to be one. The unit does not matter:
+nothing depends on a cyclic coordinate. It tells what begins farther away than a small move goes."""
 
 
 def with_cyclic(map_: SectionMap, section: Section) -> SectionMap:

@@ -18,7 +18,8 @@ from jointplay.solver.runs.ideal.turn import turn
 from jointplay.solver.scene.document import Scene
 
 CONSISTENT = 1e-9
-"""Share of the largest speed, or of 1 m/s, up to which rates of constraints are rounding."""
+"""Share of the largest velocity up to which rates of constraints are rounding, m/s and rad/s alike:
+bodies are shorter than 1e6 m, so that the rounding of neither comes to that share of the other."""
 MOST_NAMED = 8
 """Joints that a sentence names."""
 
@@ -39,7 +40,7 @@ def redundant_while_held(scene: Scene, assembly: Assembly) -> bool:
         and not assembly.freedom
         and not assembly.redundant_with_play
         and closes(scene)
-        and assembly.rate <= CONSISTENT * max(1.0, float(np.abs(assembly.velocity).max()))
+        and assembly.rate <= CONSISTENT * float(np.abs(assembly.velocity).max())
     )
 
 

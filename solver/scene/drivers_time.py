@@ -11,8 +11,9 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import MovingDriver
 from jointplay.solver.scene.periods import SLOWEST, period_of
 
-LOOKED_AT = np.geomspace(1e-4, 1e4, 801)
-"""Instants at which a motion that never repeats is looked at, s."""
+LOOKED_AT = np.geomspace(1e-10, 1e10, 2001)
+"""Instants at which a motion that never repeats is looked at, s: a decade beyond the lengths of a
+ramp that a document may give, 1e-9 s to 1e9 s."""
 RESTING = 1e-6
 """Share of its whole motion that a driver at rest may still move."""
 

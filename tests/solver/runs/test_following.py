@@ -157,6 +157,8 @@ def test_an_open_mechanism_stays_where_it_starts() -> None:
         ({"speed": -2.0}, math.pi, True),
         ({"motion": SWINGING}, math.pi / 2, True),
         ({"motion": {"type": "ramp", "end": 0.5, "length": 2.0}}, 2.0, False),
+        ({"motion": {"type": "ramp", "end": 0.5, "length": 1e-9}}, 1e-9, False),
+        ({"motion": {"type": "ramp", "end": 0.5, "length": 1e9}}, 1e9, False),
         ({"motion": {"type": "polynomial", "coefficients": [0.0, 3.0]}}, 2 * math.pi / 3, False),
         ({"speed": 0.0}, None, False),
     ],
