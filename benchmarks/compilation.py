@@ -72,15 +72,11 @@ def compiled(name: str, count: int, formulation: str, with_tangents: bool) -> di
     except LimitExceeded as refused:
         return {"refused": str(refused)}
     ended = processor()
-    lines = 0
-    for module in modules:
-        with open(str(module.__file__)) as source:
-            lines += sum(1 for _ in source)
     return {
         "tracing": traced,
         "kernel": tangents_begun - begun - traced,
         "tangents": ended - tangents_begun,
-        "lines": lines,
+        "lines": sum(len(one.lines) for module in modules for one in module.sources),
         "before": before / 1024,
         "peak": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
     }

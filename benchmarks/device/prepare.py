@@ -124,7 +124,7 @@ def advanced(bundle: Bundle) -> list[Any]:
 
 def texts(kernel: Kernel, sizes: Sizes, work: Any, on_host: bool) -> dict[str, str]:
     """Return the kernel's text in several variants."""
-    sources = kernel.module.tapes.sources
+    sources = kernel.module.sources
     lean = list(without(slots_of_energies(kernel), sources))
     shared = {
         slot: float(work[slot, 0])
@@ -149,14 +149,14 @@ def with_constants(numbers: Mapping[int, float], sources: Iterable[Source]) -> I
     for one in sources:
         known: dict[str, str] = {}
         lines = []
-        for line in one.tape.splitlines():
+        for line in one.lines:
             words = line.split()
             slot = _loaded(words)
             if slot in numbers:
                 known[words[0]] = repr(numbers[slot])
             else:
                 lines.append(" ".join(words[:1] + [known.get(word, word) for word in words[1:]]))
-        yield dataclasses.replace(one, tape="\n".join(lines))
+        yield dataclasses.replace(one, lines=tuple(lines))
 
 
 def _loaded(words: list[str]) -> int:

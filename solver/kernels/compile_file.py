@@ -1,4 +1,4 @@
-"""`python -m jointplay.solver.kernels.compile_file FILE`: compile a source into the cache."""
+"""`python -m jointplay.solver.kernels.compile_file FILE`: compile a module into the cache."""
 
 import os
 import resource
@@ -6,7 +6,7 @@ import sys
 import threading
 from pathlib import Path
 
-from jointplay.solver.kernels import cache
+from jointplay.solver.kernels.emit.module import compile_file
 from jointplay.solver.kernels.watched import MOST_MEMORY, OUT_OF_MEMORY
 
 
@@ -16,9 +16,8 @@ def main(path: Path) -> int:
     _, hard = resource.getrlimit(resource.RLIMIT_DATA)
     most = MOST_MEMORY if hard == resource.RLIM_INFINITY else min(MOST_MEMORY, hard)
     resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
-    cache.cache_folder()  # names Numba's cache
     try:
-        cache.load_file(path)
+        compile_file(path)
     except MemoryError:
         return OUT_OF_MEMORY
     return 0

@@ -86,13 +86,16 @@ def require_wanted() -> None:
         raise CompilationUnwanted(answer)
 
 
-def compile_if_watched(path: Path) -> None:
-    """Have a source compiled into the cache by another process; nothing where nobody watches.
+def is_watched() -> bool:
+    """Return whether somebody watches."""
+    return _watch.get() is not None
 
-    An error in the source is left to who loads it afterwards: it is raised again there.
+
+def compile_elsewhere(path: Path) -> None:
+    """Have a file compiled into the cache by another process; raise what `watched` does.
+
+    An error in the file is left to who loads it afterwards: it is raised again there.
     """
-    if _watch.get() is None:
-        return
     process = subprocess.Popen(  # noqa: S603 - our own program
         [sys.executable, "-P", "-m", _MODULE, str(path)],
         stdin=subprocess.PIPE,  # its end tells the process of ours

@@ -74,9 +74,9 @@ class DeviceBundle(Bundle):
         self.runs["status"], self.runs["landing"] = Status.IDLE, NO_PAIR
         self.first_energy = np.zeros((len(ENERGIES), count))
         unused = () if energies else slots_of_energies(kernel)
-        sources, of = list(without(unused, kernel.module.tapes.sources)), tangents or kernel
+        sources, of = list(without(unused, kernel.module.sources)), tangents or kernel
         if tangents is not None:
-            sources += tangents.module.tapes.sources
+            sources += tangents.module.sources
         work = np.zeros((of.layout.size, count))
         none = Buffers.of(0, 0, kernel.row.width, tangents=False, steps=(0, 0, 0))
         self.groups = [GroupState(work, self.runs, none)]

@@ -147,7 +147,7 @@ def spare_rows(sources: Sequence[Source], slots: int) -> int:
     All of a lane's numbers have room there, too: see `loop.contacts.begin_abruptly`.
     """
     within = [one for one in sources if one.name in ("states_within", "gaps_within")]
-    words = (line.split() for one in within for line in one.tape.strip().splitlines())
+    words = (line.split() for one in within for line in one.lines)
     used = {int(w[1] if w[0] == "store" else w[3]) for w in words if {"store", "given"} & {*w}}
     return max(*used, -(-slots // INSTANTS)) + 1
 

@@ -25,8 +25,8 @@ def slots_of_energies(kernel: Kernel) -> set[int]:
 def without(slots: Collection[int], sources: Iterable[Source]) -> Iterator[Source]:
     """Yield tapes that do not store into some slots; what was computed for them falls away."""
     for one in sources:
-        lines = (line for line in one.tape.splitlines() if _stored(line) not in slots)
-        yield dataclasses.replace(one, tape="\n".join(lines))
+        lines = tuple(line for line in one.lines if _stored(line) not in slots)
+        yield dataclasses.replace(one, lines=lines)
 
 
 def _stored(line: str) -> int:

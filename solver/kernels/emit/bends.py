@@ -8,7 +8,8 @@ from collections.abc import Callable, Sequence
 from functools import reduce
 from operator import add
 
-from jointplay.solver.kernels.emit.emit import lane_function, statements
+from jointplay.solver.kernels.emit.emit import lane_function
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import BENDS, Layout
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive, sqrt
@@ -32,10 +33,10 @@ def allocate(layout: Layout, pairs: int) -> None:
     layout.add("may_pass_bend")
 
 
-def source(layout: Layout, pairs: int) -> str:
+def source(layout: Layout, pairs: int) -> Source:
     """Return the source of foresee_bends(W), which says so by positive numbers."""
     if pairs == 0:
-        return statements("foresee_bends", [])
+        return Source("foresee_bends")
     tracer = Tracer()
     passes = [_passes(tracer.variable, j) for j in range(pairs)]
     return lane_function("foresee_bends", [("may_pass_bend", reduce(maximum, passes))], layout)

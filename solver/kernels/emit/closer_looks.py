@@ -10,6 +10,7 @@ from collections.abc import Callable
 from jointplay.solver.kernels.emit import bends
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.emit.judging import PASSING
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.scalars import floor, greatest, maximum
@@ -23,7 +24,7 @@ def allocate(layout: Layout) -> None:
     layout.add("may_look")
 
 
-def source(layout: Layout, pairs: int, *, always: bool) -> str:
+def source(layout: Layout, pairs: int, *, always: bool) -> Source:
     """Return the source of foresee_looks(W): ``may_look`` is positive where a lane's step may be.
 
     Its value is the largest of them. `always` : of methods and scenes whose steps are all looked

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Output, lane_function
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression
@@ -11,7 +12,7 @@ MOVED = 0.01
 """Share of a step's way by which closing loops may move its end."""
 
 
-def source(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
+def source(equations: Equations, layout: Layout, fixed: FixedNodes) -> Source:
     """Return the source of project(W): moves the stage to where loops are closed.
 
     ``correction`` keeps by how much; dense output ends at the projected stage with it.

@@ -7,18 +7,11 @@ with constant offsets. Names on a tape are the emitter's own; nothing of a scene
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import MOST_STATEMENTS, Expression, too_many
 from jointplay.solver.kernels.watched import require_wanted
-
-HEADER = '''"""A generated kernel: see jointplay.solver.kernels.emit."""
-
-from jointplay.solver.kernels.emit.tapes import Tapes
-
-tapes = Tapes()
-'''
-FOOTER = "globals().update(tapes.compiled(__file__, {lanes}))\n"
 
 LONGEST = 3 * MOST_STATEMENTS
 """Lines of a tape: dense output, equations and channels, each within the limit, are on some."""
@@ -131,10 +124,10 @@ class Tape:
         for (name, _), value in zip(outputs, values, strict=True):
             self.lines.append(f"store {self.layout[name]}+ {value}")
 
-    def function(self, name: str, over: str = "lanes", rows: int = 0) -> str:
+    def function(self, name: str, over: str = "lanes", rows: int = 0) -> Source:
         """Return the source of a function; see `straight_line` for what it goes over."""
         require_wanted()
-        return statements(name, self.lines, over, rows)
+        return Source(name, tuple(self.lines), over, rows)
 
     def evaluate(self, expression: Expression) -> str:
         """Have an expression evaluated here, if it is not yet. Returns the value's name."""
@@ -182,18 +175,8 @@ def lane_function(
     layout: Layout,
     fixed: FixedNodes | None = None,
     known: Known = NONE,
-) -> str:
+) -> Source:
     """Return the source of a function W -> W that evaluates `outputs`."""
     tape = Tape(layout, fixed, known)
     tape.store(outputs)
     return tape.function(name)
-
-
-def statements(name: str, lines: Iterable[str], over: str = "lanes", rows: int = 0) -> str:
-    """Return the source of a function of these lines of a tape; see `straight_line`."""
-    return "\n".join([f'tapes.add("{name}", """', *lines, f'""", "{over}", {rows})', ""])
-
-
-def module_source(parts: Iterable[str], lanes: int) -> str:
-    """Return the source of a module of these functions' sources, for so many lanes at once."""
-    return "\n\n".join([HEADER, *parts, FOOTER.format(lanes=lanes)])

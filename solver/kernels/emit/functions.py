@@ -4,7 +4,6 @@
 
 from collections import namedtuple
 from collections.abc import Callable, Mapping
-from types import ModuleType
 from typing import Any, cast
 
 import numpy as np
@@ -55,7 +54,7 @@ ADDRESSES = from_dtype(DTYPE)[::1]
 5 us each at every call from Python."""
 
 
-def addresses_of(*modules: ModuleType) -> NDArray[np.void]:
+def addresses_of(*modules: Any) -> NDArray[np.void]:
     """Return the addresses of modules' functions by name, (1,); 0: no module has its tangents.
 
     Raises

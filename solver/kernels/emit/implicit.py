@@ -8,8 +8,9 @@ import math
 
 from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.emit.elimination import VECTORS
-from jointplay.solver.kernels.emit.emit import Output, lane_function, statements
+from jointplay.solver.kernels.emit.emit import Output, lane_function
 from jointplay.solver.kernels.emit.stepping import StepTracer
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.emit.turned_sines import Angle
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.derivative import Derivative
@@ -34,9 +35,9 @@ class RosenbrockTracer(StepTracer):
     unweighed = 1
     tableau: Rosenbrock
 
-    def _steps(self) -> list[str]:
+    def _steps(self) -> list[Source]:
         stages = range(1, len(self.tableau.nodes) + 1)
-        parts = [self._start(), self._product(), self._linear()]
+        parts = [self._start(), self._product(), *self._linear()]
         parts += [self._point(s) for s in stages if s > 1]
         parts += [self._right(s) for s in stages]
         parts += [self._inner(1), self._inner(2), self._finish()]
@@ -49,12 +50,12 @@ class RosenbrockTracer(StepTracer):
         none = self.tracer.constant(0.0)
         return none, none  # no limit of stability makes its slopes swing
 
-    def _start(self) -> str:
+    def _start(self) -> Source:
         outputs = [*self._tried(), *self._held()]
         outputs += [(f"stage{i}", self.variable(f"y{i}")) for i in range(self.states)]
         return self._function("start", [*outputs, ("stage_time", self.variable("time"))])
 
-    def _product(self) -> str:
+    def _product(self) -> Source:
         """Write product(W): the derivative of the slopes along the direction."""
         tracer, count = self.equations.tracer, self.coordinates
         along = {f"stage{i}": tracer.variable(f"direction{i}") for i in range(self.states)}
@@ -63,15 +64,11 @@ class RosenbrockTracer(StepTracer):
         outputs += [(f"product{i}", derivative(rate)) for i, rate in self.equations.slopes]
         return lane_function("product", outputs, self.layout, self.fixed)
 
-    def _linear(self) -> str:
+    def _linear(self) -> tuple[Source, Source]:
         """Write jacobian(W), which leaves the factors of I - h γ J, and solve(W)."""
         n, tried, first = self.states, self.layout["tried"], self.layout["direction_time"]
-        return "\n\n".join(
-            [
-                statements("jacobian", [f"jacobian {n} {self.tableau.gamma!r} {tried} {first}"]),
-                statements("solve", [f"solve {n} {first}"]),
-            ]
-        )
+        factorised = f"jacobian {n} {self.tableau.gamma!r} {tried} {first}"
+        return Source("jacobian", (factorised,)), Source("solve", (f"solve {n} {first}",))
 
     def _moved(self, weights: tuple[float, ...], i: int, *, fresh: bool = False) -> Expression:
         """State i after h times a weighted sum of stages; the `fresh` last is in `right` still."""
@@ -84,14 +81,14 @@ class RosenbrockTracer(StepTracer):
     def _stored(self, s: int) -> list[Output]:
         return [(f"k{s + 1}_{i}", self.variable(f"right{i}")) for i in range(self.states)]
 
-    def _point(self, s: int) -> str:
+    def _point(self, s: int) -> Source:
         """Go where stage s evaluates the slope; keep the stage before."""
         v, weights = self.variable, self.tableau.matrix[s - 1]
         outputs = [(f"stage{i}", self._moved(weights, i, fresh=True)) for i in range(self.states)]
         outputs.append(("stage_time", v("time") + self.tableau.nodes[s - 1] * v("tried")))
         return self._function(f"point_{s}", [*outputs, *self._stored(s - 1)])
 
-    def _right(self, s: int) -> str:
+    def _right(self, s: int) -> Source:
         """Set the right side of stage s."""
         v, gamma = self.variable, self.tableau.gamma
         outputs: list[Output] = []
@@ -103,7 +100,7 @@ class RosenbrockTracer(StepTracer):
             outputs.append((f"right{i}", gamma * total))
         return self._function(f"right_{s}", outputs)
 
-    def _inner(self, number: int) -> str:
+    def _inner(self, number: int) -> Source:
         """Go to an inner node of the ledger's formula, and keep the ledger where it was."""
         v, theta = self.variable, INNER[number - 1]
         weights = tuple(
@@ -119,7 +116,7 @@ class RosenbrockTracer(StepTracer):
             outputs += self._kept_ledger(2)
         return self._function(f"inner_{number}", outputs)
 
-    def _finish(self) -> str:
+    def _finish(self) -> Source:
         v = self.variable
         outputs = [(f"stage{i}", self._moved(self.tableau.weights, i)) for i in range(self.states)]
         outputs += [("stage_time", v("time") + v("tried")), ("arrival", v("time") + v("tried"))]

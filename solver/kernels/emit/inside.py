@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Outputs, Tape
 from jointplay.solver.kernels.emit.judged_step import before
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 
@@ -19,8 +20,8 @@ def source(
     rest: Outputs,
     layout: Layout,
     fixed: FixedNodes,
-) -> str:
-    """Return the source of what looks inside a step.
+) -> list[Source]:
+    """Return the sources of what looks inside a step.
 
     `dense` : time, state, modes and impact rates at `theta` of the step. `scanned`, `rest` :
     channels, of the state, its time and its accelerations: those whose extremes are sought, and
@@ -51,7 +52,7 @@ def source(
         carried: Outputs,
         stored: Outputs,
         kept: Iterable[str] = (),
-    ) -> str:
+    ) -> Source:
         tape = Tape(layout, fixed, fetch=fetch)
         tape.carry(carried)
         tape.store(stored)
@@ -59,11 +60,9 @@ def source(
         return tape.function(name, "instants")
 
     moving, everywhere = [*dense, *accelerations], [name for name, _ in dense]
-    return "\n\n".join(
-        [
-            looking("states_within", within, [], dense),
-            looking("gaps_within", within, dense, [*gaps, *slips]),
-            looking("channels_within", within, moving, [*scanned, *rest], everywhere),
-            looking("channels_around", around, moving, scanned, ["stage_time"]),
-        ]
-    )
+    return [
+        looking("states_within", within, [], dense),
+        looking("gaps_within", within, dense, [*gaps, *slips]),
+        looking("channels_within", within, moving, [*scanned, *rest], everywhere),
+        looking("channels_around", around, moving, scanned, ["stage_time"]),
+    ]

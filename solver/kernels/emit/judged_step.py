@@ -18,6 +18,7 @@ from jointplay.solver.kernels.emit.judging import (
     swings,
 )
 from jointplay.solver.kernels.emit.knots import KnotTracer
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
@@ -62,14 +63,14 @@ class JudgedStep:
             total = total + weight * self.variable(slot)
         return total
 
-    def _function(self, name: str, outputs: Outputs) -> str:
+    def _function(self, name: str, outputs: Outputs) -> Source:
         return lane_function(name, outputs, self.layout)
 
     def _slope(self, s: int, i: int) -> str:
         """Return the slot of the slope of state i at stage s: the last is where the step ends."""
         return f"slope{i}" if s == self.tableau.stages else f"k{s}_{i}"
 
-    def _judge(self) -> str:
+    def _judge(self) -> Source:
         """Error of the step, the next step size, and what needs attention."""
         v, number = self.variable, self.tracer.constant
         squared = self._squared_error() if self.tableau.error else self._overflow()
@@ -103,7 +104,7 @@ class JudgedStep:
         tape.give(attention)
         return tape.function("judge")
 
-    def _look_inside(self) -> str:
+    def _look_inside(self) -> Source:
         """Return the source of look_inside(W): what the search for extremes asks of a step."""
         v = self.variable
         flag, swing = self._swinging()

@@ -2,14 +2,12 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.solver.integrators import Method
 from jointplay.solver.integrators.method import Rosenbrock
-from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import (
     bends,
     closer_looks,
@@ -18,9 +16,11 @@ from jointplay.solver.kernels.emit import (
     scanning,
     stepping,
 )
-from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function, module_source
+from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function
 from jointplay.solver.kernels.emit.functions import addresses_of
+from jointplay.solver.kernels.emit.module import Module, load
 from jointplay.solver.kernels.emit.slots import DenseRow, StepRow, slots_of
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.emit.turned_sines import TurnedSines
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.target import own_target
@@ -41,7 +41,7 @@ from jointplay.solver.scene.document import Scene
 class Kernel:
     """Compiled functions over one work array, and what the slots mean."""
 
-    module: ModuleType
+    module: Module
     lanes: int
     """Advanced at once."""
     layout: Layout
@@ -95,7 +95,7 @@ def compile_kernel(
     known = {node: f"again{i}" for i, node in enumerate(again)}
     steps = tracer(tableau, equations, fixed, known)
     lanes = lanes or own_target().lanes
-    source = module_source(_functions(steps, rows), lanes)
+    sources = _functions(steps, rows)
     layout, states, pairs = fixed.layout, equations.states, len(equations.pairs)
     row = DenseRow.of(len(equations.clocks), states, pairs)
     step_row = StepRow.of(len(equations.coordinates), states, pairs)
@@ -109,7 +109,7 @@ def compile_kernel(
         "watched_closely": int(tableau.watched_closely),
     }
     return Kernel(
-        load(source),
+        load(sources, lanes),
         lanes,
         layout,
         row,
@@ -147,7 +147,7 @@ def _layout(equations: Equations, rows: Rows, tableau: Method, again: int) -> La
     return layout
 
 
-def _functions(steps: stepping.StepTracer, rows: Rows) -> list[str]:
+def _functions(steps: stepping.StepTracer, rows: Rows) -> list[Source]:
     """Return the sources of a kernel's functions."""
     equations, layout, fixed, known = steps.equations, steps.layout, steps.fixed, steps.known
     observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
@@ -163,15 +163,15 @@ def _functions(steps: stepping.StepTracer, rows: Rows) -> list[str]:
         lane_function("observe", scanned, layout, fixed, known),
         lane_function("observe_rest", rest, layout, fixed, known),
         lane_function("weigh", energies, layout, fixed, known),
-        steps.source(energies),
-        scanning.source(layout, rows.scanned),
+        *steps.source(energies),
+        *scanning.source(layout, rows.scanned),
         bends.source(layout, steps.pairs),
         closer_looks.source(layout, steps.pairs, always=closely),
-        inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
+        *inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
     ]
 
 
-def _slope_function(steps: stepping.StepTracer) -> str:
+def _slope_function(steps: stepping.StepTracer) -> Source:
     """Return the source of slopes(W, row), which writes slopes where a stage's are kept.
 
     `row` : slots from those of the first stage.
@@ -187,7 +187,7 @@ def _slope_function(steps: stepping.StepTracer) -> str:
     return tape.function("slopes", "row")
 
 
-def _right_hand_side(steps: stepping.StepTracer) -> str:
+def _right_hand_side(steps: stepping.StepTracer) -> Source:
     """Return the source of right_hand_side(W); the ledger's rates only where they are wanted."""
     equations = steps.equations
     again = [(slot, node) for node, slot in steps.known.items()]

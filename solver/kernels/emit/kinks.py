@@ -8,7 +8,8 @@ jump (equal limit velocities), if its argument goes on through the jump; where f
 slip at the jump, the mean slope grows beyond bounds and no tangent can be carried.
 """
 
-from jointplay.solver.kernels.emit.emit import FixedNodes, Output, lane_function, statements
+from jointplay.solver.kernels.emit.emit import FixedNodes, Output, lane_function
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.derivative import Derivative
 from jointplay.solver.kernels.trace.equations import Equations
@@ -39,13 +40,13 @@ def allocate(layout: Layout, kinks: int) -> None:
     layout.add_block("kink_mean", kinks)
 
 
-def kink_function(kinks: Kinks, layout: Layout, fixed: FixedNodes) -> str:
+def kink_function(kinks: Kinks, layout: Layout, fixed: FixedNodes) -> Source:
     """Return the source of kinks(W): which kinks this step passes, and the mean slopes.
 
     Its end is the state to come, in the base's stage; its start was the end of the step before.
     """
     if not kinks:
-        return statements("kinks", [])
+        return Source("kinks")
     outputs: list[Output] = []
     for q, (value, argument) in enumerate(kinks):
         tracer = value.tracer

@@ -9,6 +9,7 @@ after which share of the step (`knot_share`), and the step is redone to end ther
 from collections.abc import Sequence
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Output, lane_function
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.knots import KnotsOnPath
 from jointplay.solver.kernels.trace.tracer import Expression, Knots
@@ -48,7 +49,7 @@ class KnotTracer:
             layout.add_block(name, len(self.met))
             layout.add_block(f"{name}_start", len(self.met))
 
-    def source(self, fixed: FixedNodes) -> list[str]:
+    def source(self, fixed: FixedNodes) -> list[Source]:
         """Return the sources of what an attempt calls: before its stages, and before the judge."""
         return [*self._ahead(fixed), *self._passed(fixed)]
 
@@ -76,7 +77,7 @@ class KnotTracer:
             (f"{name}_start{i}", f"{name}{i}") for name in AT_ENDS for i in range(len(self.met))
         ]
 
-    def _ahead(self, fixed: FixedNodes) -> list[str]:
+    def _ahead(self, fixed: FixedNodes) -> list[Source]:
         """Write what finds the time to the next knot of a clock."""
         if not self.clocked:
             return []
@@ -90,7 +91,7 @@ class KnotTracer:
             lane_function("look_for_knots", [("to_knot", soonest)], self.layout, fixed),
         ]
 
-    def _passed(self, fixed: FixedNodes) -> list[str]:
+    def _passed(self, fixed: FixedNodes) -> list[Source]:
         """Write what finds the share of a step after which it meets a knot; else 2."""
         if not self.met:
             return []

@@ -1,17 +1,14 @@
-"""Machine code of generated modules: compiled by LLVM, kept in files, loaded into the process.
+"""Machine code of generated modules: compiled by LLVM, loaded into the process.
 
 Numba, which compiles the loops that call it, would optimise such a module three times, and compile
 and keep an entry to each function for itself: more than half of the compilation of a press.
 """
 
-from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 from llvmlite import binding
 
-from jointplay.solver.kernels.cache import write_whole
 from jointplay.solver.kernels.compiler import order_instructions
 from jointplay.solver.kernels.target import Target, own_target
 
@@ -23,18 +20,8 @@ LONG = 8_000_000
 order in which they are written: to order them takes three times as long for twice the length."""
 
 
-def load_code(text: Callable[[], str], target: Target, source: Path | None) -> None:
-    """Load what a module's text in LLVM's language comes to; compiled once, then from a file.
-
-    `source` : beside which the file is; None: nothing is kept.
-    """
-    path = None if source is None else source.with_suffix(f".{target.mark}.o")
-    if path is not None and path.exists():
-        code = path.read_bytes()
-    else:
-        code = _compiled(text(), target)
-        if path is not None:
-            write_whole(path, code)
+def load_code(code: bytes) -> None:
+    """Load the code of a module, as `compiled` returns it."""
     _engine().add_object_file(binding.ObjectFileRef.from_data(code))
 
 
@@ -46,7 +33,8 @@ def address_of_symbol(name: str) -> int:
     return address
 
 
-def _compiled(text: str, target: Target) -> bytes:
+def compiled(text: str, target: Target) -> bytes:
+    """Return what a module's text in LLVM's language comes to."""
     machine = target.machine()
     module = binding.parse_assembly(text)
     module.data_layout = str(machine.target_data)

@@ -6,6 +6,7 @@ Before the second step there is no change before: it is NaN, and no candidate.
 """
 
 from jointplay.solver.kernels.emit.emit import Output, Tape
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.target import WIDTHS
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
@@ -43,16 +44,16 @@ def reach(step: Expression, before: Expression) -> list[Output]:
     return [("lengthening", longer), ("reach", 0.25 * REACH / (longer * (longer + 1.0)))]
 
 
-def source(layout: Layout, rows: int) -> str:
-    """Return the source of scan(W), and of scan_some(W) for the lanes that accept their step.
+def source(layout: Layout, rows: int) -> list[Source]:
+    """Return the sources of scan(W), and of scan_some(W) for the lanes that accept their step.
 
     Their value, and for each row a byte of `marked`, tell the lanes with a candidate, a bit each;
     a lane that does not accept its step has none, whatever its bit says.
     """
-    return "\n\n".join(_scan(name, layout, rows) for name in ("scan", "scan_some"))
+    return [_scan(name, layout, rows) for name in ("scan", "scan_some")]
 
 
-def _scan(name: str, layout: Layout, rows: int) -> str:
+def _scan(name: str, layout: Layout, rows: int) -> Source:
     tracer = Tracer()
     value, before, rose, highest, lowest = (tracer.variable(f"{block}0") for block in BLOCKS)
     change = value - before

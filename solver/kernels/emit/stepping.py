@@ -8,8 +8,9 @@ from itertools import count
 
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit import closing, enclosure
-from jointplay.solver.kernels.emit.emit import FixedNodes, Known, Output, Outputs, Tape, statements
+from jointplay.solver.kernels.emit.emit import FixedNodes, Known, Output, Outputs, Tape
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.emit.turned_sines import Angle, TurnedSines, turned_in_slopes
 from jointplay.solver.kernels.layout import MOTION, Layout
 from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER, Equations
@@ -64,8 +65,8 @@ class StepTracer(JudgedStep):
         self.turned.allocate(layout)
         layout.add(*(before(name) for name in self._remembered()))
 
-    def source(self, energies: Outputs) -> str:
-        """Return the source of all functions of a step.
+    def source(self, energies: Outputs) -> list[Source]:
+        """Return the sources of all functions of a step.
 
         `energies` : what gravity and contacts store, at the stage.
         """
@@ -75,12 +76,12 @@ class StepTracer(JudgedStep):
             parts.insert(0, self.turned.source(self.layout, self.fixed))
         if self.equations.corrections:
             parts.insert(0, closing.source(self.equations, self.layout, self.fixed))
-        return "\n\n".join([*parts, self._take(energies)])
+        return [*parts, self._take(energies)]
 
     def _turned(self) -> list[Angle]:
         return turned_in_slopes(self.equations)
 
-    def _steps(self) -> list[str]:
+    def _steps(self) -> list[Source]:
         """Return the sources of what an attempt calls beside the slopes, but for the judge."""
         return [self._stage(s) for s in range(2, self.tableau.stages + 1)]
 
@@ -116,7 +117,7 @@ class StepTracer(JudgedStep):
             limited = minimum(limited, enclosure.longest(v, speeds))
         return limited
 
-    def _stage(self, s: int) -> str:
+    def _stage(self, s: int) -> Source:
         """Stage s of the step: y + h Σ a k. The slopes of its coordinates are its speeds."""
         v = self.variable
         weights = self.tableau.matrix[s - 1]
@@ -143,15 +144,15 @@ class StepTracer(JudgedStep):
     def _ledger_at(self, s: int, i: int) -> str:
         return f"kledger{s}_{i}"
 
-    def _attempt(self) -> str:
+    def _attempt(self) -> Source:
         """Attempt a step. Returns the largest flag that has a lane looked after by itself."""
         calls = self._calls()
         if self.equations.corrections:  # where the step ends, before its slopes are evaluated
             calls.insert(-1, "project")
         calls = [*self.knots.calls_before, *calls, *self.knots.calls_after, "look_inside"]
-        return statements("attempt", [f"call {each}" for each in calls] + ["return call judge"])
+        return Source("attempt", (*(f"call {each}" for each in calls), "return call judge"))
 
-    def _take(self, energies: Outputs) -> str:
+    def _take(self, energies: Outputs) -> Source:
         """Take the step in the lanes that accept it."""
         v = self.variable
         running = v("active")
@@ -205,7 +206,7 @@ class StepTracer(JudgedStep):
         outputs += [(f"kledger1_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
         return [("gross", gross), *outputs]
 
-    def _remember(self) -> list[str]:
+    def _remember(self) -> list[Source]:
         """Keep the dense output of this step before the next one begins: of all lanes, or of some.
 
         Those are the ones that accept it.

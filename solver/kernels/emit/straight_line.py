@@ -38,7 +38,7 @@ As Python's arithmetic in a loop over the lanes, which Numba compiled, it took f
 compile and ran no faster.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from jointplay.solver.kernels.emit.elimination import factorise, substitute
 from jointplay.solver.kernels.emit.lane_arithmetic import (
@@ -64,7 +64,9 @@ Symbol = Callable[[str], str]
 """Gives the name by which LLVM knows a function of the module."""
 
 
-def write(tape: str, over: str, rows: int, value: str, symbol: Symbol, count: int) -> list[str]:
+def write(
+    tape: Sequence[str], over: str, rows: int, value: str, symbol: Symbol, count: int
+) -> list[str]:
     """Return the lines of a function that does what a tape says.
 
     Parameters
@@ -113,20 +115,19 @@ class _Tape:
         self.values: dict[str, str] = {}
         self.ways: list[str] = []
 
-    def run(self, tape: str) -> None:
+    def run(self, lines: Sequence[str]) -> None:
         """Write the code of a tape's lines."""
-        lines = tape.strip().splitlines()
         for i, line in enumerate(lines):
             words = line.split()
             if words[0] == "where":
                 with self.build.where(self._value(words[1])):
-                    self.run("\n".join(lines[i + 1 :]))
+                    self.run(lines[i + 1 :])
                 return
             if words[0] == "if":
                 end = lines.index("end")
                 with self.build.where(self._value(words[1])) as self.ways:
-                    self.run("\n".join(lines[i + 1 : end]))
-                self.run("\n".join(lines[end + 1 :]))
+                    self.run(lines[i + 1 : end])
+                self.run(lines[end + 1 :])
                 return
             if words[1] == "=":
                 self.values[words[0]] = self._made(*words[2:])

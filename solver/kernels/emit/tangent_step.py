@@ -16,10 +16,11 @@ from collections.abc import Sequence
 from functools import reduce
 from operator import add, mul
 
-from jointplay.solver.kernels.emit.emit import lane_function, statements
+from jointplay.solver.kernels.emit.emit import lane_function
 from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.emit.kinks import MEMORY
 from jointplay.solver.kernels.emit.tangent_method import COUPLING, NODES, STAGES, WEIGHTS
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
@@ -60,8 +61,8 @@ class TangentTracer:
         self.pairs = len(equations.pairs)
         self.tracer = Tracer()
 
-    def source(self) -> str:
-        """Return the source.
+    def source(self) -> list[Source]:
+        """Return the sources.
 
         tangent_step is to be called when a step was judged and its lanes' fate is known, before
         it is taken: ``y`` and ``k1_`` then belong to its start, ``stage`` and ``slope`` to its end,
@@ -76,9 +77,9 @@ class TangentTracer:
             calls += [f"v0 = load {self.layout['rest']}", "if v0", *behind, "end"]
         if self.closed:
             calls.append("call hold_tangent")
-        return "\n\n".join([*parts, statements("tangent_step", calls)])
+        return [*parts, Source("tangent_step", tuple(calls))]
 
-    def _begin(self) -> str:
+    def _begin(self) -> Source:
         """Stage 0, where the step begins, or just behind."""
         v, spanned, begins = self.tracer.variable, self._spanned(), self._begins()
         share = select_positive(begins, spanned * BEHIND_ONSET[0], 0.0)
@@ -110,7 +111,7 @@ class TangentTracer:
             spanned = select_positive(v(f"mode{j}"), opens, spanned)
         return spanned
 
-    def _carry(self, s: int) -> str:
+    def _carry(self, s: int) -> Source:
         """Stage s: the point that the base passes there, and the tangent carried there."""
         v, share = self.tracer.variable, self._share(s, NODES[s])
         outputs = [("passing_time", v("time") + share * v("tried"))]
@@ -150,7 +151,7 @@ class TangentTracer:
         slopes = (share * rest * rest) * first - (share * share * rest) * last
         return start + (share * share * (3.0 - 2.0 * share)) * (end - start) + v("tried") * slopes
 
-    def _arrive(self) -> str:
+    def _arrive(self) -> Source:
         """Bring the tangent over what the method spans, in the lanes that take the step."""
         v = self.tracer.variable
         moved = [(f"tangent{i}", self._moved(WEIGHTS, i)) for i in range(self.states)]
@@ -158,7 +159,7 @@ class TangentTracer:
         taken = [(name, select_positive(v("accept"), new, v(name))) for name, new in moved]
         return lane_function("arrive", taken, self.layout)
 
-    def _behind(self) -> tuple[str, str]:
+    def _behind(self) -> tuple[Source, Source]:
         """Bring the tangent over the rest of the step behind an opening, with the slope there."""
         v = self.tracer.variable
         passing = [("passing_time", v("time") + v("tried"))]

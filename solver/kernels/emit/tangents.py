@@ -11,24 +11,18 @@ kernel's.
 
 from dataclasses import dataclass
 from functools import lru_cache
-from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import kinks, tangent_step
-from jointplay.solver.kernels.emit.emit import (
-    FixedNodes,
-    Tape,
-    lane_function,
-    module_source,
-    statements,
-)
+from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.kinks import Kinks
+from jointplay.solver.kernels.emit.module import Module, load
 from jointplay.solver.kernels.emit.slots import OF_TANGENTS
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.derivative import Derivative
 from jointplay.solver.kernels.trace.equations import Equations
@@ -40,7 +34,7 @@ from jointplay.solver.quantities.scalars import select_positive
 class Tangents:
     """Compiled tangent functions of a kernel, over its work array made longer."""
 
-    module: ModuleType
+    module: Module
     layout: Layout
     slots: NDArray[np.void]
     """The kernel's, with those of tangents filled in."""
@@ -63,27 +57,19 @@ def compile_tangents(kernel: Kernel) -> Tangents:
     piecewise = kinks.kinks_of(equations)
     allocate(layout, kernel.states, len(kernel.pairs), len(piecewise))
     fixed = FixedNodes(layout)
-    source = module_source(
-        [
-            kinks.kink_function(piecewise, layout, fixed),
-            slope_function(kernel, piecewise, layout, fixed),
-            *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),
-            tangent_step.TangentTracer(equations, len(piecewise), layout).source(),
-            gap_function(equations, layout, fixed),
-        ],
-        kernel.lanes,
-    )
+    sources = [
+        kinks.kink_function(piecewise, layout, fixed),
+        slope_function(kernel, piecewise, layout, fixed),
+        *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),
+        *tangent_step.TangentTracer(equations, len(piecewise), layout).source(),
+        gap_function(equations, layout, fixed),
+    ]
     slots = kernel.slots.copy()
     for name in OF_TANGENTS:
         slots[name] = layout.block(name).start
-    module = load(source)
-    return Tangents(
-        module,
-        layout,
-        slots,
-        FixedNumbers(fixed.nodes),
-        addresses_of(kernel.module, module),
-    )
+    module = load(sources, kernel.lanes)
+    addresses = addresses_of(kernel.module, module)
+    return Tangents(module, layout, slots, FixedNumbers(fixed.nodes), addresses)
 
 
 def allocate(layout: Layout, states: int, pairs: int, piecewise: int) -> None:
@@ -94,7 +80,7 @@ def allocate(layout: Layout, states: int, pairs: int, piecewise: int) -> None:
     tangent_step.allocate(layout, states)
 
 
-def slope_function(kernel: Kernel, piecewise: Kinks, layout: Layout, fixed: FixedNodes) -> str:
+def slope_function(kernel: Kernel, piecewise: Kinks, layout: Layout, fixed: FixedNodes) -> Source:
     """Return the source of carried_slopes(W): J w at a point that the step passes.
 
     That point has slots of its own: the base's stage holds the state to come.
@@ -114,7 +100,7 @@ def slope_function(kernel: Kernel, piecewise: Kinks, layout: Layout, fixed: Fixe
     return tape.function("carried_slopes")
 
 
-def hold_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
+def hold_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> Source:
     """Return the source of hold_tangent(W): in lanes that accept, the tangent keeps loops closed.
 
     At the state in the base's stage; the change is the least that takes away the derivatives of the
@@ -136,14 +122,14 @@ def hold_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> st
     return lane_function("hold_tangent", outputs, layout, fixed)
 
 
-def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
+def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> Source:
     """Return the source of tangent_gaps(W): what the latching of an impact rate needs.
 
     At the state just taken, which is still in the base's stage: the derivatives of each gap and of
     its rate along the tangent, and the derivative of the rate in time along the motion.
     """
     if not equations.gaps:
-        return statements("tangent_gaps", [])
+        return Source("tangent_gaps")
     tracer = equations.tracer
     states = equations.states
     tangent = Derivative({f"stage{i}": tracer.variable(f"tangent{i}") for i in range(states)})

@@ -1,23 +1,20 @@
-"""Functions of tapes: all of a generated module are compiled in one piece, and call one another.
+"""Functions of tapes, in the compiler's language: those of a module are in one piece.
 
-Each can be called in two ways: with addresses of numbers, as they do among themselves and as Python
-does, and with arrays, as the loops do, which Numba compiles. Calls of loops are counted.
+They call one another. Each can be called in two ways: with addresses of numbers, as they do among
+themselves and as Python does, and with arrays, as the loops do, which Numba compiles. Calls of
+loops are counted.
 """
 
-import hashlib
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 from numba.core.datamodel.registry import default_manager
 
 from jointplay.solver.kernels.emit.function import ARRAY, CALLS, OF_ARRAYS, Function
 from jointplay.solver.kernels.emit.functions import WORK
 from jointplay.solver.kernels.emit.lane_arithmetic import declared
-from jointplay.solver.kernels.emit.machine_code import load_code
 from jointplay.solver.kernels.emit.straight_line import ARGUMENTS, write
-from jointplay.solver.kernels.target import Target, own_target
 
 _ARRAY_MODEL = default_manager[WORK]
 ARRAY_IN_LOOPS = re.sub(r"\w+\*", "ptr", str(_ARRAY_MODEL.get_value_type()))
@@ -31,19 +28,19 @@ steps took 2 to 6 % longer."""
 
 @dataclass(frozen=True)
 class Source:
-    """A tape and what it goes over; see `solver.kernels.emit.straight_line`."""
+    """A function's tape and what it goes over; see `solver.kernels.emit.straight_line`."""
 
     name: str
-    tape: str
-    over: str
-    rows: int
+    lines: tuple[str, ...] = ()
+    over: str = "lanes"
+    rows: int = 0
 
     @property
     def value(self) -> str:
         """LLVM's type of the function's value."""
         if self.over == "rows":
             return "i64"
-        return "double" if "\nreturn " in self.tape else "void"
+        return "double" if any(line.startswith("return ") for line in self.lines) else "void"
 
     def of_numbers(
         self, symbol: Callable[[str], str], lanes: int, attributes: str = ON_ITS_OWN
@@ -54,7 +51,7 @@ class Source:
                 f"define {self.value} {symbol(self.name)}({_listed(ARGUMENTS[self.over], ARRAY)})"
                 f" {attributes} {{",
                 "entry:",
-                *write(self.tape, self.over, self.rows, self.value, symbol, lanes),
+                *write(self.lines, self.over, self.rows, self.value, symbol, lanes),
                 "}",
             ]
         )
@@ -90,56 +87,22 @@ class Source:
         both = self.of_numbers(symbol, lanes), self.of_arrays(symbol, counted)
         return "\n".join([f"{calls} = global i64 0", *both])
 
+    def function(self, prefix: str) -> Function:
+        """Return the function, loaded under its name behind a prefix."""
+        return Function(
+            self.name, f"{prefix}.{self.name}", self.value, list(ARGUMENTS[self.over].values())
+        )
+
+
+def module_text(sources: Iterable[Source], prefix: str, lanes: int) -> str:
+    """Return all functions, whose names begin with a prefix, for so many lanes at once."""
+
+    def symbol(name: str) -> str:
+        return f'@"{prefix}.{name}"'
+
+    return "\n".join([*(one.text(symbol, lanes) for one in sources), declared(lanes)])
+
 
 def _listed(arguments: Mapping[str, str], array: str) -> str:
     """Return arguments with their types, `array` being that of arrays."""
     return ", ".join(f"{array if k == ARRAY else k} {a}" for a, k in arguments.items())
-
-
-class Tapes:
-    """Functions of one generated module."""
-
-    def __init__(self) -> None:
-        self.sources: list[Source] = []
-
-    def add(self, name: str, tape: str, over: str = "lanes", rows: int = 0) -> None:
-        """Add a function that does what a tape says.
-
-        Parameters
-        ----------
-        over, rows
-            See `solver.kernels.emit.straight_line`.
-        """
-        self.sources.append(Source(name, f"\n{tape}", over, rows))
-
-    def compiled(
-        self, file: str | None = None, lanes: int | None = None, target: Target | None = None
-    ) -> dict[str, Function]:
-        """Return all functions by name, compiled or, beside the module's file, found to be.
-
-        Parameters
-        ----------
-        lanes
-            Advanced at once; by default as many as the target has.
-        target
-            That they are for; by default that of this process.
-        """
-        target = target or own_target()
-        target = replace(target, lanes=lanes or target.lanes)
-        digest = hashlib.sha256(repr((self.sources, target)).encode()).hexdigest()[:24]
-        prefix = f"jointplay.{digest}"
-
-        def symbol(name: str) -> str:
-            return f'@"{prefix}.{name}"'
-
-        def text() -> str:
-            functions = (one.text(symbol, target.lanes) for one in self.sources)
-            return "\n".join([*functions, declared(target.lanes)])
-
-        load_code(text, target, None if file is None else Path(file))
-        return {
-            one.name: Function(
-                one.name, f"{prefix}.{one.name}", one.value, list(ARGUMENTS[one.over].values())
-            )
-            for one in self.sources
-        }

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from functools import reduce
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Output, Tape
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.reachable import reachable
@@ -80,7 +81,7 @@ class TurnedSines:
             for name in ("angle", "sine", "cosine")
         ]
 
-    def source(self, layout: Layout, fixed: FixedNodes) -> str:
+    def source(self, layout: Layout, fixed: FixedNodes) -> Source:
         """Return the source of sines_at_start(W), for lanes that begin elsewhere than one ended."""
 
         def at_start(name: str) -> str:

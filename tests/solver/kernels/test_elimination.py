@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.tapes import Tapes
+from jointplay.solver.kernels.emit.module import load
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.target import own_target
 
 LANES = own_target().lanes
@@ -23,21 +24,23 @@ def multiplying() -> str:
             before = f"s{i}" if j == 0 else f"a{i}_{j - 1}"
             lines += [f"p{i}_{j} = mul d{j} {MATRIX[i, j]}", f"a{i}_{j} = add {before} p{i}_{j}"]
         lines.append(f"store {PRODUCT + i} a{i}_{N - 1}")
-    return "\n".join(lines)
+    return tuple(lines)
 
 
 def test_each_lane_solves_its_own_equations() -> None:
-    tapes = Tapes()
-    tapes.add("product", multiplying())
-    tapes.add("factorise", f"jacobian {N} {GAMMA} {TRIED} {TIME}")
-    tapes.add("solve", f"solve {N} {TIME}")
-    functions = tapes.compiled()
+    module = load(
+        [
+            Source("product", multiplying()),
+            Source("factorise", (f"jacobian {N} {GAMMA} {TRIED} {TIME}",)),
+            Source("solve", (f"solve {N} {TIME}",)),
+        ]
+    )
     work = np.full((SLOTS, LANES), np.nan)
     steps = work[TRIED] = 0.01 * np.arange(1.0, LANES + 1.0)
     right = work[RIGHT : RIGHT + N] = np.arange(1.0, 1.0 + N * LANES).reshape(N, LANES)
     right = right.copy()
-    functions["factorise"](work)
-    functions["solve"](work)
+    module.factorise(work)
+    module.solve(work)
     assert work[DRIFT : DRIFT + N].tolist() == np.repeat(DRIFTS[:, None], LANES, axis=1).tolist()
     for lane, step in enumerate(steps):
         expected = np.linalg.solve(np.eye(N) - step * GAMMA * MATRIX, right[:, lane])

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import kinks
-from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, module_source
+from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function
+from jointplay.solver.kernels.emit.module import load
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.trace.derivative import Derivative
@@ -33,14 +33,11 @@ def slopes_over_steps(
     layout.add("slip", "along", "normal_force", "slope")
     kinks.allocate(layout, len(bends))
     fixed = FixedNodes(layout)
-    source = module_source(
-        [
-            kinks.kink_function(bends, layout, fixed),
-            lane_function("follow", [("slope", derivative(force))], layout, fixed),
-        ],
-        LANES,
-    )
-    module = load(source)
+    sources = [
+        kinks.kink_function(bends, layout, fixed),
+        lane_function("follow", [("slope", derivative(force))], layout, fixed),
+    ]
+    module = load(sources, LANES)
     found: list[float] = []
     for first in range(0, len(steps), LANES):
         some = steps[first : first + LANES]

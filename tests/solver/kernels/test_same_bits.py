@@ -10,8 +10,8 @@ import pytest
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.emit.functions import SIGNATURES, WITHIN_STEP
 from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.module import load
 from jointplay.solver.kernels.emit.tangents import compile_tangents
-from jointplay.solver.kernels.emit.tapes import Tapes
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS, Layout
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -49,8 +49,8 @@ def results(bundle: Bundle, target: Target) -> Iterator[tuple[str, Any]]:
     """Yield the name of each function and what it leaves in W, and in S, on a target."""
     kernel: Kernel = bundle.kernel
     assert bundle.tangents is not None
-    run = kernel.module.tapes.compiled(target=target)
-    run |= bundle.tangents.module.tapes.compiled(target=target)
+    modules = kernel.module, bundle.tangents.module
+    run = vars(load([one for each in modules for one in each.sources], target=target))
     whole = np.concatenate([group.work for group in bundle.groups], axis=1)
     count = target.lanes
     parts = [np.ascontiguousarray(whole[:, i : i + count]) for i in range(0, BUNDLE, count)]
@@ -96,10 +96,9 @@ def functions_of_numbers(target: Target) -> Any:
     x, y = tracer.variable("x"), tracer.variable("y")
     size = abs(x) + 1e-9
     found = [*x.sine_cosine(), size.power(y), size.logarithm(), y.exponential(), x / size - x * y]
-    tape, tapes = Tape(layout), Tapes()
+    tape = Tape(layout)
     tape.store([(f"out{i}", one) for i, one in enumerate(found)])
-    tapes.add("run", "\n".join(tape.lines), "lanes", 0)
-    run, results = tapes.compiled(target=target)["run"], []
+    run, results = load([tape.function("run")], target=target).run, []
     for numbers in np.random.default_rng(1).uniform(-9.0, 9.0, (500, 2, BUNDLE)):
         work = np.zeros((layout.size, BUNDLE))
         work[:2] = numbers

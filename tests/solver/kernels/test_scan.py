@@ -1,12 +1,9 @@
 """The scan marks the channels that turned and may be beyond their extremes, and no others."""
 
-from types import ModuleType
-
 import numpy as np
 
-from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import scanning
-from jointplay.solver.kernels.emit.emit import module_source
+from jointplay.solver.kernels.emit.module import Module, load
 from jointplay.solver.kernels.emit.scanning import REACH, SPARE
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.target import own_target
@@ -17,11 +14,11 @@ BESIDE = 1e-3
 """Share of its reach by which an extreme so far is nearer than an extreme may be, or farther."""
 
 
-def scans() -> tuple[Layout, ModuleType]:
+def scans() -> tuple[Layout, Module]:
     layout = Layout()
     layout.add("accept", "lengthening", "reach")
     scanning.allocate(layout, ROWS, 0)
-    return layout, load(module_source([scanning.source(layout, ROWS)], LANES))
+    return layout, load(scanning.source(layout, ROWS), LANES)
 
 
 def test_all_that_turned_in_reach_of_a_record_is_marked_and_nothing_else() -> None:

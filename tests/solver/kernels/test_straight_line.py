@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from jointplay.solver.kernels.emit.emit import Tape
-from jointplay.solver.kernels.emit.tapes import Tapes
+from jointplay.solver.kernels.emit.module import load
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import INSTANTS, Layout
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.trace.operations import OPERATIONS
@@ -32,9 +33,7 @@ EVERY_OPERATION = dict.fromkeys(ON_LANES, 1) | {
 
 def compiled(tape, over="lanes", rows=0):
     """Return what a tape does to W, to W, S and a lane, or to W and a row."""
-    tapes = Tapes()
-    tapes.add("run", tape, over, rows)
-    return tapes.compiled()["run"]
+    return load([Source("run", tuple(tape.splitlines()), over, rows)]).run
 
 
 RUNS = {

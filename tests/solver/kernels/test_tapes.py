@@ -9,8 +9,10 @@ import pytest
 from llvmlite import binding
 from numba import float64, int64, void
 
+from jointplay.solver.kernels.emit import module
 from jointplay.solver.kernels.emit.functions import WORK
-from jointplay.solver.kernels.emit.tapes import Tapes
+from jointplay.solver.kernels.emit.module import load
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.target import Target, own_target
 
 LANES = own_target().lanes
@@ -20,13 +22,12 @@ MOVED = "v0 = load 0+\nstore 2+ v0"
 STEP = "call square\ncall move 1\nreturn call judge"
 
 
-def step() -> Tapes:
-    tapes = Tapes()
-    tapes.add("square", SQUARED)
-    tapes.add("move", MOVED, "row")
-    tapes.add("judge", "v0 = load 3\nreturn v0")
-    tapes.add("step", STEP)
-    return tapes
+SOURCES = [
+    Source("square", tuple(SQUARED.splitlines())),
+    Source("move", tuple(MOVED.splitlines()), "row"),
+    Source("judge", ("v0 = load 3", "return v0")),
+    Source("step", tuple(STEP.splitlines())),
+]
 
 
 def work_of(value: float) -> np.ndarray:
@@ -36,47 +37,48 @@ def work_of(value: float) -> np.ndarray:
 
 
 def test_a_tape_calls_others_and_has_the_value_of_the_last() -> None:
-    functions = step().compiled()
+    step = load(SOURCES)
     work = work_of(3.0)
-    assert functions["step"](work) == 9.0
+    assert step.step(work) == 9.0
     assert work[3].tolist() == [9.0] * LANES
-    signatures = {name: function.signature for name, function in functions.items()}
-    assert signatures["square"] == void(WORK)
-    assert signatures["move"] == void(WORK, int64)
-    assert signatures["step"] == signatures["judge"] == float64(WORK)
-    assert len({function.address for function in functions.values()}) == len(functions)
+    assert step.square.signature == void(WORK)
+    assert step.move.signature == void(WORK, int64)
+    assert step.step.signature == step.judge.signature == float64(WORK)
+    assert len({getattr(step, one.name).address for one in SOURCES}) == len(SOURCES)
 
 
 def test_tapes_of_one_name_in_two_modules_are_two() -> None:
-    functions = []
-    for tape in (SQUARED, SQUARED.replace("mul", "add")):
-        tapes = Tapes()
-        tapes.add("square", tape)
-        functions.append(tapes.compiled()["square"])
-    for function, expected in zip(functions, (9.0, 6.0), strict=True):
+    tapes = (SQUARED, SQUARED.replace("mul", "add"))
+    modules = [load([Source("square", tuple(tape.splitlines()))]) for tape in tapes]
+    for squaring, expected in zip(modules, (9.0, 6.0), strict=True):
         work = work_of(3.0)
-        function(work)
+        squaring.square(work)
         assert work[1].tolist() == [expected] * LANES
 
 
-def test_code_is_compiled_once_and_the_same_each_time(tmp_path: Path) -> None:
-    source, other = tmp_path / "kernel.py", tmp_path / "other.py"
-    step().compiled(str(source))
-    (kept,) = tmp_path.iterdir()
-    assert kept.suffix == ".o"
-    changed = kept.stat().st_mtime_ns
-    work = work_of(2.0)
-    assert step().compiled(str(source))["step"](work) == 4.0
-    assert [(one, one.stat().st_mtime_ns) for one in tmp_path.iterdir()] == [(kept, changed)]
-    step().compiled(str(other))
-    (again,) = tmp_path.glob("other.*")
-    assert again.read_bytes() == kept.read_bytes()
+def test_code_is_compiled_once_and_the_same_each_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(module, "_loaded", {})
+    sources = [*SOURCES, Source("of_this_test")]
+    begun = load(sources)
+    assert load(sources) is begun
+    (kept,) = tmp_path.glob("*.o")
+    code = kept.read_bytes()
+    kept.unlink()
+    monkeypatch.setattr(module, "_loaded", {})
+    load(sources)
+    assert kept.read_bytes() == code
+    monkeypatch.setattr(module, "_loaded", {})
+    monkeypatch.setattr(module, "compiled", None)  # nothing can be compiled any more
+    assert load(sources).step(work_of(2.0)) == 4.0
 
 
 @pytest.mark.parametrize("work", [work_of(1.0).astype(np.float32), work_of(1.0)[:, ::2]])
 def test_what_is_no_work_array_is_not_taken(work: np.ndarray) -> None:
     with pytest.raises(TypeError, match="contiguous arrays of floats"):
-        step().compiled()["square"](work)
+        load(SOURCES).square(work)
 
 
 @pytest.mark.skipif(os.uname().machine != "x86_64", reason="registers and stack of x86-64")
@@ -84,10 +86,10 @@ def test_vectors_on_the_stack_lie_in_one_line_of_the_cache() -> None:
     """Forty vectors that are needed in the end, of which 32 registers cannot hold all."""
     numbers = range(40)
     lines = [f"v{i} = load {i}" for i in numbers]
-    lines += [f"w{i} = mul v{i} v{(7 * i + 1) % 40}\nstore {40 + i} w{i}" for i in numbers]
-    tapes, target = Tapes(), Target(8, "x86-64-v4", "")
-    tapes.add("crowded", "\n".join(lines))
-    text = tapes.sources[0].of_numbers(lambda name: f"@{name}", target.lanes)
+    for i in numbers:
+        lines += [f"w{i} = mul v{i} v{(7 * i + 1) % 40}", f"store {40 + i} w{i}"]
+    target = Target(8, "x86-64-v4", "")
+    text = Source("crowded", tuple(lines)).of_numbers(lambda name: f"@{name}", target.lanes)
     code = target.machine().emit_assembly(binding.parse_assembly(text))
     moved = re.findall(r"(vmov\w+) .*%rsp\)", code.replace("\t", " "))
     assert moved  # by instructions that ask for such a place

@@ -1,14 +1,13 @@
 """Sines of stages that are turned on from those where the step starts."""
 
 import math
-from types import ModuleType
 
 import numpy as np
 import pytest
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.kernels.cache import load
-from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, module_source
+from jointplay.solver.kernels.emit.emit import FixedNodes, Tape
+from jointplay.solver.kernels.emit.module import Module, load
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.emit.turned_sines import FARTHEST, Angle, TurnedSines
 from jointplay.solver.kernels.kernel_cache import ready_kernel
@@ -28,7 +27,7 @@ CONTACT = {"contact": {"law": "lankarani-nikravesh", "stiffness": 1e8, "restitut
 
 
 @pytest.fixture(scope="module")
-def turning() -> tuple[Layout, ModuleType]:
+def turning() -> tuple[Layout, Module]:
     """Return sines of one angle: at the start (`sines_at_start`) and of a stage (`sines`)."""
     layout, angle = Layout(), Tracer().variable("stage0")
     layout.add("time", "stage_time", "y0", "stage0", "sine", "cosine")
@@ -38,13 +37,11 @@ def turning() -> tuple[Layout, ModuleType]:
     tape = Tape(layout)
     turned.turn(tape)
     tape.store([("sine", sine), ("cosine", cosine)])
-    source = module_source(
-        [turned.source(layout, FixedNodes(layout)), tape.function("sines")], LANES
-    )
-    return layout, load(source)
+    sources = turned.source(layout, FixedNodes(layout)), tape.function("sines")
+    return layout, load(sources, LANES)
 
 
-def sines(turning: tuple[Layout, ModuleType], start: Floats, angle: Floats) -> Floats:
+def sines(turning: tuple[Layout, Module], start: Floats, angle: Floats) -> Floats:
     """Return (2, lanes) sine and cosine of angles, whose steps start at others, rad."""
     layout, module = turning
     work = np.zeros((layout.size, LANES))
@@ -54,7 +51,7 @@ def sines(turning: tuple[Layout, ModuleType], start: Floats, angle: Floats) -> F
     return work[[layout["sine"], layout["cosine"]]]
 
 
-def test_turned_sines_are_those_of_the_angle(turning: tuple[Layout, ModuleType]) -> None:
+def test_turned_sines_are_those_of_the_angle(turning: tuple[Layout, Module]) -> None:
     random, turned = np.random.default_rng(5), 0
     for _ in range(500):
         start = random.choice([0.0, 50.0]) * random.uniform(-1.0, 1.0, LANES)
@@ -67,7 +64,7 @@ def test_turned_sines_are_those_of_the_angle(turning: tuple[Layout, ModuleType])
 
 
 def test_who_turns_far_has_sines_evaluated_anew_and_changes_nothing_beside(
-    turning: tuple[Layout, ModuleType],
+    turning: tuple[Layout, Module],
 ) -> None:
     start, turns = np.linspace(0.3, 1.7, LANES), np.linspace(1e-3, 1e-2, LANES)
     alone = sines(turning, start, start + turns)
@@ -103,8 +100,8 @@ def test_slopes_of_a_press_and_of_its_tangents_take_turned_sines() -> None:
         (kernel.module, "slopes"),
         (compile_tangents(kernel).module, "carried_slopes"),
     ):
-        (tape,) = (one.tape for one in module.tapes.sources if one.name == name)
-        assert tape.count(" either ") == 2 * 5  # two cranks, three links
+        (tape,) = (one.lines for one in module.sources if one.name == name)
+        assert sum(" either " in line for line in tape) == 2 * 5  # two cranks, three links
 
 
 def with_a_hand(pieces: int) -> Scene:

@@ -1,60 +1,56 @@
 """Compiling in another process: what comes out is the same, and it can be ended."""
 
-import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from jointplay.solver.kernels import cache, watched
+from jointplay.solver.kernels.emit import module
+from jointplay.solver.kernels.emit.tapes import Source
+from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.trace.equations import trace
 from jointplay.solver.kernels.watched import CompilationTooLong, CompilationUnwanted
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.random_mechanisms import chain
 
-SOURCE = """
-from numba import float64, njit
-
-
-@njit(float64(float64), cache=True)
-def twice(x):
-    return 2.0 * x  # {number}
-"""
-ENDLESS = "import time\n\nwhile True:\n    time.sleep(1.0)  # {number}\n"
+ENDLESS = "import time\n\nwhile True:\n    time.sleep(1.0)\n"
 
 
 @pytest.fixture
-def file(tmp_path: Path) -> str:
-    """A text that makes a source of this test's own: sources are known by their text."""
-    return str(tmp_path)
+def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A file of Python that stands for a module which is compiled."""
+    monkeypatch.setattr(watched, "_MODULE", "tests.solver.kernels.compile_python")
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[3]))
+    return tmp_path / "compiled.py"
 
 
-def marked(source: str) -> bool:
-    path = next(p for p in cache.cache_folder().glob("*.py") if p.read_text() == source)
-    return cache.is_compiled(path)
-
-
-def test_what_another_process_has_compiled_is_loaded(file: str) -> None:
-    source = SOURCE.format(number=file)
+def test_what_another_process_has_compiled_is_loaded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(module, "_loaded", {})
+    monkeypatch.setattr(module, "compiled", None)  # nothing can be compiled here
     before = cache.SPENT.elsewhere
+    lines = ("v0 = load 0", "v1 = add v0 v0", "store 0 v1")
     with watched.watched(lambda: None, 600.0):
-        module = cache.load(source)
-    assert module.twice(1.5) == 3.0
+        loaded = module.load([Source("twice_elsewhere", lines)])
+    work = np.full((1, own_target().lanes), 1.5)
+    loaded.twice_elsewhere(work)
+    assert (work == 3.0).all()
     assert cache.SPENT.elsewhere > before
-    (hits,) = module.twice.stats.cache_hits.values()
-    assert hits == 1
-    assert marked(source)
+    assert {one.suffix for one in tmp_path.iterdir()} == {".o", ".lock"}
 
 
-def test_code_that_is_unwanted_is_compiled_no_further(file: str) -> None:
+def test_code_that_is_unwanted_is_compiled_no_further(file: Path) -> None:
     answers = iter([None, None, "unwanted"])
-    source = ENDLESS.format(number=file)
+    file.write_text(ENDLESS)
     with (
         pytest.raises(CompilationUnwanted) as ended,
         watched.watched(lambda: next(answers), 600.0),
     ):
-        cache.load(source)
+        watched.compile_elsewhere(file)
     assert ended.value.answer == "unwanted"
-    assert not marked(source)
 
 
 def test_equations_that_are_unwanted_are_traced_no_further() -> None:
@@ -67,39 +63,40 @@ def test_equations_that_are_unwanted_are_traced_no_further() -> None:
     assert ended.value.answer == "unwanted"
 
 
-def test_a_compilation_that_takes_too_long_is_ended(file: str) -> None:
+def test_a_compilation_that_takes_too_long_is_ended(file: Path) -> None:
+    file.write_text(ENDLESS)
     with (
         pytest.raises(CompilationTooLong, match="LONGEST_COMPILATION") as ended,
         watched.watched(lambda: None, 0.2),
     ):
-        cache.load(ENDLESS.format(number=file))
+        watched.compile_elsewhere(file)
     assert ended.value.code == "compile-time"
 
 
-def test_a_compilation_that_takes_too_much_memory_is_ended(file: str) -> None:
+def test_a_compilation_that_takes_too_much_memory_is_ended(file: Path) -> None:
     """The bound counts what is asked for, so that nothing has to be filled."""
-    hungry = (
-        f"import numpy as np\n\nheld = np.empty({2 * watched.MOST_MEMORY}, np.uint8)  # {file}\n"
-    )
+    file.write_text(f"import numpy as np\n\nnp.empty({2 * watched.MOST_MEMORY}, np.uint8)\n")
     with (
         pytest.raises(CompilationTooLong) as ended,
         watched.watched(lambda: None, 600.0),
     ):
-        cache.load(hungry)
+        watched.compile_elsewhere(file)
     assert ended.value.code == "compile-memory"
 
 
-def test_a_compilation_that_the_system_ends_is_not_repeated_here(file: str) -> None:
-    elsewhere = f"if os.getpid() != {os.getpid()}:\n    os.kill(os.getpid(), signal.SIGKILL)"
-    killed = f"import os, signal\n\n{elsewhere}  # {file}\n"
+def test_a_compilation_that_the_system_ends_is_told_from_one_that_fails(file: Path) -> None:
+    file.write_text("import os, signal\n\nos.kill(os.getpid(), signal.SIGKILL)\n")
     with (
         pytest.raises(CompilationTooLong, match="or more than there is") as ended,
         watched.watched(lambda: None, 600.0),
     ):
-        cache.load(killed)
+        watched.compile_elsewhere(file)
     assert ended.value.code == "compile-memory"
 
 
-def test_an_error_in_the_source_is_raised_where_it_is_loaded(file: str) -> None:
-    with pytest.raises(ZeroDivisionError), watched.watched(lambda: None, 600.0):
-        cache.load(f"1 / 0  # {file}\n")
+def test_an_error_in_a_tape_is_raised_where_it_is_loaded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "cache_folder", lambda: tmp_path)
+    with pytest.raises(KeyError, match="root"), watched.watched(lambda: None, 600.0):
+        module.load([Source("of_no_operation", ("v0 = root 2.0", "return v0"))])

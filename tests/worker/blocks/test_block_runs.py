@@ -7,6 +7,7 @@ import pytest
 from one_block import run
 
 from jointplay.solver.kernels import cache, compile_loop, kernel_cache
+from jointplay.solver.kernels.emit import module as emit_module
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -240,7 +241,7 @@ def compiling(catalogue: Catalogue, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(kernel_cache, "_kernels", {})
     folder = tmp_path / "kernels"
     folder.mkdir()
-    for module in (cache, compile_loop):
+    for module in (cache, compile_loop, emit_module):
         monkeypatch.setattr(module, "cache_folder", lambda: folder)
     compile_loop.marker(compile_loop.RUNS).touch()
     admitted = admit(SEVERAL_BODIES)
@@ -257,7 +258,7 @@ def test_a_job_can_be_cancelled_while_its_equations_are_compiled(
     catalogue.request_cancel(job)
     BlockRun(catalogue, settings, claim, threading.Event()).run()
     assert catalogue.get(job).state is JobState.cancelled
-    assert not list(cache.cache_folder().glob("*.compiled"))
+    assert not list(cache.cache_folder().glob("*.o"))
 
 
 def test_a_worker_told_to_stop_gives_back_a_block_that_it_compiles(

@@ -34,7 +34,7 @@ def kernel() -> Kernel:
 @pytest.fixture(scope="module")
 def text(kernel: Kernel) -> str:
     return code(
-        kernel.module.tapes.sources,
+        kernel.module.sources,
         kernel.slots,
         Sizes(0, kernel.layout.size, 8, 16, 0),
         on_host=False,
@@ -73,7 +73,7 @@ def test_numbers_of_runs_are_read_whole(text: str) -> None:
 
 def test_tangents_are_whole_too(kernel: Kernel, text: str) -> None:
     tangents = compile_tangents(kernel)
-    sources = [*kernel.module.tapes.sources, *tangents.module.tapes.sources]
+    sources = [*kernel.module.sources, *tangents.module.sources]
     found = code(sources, tangents.slots, Sizes(0, tangents.layout.size, 8, 16, 8), on_host=False)
     assert ".extern" not in found
     assert ".callprototype" not in found
@@ -81,7 +81,7 @@ def test_tangents_are_whole_too(kernel: Kernel, text: str) -> None:
 
 
 def test_what_a_job_does_not_ask_for_makes_code_shorter(kernel: Kernel, text: str) -> None:
-    sources = kernel.module.tapes.sources
+    sources = kernel.module.sources
     sizes = Sizes(0, kernel.layout.size, 8, 16, 0)
     lean = list(without(slots_of_energies(kernel), sources))
     shorter = code(lean, kernel.slots, sizes, on_host=False)
@@ -93,7 +93,7 @@ def stored(text: str) -> int:
 
 
 def test_room_for_instants_is_that_of_the_rows_that_are_used(kernel: Kernel) -> None:
-    rows = spare_rows(kernel.module.tapes.sources, kernel.layout.size)
+    rows = spare_rows(kernel.module.sources, kernel.layout.size)
     assert kernel.layout.block("impact_rate").stop <= rows < kernel.layout.size // 4
 
 

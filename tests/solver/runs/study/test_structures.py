@@ -2,7 +2,8 @@
 
 from itertools import product
 
-from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
+from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function
+from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import trace
 from jointplay.solver.mechanics.tree import spanning_tree
@@ -10,7 +11,7 @@ from jointplay.solver.scene.document import Scene
 from tests.solver.runs.study.jobs_of_studies import PRESS, SWEEP, study
 
 
-def right_hand_side(scene: Scene) -> str:
+def right_hand_side(scene: Scene) -> Source:
     """Return the generated source of a scene's right-hand side."""
     layout = Layout()
     equations = trace(scene, spanning_tree(scene), "reduced")
@@ -22,7 +23,7 @@ def right_hand_side(scene: Scene) -> str:
     phases = [f"phase{k}" for k in range(len(equations.drivers))]
     for name in (*names, *variables, *modes, *phases, "stage_time"):
         layout.add(name)
-    return HEADER + lane_function("f", slopes, layout, FixedNodes(layout))
+    return lane_function("f", slopes, layout, FixedNodes(layout))
 
 
 def test_points_have_the_same_source_if_and_only_if_they_have_the_same_structure() -> None:
