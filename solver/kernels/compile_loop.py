@@ -17,7 +17,7 @@ from jointplay.solver.kernels.cache import cache_folder, without_collection
 from jointplay.solver.kernels.jit import Deferred
 from jointplay.solver.kernels.loop.advance import advance
 from jointplay.solver.kernels.loop.dense_rows import observe_rows
-from jointplay.solver.kernels.loop.extremes.extremes_in_steps import extremes_in_steps
+from jointplay.solver.kernels.loop.extremes.window.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.periods import set_clocks
 from jointplay.solver.kernels.loop.replay import find_steps, make_again, states_in_steps
 from jointplay.solver.kernels.target import own_target

@@ -22,7 +22,7 @@ from jointplay.solver.kernels.loop.contacts import (
 )
 from jointplay.solver.kernels.loop.dense_rows import hand_out
 from jointplay.solver.kernels.loop.events import has_all_events, record_event
-from jointplay.solver.kernels.loop.extremes.extreme_so_far import count_end
+from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import count_end
 from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, note_openings
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers, SectionKind, Status

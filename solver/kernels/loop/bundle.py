@@ -17,7 +17,7 @@ from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
 from jointplay.solver.kernels.loop.advance import advance
 from jointplay.solver.kernels.loop.binding import FIRST_STEP, number
 from jointplay.solver.kernels.loop.dense_rows import observe_rows
-from jointplay.solver.kernels.loop.extremes.brackets import room_for
+from jointplay.solver.kernels.loop.extremes.search.brackets import room_for
 from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
 from jointplay.solver.kernels.loop.periods import look_ahead, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart

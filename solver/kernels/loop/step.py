@@ -10,7 +10,7 @@ from numba import types
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.slots import AT, Slots
 from jointplay.solver.kernels.jit import inner_kernel, written_out
-from jointplay.solver.kernels.loop.extremes.brackets import BRACKETS
+from jointplay.solver.kernels.loop.extremes.search.brackets import BRACKETS
 from jointplay.solver.kernels.loop.runs import RUNS, Run
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
@@ -30,7 +30,7 @@ class Step(NamedTuple):
     spare: np.ndarray
     """Room for instants inside this step, (slots, INSTANTS)."""
     brackets: np.ndarray
-    """Room for those of a search; see `solver.kernels.loop.extremes.brackets`."""
+    """Room for those of a search; see `solver.kernels.loop.extremes.search.brackets`."""
     call: Addresses
 
 

@@ -9,9 +9,9 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.slots import LENGTH
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.extremes.book import blank_book
-from jointplay.solver.kernels.loop.extremes.extremes_in_steps import extremes_in_steps
-from jointplay.solver.kernels.loop.extremes.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.window.book import blank_book
+from jointplay.solver.kernels.loop.extremes.window.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.replay import find_steps, make_again, states_in_steps
 from jointplay.solver.kernels.loop.step import Workspace

@@ -6,9 +6,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.loop.extremes.brackets import NODES
-from jointplay.solver.kernels.loop.extremes.extreme import STEEPER, slope_left_out
-from jointplay.solver.kernels.loop.extremes.extreme import extreme as extreme_of
+from jointplay.solver.kernels.loop.extremes.search.brackets import NODES
+from jointplay.solver.kernels.loop.extremes.search.extreme import STEEPER, slope_left_out
+from jointplay.solver.kernels.loop.extremes.search.extreme import extreme as extreme_of
 
 SENSES = pytest.mark.parametrize("sense", [1.0, -1.0])
 ABSCISSA = np.arange(float(NODES))

@@ -14,7 +14,11 @@ from jointplay.solver.kernels.jit import kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.inner_states import may_surpass, surpasses
 from jointplay.solver.kernels.loop.extremes.passages import orbiting_at_end
-from jointplay.solver.kernels.loop.extremes.polynomial_extreme import MIDDLE, fit, turning_point
+from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import (
+    MIDDLE,
+    fit,
+    turning_point,
+)
 from jointplay.solver.kernels.loop.logarithm import logarithm
 from jointplay.solver.kernels.loop.runs import DTYPE as RUN
 from jointplay.solver.kernels.loop.step import Step

@@ -12,11 +12,11 @@ import numpy as np
 from jointplay.solver.kernels.emit.judging import PASSING, SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.extremes.bends import find_in_reach, look_between_bends
-from jointplay.solver.kernels.loop.extremes.even_instants import place_evenly, seek_between
 from jointplay.solver.kernels.loop.extremes.inner_states import look_at_inner_states
-from jointplay.solver.kernels.loop.extremes.look_about_passages import look_about_fast_passages
+from jointplay.solver.kernels.loop.extremes.passages import look_about_fast_passages
 from jointplay.solver.kernels.loop.extremes.roughness import is_due, may_set_extremes
-from jointplay.solver.kernels.loop.extremes.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.search.local_extremes import place_evenly, seek_between
+from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
 from jointplay.solver.kernels.loop.runs import NO_PAIR
 from jointplay.solver.kernels.loop.step import Step, channels_within
 

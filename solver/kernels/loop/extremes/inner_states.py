@@ -9,9 +9,13 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.even_instants import look_evenly, place_evenly
-from jointplay.solver.kernels.loop.extremes.local_extremes import CORNER, spread_and_bend
-from jointplay.solver.kernels.loop.extremes.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.search.local_extremes import (
+    CORNER,
+    look_evenly,
+    place_evenly,
+    spread_and_bend,
+)
+from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
 from jointplay.solver.kernels.loop.step import Step, states_within
 from jointplay.solver.kernels.trace.rows import NO_ROW
 

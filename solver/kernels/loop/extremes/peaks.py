@@ -4,13 +4,13 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.brackets import MOST_ROUNDS, NODES
-from jointplay.solver.kernels.loop.extremes.extreme_so_far import count_best, spread
 from jointplay.solver.kernels.loop.extremes.kinks_beside import look_at_kinks_beside
-from jointplay.solver.kernels.loop.extremes.local_extremes import open_brackets
-from jointplay.solver.kernels.loop.extremes.narrowing import HALF
-from jointplay.solver.kernels.loop.extremes.rounding import zigzags
-from jointplay.solver.kernels.loop.extremes.seeking import FORETOLD, seek
+from jointplay.solver.kernels.loop.extremes.search.brackets import MOST_ROUNDS, NODES
+from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import count_best, spread
+from jointplay.solver.kernels.loop.extremes.search.local_extremes import open_brackets
+from jointplay.solver.kernels.loop.extremes.search.narrowing import HALF
+from jointplay.solver.kernels.loop.extremes.search.rounding import zigzags
+from jointplay.solver.kernels.loop.extremes.search.seeking import FORETOLD, seek
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
 ONE_OF_EIGHT = 0x0101010101010101

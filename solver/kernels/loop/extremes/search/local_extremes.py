@@ -1,16 +1,47 @@
-"""Brackets about the local extremes among evenly spaced values of a channel in a step."""
+"""Local extremes among evenly spaced values of a channel in a step: brackets about them."""
 
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.brackets import NODES
-from jointplay.solver.kernels.loop.extremes.extreme_so_far import extreme_so_far
-from jointplay.solver.kernels.loop.extremes.narrowing import FIRST
-from jointplay.solver.kernels.loop.extremes.seeking import is_done
-from jointplay.solver.kernels.loop.step import Step
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.extremes.search.brackets import NODES
+from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import extreme_so_far
+from jointplay.solver.kernels.loop.extremes.search.narrowing import FIRST
+from jointplay.solver.kernels.loop.extremes.search.seeking import is_done, seek
+from jointplay.solver.kernels.loop.step import Step, channels_within
 
 CORNER = 0.5
 """Share of a second difference by which a channel may exceed its values between two of them."""
+EXACT = 0.0
+"""Share of its range by which what is counted may be off: a quartic through such instants may pass
+where a contact ends.  Extremes are evaluated where it turns."""
+
+
+@inner_kernel()
+def place_evenly(low: float, high: float, s: Step) -> None:
+    """Place eight instants evenly from one share of a step to another."""
+    for i in range(INSTANTS):
+        s.spare[s.at.theta, i] = low + (high - low) * (i / (INSTANTS - 1))
+
+
+@inner_kernel()
+def look_evenly(chosen: np.ndarray, low: float, high: float, s: Step) -> None:
+    """Seek extremes of chosen rows between two shares of a step."""
+    place_evenly(low, high, s)
+    channels_within(s)
+    seek_between(chosen, low, high, s)
+
+
+@inner_kernel()
+def seek_between(chosen: np.ndarray, low: float, high: float, s: Step) -> None:
+    """Seek extremes of chosen rows that are known at even instants between two shares."""
+    waiting, spacing = 0, (high - low) / (INSTANTS - 1)
+    for r in chosen:
+        values = s.brackets[waiting].seen
+        for i in range(INSTANTS):  # a slice would take 2 s to compile, for what it raises
+            values[i] = s.spare[s.at.channel + r, i]
+        waiting = open_brackets(r, 1, low, spacing, INSTANTS, EXACT, waiting, s)
+    seek(waiting, s)
 
 
 @inner_kernel(borrows=True)

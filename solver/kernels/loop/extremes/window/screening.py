@@ -12,7 +12,6 @@ from numba.extending import intrinsic
 
 from jointplay.records.peak import HIGHEST, HIGHEST_TIME, LOWEST, LOWEST_TIME
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.book import RANGE, ROUNDING
 from jointplay.solver.kernels.loop.extremes.eights import (
     WORD,
     Eight,
@@ -25,9 +24,10 @@ from jointplay.solver.kernels.loop.extremes.eights import (
     store,
     where,
 )
-from jointplay.solver.kernels.loop.extremes.local_extremes import CORNER
-from jointplay.solver.kernels.loop.extremes.polynomial_extreme import SEVENTH
-from jointplay.solver.kernels.loop.extremes.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.search.local_extremes import CORNER
+from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.window.book import RANGE, ROUNDING
+from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import SEVENTH
 
 ULPS = 1e-15
 """Share of a value that is its own rounding."""
@@ -49,7 +49,7 @@ def _screen(
     row
         Slot of the first of eight channels.
     book : (rows, channels)
-        See `solver.kernels.loop.extremes.book`.
+        See `solver.kernels.loop.extremes.window.book`.
     first
         Column of the first of the eight channels there.
     begin, end

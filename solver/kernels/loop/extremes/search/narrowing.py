@@ -9,15 +9,15 @@ divide the part between the nodes beside the best one evenly.
 from typing import NamedTuple
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.brackets import (
+from jointplay.solver.kernels.loop.extremes.search.brackets import (
     LAST,
     MIDDLE,
     MOST_ROUNDS,
     NODES,
     Bracket,
 )
-from jointplay.solver.kernels.loop.extremes.extreme_so_far import count
-from jointplay.solver.kernels.loop.extremes.rounding import spread_of, zigzags
+from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import count
+from jointplay.solver.kernels.loop.extremes.search.rounding import spread_of, zigzags
 from jointplay.solver.kernels.loop.step import Step
 
 HALF = 4

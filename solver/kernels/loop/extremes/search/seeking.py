@@ -8,16 +8,21 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.brackets import MOST_ROUNDS, Bracket
-from jointplay.solver.kernels.loop.extremes.extreme import LEFT_OUT, extreme, slope_left_out
-from jointplay.solver.kernels.loop.extremes.extreme_so_far import (
+from jointplay.solver.kernels.loop.extremes.search.brackets import MOST_ROUNDS, Bracket
+from jointplay.solver.kernels.loop.extremes.search.extreme import LEFT_OUT, extreme, slope_left_out
+from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import (
     count,
     count_best,
     extreme_so_far,
     spread,
 )
-from jointplay.solver.kernels.loop.extremes.narrowing import HALF, closer, narrow, place_closer
-from jointplay.solver.kernels.loop.extremes.step_ends import is_at_end, look_at_ends
+from jointplay.solver.kernels.loop.extremes.search.narrowing import (
+    HALF,
+    closer,
+    narrow,
+    place_closer,
+)
+from jointplay.solver.kernels.loop.extremes.search.step_ends import is_at_end, look_at_ends
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
 SHARP = 2e-7

@@ -1,8 +1,8 @@
 """The highest and lowest values of a lane's channels until now, and what is let count as one."""
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.brackets import Bracket
-from jointplay.solver.kernels.loop.extremes.rounding import note_range
+from jointplay.solver.kernels.loop.extremes.search.brackets import Bracket
+from jointplay.solver.kernels.loop.extremes.search.rounding import note_range
 from jointplay.solver.kernels.loop.step import Step
 
 

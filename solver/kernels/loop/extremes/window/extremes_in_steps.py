@@ -10,21 +10,20 @@ from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS, MOTION
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
 from jointplay.solver.kernels.loop.extremes.bends import look_between_bends
-from jointplay.solver.kernels.loop.extremes.book import (
+from jointplay.solver.kernels.loop.extremes.passages import look_about_passages, passes
+from jointplay.solver.kernels.loop.extremes.search.local_extremes import (
+    look_evenly,
+    place_evenly,
+    seek_between,
+)
+from jointplay.solver.kernels.loop.extremes.window.book import (
     close_bin,
     load_extremes,
     store_extremes,
     write_bin,
 )
-from jointplay.solver.kernels.loop.extremes.even_instants import (
-    look_evenly,
-    place_evenly,
-    seek_between,
-)
-from jointplay.solver.kernels.loop.extremes.look_about_passages import look_about_passages
-from jointplay.solver.kernels.loop.extremes.passages import passes
-from jointplay.solver.kernels.loop.extremes.polynomial_extreme import has_corner
-from jointplay.solver.kernels.loop.extremes.suspects import Part, find_suspects
+from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import has_corner
+from jointplay.solver.kernels.loop.extremes.window.suspects import Part, find_suspects
 from jointplay.solver.kernels.loop.step import (
     WORKSPACE,
     Step,
@@ -173,7 +172,7 @@ def extremes_in_steps(
     sharp
         Share of its range by which an extreme may be off unseen; 0: it is evaluated where it is.
     book
-        See `solver.kernels.loop.extremes.book`: of bin 0 so far, then of the last one.
+        See `solver.kernels.loop.extremes.window.book`: of bin 0 so far, then of the last one.
     extremes : (bins, channels, 4)
         Lowest value, its time, highest value, its time; left as it is where a bin has no part.
     """

@@ -7,10 +7,10 @@ import numpy as np
 from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.book import ROUNDING, count_value
-from jointplay.solver.kernels.loop.extremes.polynomial_extreme import count_if_polynomial
-from jointplay.solver.kernels.loop.extremes.rounding import place_closely, scatter, spread_of
-from jointplay.solver.kernels.loop.extremes.screening import JAGGED, ONE_BY_ONE, screen
+from jointplay.solver.kernels.loop.extremes.search.rounding import place_closely, scatter, spread_of
+from jointplay.solver.kernels.loop.extremes.window.book import ROUNDING, count_value
+from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import count_if_polynomial
+from jointplay.solver.kernels.loop.extremes.window.screening import JAGGED, ONE_BY_ONE, screen
 from jointplay.solver.kernels.loop.step import Step
 
 

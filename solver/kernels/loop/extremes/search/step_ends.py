@@ -7,9 +7,9 @@ these have extremes, at instants that are known, and no polynomial near them.
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.brackets import LAST, MOST_ROUNDS, Bracket
-from jointplay.solver.kernels.loop.extremes.extreme_so_far import count
-from jointplay.solver.kernels.loop.extremes.narrowing import HALF
+from jointplay.solver.kernels.loop.extremes.search.brackets import LAST, MOST_ROUNDS, Bracket
+from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import count
+from jointplay.solver.kernels.loop.extremes.search.narrowing import HALF
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
 DISTANCES = (1e-4, 0.008, 0.06, 0.45)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel, kernel
-from jointplay.solver.kernels.loop.extremes.brackets import LAST, MIDDLE, NODES
+from jointplay.solver.kernels.loop.extremes.search.brackets import LAST, MIDDLE, NODES
 
 MOST_ITERATIONS = 8
 CLOSE = 1e-3

@@ -1,0 +1,1 @@
+"""Extremes in a window of time, sought in its stored steps."""
