@@ -86,8 +86,8 @@ class JudgedStep:
         attention = REJECTED * (1.0 - good) + due + pace
         away = self._away()
         flags = [
-            contact_flags(v, j, away, shape, held, shortened=bool(self.tableau.error))
-            for j, (shape, held) in enumerate(self._enclosures())
+            contact_flags(v, j, away, shape, self.tableau)
+            for j, shape in enumerate(self.equations.enclosures)
         ]
         kinds = [reduce(maximum, kind) for kind in zip(*flags, strict=True)]
         attention = select_positive(v("active"), reduce(add, kinds[:-1], attention), number(0.0))
@@ -159,14 +159,6 @@ class JudgedStep:
         due = maximum(late, v("tried") - GROWN * v("looked_into"))
         wanted = minimum(v("seeks_extremes"), minimum(most, due))
         return select_positive(wanted, self.tracer.constant(SWINGING), 0.0), most
-
-    def _enclosures(self) -> list[tuple[str, str]]:
-        """Return what encloses each pair apart, and in contact.
-
-        Steps that are long beside what a contact does in them have no enclosure there.
-        """
-        closely = self.tableau.watched_closely
-        return [(shape, "none" if closely else shape) for shape in self.equations.enclosures]
 
     def _away(self) -> Expression:
         """Return what journals may be away from the quintic that encloses them, m."""

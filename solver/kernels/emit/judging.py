@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit.enclosure import beyond, may_open, whips_round
 from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.elementary import coarse_exp2, log2
@@ -60,26 +61,22 @@ def swings(first: Scalar, inside: Scalar, last: Scalar, share: float, weighed: S
 
 
 def contact_flags(
-    v: Callable[[str], Expression],
-    j: int,
-    away: Expression,
-    enclosure: str,
-    held: str,
-    *,
-    shortened: bool,
+    v: Callable[[str], Expression], j: int, away: Expression, enclosure: str, method: Method
 ) -> tuple[Expression, ...]:
     """Flag a gap that closed, or perhaps did; one in contact that opened, or perhaps did; passages.
 
     Either may be over at the step's end, so both look at what is in between; but not where steps
-    are fixed, not `shortened`: there contacts change where a step ends. A gap whose journal stays
-    in an enclosure off the wall did not close, and one in contact that stays in one beyond it did
-    not open (`solver.kernels.emit.enclosure`, also of `away`): `held` is the enclosure in contact.
-    A journal that passes the centre of its bearing is flagged where its normal turns much.
+    are fixed: there contacts change where a step ends. A gap whose journal stays in an enclosure
+    off the wall did not close, and one in contact that stays in one beyond it did not open
+    (`solver.kernels.emit.enclosure`, also of `away`). Steps that are long beside what a contact
+    does in them have no enclosure there. A journal that passes the centre of its bearing is flagged
+    where its normal turns much.
     """
     gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
     start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
     perhaps = dip = passing = 0.0
-    if shortened:
+    if method.error:
+        held = "none" if method.watched_closely else enclosure
         perhaps = _where(ONSET, beyond(v, j, away, enclosure))
         dip = _where(RELEASE, may_open(v, j, away, held))
     onset = select_positive(gap, ONSET, perhaps)

@@ -53,15 +53,10 @@ class KnotTracer:
         """Return the sources of what an attempt calls: before its stages, and before the judge."""
         return [*self._ahead(fixed), *self._passed(fixed)]
 
-    @property
-    def calls_before(self) -> list[str]:
-        """Calls before the first stage."""
-        return ["look_from_start", "look_for_knots"] if self.clocked else []
-
-    @property
-    def calls_after(self) -> list[str]:
-        """Calls before the judge."""
-        return ["meet_knots"] if self.met else []
+    def around(self, calls: list[str]) -> list[str]:
+        """Return the calls of an attempt but for the judge, with those that look for knots."""
+        ahead = ["look_from_start", "look_for_knots"] if self.clocked else []
+        return [*ahead, *calls, *(["meet_knots"] if self.met else [])]
 
     def at_end(self) -> list[Output]:
         """Return the arguments and their rates where a step ends."""

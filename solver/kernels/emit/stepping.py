@@ -149,7 +149,7 @@ class StepTracer(JudgedStep):
         calls = self._calls()
         if self.equations.corrections:  # where the step ends, before its slopes are evaluated
             calls.insert(-1, "project")
-        calls = [*self.knots.calls_before, *calls, *self.knots.calls_after, "look_inside"]
+        calls = [*self.knots.around(calls), "look_inside"]
         return Source("attempt", (*(f"call {each}" for each in calls), "return call judge"))
 
     def _take(self, energies: Outputs) -> Source:

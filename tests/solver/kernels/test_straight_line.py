@@ -33,7 +33,7 @@ EVERY_OPERATION = dict.fromkeys(ON_LANES, 1) | {
 
 def compiled(tape, over="lanes", rows=0):
     """Return what a tape does to W, to W, S and a lane, or to W and a row."""
-    return load([Source("run", tuple(tape.splitlines()), over, rows)]).run
+    return load([Source("run", tuple(tape.strip().splitlines()), over, rows)]).run
 
 
 RUNS = {
