@@ -6,13 +6,18 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.slots import Slots
 from jointplay.solver.kernels.jit import inner_kernel, kernel
-from jointplay.solver.kernels.loop.logarithm import logarithm
 from jointplay.solver.kernels.loop.step import Step
 
 GOLDEN = 0.6180339887498949
 """Its multiples less their whole parts are unrelated: a direction that no symmetry singles out."""
 SHORTEST = 1e-290
 """Length below which a tangent counts as vanished: its inverse would overflow."""
+LN_2 = 0.6931471805599453
+ATANH_SERIES = tuple(1.0 / (2 * k + 1) for k in range(11))
+"""As in `solver.quantities.elementary`; compiled code takes nothing from outside of this package,
+for changes there would not compile it anew."""
+LEAST = math.sqrt(0.5)
+"""Mantissas are from here to twice as much, about 1."""
 
 
 @kernel()
@@ -124,3 +129,19 @@ def scale_tangent(factor: float, lane: int, at: Slots, work: np.ndarray) -> None
         work[at.tangent + i, lane] *= factor
     for j in range(at.pairs):
         work[at.tangent_impact_rate + j, lane] *= factor
+
+
+@inner_kernel()
+def logarithm(x: float) -> float:
+    """Return the natural logarithm of a finite x > 0, within 4e-16 of max(1, |log x|).
+
+    That of a C library has other bits on another processor.
+    """
+    mantissa, exponent = math.frexp(x)
+    if mantissa < LEAST:
+        mantissa, exponent = 2.0 * mantissa, exponent - 1
+    f = (mantissa - 1.0) / (mantissa + 1.0)
+    square, series = f * f, 0.0
+    for k in range(len(ATANH_SERIES) - 1, -1, -1):
+        series = series * square + ATANH_SERIES[k]
+    return exponent * LN_2 + 2.0 * f * series

@@ -19,9 +19,9 @@ from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import (
     fit,
     turning_point,
 )
-from jointplay.solver.kernels.loop.logarithm import logarithm
 from jointplay.solver.kernels.loop.runs import DTYPE as RUN
 from jointplay.solver.kernels.loop.step import Step
+from jointplay.solver.kernels.loop.tangent import logarithm
 
 Floats = NDArray[np.float64]
 

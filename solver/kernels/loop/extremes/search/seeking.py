@@ -137,16 +137,9 @@ def narrow_all(waiting: int, s: Step) -> None:
                     continue
                 if j == k or look == closer(bracket):
                     has_new_nodes = narrow(bracket, look, s)
-                    if has_new_nodes and (is_done(bracket, FORETOLD, s) or rests_at_end(bracket)):
+                    # beside an end there may be a jump: no looking closer would tell more
+                    rests = bracket.rounds >= ENOUGH_AT_END and is_at_end(bracket)
+                    if has_new_nodes and (is_done(bracket, FORETOLD, s) or rests):
                         bracket.rounds = MOST_ROUNDS
                     if bracket.rounds >= MOST_ROUNDS:
                         count_best(bracket, s)
-
-
-@inner_kernel()
-def rests_at_end(bracket: Bracket) -> bool:
-    """Whether a bracket's best value is still at an end of its step when that was looked at well.
-
-    Beside it there may be a jump: no looking closer would tell more.
-    """
-    return bool(bracket.rounds >= ENOUGH_AT_END and is_at_end(bracket))

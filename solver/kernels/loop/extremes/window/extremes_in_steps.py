@@ -51,15 +51,6 @@ def remember_start(s: Step) -> None:
 
 
 @inner_kernel()
-def any_passes(s: Step) -> bool:
-    """Whether a journal passes the centre of its bearing in this step."""
-    found = False
-    for j in range(s.at.pairs):
-        found |= passes(j, s)
-    return found
-
-
-@inner_kernel()
 def eights(rows: np.ndarray) -> np.ndarray:
     """Return the first row of each eight that one of ascending rows is in."""
     found, count = np.empty(len(rows), np.int64), 0
@@ -83,14 +74,6 @@ class Wanted(NamedTuple):
     """(width of the book,) each."""
     close: np.ndarray
     """As `spare`."""
-
-
-@inner_kernel()
-def part_of(low: float, high: float, sharp: float, s: Step) -> Part:
-    """Return the part of a step between two shares."""
-    tried = s.work[s.at.tried, s.lane]
-    begun = float(s.run.periods) * s.run.period + s.work[s.at.time, s.lane]
-    return Part(low, high, begun + low * tried, (high - low) * tried / (INSTANTS - 1), sharp)
 
 
 @inner_kernel()
@@ -123,7 +106,9 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
     channels_within(s)
     behind = find_suspects(part, wanted.blocks, s, wanted.close, book, wanted.suspects)
     functions_at(s.call).foresee_bends(s.work)
-    passing, bending = any_passes(s), s.work[s.at.may_pass_bend, s.lane] > 0.0
+    passing, bending = False, s.work[s.at.may_pass_bend, s.lane] > 0.0
+    for j in range(s.at.pairs):
+        passing |= passes(j, s)
     chosen = wanted.every if passing or bending else wanted.suspects[:behind]
     if len(chosen) == 0:
         return
@@ -194,6 +179,9 @@ def extremes_in_steps(
                 close_bin(book, rows, extremes[present])
                 present = parts[p, 1]
             s = step_of(parts[p, 0] - first, group)
-            look_into_part(part_of(shares[p, 0], shares[p, 1], sharp, s), wanted, s, book)
+            low, high, tried = shares[p, 0], shares[p, 1], work[at.tried, s.lane]
+            begin = float(s.run.periods) * s.run.period + work[at.time, s.lane] + low * tried
+            spacing = (high - low) * tried / (INSTANTS - 1)
+            look_into_part(Part(low, high, begin, spacing, sharp), wanted, s, book)
             p += 1
     write_bin(book, rows, extremes[present])
