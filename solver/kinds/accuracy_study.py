@@ -11,11 +11,10 @@ from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.job import MechanismJob
-from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import LONGEST_ACCURACY_STUDY
 from jointplay.solver.kinds.periods import Periods, periods
-from jointplay.solver.kinds.points import one_point
-from jointplay.solver.kinds.studies import PlacedPoints, Spans, make_study, place_points
+from jointplay.solver.kinds.points import Points, one_point
+from jointplay.solver.kinds.studies import PlacedPoints, Spans, StudyKind, make_study
 from jointplay.solver.quantities.roster import NameIn
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.study.plan import Study
@@ -63,7 +62,7 @@ class AccuracyStudyJob(MechanismJob):
     ] = list(TOLERANCES)
 
 
-class AccuracyStudy(Kind[AccuracyStudyJob]):
+class AccuracyStudy(StudyKind[AccuracyStudyJob]):
     """A point for each run, all in one block.
 
     One worker computes them one after the other, so that their seconds can be compared.
@@ -74,11 +73,7 @@ class AccuracyStudy(Kind[AccuracyStudyJob]):
 
     def admit(self, job: AccuracyStudyJob) -> WorkPrecisionStudy:
         """Check and fill in; see `Kind.admit`."""
-        chosen = {
-            "methods": [name for name in METHODS if name in job.methods],
-            "tolerances": sorted(set(job.tolerances), reverse=True),
-        }
-        checked = check_points(job, one_point(len(runs_of(chosen, 1.0))))
+        checked = check_points(job, self.points(job))
         units = periods(checked.scenes)
         unit = _unit(units)
         duration = job.duration or unit
@@ -89,14 +84,23 @@ class AccuracyStudy(Kind[AccuracyStudyJob]):
                 " s). Errors are compared only as long as the reference is known; ask for less."
             )
             raise LimitExceeded.at("/duration", sentence)
-        found = {"duration": duration, **chosen}
+        found = {"duration": duration, **_chosen(job)}
         filled = documents.filled(job, checked.document, checked.echo, **found)
-        return _study(filled, checked, units)
+        return self.study(job, filled, checked, units)
 
-    def plan(self, job: AccuracyStudyJob, filled: dict[str, Any]) -> WorkPrecisionStudy:
-        """Return what `admit` returned; see `Kind.plan`."""
-        placed = place_points(job, one_point(len(runs_of(filled, 1.0))))
-        return _study(filled, placed, periods(placed.scenes))
+    def points(self, job: AccuracyStudyJob) -> Points:
+        """Return a point for each run."""
+        return one_point(len(runs_of(_chosen(job), 1.0)))
+
+    def study(
+        self, job: AccuracyStudyJob, filled: dict[str, Any], placed: PlacedPoints, units: Periods
+    ) -> WorkPrecisionStudy:
+        """Return the study; see `StudyKind.study`."""
+        count, period = placed.points.count, _unit(units)
+        duration = np.full(count, filled["duration"])
+        study = make_study(filled, placed, Spans(np.full(count, period), np.zeros(count), duration))
+        own = {"blocks": ((0, count),), "runs": runs_of(filled, period)}
+        return WorkPrecisionStudy(**(vars(study) | own))
 
     def outputs(self, study: Study) -> Mapping[str, Output]:
         """Return costs and errors."""
@@ -107,10 +111,9 @@ def _unit(units: Periods) -> float:
     return WITHOUT_PERIOD if units.notes else float(units.seconds[0])
 
 
-def _study(filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> WorkPrecisionStudy:
-    count = placed.points.count
-    period = _unit(units)
-    duration = np.full(count, filled["duration"])
-    study = make_study(filled, placed, Spans(np.full(count, period), np.zeros(count), duration))
-    own = {"blocks": ((0, count),), "runs": runs_of(filled, period)}
-    return WorkPrecisionStudy(**(vars(study) | own))
+def _chosen(job: AccuracyStudyJob) -> dict[str, list[Any]]:
+    """Return the methods and tolerances of a job, each once and in their order."""
+    return {
+        "methods": [name for name in METHODS if name in job.methods],
+        "tolerances": sorted(set(job.tolerances), reverse=True),
+    }

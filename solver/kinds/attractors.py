@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kinds.motion_map import J, Motions
+from jointplay.solver.kinds.methods import check_reduced
+from jointplay.solver.kinds.motion_map import J, Motions, MotionsJob
 from jointplay.solver.kinds.section_study import indicators_of
 from jointplay.solver.runs.study.cycles import outputs_of
 from jointplay.solver.runs.study.plan import Study
@@ -18,17 +19,17 @@ class AttractorKind(Motions[J]):
 
     def admit(self, job: J) -> Study:
         """Check and fill in; see `Kind.admit`."""
-        if job.formulation != "reduced":
-            sentence = (
-                "Attractors are told apart by joint coordinates, which only the formulation"
-                " 'reduced' has; choose that."
-            )
-            raise InvalidInput.at("/formulation", sentence)
-        if "recurrence" not in indicators_of(job):
-            sentence = "Attractors are told apart by 'recurrence'; ask for that, too."
-            raise InvalidInput.at("/indicators", sentence)
+        check_told_apart(job, "Attractors are told apart by")
         return super().admit(job)
 
     def outputs(self, study: Study) -> Mapping[str, Output]:
         """Return the statistics that the job chose, and what tells attractors apart."""
         return {**super().outputs(study), **outputs_of(study.point_scene(0))}
+
+
+def check_told_apart(job: MotionsJob, what: str) -> None:
+    """Refuse (InvalidInput) what does not tell attractors apart; `what` needs joint coordinates."""
+    check_reduced(job.formulation, what)
+    if "recurrence" not in indicators_of(job):
+        sentence = "Attractors are told apart by 'recurrence'; ask for that, too."
+        raise InvalidInput.at("/indicators", sentence)

@@ -5,11 +5,11 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds.attractors import check_told_apart
 from jointplay.solver.kinds.idle_fields import check_idle
 from jointplay.solver.kinds.map import AlongStart
 from jointplay.solver.kinds.motion_map import MotionMap, MotionMapJob
 from jointplay.solver.kinds.perturbed import Seed, check_spread, spread_up_to
-from jointplay.solver.kinds.section_study import indicators_of
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.plan import Study
@@ -64,7 +64,10 @@ class Chart(MotionMap[ChartJob]):
             )
             raise InvalidInput.at("/refine", sentence)
         if job.starts > 1:
-            _check_starts(job)
+            if job.continuation != "none":
+                sentence = "A point starts from its neighbour or from several starts; choose one."
+                raise InvalidInput.at("/starts", sentence)
+            check_told_apart(job, "Starts lie apart in")
             check_spread(job.spread)
         else:
             check_idle(job, "several 'starts'", "spread", "seed")
@@ -81,19 +84,3 @@ class Chart(MotionMap[ChartJob]):
     def starts(self, job: ChartJob) -> int:
         """Return from how many starts each point is computed."""
         return job.starts
-
-
-def _check_starts(job: ChartJob) -> None:
-    """Refuse several starts where they, or what they end on, cannot be told."""
-    if job.continuation != "none":
-        sentence = "A point starts from its neighbour or from several starts; choose one of them."
-        raise InvalidInput.at("/starts", sentence)
-    if job.formulation != "reduced":
-        sentence = (
-            "Starts lie apart in joint coordinates, which only the formulation 'reduced' has;"
-            " choose that."
-        )
-        raise InvalidInput.at("/formulation", sentence)
-    if "recurrence" not in indicators_of(job):
-        sentence = "Attractors are told apart by 'recurrence'; ask for that, too."
-        raise InvalidInput.at("/indicators", sentence)

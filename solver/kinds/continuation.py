@@ -20,7 +20,6 @@ from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.continuation_checks import check_ranges, check_sections
 from jointplay.solver.kinds.continuation_job import AlongSecond, ContinuationJob
-from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import check_size
 from jointplay.solver.kinds.mechanism import written
 from jointplay.solver.kinds.methods import check_study
@@ -28,7 +27,7 @@ from jointplay.solver.kinds.observables import chosen, coordinate_channels
 from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import Axis, Points, one_axis, product
 from jointplay.solver.kinds.start_state import check_state
-from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study, place_points
+from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, StudyKind, make_study
 from jointplay.solver.kinds.values import Range
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.parameters import set_parameters
@@ -40,14 +39,14 @@ MAPS = 8
 """Section maps that an orbit takes, about: rounds of Newton's method, errors, special orbits."""
 
 
-class Continuation(Kind[ContinuationJob]):
+class Continuation(StudyKind[ContinuationJob]):
     """A point for each branch, all in one block: one begins where another doubles or branches."""
 
     document = ContinuationJob
     results: ClassVar = ("points", "branch", "poincare", "figures", "zarr")
     option: ClassVar = "branch"
 
-    def admit(self, job: ContinuationJob) -> ContinuationStudy:
+    def admit(self, job: ContinuationJob) -> Study:
         """Check and fill in; see `Kind.admit`."""
         check_study(job, tangents=False)
         check_ranges(job)
@@ -62,8 +61,7 @@ class Continuation(Kind[ContinuationJob]):
             "record": job.record or RECORD * job.values.count,
         }
         filled = documents.filled(job, checked.document, checked.echo, **found)
-        placed = place_points(job, _branches(job))
-        study = _study(job, filled, placed, periods(placed.scenes))
+        study = self.plan(job, filled)
         check_state(job.state, study.point_scene(0), job.formulation)
         longest = job.period * 2**job.doublings
         states = sum(c.name.startswith(("state.", "rate.")) for c in study.observables)
@@ -78,10 +76,39 @@ class Continuation(Kind[ContinuationJob]):
             check_size(study, settle + runs * longest, "/second/values/count")
         return study
 
-    def plan(self, job: ContinuationJob, filled: dict[str, Any]) -> ContinuationStudy:
-        """Return what `admit` returned; see `Kind.plan`."""
-        placed = place_points(job, _branches(job))
-        return _study(job, filled, placed, periods(placed.scenes))
+    def points(self, job: ContinuationJob) -> Points:
+        """Return a point for each branch and curve, where the first one begins."""
+        at = job.values.start if job.at is None else job.at
+        count = job.orbits + job.doublings + job.branch_points
+        count += job.second.curves if job.second else 0
+        axes = [Axis(job.parameter, "/parameter", np.array([at]), lambda _index: "/at")]
+        if job.second is not None:
+            values, pointer = np.array([_second_start(job, job.second)]), "/second/parameter"
+            named = job.second.parameter
+            axes.append(Axis(named, pointer, values, lambda _index: "/second/values"))
+        return Points(tuple(axes), np.zeros((count, len(axes)), np.int64), lambda _point: "/at")
+
+    def study(
+        self, job: ContinuationJob, filled: dict[str, Any], placed: PlacedPoints, units: Periods
+    ) -> ContinuationStudy:
+        """Return the study; see `StudyKind.study`."""
+        parameters = placed.points.parameters
+        units_of = [placed.declared.parameters[name].unit for name in parameters]
+        driven = job.section is None
+        columns = columns_of(placed.scenes.scene(0), parameters, units_of, driven=driven)
+        columns += placed.channels(filled["observables"])
+        settle = job.settle * units.seconds
+        spans = Spans(units.seconds, settle, settle + job.period * units.seconds)
+        kept = Kept(observables=columns, record=filled["record"])
+        own = vars(make_study(filled, placed, spans, kept))
+        return ContinuationStudy(
+            **(own | {"blocks": ((0, placed.points.count),)}),
+            start=filled["at"],
+            reach=_reach(job, job.values),
+            doublings=job.doublings,
+            orbits=job.orbits,
+            second=None if job.second is None else _second(job, job.second, placed),
+        )
 
     def varied(self, job: ContinuationJob, study: Study) -> Iterable[str]:
         """Return the first parameter; the scene's value of a second one is where it begins."""
@@ -141,42 +168,6 @@ def _second_start(job: ContinuationJob, second: AlongSecond) -> float:
         sentence = f"'{second.parameter}' has no number in the scene; give it one there."
         raise InvalidInput.at("/second/parameter", sentence)
     return value
-
-
-def _branches(job: ContinuationJob) -> Points:
-    """Return a point for each branch and curve, where the first one begins."""
-    at = job.values.start if job.at is None else job.at
-    count = job.orbits + job.doublings + job.branch_points
-    count += job.second.curves if job.second else 0
-    axes = [Axis(job.parameter, "/parameter", np.array([at]), lambda _index: "/at")]
-    if job.second is not None:
-        values = np.array([_second_start(job, job.second)])
-        pointer = "/second/parameter"
-        axes.append(Axis(job.second.parameter, pointer, values, lambda _index: "/second/values"))
-    return Points(tuple(axes), np.zeros((count, len(axes)), np.int64), lambda _point: "/at")
-
-
-def _study(
-    job: ContinuationJob, filled: dict[str, Any], placed: PlacedPoints, units: Periods
-) -> ContinuationStudy:
-    count = placed.points.count
-    parameters = placed.points.parameters
-    units_of = [placed.declared.parameters[name].unit for name in parameters]
-    columns = columns_of(placed.scenes.scene(0), parameters, units_of, driven=job.section is None)
-    columns += placed.channels(filled["observables"])
-    kept = Kept(observables=columns, record=filled["record"])
-    settle = job.settle * units.seconds
-    spans = Spans(units.seconds, settle, settle + job.period * units.seconds)
-    study = make_study(filled, placed, spans, kept)
-    own = {"blocks": ((0, count),)}
-    return ContinuationStudy(
-        **(vars(study) | own),
-        start=filled["at"],
-        reach=_reach(job, job.values),
-        doublings=job.doublings,
-        orbits=job.orbits,
-        second=None if job.second is None else _second(job, job.second, placed),
-    )
 
 
 def _reach(

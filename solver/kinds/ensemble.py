@@ -2,9 +2,9 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.idle_fields import check_idle
 from jointplay.solver.kinds.limits import check_count
+from jointplay.solver.kinds.methods import check_reduced
 from jointplay.solver.kinds.perturbed import Seed, check_spread, spread_up_to
 from jointplay.solver.kinds.points import Points, one_point
 from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
@@ -39,12 +39,7 @@ class Ensemble(SectionStudy[EnsembleJob]):
     def points(self, job: EnsembleJob) -> Points:
         """Return the members."""
         check_count(job.members, "/members")
-        if job.formulation != "reduced":
-            sentence = (
-                "The starts of an ensemble differ in joint coordinates, which only the"
-                " formulation 'reduced' has; choose that."
-            )
-            raise InvalidInput.at("/formulation", sentence)
+        check_reduced(job.formulation, "The starts of an ensemble differ in")
         return one_point(job.members)
 
     def perturbation(self, job: EnsembleJob) -> Perturbation:

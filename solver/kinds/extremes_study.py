@@ -1,6 +1,5 @@
 """The kinds whose points are looked at as a whole: extremes and statistics of channels."""
 
-from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Annotated, Any, TypeVar
 
@@ -11,12 +10,10 @@ from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.job import ChannelChoice, Energies, Job
-from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import check_size
 from jointplay.solver.kinds.methods import check_study
 from jointplay.solver.kinds.observables import chosen, coordinate_channels, peak_channels
 from jointplay.solver.kinds.periods import Periods, periods
-from jointplay.solver.kinds.points import Points
 from jointplay.solver.kinds.statistics import (
     SamplesPerPeriod,
     StatisticChoice,
@@ -25,7 +22,7 @@ from jointplay.solver.kinds.statistics import (
     statistic_count,
     statistic_outputs,
 )
-from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study, place_points
+from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, StudyKind, make_study
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.statistics import Output
@@ -77,12 +74,8 @@ class ExtremesStudyJob(Job):
 J = TypeVar("J", bound=ExtremesStudyJob)
 
 
-class ExtremesStudy(Kind[J]):
+class ExtremesStudy(StudyKind[J]):
     """A kind of extremes and statistics, as `sweep`; a member has its points."""
-
-    @abstractmethod
-    def points(self, job: J) -> Points:
-        """Return the points of a job; see `Kind.admit` for how they are refused."""
 
     def outputs(self, study: Study) -> Mapping[str, Output]:
         """Return the statistics of channels and contacts that the job chose."""
@@ -105,27 +98,20 @@ class ExtremesStudy(Kind[J]):
         check_statistics(job.statistics, checked.pairs(), len(channels))
         names = [channel.name for channel in channels]
         filled = documents.filled(job, checked.document, checked.echo, channels=names)
-        study = _study(job, filled, checked, units)
+        study = self.study(job, filled, checked, units)
         check_samples(job, study)
         longest = float((study.duration / study.period).max())
         check_size(study, longest, "/periods" if job.periods is not None else "/duration")
         return study
 
-    def plan(self, job: J, filled: dict[str, Any]) -> Study:
-        """Return what `admit` returned; see `Kind.plan`."""
-        placed = place_points(job, self.points(job))
-        return _study(job, filled, placed, periods(placed.scenes))
-
-
-def _study(
-    job: ExtremesStudyJob, filled: dict[str, Any], placed: PlacedPoints, units: Periods
-) -> Study:
-    unit = units.seconds if job.periods is not None else np.ones(placed.points.count)
-    length = job.duration if job.periods is None else job.periods
-    channels = placed.channels(filled["channels"])
-    statistics = statistic_count(job.statistics, len(channels), len(placed.pairs()))
-    spans = Spans(units.seconds, job.settle * unit, (length or 0.0) * unit)
-    return make_study(filled, placed, spans, Kept(channels=channels, statistics=statistics))
+    def study(self, job: J, filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+        """Return the study; see `StudyKind.study`."""
+        unit = units.seconds if job.periods is not None else np.ones(placed.points.count)
+        length = job.duration if job.periods is None else job.periods
+        channels = placed.channels(filled["channels"])
+        statistics = statistic_count(job.statistics, len(channels), len(placed.pairs()))
+        spans = Spans(units.seconds, job.settle * unit, (length or 0.0) * unit)
+        return make_study(filled, placed, spans, Kept(channels=channels, statistics=statistics))
 
 
 def _check_length(job: ExtremesStudyJob) -> None:

@@ -51,6 +51,13 @@ def check_study(job: Job, *, tangents: bool) -> None:
     raise InvalidInput.at(where, sentence)
 
 
+def check_reduced(formulation: str, what: str) -> None:
+    """Refuse (InvalidInput) the formulation without joint coordinates, which `what` ends with."""
+    if formulation != "reduced":
+        only = "which only the formulation 'reduced' has; choose that."
+        raise InvalidInput.at("/formulation", f"{what} joint coordinates, {only}")
+
+
 def _check_fixed_step(job: Job) -> None:
     if job.step is None:
         sentence = f"The method '{job.method}' needs its fixed 'step', s."

@@ -1,6 +1,5 @@
 """The kinds that tell the motion of very many points: document, admission and plan."""
 
-from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, TypeVar
 
@@ -11,7 +10,6 @@ from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.job import ChannelChoice
-from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import (
     MOST_OF_A_CHART,
     MOST_PERIODS_OF_A_CHART,
@@ -39,7 +37,7 @@ from jointplay.solver.kinds.statistics import (
     statistic_count,
     statistic_outputs,
 )
-from jointplay.solver.kinds.studies import Kept, PlacedPoints, make_study, place_points
+from jointplay.solver.kinds.studies import Kept, PlacedPoints, StudyKind, make_study
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.cycles import outputs_of
@@ -93,17 +91,13 @@ NUMBERS, EXTREMES = 8, 4
 """Numbers of every point at most, and of each channel."""
 
 
-class Motions(Kind[J]):
+class Motions(StudyKind[J]):
     """A kind that tells the motion of many points; a member has these, and may ask for more."""
 
     compares_cycles: ClassVar = False
     """Whether points keep what tells their attractors apart."""
     counted: ClassVar = "/by/values"
     """JSON pointer to what says how many points there are."""
-
-    @abstractmethod
-    def points(self, job: J) -> Points:
-        """Return the points of a job; see `Kind.admit` for how they are refused."""
 
     def continuation(self, job: J) -> str:
         """Return in which direction a point starts from its neighbour along x."""
@@ -144,23 +138,19 @@ class Motions(Kind[J]):
         filled = documents.filled(
             job, checked.document, checked.echo, channels=names or None, indicators=list(indicators)
         )
-        study = self._study(job, filled, checked, units)
+        study = self.study(job, filled, checked, units)
         check_samples(job, study)
         settle, recording = most_periods(job)
         pointer = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
         check_size(study, self.starts(job) * (settle + recording), pointer, MOST_PERIODS_OF_A_CHART)
         return study
 
-    def plan(self, job: J, filled: dict[str, Any]) -> Study:
-        """Return what `admit` returned; see `Kind.plan`."""
-        placed = place_points(job, self.points(job))
-        return self._study(job, filled, placed, periods(placed.scenes))
-
     def outputs(self, study: Study) -> Mapping[str, Output]:
         """Return the statistics that the job chose."""
         return statistic_outputs(study)
 
-    def _study(self, job: J, filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+    def study(self, job: J, filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+        """Return the study; see `StudyKind.study`."""
         channels, pairs = placed.channels(filled["channels"] or ()), placed.pairs()
         kept = Kept(
             record=job.record,

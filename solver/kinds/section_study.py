@@ -1,6 +1,5 @@
 """The kinds whose points are looked at section by section: document, admission and plan."""
 
-from abc import abstractmethod
 from typing import Annotated, Any, Literal, TypeVar, get_args
 
 import numpy as np
@@ -9,15 +8,13 @@ from pydantic import Field
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.job import Energies, Job, Observables
-from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import EVENT_PATIENCE, LONGEST_SETTLING, check_size
 from jointplay.solver.kinds.methods import check_study
 from jointplay.solver.kinds.observables import chosen, coordinate_channels
 from jointplay.solver.kinds.periods import Periods, crank_offsets, periods
-from jointplay.solver.kinds.points import Points
 from jointplay.solver.kinds.section import ChannelSection, CrankSection, Section
 from jointplay.solver.kinds.section_checks import check_section
-from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, make_study, place_points
+from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, StudyKind, make_study
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.plan import Study
@@ -107,12 +104,8 @@ class SectionStudyJob(SectionsJob):
 J = TypeVar("J", bound=SectionStudyJob)
 
 
-class SectionStudy(Kind[J]):
+class SectionStudy(StudyKind[J]):
     """A kind of sections, as `bifurcation`, `poincare` and `ensemble`; a member has its points."""
-
-    @abstractmethod
-    def points(self, job: J) -> Points:
-        """Return the points of a job; see `Kind.admit` for how they are refused."""
 
     def continuation(self, job: J) -> tuple[str, int]:
         """Return in which direction a point starts from its neighbour, and how many chains do."""
@@ -138,18 +131,14 @@ class SectionStudy(Kind[J]):
             observables=[channel.name for channel in observables],
             indicators=list(indicators),
         )
-        study = self._study(job, filled, checked, units)
+        study = self.study(job, filled, checked, units)
         settle, recording = most_periods(job)
         pointer = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
         check_size(study, settle + recording, pointer)
         return study
 
-    def plan(self, job: J, filled: dict[str, Any]) -> Study:
-        """Return what `admit` returned; see `Kind.plan`."""
-        placed = place_points(job, self.points(job))
-        return self._study(job, filled, placed, periods(placed.scenes))
-
-    def _study(self, job: J, filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+    def study(self, job: J, filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+        """Return the study; see `StudyKind.study`."""
         kept = Kept(
             observables=placed.channels(filled["observables"]),
             record=job.record,

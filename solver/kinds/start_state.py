@@ -5,6 +5,7 @@ from typing import Annotated
 from pydantic import Field
 
 from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds.methods import check_reduced
 from jointplay.solver.mechanics.section_states import latched_at_section, states_at_section
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.scene.document import Scene
@@ -32,12 +33,7 @@ def check_state(state: list[float] | None, scene: Scene, formulation: str) -> No
     """
     if state is None:
         return
-    if formulation != "reduced":
-        sentence = (
-            "A state is given in joint coordinates, which only the formulation 'reduced' has;"
-            " choose that."
-        )
-        raise InvalidInput.at("/formulation", sentence)
+    check_reduced(formulation, "A state is given in")
     states = [one.name for one in states_at_section(scene)]
     rates = [one.name for one in latched_at_section(scene)]
     given = len(state)

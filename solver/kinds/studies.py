@@ -1,5 +1,6 @@
 """Studies: points in their scene, cut into chains and blocks, with what is said of each."""
 
+from abc import abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,8 +12,10 @@ from jointplay.records.arrays import Floats, Integers
 from jointplay.records.channel import Channel
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.job import MechanismJob
+from jointplay.solver.kinds.kind import J, Kind
 from jointplay.solver.kinds.limits import BYTES_PER_BRIEF_POINT, BYTES_PER_POINT, BYTES_PER_VALUE
 from jointplay.solver.kinds.mechanism import Echo, written
+from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import Points
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.blocks import (
@@ -84,6 +87,23 @@ def of_parameters(echo: Echo, points: Points) -> Echo:
     """Return the values of declared parameters, without numbers of the start that vary."""
     starts = {axis.parameter for axis in points.axes if axis.start}
     return {name: value for name, value in echo.items() if name not in starts}
+
+
+class StudyKind(Kind[J]):
+    """A kind whose answer is points, all of which are known before the first is computed."""
+
+    @abstractmethod
+    def points(self, job: J) -> Points:
+        """Return the points of a job; see `Kind.admit` for how they are refused."""
+
+    @abstractmethod
+    def study(self, job: J, filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+        """Return the study of a job, at points that have these units of time."""
+
+    def plan(self, job: J, filled: dict[str, Any]) -> Study:
+        """Return what `admit` returned; see `Kind.plan`."""
+        placed = place_points(job, self.points(job))
+        return self.study(job, filled, placed, periods(placed.scenes))
 
 
 @dataclass(frozen=True, eq=False)
