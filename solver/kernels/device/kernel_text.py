@@ -9,7 +9,6 @@ from jointplay.solver.kernels.device.address_spaces import Constants, in_own_mem
 from jointplay.solver.kernels.device.lanes import ENTRY, MOVE, Sizes
 from jointplay.solver.kernels.device.one_lane import GlobalMemory
 from jointplay.solver.kernels.emit import functions
-from jointplay.solver.kernels.emit.function import OF_ARRAYS
 from jointplay.solver.kernels.emit.lane_arithmetic import declared
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import INSTANTS
@@ -163,7 +162,9 @@ def _functions(sources: Sequence[Source], *, on_host: bool) -> Iterator[str]:
             meeting = [f"call void @{MEET}()"] if one.name == "attempt" else []
             yield one.of_arrays(_symbol, meeting)
     addresses = [
-        f"i64 ptrtoint (ptr {_symbol(name + OF_ARRAYS)} to i64)" if name in there else "i64 0"
+        f"i64 ptrtoint (ptr {_symbol(name + functions.OF_ARRAYS)} to i64)"
+        if name in there
+        else "i64 0"
         for name in functions.SIGNATURES
     ]
     yield _words("functions", addresses)

@@ -19,11 +19,6 @@ EVERY = 256
 """Steps from one look inside to the next, and those that are looked at after a rough one."""
 
 
-def allocate(layout: Layout) -> None:
-    """Give a slot to the answer."""
-    layout.add("may_look")
-
-
 def source(layout: Layout, pairs: int, *, always: bool) -> Source:
     """Return the source of foresee_looks(W): ``may_look`` is positive where a lane's step may be.
 

@@ -138,7 +138,7 @@ def _layout(equations: Equations, rows: Rows, tableau: Method, again: int) -> La
         layout.add_block(name, pairs)
     layout.add_block("inner_row", len(equations.inner_rates))
     bends.allocate(layout, pairs)
-    closer_looks.allocate(layout)
+    layout.add("may_look")
     for name in ("clock_start", "clock_travel", "clock_turn"):
         layout.add_block(name, len(equations.clocks))
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece

@@ -11,7 +11,7 @@ from pathlib import Path
 from filelock import FileLock
 
 from jointplay.solver.kernels.cache import SPENT, cache_folder, without_collection, write_whole
-from jointplay.solver.kernels.emit.function import Function
+from jointplay.solver.kernels.emit.functions import Function
 from jointplay.solver.kernels.emit.machine_code import compiled, load_code
 from jointplay.solver.kernels.emit.tapes import Source, module_text
 from jointplay.solver.kernels.target import Target, own_target

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 from numba.core.datamodel.registry import default_manager
 
-from jointplay.solver.kernels.emit.function import ARRAY, CALLS, OF_ARRAYS, Function
-from jointplay.solver.kernels.emit.functions import WORK
+from jointplay.solver.kernels.emit.functions import ARRAY, CALLS, OF_ARRAYS, WORK, Function
 from jointplay.solver.kernels.emit.lane_arithmetic import declared
 from jointplay.solver.kernels.emit.straight_line import ARGUMENTS, write
 
