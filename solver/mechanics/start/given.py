@@ -5,7 +5,7 @@ distance of a start from what was given is the root of the sum of their squares.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -23,6 +23,14 @@ class Rows(NamedTuple):
     """(rows,) m, or m/s."""
     jacobian: Floats
     """(rows, 3 bodies)."""
+
+    @classmethod
+    def joined(cls, parts: Sequence["Rows"], columns: int) -> "Rows":
+        """Return the rows of all parts, which have so many columns."""
+        if not parts:
+            return cls(np.zeros(0), np.zeros((0, columns)))
+        value, jacobian = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+        return cls(value, jacobian)
 
 
 @dataclass(frozen=True)

@@ -84,13 +84,7 @@ class Places:
     def wanted(self, given: Iterable[Given], pose: Floats) -> Rows:
         """Return the rows of what is given, together."""
         still = np.zeros_like(pose)
-        found = [one.rows(pose, still) for one in given]
-        if not found:
-            return Rows(np.zeros(0), np.zeros((0, len(pose))))
-        return Rows(
-            np.concatenate([rows.value for rows in found]),
-            np.concatenate([rows.jacobian for rows in found]),
-        )
+        return Rows.joined([one.rows(pose, still) for one in given], len(pose))
 
     def is_closed(self, mechanism: AbsoluteMechanism, pose: Floats) -> bool:
         """Whether the constraints of a mechanism hold."""

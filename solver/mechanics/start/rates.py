@@ -42,16 +42,16 @@ def start_rates(places: Places, pose: Floats) -> tuple[Floats, list[Given]]:
     every = [held, *wanted.values()]
     size = greatest(np.abs(rows.value).max(axis=0, initial=0.0) for rows in every)
     rest: list[Rows] = []
-    together = _joined([*wanted.values()], pose)
+    together = Rows.joined([*wanted.values()], len(pose))
     if len(wanted) > 1 and _hold(held, together, places.scale, size):
-        held, wanted = _joined([held, together], pose), {}
+        held, wanted = Rows.joined([held, together], len(pose)), {}
     for also in wanted.values():
         if _hold(held, also, places.scale, size):
-            held = _joined([held, also], pose)
+            held = Rows.joined([held, also], len(pose))
         else:
             rest.append(also)
     slides = places.closed.slides(pose.tolist(), still.tolist())
-    levels = [held, _joined(rest, pose), _rates(soft, pose)]
+    levels = [held, Rows.joined(rest, len(pose)), _rates(soft, pose)]
     levels += [*_still(places, pose), _rates(slides, pose)]
     steps = Steps([rows.jacobian for rows in levels], places.scale, DEAD_POINT)
     velocity = steps.step([rows.value for rows in levels])
@@ -105,12 +105,3 @@ def _still(places: Places, pose: Floats) -> Iterator[Rows]:
     for named in ({*start.angular_velocities, *start.velocities}, set[str]()):
         columns = [3 * i + 2 for i, body in enumerate(places.closed.bodies) if body not in named]
         yield Rows(np.zeros(len(columns)), places.length * np.eye(len(pose))[columns])
-
-
-def _joined(parts: list[Rows], pose: Floats) -> Rows:
-    if not parts:
-        return Rows(np.zeros(0), np.zeros((0, len(pose))))
-    return Rows(
-        np.concatenate([rows.value for rows in parts]),
-        np.concatenate([rows.jacobian for rows in parts]),
-    )
