@@ -22,6 +22,21 @@ export function fill(parent, ...children) {
   parent.replaceChildren(...children.flat(Infinity).filter(isShown));
 }
 
+/** Replaces all of it by what is there by now: what had the keyboard, and is there still, has it again. */
+export function refill(parent, ...children) {
+  const kept = parent.contains(document.activeElement) ? known(document.activeElement) : null;
+  const scrolled = [...parent.querySelectorAll(".wide")].map(({ scrollLeft }) => scrollLeft);
+  fill(parent, ...children);
+  parent.querySelectorAll(".wide").forEach((one, place) => (one.scrollLeft = scrolled[place] ?? 0));
+  if (kept) [...parent.querySelectorAll(kept.tag)].find((one) => known(one).text === kept.text)?.focus({ preventScroll: true });
+}
+
+/** Returns what an element is known by, also when it was made anew. */
+function known(one) {
+  const said = one.getAttribute("aria-label") ?? one.textContent;
+  return { tag: one.tagName, text: one.id || `${one.getAttribute("href")} ${said}` };
+}
+
 function filled(made, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) continue;

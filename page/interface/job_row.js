@@ -1,7 +1,7 @@
 /** One job in a list. */
 
 import { deleteJob, mayDelete, retriable, retryJob } from "./acting.js";
-import { element, fill } from "./element.js";
+import { element, fill, refill } from "./element.js";
 import { ago, span } from "./numbers.js";
 import { address } from "./place.js";
 import { progressWords, sceneName, stateMark } from "./state.js";
@@ -20,6 +20,7 @@ export class JobRow {
     this.mark = element("span");
     this.progress = element("div", { class: "parameters small quiet" });
     this.cost = element("span", { class: "cost small quiet" });
+    this.when = element("span", { class: "when small quiet", title: job.created });
     this.buttons = element("span", { class: "buttons" });
     const title = job.label || sceneName(job.job).replaceAll("-", " ");
     const kind = job.kind === "simulate" ? "" : ` · ${job.kind}`;
@@ -29,14 +30,15 @@ export class JobRow {
         element("a", { href: address(["job", job.id]) }, `${title}${kind}`),
         element("div", { class: "small quiet" }, job.label ? sceneName(job.job) : "")),
       this.progress,
-      element("span", { class: "when small quiet", title: job.created }, ago(job.created)),
-      this.cost, this.buttons);
+      this.when, this.cost, this.buttons);
   }
 
   /** Shows the job as it is now, at a height in px. */
   update(job, top) {
     this.job = job;
     this.element.style.transform = `translateY(${top}px)`;
+    const submitted = ago(job.created);
+    if (this.when.textContent !== submitted) this.when.textContent = submitted;
     const now = `${job.state} ${job.progress.fraction}`;
     if (now === this.shown) return;
     this.shown = now;
@@ -48,7 +50,7 @@ export class JobRow {
     const took = job.started && job.finished &&
       (Date.parse(job.finished) - Date.parse(job.started)) / 1000;
     this.cost.textContent = took ? `took ${span(took)}` : "";
-    fill(this.buttons, TERMINAL.has(job.state)
+    refill(this.buttons, TERMINAL.has(job.state)
       ? [retriable(job)
            ? this.button("Retry", () => retryJob(job))
            : this.button("Again", async () => {

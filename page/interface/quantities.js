@@ -1,6 +1,6 @@
 /** Quantities of a sweep: extremes of channels, their statistics, and what else points have. */
 
-import { element, fill } from "./element.js";
+import { element, refill } from "./element.js";
 
 const EXTREMES = ["maximum", "minimum", "range"];
 const TOGETHER = "extremes and mean";
@@ -30,14 +30,13 @@ export class Quantities {
     }
     const of = this.choices();
     if (!of.includes(this.of)) [this.of] = of;
-    fill(this.element, this.select("channel", "Of", known), of.length > 1 && this.select("of", "Quantity", of));
+    refill(this.element, this.select("channel", "Of", known), of.length > 1 && this.select("of", "Quantity", of));
   }
 
   select(name, title, values) {
     const made = element("select", { id: `sweep-${name}`, onchange: () => {
       this[name] = made.value;
       this.draw();
-      document.getElementById(made.id).focus();
       this.onchoice({ channel: this.channel, of: this.of });
     } }, values.map((value) => element("option", { value, selected: value === this[name] },
       value.replaceAll("_", " "))));

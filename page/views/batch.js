@@ -1,6 +1,6 @@
 /** A batch: how many of its jobs are in each state, and the jobs in the order of the request. */
 
-import { element, fill } from "../interface/element.js";
+import { element, refill } from "../interface/element.js";
 import { declaredFor, differing } from "../interface/job_words.js";
 import { span } from "../interface/numbers.js";
 import { address, go } from "../interface/place.js";
@@ -27,7 +27,7 @@ export async function show(room, { parts, signal }) {
 }
 
 function draw(room, batch, jobs, words, path) {
-  fill(
+  refill(
     room,
     element("div", { class: "head" }, element("h1", {}, batch.label || "Batch"),
       element("div", { class: "buttons" },

@@ -1,6 +1,6 @@
 /** The batches of the service, the newest first: how many of their jobs are in each state. */
 
-import { element, fill } from "../interface/element.js";
+import { element, fill, refill } from "../interface/element.js";
 import { ago } from "../interface/numbers.js";
 import { address } from "../interface/place.js";
 import { stateMark } from "../interface/state.js";
@@ -16,7 +16,7 @@ export async function show(room, { signal }) {
   for (;;) {
     try {
       const { batches, next_page_token: more } = await get("/v1/batches", { page_size: SHOWN }, signal);
-      fill(content, batches.length ? table(batches) : element("p", {}, "No batches yet: a POST of"
+      refill(content, batches.length ? table(batches) : element("p", {}, "No batches yet: a POST of"
         + " /v1/batches, or client.submit_batch, submits many jobs together."),
       more && element("p", { class: "quiet small" }, `The newest ${SHOWN} are shown.`));
     } catch (error) {

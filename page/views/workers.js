@@ -1,6 +1,6 @@
 /** The workers of the service: since when each is there, and what it computes. */
 
-import { element, fill } from "../interface/element.js";
+import { element, fill, refill } from "../interface/element.js";
 import { ago, span } from "../interface/numbers.js";
 import { address } from "../interface/place.js";
 import { processOf, whyQueued, workers } from "../interface/workers.js";
@@ -16,7 +16,7 @@ export async function show(room, { signal }) {
     try {
       const alive = await workers(signal);
       said.textContent = alive.length === 1 ? "1 is alive" : `${alive.length} are alive`;
-      fill(content, alive.length ? table(alive) : whyQueued(alive));
+      refill(content, alive.length ? table(alive) : whyQueued(alive));
     } catch (error) {
       if (!mayPass(error) || !content.childElementCount) throw error;
     }

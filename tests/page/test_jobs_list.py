@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 from contextlib import ExitStack
+from datetime import UTC, datetime, timedelta
 from urllib.parse import urlsplit
 
 import pytest
@@ -46,6 +47,14 @@ def test_jobs_and_batches_have_the_addresses_of_the_api_too(browsing, http, serv
         page.locator(".view-job h1").wait_for()
         page.goto(f"{service_url}/#/batches/{batch}")
         expect(page).to_have_url(f"{service_url}/#/batch/{batch}")
+
+
+def test_rows_say_how_long_ago_it_is_by_now(browsing, service_url, worker):
+    worker.submit(label="a while ago")
+    with browsing.page(f"{service_url}/#/jobs?label=a+while+ago") as page:
+        expect(page.locator(".row .when")).to_have_text("just now")
+        page.clock.set_system_time(datetime.now(UTC) + timedelta(minutes=10, seconds=5))
+        expect(page.locator(".row .when")).to_have_text("10 min ago")
 
 
 @pytest.mark.parametrize("width", [360, 1280])

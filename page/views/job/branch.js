@@ -1,6 +1,6 @@
 /** Branches of periodic orbits: drawn by the service, with a table of their special orbits. */
 
-import { element, fill } from "../../interface/element.js";
+import { element, fill, refill } from "../../interface/element.js";
 import { freshFigure } from "../../interface/fresh_figure.js";
 import { short, withUnit } from "../../interface/numbers.js";
 import { offer } from "../../interface/point_of_study.js";
@@ -27,7 +27,7 @@ export async function show(room, context) {
       found.some(({ of }) => of)
         && await drawn("curves", `Special orbits over ${answer.parameter} and ${answer.second}`, beneath.query("curves")));
     if (found.length) await Promise.all([beneath.offer(answer, draw), draw()]);
-    fill(room, element("section", { class: "panel stacked" },
+    refill(room, element("section", { class: "panel stacked" },
       beneath.element, pictures,
       words.map((sentence) => element("p", {}, sentence)),
       found.length > 0 && specialOrbits(answer, found, (branch, orbit) =>

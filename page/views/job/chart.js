@@ -68,6 +68,9 @@ class Chart {
   }
 
   offerQuantities() {
+    const offered = this.answer.quantities.map(({ name }) => name).join();
+    if (offered === this.offered) return; // else a list that is open would be closed
+    this.offered = offered;
     const made = element("select", { id: "chart-quantity", onchange: () => {
       this.wanted = made.value;
       note({ quantity: this.wanted });
