@@ -1,4 +1,4 @@
-"""What has the keyboard keeps it while a view is drawn anew, every second or two."""
+"""The keyboard stays where it is while a view is drawn anew, every second or two."""
 
 import re
 
