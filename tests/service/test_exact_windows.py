@@ -57,6 +57,16 @@ def test_every_peak_is_in_a_window_of_any_resolution(http, job):
         assert shown.bins.first[place] <= peak["maximum_time"] <= shown.bins.last[place]
 
 
+def test_a_window_behind_the_run_has_no_spans(http, service_url, job):
+    behind = {"channels": FORCE, "points": 3, "start": 1.0, "stop": 2.0}
+    shown = schemas.Overview.model_validate(ask(http, job, **behind))
+    assert (shown.samples, shown.bins.first, shown.bins.last) == (0, [], [])
+    assert (shown.extremes[FORCE].minimum, shown.extremes[FORCE].maximum) == ([], [])
+    with Client(service_url) as client:
+        window = client.job(job).window(FORCE, 1.0, 2.0, points=3)
+    assert window.time.size == window[FORCE].size == 0
+
+
 def test_values_at_any_instants_are_those_that_samples_have(http, job):
     samples = ask(http, job)
     assert samples["resolution"] == {"basis": "samples", "spacing": STEP, "since": None}

@@ -91,8 +91,10 @@ class Trajectory:
         """Return edges (at most `points` + 1,), s, between which extremes are known exactly.
 
         They are even where steps are kept, and samples' times where they are not, from that before
-        the window to that behind it.
+        the window to that behind it. One edge, and nothing between, where `stop` comes first.
         """
+        if stop < start:
+            return np.array([start])
         whole = self._intervals
         if whole is None or stop <= whole.begin or not stop > start:
             return np.linspace(start, stop, points + 1) if stop > start else np.array([start, stop])
@@ -124,6 +126,8 @@ class Trajectory:
 
     def extremes(self, names: Sequence[str], edges: Floats) -> Answer:
         """Return extremes (bins, names, 4) between edges: lowest, its time, highest, its time."""
+        if len(edges) == 1:
+            return Answer(np.empty((0, len(names), 4)))
         whole = self._intervals
         if whole is None or edges[-1] <= whole.begin * (1.0 + ROUNDING):
             return self._in_steps(names, edges)
