@@ -32,3 +32,21 @@ def test_an_end_that_is_not_surpassed_is_the_extreme():
     peak = refined_peaks(["x"], evaluate, times, evaluate(times))["x"]
     assert (peak.minimum, peak.minimum_time) == (1.0, 0.0)
     assert (peak.maximum, peak.maximum_time) == (np.exp(1.0), 1.0)
+
+
+@pytest.mark.parametrize("beside", [0.0, 1e-9, 1e-6, 1e-4, 1e-2])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_an_extreme_at_a_corner_is_found(beside, sense):
+    """A distance of points that pass one another, beside a channel that has no corner."""
+    times, at = np.linspace(0.0, 1.0, 51), 0.3217
+
+    def evaluate(found):
+        distance = np.hypot(np.sin(found - at), beside)
+        return np.stack([-sense * distance, np.cos(found - at)], axis=1)
+
+    peaks = refined_peaks(["x", "y"], evaluate, times, evaluate(times))
+    x = peaks["x"]
+    value, time = (x.maximum, x.maximum_time) if sense > 0 else (x.minimum, x.minimum_time)
+    assert -sense * value == pytest.approx(beside, abs=1e-7)
+    assert time == pytest.approx(at, abs=1e-6)
+    assert peaks["y"].maximum == pytest.approx(1.0, abs=1e-14)
