@@ -10,12 +10,20 @@ from pathlib import PurePath
 from types import ModuleType
 from typing import Final
 
-from jointplay.records.table_files import arrow, csv, json, matlab, npz, parquet
+from jointplay.records.table_files import (
+    arrow,
+    arrow_file,
+    csv,
+    json,
+    matlab,
+    npz,
+    parquet,
+)
 from jointplay.records.table_files.column import Column
 
 __all__ = ["FORMS", "SUFFIXES", "Column", "NotInstalled", "UnknownForm", "encode", "form_of"]
 
-FORMS: Final[tuple[ModuleType, ...]] = (csv, json, npz, matlab, arrow, parquet)
+FORMS: Final[tuple[ModuleType, ...]] = (csv, json, npz, matlab, arrow_file, arrow, parquet)
 SUFFIXES: Final = tuple(suffix for form in FORMS for suffix in form.SUFFIXES)
 
 

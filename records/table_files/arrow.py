@@ -5,7 +5,7 @@ from typing import Any
 
 from jointplay.records.table_files.column import Column
 
-SUFFIXES = (".arrows", ".arrow")
+SUFFIXES = (".arrows",)
 MEDIA_TYPE = "application/vnd.apache.arrow.stream"
 NEEDS = "pyarrow"
 

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pyarrow
 import pytest
-from pyarrow import parquet
+from pyarrow import feather, parquet
 from scipy.io import loadmat
 
 import jointplay
@@ -56,6 +56,11 @@ def of_arrow(path):
     return columns_in(pyarrow.ipc.open_stream(io.BytesIO(path.read_bytes())).read_all())
 
 
+def of_arrow_file(path):
+    """The format of the suffix .arrow, which other programs expect: pandas, polars, R."""
+    return columns_in(feather.read_table(path))
+
+
 def of_parquet(path):
     return columns_in(parquet.read_table(path))
 
@@ -66,7 +71,8 @@ def columns_in(table):
 
 
 READERS = {".csv": of_csv, ".json": of_json, ".npz": of_npz, ".mat": of_matlab}
-READERS |= {".arrow": of_arrow, ".arrows": of_arrow, ".parquet": of_parquet}
+READERS |= {".arrow": of_arrow_file, ".feather": of_arrow_file, ".arrows": of_arrow}
+READERS |= {".parquet": of_parquet}
 
 
 def test_every_form_is_read_here():
