@@ -4,7 +4,7 @@ Kuznetsov 2004, Elements of Applied Bifurcation Theory, 3rd ed., chapter 9.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
@@ -32,7 +32,7 @@ RESTING = 1e-2
 AROUND = 0.015
 """Length along a curve on both sides of a generalised doubling by which it is told from noise."""
 KNOWN = 0.3
-"""Error of its coefficient there, in how much that changes: of noise it is a third or more."""
+"""Noise of its coefficient there, in how much that changes."""
 ROUND = 0.1
 """Share of that error below which it is not sought more closely."""
 OTHERS: dict[str, Test] = {"PD": doubling, "LP": passing_one, "NS": torus}
@@ -80,9 +80,9 @@ def _generalised_doublings(piece: Piece) -> Iterator[Special]:
         return
     middle = piece.length * first / (first - last)
     try:
-        around = [piece.orbit(middle + way * AROUND).criticality for way in (-1.0, 1.0)]
-        change = abs(around[1][0] - around[0][0])
-        if not max(error for _, error in around) < KNOWN * change:
+        around = [piece.orbit(middle + way * AROUND).criticality for way in (-1.0, 0.0, 1.0)]
+        change = abs(around[2][0] - around[0][0])
+        if not _noise(around) < KNOWN * change:
             return
         found = root(piece, partial(_rounded, piece), lambda orbit: orbit.criticality[1])
     except NotLocated:
@@ -91,6 +91,16 @@ def _generalised_doublings(piece: Piece) -> Iterator[Special]:
         one, other = ("soft", "hard") if first > last else ("hard", "soft")
         note = f"period doubling is {one} on the side of the start, {other} beyond"
         yield Special("GPD", found, note)
+
+
+def _noise(around: Sequence[tuple[float, float]]) -> float:
+    """Return by how much three coefficients in a row, with their errors, scatter.
+
+    What distances leave of both is smooth along a curve, however much it is.
+    """
+    (first, _), (middle, _), (last, _) = around
+    left = [error for _, error in around]
+    return abs(first - 2.0 * middle + last) + max(left) - min(left)
 
 
 def _rounded(piece: Piece, orbit: Orbit) -> float:

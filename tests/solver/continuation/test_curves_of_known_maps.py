@@ -180,6 +180,19 @@ def test_a_doubling_turns_from_soft_to_hard_where_its_cubic_coefficient_vanishes
         assert row.orbit.criticality[0] == pytest.approx(cubic(row.orbit.values[1]), rel=1e-4)
 
 
+def test_a_doubling_is_generalised_where_distances_leave_much_of_its_coefficient() -> None:
+    def fifth_power(state: Floats, p: float, q: float) -> list[float]:
+        x, y = state.tolist()
+        return [-(1.0 + p) * x + q * x**3 + 1e3 * x**5, 0.3 * y]
+
+    ranges = ((-0.5, 0.5), (-1.0, 1.0))
+    rows = curve_of("PD", fifth_power, [0.0, 0.0], (0.0, -0.5), ranges)
+    (row,) = [row for row in rows if row.label == "GPD"]
+    # x^5 leaves 0.09 between two distances, and nothing of what is extrapolated from them
+    assert row.orbit.values == pytest.approx((0.0, 0.0), abs=1e-4)
+    assert row.orbit.criticality[1] == pytest.approx(0.75 * 1.25 * 1e3 * 1e-4, rel=1e-2)
+
+
 def test_no_doubling_is_generalised_where_noise_alone_has_a_cubic_coefficient() -> None:
     ranges = ((-0.15, 0.5), (0.0999, 0.3))
     rows = curve_of("PD", linear_but_for_noise, [0.0, 0.0], (-0.1, 0.1), ranges)
