@@ -15,11 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.closing import arrays
+from jointplay.solver.mechanics.closing import LARGEST_TURN, arrays
 from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.start.given import Given, Rows, distance, given_places
-from jointplay.solver.mechanics.start.levels import MOST_ITERATIONS, approach
+from jointplay.solver.mechanics.start.levels import MOST_ITERATIONS, approach, step_of
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
@@ -157,14 +158,17 @@ def in_given_turns(places: Places, pose: Floats) -> Floats:
 
 
 def hold(places: Places, pose: Floats) -> Floats:
-    """Return a closed pose near another that keeps what it can of what is given, in its order."""
+    """Return a closed pose near another that keeps what it can of what is given, in its order.
+
+    What that leaves free is as near as it can be to angles of zero, and slides to their middle.
+    """
     kept: list[Given] = []
     for one in places.given:
-        found = _with(places, places.closed, pose, [*kept, one])
+        found = _with(places, pose, [*kept, one], 1)
         if found is not None:
             pose = found
             kept.append(one)
-    return pose
+    return _settled(places, pose, kept)
 
 
 def _turning_with(places: Places, body: str) -> list[str]:
@@ -188,23 +192,55 @@ def _nearest_here(places: Places, pose: Floats, iterations: int) -> Floats:
     return found if places.is_closed(places.closed, found) else pose
 
 
-def _with(
-    places: Places, mechanism: AbsoluteMechanism, pose: Floats, kept: Sequence[Given]
-) -> Floats | None:
-    """Return a pose that keeps some of what is given, and comes near the rest; None: it cannot."""
+def _with(places: Places, pose: Floats, kept: Sequence[Given], judged: int) -> Floats | None:
+    """Return a closed pose that keeps some of what is given, and comes near the rest.
+
+    None: it cannot. judged : 2 if steps must not take it farther from the rest; see `approach`.
+    """
     rest = [one for one in places.given if one not in kept]
 
     def levels(pose: Floats) -> list[Rows]:
-        hard, soft = places.constraints(mechanism, pose), places.wanted(kept, pose)
+        hard, soft = places.constraints(places.closed, pose), places.wanted(kept, pose)
         first = Rows(
             np.concatenate([hard.value, soft.value]), np.concatenate([hard.jacobian, soft.jacobian])
         )
         return [first, places.wanted(rest, pose)]
 
-    found = approach(pose, levels, places.scale, 1)
-    if places.is_closed(mechanism, found) and places.keeps(kept, found):
+    found = approach(pose, levels, places.scale, judged)
+    if places.is_closed(places.closed, found) and places.keeps(kept, found):
         return found
     return None
+
+
+def _settled(places: Places, pose: Floats, kept: Sequence[Given]) -> Floats:
+    """Return a pose that keeps and comes near the same, but rests where that leaves it free.
+
+    Bodies of which nothing is given turn towards zero, then slides go to their middle.
+    """
+    named, still = named_bodies(places.scene), [0.0] * len(pose)
+    free = [3 * i + 2 for i, body in enumerate(places.closed.bodies) if body not in named]
+    turning, angles = places.length * np.eye(len(pose))[free], np.arange(len(pose)) % 3 == 2
+    farthest = distance(places.given, pose, np.zeros_like(pose)) * (1.0 + ALIKE)
+    farthest += KEPT * places.length
+    for _ in range(MOST_ITERATIONS):
+        levels = [
+            places.constraints(places.closed, pose),
+            places.wanted(kept, pose),
+            places.wanted((one for one in places.given if one not in kept), pose),
+            Rows(applied(turning, pose), turning),
+            Rows(*arrays(places.closed.slides(pose.tolist(), still), len(pose))),
+        ]
+        step = step_of(levels, places.scale)
+        step *= min(1.0, LARGEST_TURN / max(float(np.abs(step[angles]).max()), 1e-300))
+        found = _with(places, pose + step, kept, 2)
+        if found is None or _from_zero(places, found) > (1.0 + KEPT) * _from_zero(places, pose):
+            break
+        if distance(places.given, found, np.zeros_like(pose)) > farthest:
+            break
+        pose = found
+        if float(np.abs(step / places.scale).max()) < KEPT:
+            break
+    return pose
 
 
 def named_bodies(scene: Scene) -> set[str]:

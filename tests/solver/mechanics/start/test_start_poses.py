@@ -283,3 +283,23 @@ def test_a_body_points_to_what_it_cannot_reach_and_is_not_wound_up(
 def test_a_rough_angle_chooses_its_assembly_of_many_bodies(bodies: int) -> None:
     document = held_four_bar(-0.88, bodies - 3)
     assert put_together(document)[1]["rod"][2] == pytest.approx(-0.9623, abs=1e-4)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_what_rough_values_leave_free_starts_at_zero_and_in_the_middle(side: float) -> None:
+    """A bar hung on a rod was turned by some angle, and a block off its guide's point, by chance.
+
+    Both angles of crank and rod cannot hold: 0.9 and -0.5 do not meet the slider's line.
+    """
+    start = {"angles": {"crank": 0.9 * side, "rod": -0.5 * side}}
+    document = slider_crank(start, 0.25, 0.4)
+    document["ground"]["points"]["G"] = [-1.0, 0.3]
+    document["bodies"] |= {"hung": bar(0.3), "block": bar(0.1)}
+    document["joints"] |= {
+        "hinge": revolute("rod.a", "hung.a"),
+        "rails": {"type": "prismatic", "guide": "ground.G", "slider": "block.a", "axis": [3, side]},
+    }
+    found, pose, _ = put_together(document)
+    assert found.misfits
+    assert pose["hung"][2] == pytest.approx(0.0, abs=1e-9)
+    np.testing.assert_allclose(pose["block"], [-0.9, 0.3, 0.0], rtol=0, atol=1e-9)
