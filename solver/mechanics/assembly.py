@@ -224,7 +224,7 @@ def _assembled(scene: Scene) -> _Found:
     pose = guess.copy()
     close(places.closed, pose, places.driven, places.scale)
     pose = in_given_turns(places, pose)
-    if places.keeps(places.given, pose):
+    if places.is_closed(places.closed, pose) and places.keeps(places.given, pose):
         return _Found(places, _assembly(places, places.closed, pose), None)
     found = opened(places, guess, places.given)
     return _Found(

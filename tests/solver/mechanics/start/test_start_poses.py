@@ -303,3 +303,28 @@ def test_what_rough_values_leave_free_starts_at_zero_and_in_the_middle(side: flo
     assert found.misfits
     assert pose["hung"][2] == pytest.approx(0.0, abs=1e-9)
     np.testing.assert_allclose(pose["block"], [-0.9, 0.3, 0.0], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("rocker", [0.0, math.pi])
+def test_bars_that_are_drawn_in_line_and_do_not_meet_are_put_together(rocker: float) -> None:
+    """In line no step of Newton's iteration leaves the line: 0.05 m or more remained open.
+
+    The crank is kept; rod and rocker meet where circles about their other ends do.
+    """
+    document = {
+        "name": "four-bar",
+        "ground": {"points": {"O": [0, 0], "C": [0.3, 0]}},
+        "bodies": {"crank": bar(0.05), "rod": bar(0.125), "rocker": bar(0.075)},
+        "joints": {
+            "A": revolute("ground.O", "crank.a"),
+            "B": revolute("crank.b", "rod.a"),
+            "C": revolute("rod.b", "rocker.b"),
+            "D": revolute("ground.C", "rocker.a"),
+        },
+        "start": {"angles": {"crank": 0.0, "rod": 0.0, "rocker": rocker}},
+    }
+    found, pose, _ = put_together(document)
+    assert found.residual < 1e-12
+    cosine = (0.25**2 + 0.2**2 - 0.15**2) / (2.0 * 0.25 * 0.2)
+    assert pose["crank"][2] == pytest.approx(0.0, abs=1e-9)
+    assert abs(pose["rod"][2]) == pytest.approx(math.acos(cosine), abs=1e-9)
