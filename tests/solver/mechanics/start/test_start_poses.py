@@ -307,7 +307,7 @@ def test_what_rough_values_leave_free_starts_at_zero_and_in_the_middle(side: flo
 
 @pytest.mark.parametrize("rocker", [0.0, math.pi])
 def test_bars_that_are_drawn_in_line_and_do_not_meet_are_put_together(rocker: float) -> None:
-    """In line no step of Newton's iteration leaves the line: 0.05 m or more remained open.
+    """In line no step of Newton's iteration leaves the line: 0.025 m or 0.05 m remained open.
 
     The crank is kept; rod and rocker meet where circles about their other ends do.
     """
