@@ -14,6 +14,8 @@ from jointplay.records.study import StudySource
 
 _PANEL_HEIGHT: Final = 45.0  # mm
 _LOW_HEIGHT: Final = 25.0
+_INTERVALS: Final = 4
+"""Intervals between numbers of the exponent at most: a low panel had one number, 0."""
 BARS: Final = "Bars: standard errors of the exponents."
 
 
@@ -31,6 +33,8 @@ def draw_exponents(
     groups
         Points of one colour.
     """
+    from matplotlib.ticker import MaxNLocator
+
     exponents = source.indicators["lyapunov"][points]
     errors = source.indicators.get("lyapunov_error")
     reach = np.zeros_like(exponents) if errors is None else errors[points]
@@ -51,6 +55,7 @@ def draw_exponents(
             markeredgewidth=0.0,
             elinewidth=0.4,
         )
+    axes.yaxis.set_major_locator(MaxNLocator(_INTERVALS, steps=[1, 2, 2.5, 5, 10], min_n_ticks=3))
     axes.set_ylabel("exponent [1/s]")
 
 

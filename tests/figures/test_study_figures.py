@@ -112,6 +112,15 @@ def test_verdicts_colour_the_sections_of_their_values():
     np.testing.assert_array_equal(np.sort(shown), np.sort(source.indicators["lyapunov"]))
 
 
+@pytest.mark.parametrize("least", [-140.0, -9.0, -0.3])
+def test_a_low_panel_of_exponents_has_numbers_to_read_them_by(least):
+    source = bifurcation(points=60, record=5, judged=True)
+    source.indicators["lyapunov"] = np.linspace(least, -0.1 * least, 60)
+    _, exponents = drawn_with(source, "block.x", None).axes
+    low, high = exponents.get_ylim()
+    assert sum(low <= number <= high for number in exponents.get_yticks()) >= 3
+
+
 def test_names_of_special_orbits_stay_within_the_panel():
     columns = {"value": [1.0, 2.0, 1.0], "length": [0.0, 1.0, 2.0], "label": [0.0, 1.0, 0.0]}
     columns |= {"bound": [0.0] * 3, "unstable": [0.0, 0.0, 1.0], "state.x": [0.0, 1.0, 2.0]}
