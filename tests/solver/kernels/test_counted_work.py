@@ -32,7 +32,7 @@ CALLS = {
             "scan_some": 0.002,
             "foresee_bends": 0.113,  # a lane is looked into in one step of ninety
             "gaps_within": 0.004,
-            "channels_within": 0.096,
+            "channels_within": 0.103,
             "channels_around": 0.004,
         },
         "crossings": {"scan_some": 0.009, "channels_within": 0.01},
@@ -43,7 +43,7 @@ CALLS = {
             "gaps_within": 2.047,
             "scan_some": 0.643,
             "foresee_bends": 0.675,
-            "channels_within": 0.582,
+            "channels_within": 0.685,
             "channels_around": 3.344,  # rounding of forces that nothing carries is not followed
         },
         "crossings": {"scan_some": 0.646, "channels_within": 0.24},
@@ -73,7 +73,7 @@ CALLS = {
             "gaps_within": 0.989,
             "scan_some": 0.858,
             "foresee_bends": 0.791,
-            "channels_within": 0.938,  # each of its contacts is short, and resolved
+            "channels_within": 1.174,  # each of its contacts is short, and resolved
             "channels_around": 1.524,
         },
         "crossings": {"scan_some": 0.954, "channels_within": 1.876},

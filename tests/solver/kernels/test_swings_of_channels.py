@@ -56,8 +56,8 @@ def one_by_one(values: Any, *of_lane: Any) -> tuple[Any, ...]:
             bend += 1e-300
             close = max(min(highest - high, low - lowest) - REACH * by, 0.0)
             speed = abs(last - first)
-            turning = 2.0 * np.sqrt(bend * close + 0.5 * speed * speed) - speed
-            pause = min(pause, 0.5 * max(turning, speed - REACH * by) / bend)
+            way = speed + np.sqrt(bend * close) + 1e-300
+            pause = min(pause, 0.5 * max(close / way, (speed - REACH * by) / bend))
     return near, rough, pause, most
 
 

@@ -144,9 +144,8 @@ class _Approach:
     """In how many steps a swing may come to an extreme that now is farther by the `rest`.
 
     Ends of steps must come as close to it, and turn: while they change by more than that from one
-    step to the next, the next one is beyond all that is in this. They are taken to change twice as
-    much as now, and to bend four times as much. What bends inside the step is mostly the swing, and
-    tells nothing of ends.
+    step to the next, the next one is beyond all that is in this. They are taken to change and bend
+    twice as much as now. What bends inside the step is mostly the swing, and tells nothing of ends.
     """
 
     def __init__(self, speed, bend, rest, swing) -> None:
@@ -155,15 +154,15 @@ class _Approach:
         self._close, self._beyond = larger(rest - swing, 0.0), speed - swing
 
     def steps(self) -> Eight:
-        """Return that: half of the least time to turn there, gaining speed and then losing it."""
-        most = (self._bend * self._close + 0.5 * self._speed * self._speed).sqrt()
-        return 0.5 * larger(2.0 * most - self._speed, self._beyond) / self._bend
+        """Return that."""
+        way = self._speed + (self._bend * self._close).sqrt() + TINY
+        return 0.5 * larger(self._close / way, self._beyond / self._bend)
 
     def may_end(self, pause) -> Eight:
         """Return where it may be fewer than a pause, without divisions and roots."""
-        bends = 2.0 * BARELY * pause * self._bend
-        most = bends * (bends + 2.0 * self._speed) - self._speed * self._speed
-        late = most < 4.0 * self._bend * self._close
+        twice = 2.0 * BARELY * pause
+        bends, left = twice * self._bend, self._close - twice * self._speed
+        late = (left > 0.0) & (twice * bends * self._close < left * left)
         return ~(late | (bends < self._beyond))
 
 
