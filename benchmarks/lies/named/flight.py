@@ -8,7 +8,8 @@ import numpy as np
 
 from benchmarks.lies.named.lie import Found, Lie, by_bars, by_extremes
 from benchmarks.lies.run import Finished, finish
-from benchmarks.lies.scenes.bearing import rotor_in_bearing
+from benchmarks.lies.scenes.bearing import play, rotor_in_bearing
+from benchmarks.lies.scenes.mechanisms import loose_slider_crank
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.study.run import StudyRun
 
@@ -141,6 +142,32 @@ WALKING = {
     },
 }
 
+RETURNING = loose_slider_crank(
+    (0.015360672023, 0.0738034017625362),
+    0.566549694427,
+    [
+        play(
+            0.00013216437370081868,
+            0.0006116957109345007,
+            (688617643.521, 0.293425899466),
+            (0.10532522082, 0.0163968285482, 0.0081984142741),
+        ),
+        play(
+            2.481700783935138e-05,
+            0.0001191455820677523,
+            (4438020896.43, 0.384486750705),
+            (0.0621645962406, 1.72030496582e-05, 8.6015248291e-06),
+        ),
+    ],
+    {"position": 2.81217723609, "speed": 7.79251479504},
+)
+"""A journal that has passed the centre turns and passes it again, all in one step."""
+TURNED_BACK = Lie(
+    "journal that comes back in a flight",
+    "an extreme was missed at the second of two passages in a step",
+    lambda: by_extremes(_job(RETURNING, 0.0230430681, method="tsitouras", tolerance=1.2137e-6)),
+)
+
 LIES = (
     Lie(
         "rotor on a level shaft",
@@ -178,6 +205,7 @@ LIES = (
         "an extreme before an onset was missed",
         lambda: by_extremes(_job(WALKING, 0.0125, method="tsitouras", tolerance=1.82687e-05)),
     ),
+    TURNED_BACK,
     Lie("level passed in flight", "sections were missed", _every_passage),
     Lie(
         "motors at a ratio of a thousand",

@@ -69,11 +69,11 @@ def contact_flags(
     are fixed: there contacts change where a step ends. A gap whose journal stays in an enclosure
     off the wall did not close, and one in contact that stays in one beyond it did not open
     (`solver.kernels.emit.enclosure`, also of `away`). Steps that are long beside what a contact
-    does in them have no enclosure there. A journal that passes the centre of its bearing is flagged
-    where its normal turns much.
+    does in them have no enclosure there. A journal whose normal turns much is flagged: it may pass
+    the centre of its bearing.
     """
     gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
-    start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
+    start = v(f"gap_start{j}")
     perhaps = dip = passing = 0.0
     if method.error:
         held = "none" if method.watched_closely else enclosure
@@ -83,7 +83,7 @@ def contact_flags(
     opened = _where(RELEASE, maximum(-rate, start - LANDED))
     release = select_positive(gap, dip, opened)
     if enclosure == "circle":
-        passing = _where(PASSING, whips_round(v, j), rate, -start_rate)
+        passing = _where(PASSING, whips_round(v, j))
     touching = v(f"mode{j}")
     return (
         select_positive(touching, 0.0, onset),

@@ -14,7 +14,13 @@ from jointplay.solver.kernels.emit.judging import PASSING
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.dense_rows import write_row
-from jointplay.solver.kernels.loop.extremes.passages import beside, closest_approach, passes
+from jointplay.solver.kernels.loop.extremes.passages import (
+    PARTS,
+    beside,
+    closest_approach,
+    next_passage,
+    path_of,
+)
 from jointplay.solver.kernels.loop.runs import SECTIONS, Run, SectionKind
 from jointplay.solver.kernels.loop.step import Step, channels_within
 
@@ -141,11 +147,14 @@ def instants_to_look_at(s: Step, shares: np.ndarray) -> int:
         shares[i] = i / (INSTANTS - 1)
     count = INSTANTS
     for j in range(s.at.pairs):
-        if passes(j, s) and count + INSTANTS <= MOST_INSTANTS // 4:
-            passage = closest_approach(j, s)
+        path = path_of(j, s)
+        part = next_passage(j, 0, path, s)
+        while part < PARTS and count + INSTANTS <= MOST_INSTANTS // 4:
+            passage = closest_approach(path, part, s)
             for i in range(INSTANTS):
                 shares[count + i] = beside(i, passage)
             count += INSTANTS
+            part = next_passage(j, part + 1, path, s)
     return ordered(shares, count)
 
 

@@ -28,16 +28,8 @@ SLACK = 0.1
 WIDTHS = 2.0
 """Widths of a passage to either side in which extremes are sought."""
 AXES = 2
-
-
-@inner_kernel()
-def passes(j: int, s: Step) -> bool:
-    """Whether pair j is open and its journal comes closest to the centre in this step."""
-    lane, at, work = s.lane, s.at, s.work
-    return bool(
-        work[at.mode + j, lane] <= 0.0
-        and work[at.gap_rate_start + j, lane] < 0.0 < work[at.gap_rate + j, lane]
-    )
+PARTS = 8
+"""Parts of a step, in each of which a journal comes closest to the centre once at most."""
 
 
 class Passage(NamedTuple):
@@ -74,33 +66,68 @@ def path_of(j: int, s: Step) -> np.ndarray:
 
 
 @inner_kernel()
-def closest_approach(j: int, s: Step) -> Passage:
-    """Return where a journal is closest to the centre: by Newton's rule inside a bracket."""
-    path, low, high, share = path_of(j, s), 0.0, 1.0, 0.5
-    distance = way = 0.0
+def approach(path: np.ndarray, share: float) -> tuple[float, float, float, float]:
+    """Return how a journal moves at a share of the step; rates are in a whole step.
+
+    The square of its distance from the centre, m²; half the rate of that, and the rate of this
+    half, m²; the square of its way in a step, m².
+    """
+    square = half = slope = way = 0.0
+    for axis in range(AXES):
+        position = rate = bend = 0.0
+        for k in range(5, -1, -1):
+            bend = bend * share + 2.0 * rate
+            rate = rate * share + position
+            position = position * share + path[axis, k]
+        square += position * position
+        half += position * rate
+        slope += rate * rate + position * bend
+        way += rate * rate
+    return square, half, slope, way
+
+
+@inner_kernel()
+def next_passage(j: int, part: int, path: np.ndarray, s: Step) -> int:
+    """Return the next of `PARTS` of the step, from one on, in which a journal comes closest.
+
+    `PARTS` : none; so for a pair that touches. A journal that turns outside may come back in a
+    step, and one that is thrown up fall back.
+    """
+    if s.work[s.at.mode + j, s.lane] > 0.0:
+        return PARTS
+    _, begins, _, _ = approach(path, part / PARTS)
+    for k in range(part, PARTS):
+        _, ends, _, _ = approach(path, (k + 1) / PARTS)
+        if begins < 0.0 < ends:
+            return k
+        begins = ends
+    return PARTS
+
+
+@inner_kernel()
+def passes(j: int, s: Step) -> bool:
+    """Whether pair j is open and its journal comes closest to the centre in this step."""
+    return bool(next_passage(j, 0, path_of(j, s), s) < PARTS)
+
+
+@inner_kernel()
+def closest_approach(path: np.ndarray, part: int, s: Step) -> Passage:
+    """Return where a journal is closest to the centre in a part: by Newton's rule in a bracket."""
+    low, high = part / PARTS, (part + 1) / PARTS
+    share, square, way = 0.5 * (low + high), 0.0, 0.0
     for _ in range(MOST_ITERATIONS):
-        square = approach = slope = way = 0.0
-        for axis in range(AXES):
-            position = rate = bend = 0.0
-            for k in range(5, -1, -1):
-                bend = bend * share + 2.0 * rate
-                rate = rate * share + position
-                position = position * share + path[axis, k]
-            square += position * position
-            approach += position * rate
-            slope += rate * rate + position * bend
-            way += rate * rate
-        distance, way = np.sqrt(square), np.sqrt(way)
-        if approach > 0.0:
+        square, half, slope, way = approach(path, share)
+        if half > 0.0:
             high = share
         else:
             low = share
-        better = share - approach / slope if slope > 0.0 else low
+        better = share - half / slope if slope > 0.0 else low
         if not low < better < high:
             better = 0.5 * (low + high)
         if abs(better - share) <= 1e-16:
             break
         share = better
+    distance, way = np.sqrt(square), np.sqrt(way)
     width = max(distance / (way + 1e-300), NARROWEST)
     return Passage(share, width, distance, way / s.work[s.at.tried, s.lane])
 
@@ -136,10 +163,13 @@ def beside(i: int, passage: Passage) -> float:
 def look_about_passages(every: np.ndarray, low: float, high: float, s: Step) -> None:
     """Seek extremes of rows about all passages between two shares of the step."""
     for j in range(s.at.pairs):
-        if passes(j, s):
-            passage = closest_approach(j, s)
+        path = path_of(j, s)
+        part = next_passage(j, 0, path, s)
+        while part < PARTS:
+            passage = closest_approach(path, part, s)
             if not is_through(passage, s):
                 look_about(passage, every, low, high, s)
+            part = next_passage(j, part + 1, path, s)
 
 
 @inner_kernel()
@@ -148,19 +178,27 @@ def look_about_fast_passages(s: Step) -> None:
 
     To be called while ``channel`` has the values at the step's end, before the scan.
     """
-    lane, at, work = s.lane, s.at, s.work
-    for j in range(at.pairs):
-        if not passes(j, s):
-            continue
-        passage = closest_approach(j, s)
-        if NARROWEST < passage.share < 1.0 - NARROWEST and may_be_fastest(j, passage, s):
-            rows, count = np.empty(2, np.int64), 0
-            slip = NO_ROW if is_through(passage, s) else work[at.slip_row + j, lane]
-            for row in (slip, work[at.penetration_row + j, lane]):
-                if row != NO_ROW:
-                    rows[count] = int(row)
-                    count += 1
-            look_about(passage, rows[:count], 0.0, 1.0, s)
+    for j in range(s.at.pairs):
+        path = path_of(j, s)
+        part = next_passage(j, 0, path, s)
+        while part < PARTS:
+            look_about_fast(j, closest_approach(path, part, s), s)
+            part = next_passage(j, part + 1, path, s)
+
+
+@inner_kernel()
+def look_about_fast(j: int, passage: Passage, s: Step) -> None:
+    """Seek extremes of pair j's slip and penetration about a passage, if they may be beyond."""
+    inside = NARROWEST < passage.share < 1.0 - NARROWEST
+    if inside and may_be_fastest(j, passage, s):
+        lane, at, work = s.lane, s.at, s.work
+        rows, count = np.empty(2, np.int64), 0
+        slip = NO_ROW if is_through(passage, s) else work[at.slip_row + j, lane]
+        for row in (slip, work[at.penetration_row + j, lane]):
+            if row != NO_ROW:
+                rows[count] = int(row)
+                count += 1
+        look_about(passage, rows[:count], 0.0, 1.0, s)
 
 
 @inner_kernel()

@@ -1,4 +1,4 @@
-"""Error bars that were lies once, and extremes at ramps, in chatter and of bristles."""
+"""Error bars that were lies once, and extremes in a flight, at ramps, in chatter, of bristles."""
 
 import pytest
 
@@ -6,6 +6,7 @@ from benchmarks.lies.named import (
     bristles,
     chatter,
     companions,
+    flight,
     friction,
     meeting_again,
     ramps,
@@ -14,6 +15,7 @@ from benchmarks.lies.named.lie import Lie
 
 BARS = (
     *friction.BARS,
+    flight.TURNED_BACK,
     *ramps.LIES,
     *companions.LIES,
     *chatter.LIES,

@@ -27,7 +27,7 @@ from jointplay.solver.kernels.loop.step import Step, channels_around
 
 SHARP = 2e-7
 """Share of a channel's range up to now to which its extremes are sought."""
-FORETOLD = 2e-8
+FORETOLD = 5e-9
 """The same, of the bound on what a quartic foretells that is not evaluated there."""
 LEAST_OFF = 0.1
 """Share of the bound that a quartic's error is taken to be where it happens to be small."""
