@@ -98,7 +98,7 @@ def next_passage(j: int, part: int, path: np.ndarray, s: Step) -> int:
     _, begins, _, _ = approach(path, part / PARTS)
     for k in range(part, PARTS):
         _, ends, _, _ = approach(path, (k + 1) / PARTS)
-        if begins < 0.0 < ends:
+        if begins < 0.0 <= ends:
             return k
         begins = ends
     return PARTS
