@@ -1,6 +1,6 @@
 """Arrow's stream: a column a quantity, with its ``unit`` as metadata."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from jointplay.records.table_files.column import Column
@@ -14,11 +14,17 @@ def encode(columns: Sequence[Column], *, complete: bool) -> bytes:
     """Return the stream; ``complete`` is metadata of its schema."""
     import pyarrow  # is there only with the extra
 
-    table = table_of(columns, complete=complete)
-    stream = pyarrow.BufferOutputStream()
-    with pyarrow.ipc.new_stream(stream, table.schema) as writer:
+    return written(pyarrow.ipc.new_stream, table_of(columns, complete=complete))
+
+
+def written(new: Callable[..., Any], table: Any) -> bytes:
+    """Return what one of pyarrow's writers makes of a table."""
+    import pyarrow
+
+    made = pyarrow.BufferOutputStream()
+    with new(made, table.schema) as writer:
         writer.write_table(table)
-    return bytes(stream.getvalue())
+    return bytes(made.getvalue())
 
 
 def table_of(columns: Sequence[Column], *, complete: bool) -> Any:

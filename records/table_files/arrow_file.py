@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from jointplay.records.table_files.arrow import table_of
+from jointplay.records.table_files.arrow import table_of, written
 from jointplay.records.table_files.column import Column
 
 SUFFIXES = (".arrow", ".feather")
@@ -14,8 +14,4 @@ def encode(columns: Sequence[Column], *, complete: bool) -> bytes:
     """Return the file; ``complete`` is metadata of its schema."""
     import pyarrow  # is there only with the extra
 
-    table = table_of(columns, complete=complete)
-    file = pyarrow.BufferOutputStream()
-    with pyarrow.ipc.new_file(file, table.schema) as writer:
-        writer.write_table(table)
-    return bytes(file.getvalue())
+    return written(pyarrow.ipc.new_file, table_of(columns, complete=complete))

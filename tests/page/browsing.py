@@ -1,6 +1,7 @@
 """Pages of a browser that complain about errors, and look for barriers with axe."""
 
 import os
+import re
 import shutil
 import time
 from collections.abc import Iterator
@@ -27,6 +28,14 @@ def expect(shown: Any) -> Any:
     from playwright import sync_api  # what needs it is skipped where it is not installed
 
     return sync_api.expect(shown)
+
+
+def run_and_come_back(page: Any) -> None:
+    """Run the job of a form, cancel it, and open the form with its numbers."""
+    page.get_by_role("button", name="Run", exact=True).click()
+    expect(page).to_have_url(re.compile("#/job/"))
+    page.get_by_role("button", name="Cancel").click()
+    page.get_by_role("link", name="Run with changes").click()
 
 
 class Browsing:

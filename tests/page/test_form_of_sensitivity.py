@@ -3,7 +3,7 @@
 import re
 
 from jointplay.solver.kinds import admit
-from tests.page.browsing import barriers, expect
+from tests.page.browsing import barriers, expect, run_and_come_back
 from tests.page.test_forms_of_kinds import shown_document
 from tests.worker_by_hand import SENSITIVITY
 
@@ -37,10 +37,7 @@ def test_parameters_are_given_distributions_submitted_and_changed(browsing, http
         }
         assert admit(document).points == 32
         assert barriers(page) == []
-        page.get_by_role("button", name="Run", exact=True).click()
-        expect(page).to_have_url(re.compile("#/job/"))
-        page.get_by_role("button", name="Cancel").click()
-        page.get_by_role("link", name="Run with changes").click()
+        run_and_come_back(page)
         expect(page.get_by_label("Parameter 2", exact=True)).to_have_value("friction")
         expect(page.get_by_label("Parameter 2, distribution", exact=True)).to_have_value("normal")
         page.goto(f"{service_url}/#/jobs?kind=sensitivity")

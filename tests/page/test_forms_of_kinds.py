@@ -6,7 +6,7 @@ import re
 import pytest
 
 from jointplay.solver.kinds import KINDS, admit
-from tests.page.browsing import barriers, expect
+from tests.page.browsing import barriers, expect, run_and_come_back
 from tests.seams.relief import Relief
 
 
@@ -48,10 +48,7 @@ def test_a_kind_of_two_axes_is_filled_in_submitted_and_changed(browsing, http, s
         }
         assert admit(document).shape == (2, 3)
         assert barriers(page) == []
-        page.get_by_role("button", name="Run", exact=True).click()
-        expect(page).to_have_url(re.compile("#/job/"))
-        page.get_by_role("button", name="Cancel").click()
-        page.get_by_role("link", name="Run with changes").click()
+        run_and_come_back(page)
         expect(page.get_by_label("By", exact=True)).to_have_value("friction")
         expect(page.get_by_label("By, values", exact=True)).to_have_value("2")
         page.goto(f"{service_url}/#/jobs?kind=relief")
@@ -101,10 +98,7 @@ def test_a_continuation_is_filled_in_submitted_and_changed(browsing, service_url
         second = {"parameter": "amplitude", "values": {"from": 0.0025, "to": 0.0075, "count": 24}}
         assert shown_document(page)["second"] == second
         assert barriers(page) == []
-        page.get_by_role("button", name="Run", exact=True).click()
-        expect(page).to_have_url(re.compile("#/job/"))
-        page.get_by_role("button", name="Cancel").click()
-        page.get_by_role("link", name="Run with changes").click()
+        run_and_come_back(page)
         expect(page.get_by_label("Parameter", exact=True)).to_have_value("speed")
         expect(page.get_by_label("To", exact=True)).to_have_value("30")
         expect(page.get_by_label("Second", exact=True)).to_have_value("amplitude")
@@ -123,10 +117,7 @@ def test_numbers_of_the_start_vary_and_are_drawn(browsing, service_url):
         assert document["along"] == {"start": place, "values": values}
         assert document["by"]["start"] == rate
         assert admit(document).shape == (24, 24)
-        page.get_by_role("button", name="Run", exact=True).click()
-        expect(page).to_have_url(re.compile("#/job/"))
-        page.get_by_role("button", name="Cancel").click()
-        page.get_by_role("link", name="Run with changes").click()
+        run_and_come_back(page)
         expect(page.get_by_label("Along", exact=True)).to_have_value(place)
         expect(page.get_by_label("Along, to", exact=True)).to_have_value("0.18")
         page.get_by_label("What to compute").select_option("basin-stability")

@@ -30,7 +30,7 @@ CALLS = {
     "press, steady": {
         "extremes": {
             "scan_some": 0.002,
-            "foresee_bends": 0.113,  # a lane is looked into in one step of ninety
+            "foresee_bends": 0.113,  # a lane is looked into in one step of eighty
             "gaps_within": 0.004,
             "channels_within": 0.103,
             "channels_around": 0.004,

@@ -8,6 +8,7 @@ from benchmarks.lies.named import (
     companions,
     flight,
     friction,
+    kinks_beside,
     meeting_again,
     ramps,
 )
@@ -16,6 +17,7 @@ from benchmarks.lies.named.lie import Lie
 BARS = (
     *friction.BARS,
     flight.TURNED_BACK,
+    kinks_beside.FORETOLD_TOO_HIGH,
     *ramps.LIES,
     *companions.LIES,
     *chatter.LIES,
