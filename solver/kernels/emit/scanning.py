@@ -25,6 +25,13 @@ one, if the changes are r (before) and c (after) and the second step is q times 
 sampled every 1.5 rad, the limit of stability, up to 1.6 times as far. REACH covers that, SPARE the
 even case: steps of a third order at that limit turn at every end, 0.035 of both changes beyond."""
 
+UNSEEN, TIMES = 1e-5, 4.0
+"""Share of its range by which a channel may swing inside steps that it rises or falls through and
+not be noticed, and how many times as far as it changes in the steps where it turns.
+
+One that turns more slowly than that swings beyond its step ends, in steps before, and is looked at.
+"""
+
 
 def allocate(layout: Layout, rows: int, rest: int) -> None:
     """Give slots to `rows` channel values, their predecessors, changes and extremes so far.
@@ -61,7 +68,8 @@ def _scan(name: str, layout: Layout, rows: int) -> Source:
     longer, far = tracer.variable("lengthening"), tracer.variable("reach")
     onwards = longer * rose
     both, uneven = abs(onwards - change), longer * onwards + change
-    found = far * uneven * uneven + (SPARE * both - nearest) * both
+    unseen = minimum(UNSEEN * (highest - lowest), TIMES * both)
+    found = far * uneven * uneven + (SPARE * both + unseen - nearest) * both
     found = select_positive(rose * change, 0.0, found)  # signs differ where it turned
     if name == "scan_some":
         accepted = tracer.variable("accept")

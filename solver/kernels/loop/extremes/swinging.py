@@ -14,6 +14,7 @@ from numba import float64, int64, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
+from jointplay.solver.kernels.emit.scanning import UNSEEN
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.eights import (
     WORD,
@@ -35,9 +36,6 @@ SEEN = 1e-6
 REACH = 4.0
 """Times that a swing may be larger between the instants, or in the next steps that are not looked
 at: one that swings more is. A swing that is not worth a search may grow until it is."""
-HIDDEN = 1e-5
-"""Share of its range from which on a swing counts that a channel rises through: where it no longer
-rises, extremes of the step that turns are found, and others are beyond these by a tenth of that."""
 MUCH = SEEN / REACH
 """Share of its range that stands for a swing which is worth a search: it may grow by `REACH`."""
 BARELY = 1.0 + 1e-9
@@ -123,7 +121,7 @@ def _add(found, values, highest, lowest, change, kept):
     rest = smaller(highest - high, low - lowest)
     bend = smaller(abs(end - start - change), UNKNOWN) + TINY
     inside = _hidden(values)
-    hidden = where(HIDDEN * spread < inside, inside, 0.0)
+    hidden = where(UNSEEN * spread < inside, inside, 0.0)
     by = where(seen < swing, swing, hidden)
     found.wait(_Approach(abs(end - start), bend, rest, REACH * by), kept & (by > 0.0))
 
@@ -132,7 +130,8 @@ def _hidden(values):
     """Return by how much channels swing about the way from end to end, if as quartics do.
 
     Of channels that rise by more in the step than they swing, nothing else shows it. A quartic that
-    is flat at both ends has a height of 1/16, and fourth differences of 24 / 7^4.
+    is flat at both ends has a height of 1/16, and fourth differences of 24 / 7^4. What swings less
+    than `UNSEEN` is sought where it turns, by the scan.
     """
     differences = values
     for _ in range(4):
