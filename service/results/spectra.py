@@ -28,7 +28,7 @@ class SpectralDensity(Described):
 
     frequency: Values = Field(
         description="Hz, above zero. Of more than 2000, those of the largest and the smallest power"
-        " in each of 1000 columns of a logarithmic axis: frequencies are there twice."
+        " in each of 1000 columns of a logarithmic axis."
     )
     density: Values = Field(description="One-sided, by Welch's method with Hann windows.")
     band_limit: float = in_unit(

@@ -25,27 +25,42 @@ class Quantile(ChannelStatistic):
         return "median" if self.level == 0.5 else f"{self.level:g} quantile"
 
     def begin(self, grid: Grid, channels: int) -> Floats:
-        """Return room for the samples that will be kept."""
-        return np.zeros((-(-grid.samples // stride(grid)), channels))
+        """Return room for the samples that will be kept; NaN where none is."""
+        most = MOST_KEPT if grid.open_ended else -(-grid.samples // stride(grid, grid.samples))
+        return np.full((min(most, grid.samples), channels), np.nan)
 
     def add(self, tally: Floats, values: Floats, before: int, grid: Grid) -> None:
-        """Keep every nth."""
-        every = stride(grid)
+        """Keep every nth; of those before, too, where n has grown."""
+        every, last = stride(grid, before + len(values)), stride(grid, before)
+        if every > last:
+            fewer = tally[:: every // last].copy()
+            tally[: len(fewer)], tally[len(fewer) :] = fewer, np.nan
         kept = values[-before % every :: every]
         first = -(-before // every)
         tally[first : first + len(kept)] = kept
 
     def value(self, tally: Floats, count: int) -> Floats:
         """Return the quantile of what was kept."""
-        return np.asarray(np.quantile(tally, self.level, axis=0), np.float64)
+        kept = tally[~np.isnan(tally).all(axis=1)]
+        return np.asarray(np.quantile(kept, self.level, axis=0), np.float64)
 
 
-def stride(grid: Grid) -> int:
-    """Return every how many samples one is kept.
+def stride(grid: Grid, samples: int) -> int:
+    """Return every how many samples one is kept, of so many that there have been.
 
-    It shares no factor with the samples of a period: of a periodic motion, all phases are kept.
+    It shares no factor with the samples of a period: of a periodic motion, all phases are kept. On
+    an open-ended grid it grows by a factor wherever there is no more room.
     """
-    every = -(-grid.samples // MOST_KEPT)
-    while math.gcd(every, grid.per_period) > 1:
-        every += 1
-    return every
+    if grid.open_ended:
+        factor, every = _coprime(2, grid.per_period), 1
+        while samples > every * MOST_KEPT:
+            every *= factor
+        return every
+    return _coprime(-(-grid.samples // MOST_KEPT), grid.per_period)
+
+
+def _coprime(least: int, number: int) -> int:
+    """Return the smallest number from `least` on that shares no factor with another."""
+    while math.gcd(least, number) > 1:
+        least += 1
+    return least

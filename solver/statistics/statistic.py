@@ -18,6 +18,8 @@ class Grid:
 
     samples: int
     per_period: int
+    open_ended: bool = False
+    """Whether the run may end before there are so many."""
 
 
 class ChannelStatistic(ABC):

@@ -91,6 +91,11 @@ class Study:
         return tuple(self.job.get("statistics", ()))
 
     @property
+    def ends_with_events(self) -> bool:
+        """Whether points end with their last section, whenever that is, or after `duration`."""
+        return not {"onset", "channel"}.isdisjoint(self.job.get("section", {}))
+
+    @property
     def keeps_ledger(self) -> bool:
         """Whether points have their works, and what the energy ledger lacks."""
         return not self.brief and bool(self.job.get("energies", True))

@@ -1,7 +1,7 @@
 """A point of a study while it is computed or waits, and tallies of the time after settling."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,6 +87,11 @@ class Stretch:
     """Index of the first sample."""
     grid: Grid
 
+    def up_to(self, reached: float) -> "Stretch":
+        """Return the part of it up to where a run has come, which ends early with its events."""
+        early = reached < self.end - SAME * self.step
+        return replace(self, end=reached) if early else self
+
 
 def stretch_of(study: Study, point: int) -> Stretch:
     """Return the stretch of a point's statistics."""
@@ -94,7 +99,8 @@ def stretch_of(study: Study, point: int) -> Stretch:
     per_period = int(study.job["samples_per_period"])
     step = float(study.period[point]) / per_period
     first, stop = (math.ceil(time / step - SAME) for time in (start, end))
-    return Stretch(start, end, step, first, Grid(stop - first, per_period))
+    grid = Grid(stop - first, per_period, study.ends_with_events)
+    return Stretch(start, end, step, first, grid)
 
 
 def begin_tallies(study: Study, run: PointRun, pairs: int) -> None:
@@ -118,17 +124,22 @@ def take_samples(study: Study, run: PointRun, values: Floats) -> None:
     run.sampled += len(values)
 
 
-def take_contacts(study: Study, run: PointRun, contacts: NDArray[np.void]) -> None:
-    """Take contacts that ended."""
-    stretch = stretch_of(study, run.point)
+def take_contacts(study: Study, run: PointRun, contacts: NDArray[np.void], reached: float) -> None:
+    """Take contacts that ended, or last at the end of the run; it has come to `reached`, s."""
+    stretch = stretch_of(study, run.point).up_to(reached)
     for name, tally in zip(study.statistics, run.tallies, strict=True):
         if name in OF_CONTACTS:
             OF_CONTACTS[name].add(tally, contacts, stretch.start, stretch.end)
 
 
-def statistics_in(study: Study, run: PointRun, pairs: tuple[str, ...]) -> dict[str, float]:
-    """Return the statistics of a point that has ended; `solver.statistics` says how named."""
-    stretch = stretch_of(study, run.point)
+def statistics_in(
+    study: Study, run: PointRun, pairs: tuple[str, ...], reached: float
+) -> dict[str, float]:
+    """Return the statistics of a point that ended at `reached`, s, by their names.
+
+    `solver.statistics` says how they are named.
+    """
+    stretch = stretch_of(study, run.point).up_to(reached)
     found: dict[str, float] = {}
     for name, tally in zip(study.statistics, run.tallies, strict=True):
         if name in OF_CHANNELS:

@@ -96,7 +96,7 @@ class Recording:
             take_samples(study, run, bundle.observe(lane, rows, self._sampled))
         contacts = bundle.impacts(lane)
         if len(contacts):
-            take_contacts(study, run, contacts)
+            take_contacts(study, run, contacts, bundle.lane(lane).time)
 
     def _statistics(self, lane: int, run: PointRun, *, whole: bool) -> dict[str, float]:
         """Return what every point has; those of channels and contacts too if it ran to its end."""
@@ -115,5 +115,6 @@ class Recording:
             kept = BRIEF if self._study.job["settle"] != "auto" else (*BRIEF, *OF_SETTLING)
             found = {name: found[name] for name in kept}
         if run.tallies and whole:
-            found |= statistics_in(self._study, run, self._bundle.kernel.pairs)
+            reached = self._bundle.lane(lane).time
+            found |= statistics_in(self._study, run, self._bundle.kernel.pairs, reached)
         return {name: float(value) for name, value in found.items()}

@@ -81,7 +81,27 @@ def test_its_tally_does_not_grow_with_the_time(name: str) -> None:
 @pytest.mark.parametrize("periods", [20, 999, 100_000])
 def test_quantiles_of_a_periodic_motion_see_all_its_phases(per_period: int, periods: int) -> None:
     grid = Grid(per_period * periods, per_period)
-    kept = np.arange(0, grid.samples, stride(grid))
+    kept = np.arange(0, grid.samples, stride(grid, grid.samples))
     phases = np.unique(kept % per_period)
     assert len(phases) == min(per_period, len(kept))
     assert math.isclose(len(kept), min(MOST_KEPT, grid.samples), rel_tol=0.5)
+
+
+@pytest.mark.parametrize("per_period", [16, 250, 2310])
+@pytest.mark.parametrize("samples", [2, MOST_KEPT, MOST_KEPT + 1, 100_000])
+def test_quantiles_of_a_run_that_ends_early_are_of_all_its_time(
+    per_period: int, samples: int
+) -> None:
+    """Values that grow evenly have the quantile that is its level, however they come."""
+    values = np.linspace(0.0, 1.0, samples)[:, None]
+    grid = Grid(10**9, per_period, open_ended=True)
+    pieces = np.split(values, np.sort(np.random.default_rng(1).integers(0, samples, 20)))
+    # one of up to 13 samples is kept where there is no more room, the last ones may be left out
+    error = 1e-12 if samples <= MOST_KEPT else 13.0 / MOST_KEPT
+    for name, level in (("quantile_05", 0.05), ("median", 0.5), ("quantile_95", 0.95)):
+        statistic, before = OF_CHANNELS[name], 0
+        tally = statistic.begin(grid, 1)
+        for piece in filter(len, pieces):
+            statistic.add(tally, piece, before, grid)
+            before += len(piece)
+        assert math.isclose(statistic.value(tally, before)[0], level, abs_tol=error)
