@@ -10,12 +10,12 @@ from jointplay.records.arrays import Flags
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes
 from jointplay.solver.kernels.loop.runs import RUNNING, Status
 from jointplay.solver.runs.study.gathered import Gathered
 from jointplay.solver.runs.study.held_starts import end_of_start
 from jointplay.solver.runs.study.judge import judged, looks_again, looks_longer
+from jointplay.solver.runs.study.neighbour import neighbours_start
 from jointplay.solver.runs.study.part_computed import part_computed
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_extremes import lanes_that_keep_steps
@@ -191,12 +191,13 @@ class LaneGroup:
         if status == Status.DONE and goes_on(*at):
             return True
         run.ended = self.recording.end(lane, run, status)
-        start = None if run.ended.code else self.bundle.state_of(lane)
-        following += self._next_of_chain(run, start)
+        following += self._next_of_chain(run, None if run.ended.code else lane)
         return looks_again(*at)
 
-    def _next_of_chain(self, run: PointRun, start: LaneStart | None) -> Iterator[PointRun]:
-        """Yield the next point of a chain, which starts there, or else as its scene says."""
+    def _next_of_chain(self, run: PointRun, lane: int | None) -> Iterator[PointRun]:
+        """Yield the next point of a chain, which starts where a lane is, or as its scene says."""
         order, position = self.study.chain_order[run.chain], run.position + 1
         if position < len(order):
-            yield PointRun(order[position], run.chain, position, start)
+            point = order[position]
+            there = None if lane is None else neighbours_start(self.study, self.bundle, lane, point)
+            yield PointRun(point, run.chain, position, there)

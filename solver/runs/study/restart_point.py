@@ -106,7 +106,8 @@ def _run(facts: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PointRun:
     run.tried = [end_of_facts(one) for one in tried]
     if starts:
         names = ("state", "contact", "impact_rate")
-        run.start = LaneStart(*(arrays.get(f"start{run.point}-{name}") for name in names))  # type: ignore[arg-type]
+        clock = (arrays[f"start{run.point}-{name}"].item() for name in ("period", "time"))
+        run.start = LaneStart(*(arrays.get(f"start{run.point}-{name}") for name in names), *clock)  # type: ignore[arg-type]
     return run
 
 
