@@ -44,6 +44,8 @@ class Sections(NamedTuple):
     """(states,) which are angles, whose whole turns do not count."""
     coordinates: int
     """Number of generalised coordinates."""
+    interval: float
+    """Mean time between them, s."""
 
 
 def indicators_of(
@@ -90,7 +92,8 @@ def indicators_of(
     if "spectrum" in chosen and len(states) < FEWEST_FOR_SPECTRUM:
         found |= dict.fromkeys(("line_frequency", "line_share", "flatness"), math.nan)
     elif "spectrum" in chosen:
-        spectrum = power_spectrum(principal_plane(states, sections.coordinates)[:, 0], period)
+        along = principal_plane(states, sections.coordinates)[:, 0]
+        spectrum = power_spectrum(along, sections.interval)
         frequency, share = strongest_line(spectrum)
         found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
     verdict = decide(lyapunov, zero_one, recurrence, rotation, finer)

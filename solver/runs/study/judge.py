@@ -82,7 +82,9 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     states = np.concatenate(run.seen) if run.seen else np.zeros((0, kernel.states))
     scales, angles = scales_of(study, kernel, run.point)
     period, growths = float(study.period[run.point]), _growths(study, run)
-    sections = Sections(states, scales, angles, len(kernel.coordinates))
+    moments = np.concatenate([np.zeros(0), *run.moments])
+    apart = float(np.diff(moments).mean()) if len(moments) > 1 else period
+    sections = Sections(states, scales, angles, len(kernel.coordinates), apart)
     found, verdict = indicators_of(study.indicators, sections, *growths, period, run.settled)
     if run.rest:
         states, verdict = np.stack(run.rest), RESTS

@@ -34,6 +34,8 @@ class PointRun:
     """Sections handed out."""
     seen: list[Floats] = field(default_factory=list)
     """States at sections, (sections, states) each, that settling or indicators still need."""
+    moments: list[Floats] = field(default_factory=list)
+    """Times of recorded sections at events, (sections,) each, s."""
     growth: list[Floats] = field(default_factory=list)
     """Logarithms of the tangent's growth in each recorded period."""
     finer: list[Floats] = field(default_factory=list)

@@ -82,9 +82,11 @@ class Recording:
             return []
         first = run.taken
         run.taken += len(rows)
+        times = bundle.kernel.row.times(rows, float(self._study.period[run.point]))
+        if self._study.ends_with_events and first < MOST_SECTIONS:
+            run.moments.append(times)
         if not len(self._observed):
             return []  # sections are looked at, and not kept
-        times = bundle.kernel.row.times(rows, float(self._study.period[run.point]))
         values = bundle.observe(lane, rows, self._observed)
         return [SectionRows(run.point, first, times, values)]
 

@@ -21,7 +21,7 @@ from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.version import SOLVER_VERSION
 
 _KIND = "block of a study"
-SERIES = ("seen", "growth", "finer", "tallies", "rest")
+SERIES = ("seen", "moments", "growth", "finer", "tallies", "rest")
 """Lists of arrays of a point's run that a restart point needs."""
 PARTS = ("column", "run", "first_energy")
 """Arrays of a lane, in the order of `PointRun.lane`."""

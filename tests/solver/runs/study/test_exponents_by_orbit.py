@@ -41,7 +41,7 @@ def test_sections_that_are_no_periods_are_no_measure_of_an_orbit(
     grown = growth(3)
     found, _ = indicators_of(
         ["lyapunov", "recurrence"],
-        Sections(states, np.ones(1), np.zeros(1, bool), 1),
+        Sections(states, np.ones(1), np.zeros(1, bool), 1, 1.0),
         grown,
         grown[:0],
         PERIOD,

@@ -18,7 +18,7 @@ def test_noise_is_measured_beside_the_motion(spread: float, noise: float, period
     rates = np.tile([0.0, spread], TURNS) + noise * chance.uniform(-1.0, 1.0, 2 * TURNS)
     states = np.column_stack([np.zeros(2 * TURNS), rates])
     flat = np.zeros(2, dtype=bool)
-    sections = Sections(states, np.ones(2), flat, 1)
+    sections = Sections(states, np.ones(2), flat, 1, 1.0)
     found, verdict = indicators_of(("recurrence",), sections, NONE, NONE, 1.0, 0)
     assert found["period"] == period
     assert verdict.code == (PERIODIC if period else UNDECIDED)
@@ -26,6 +26,6 @@ def test_noise_is_measured_beside_the_motion(spread: float, noise: float, period
 
 def test_a_creeping_state_does_not_recur_however_far_it_comes() -> None:
     states = np.linspace(0.0, 1000.0, 200)[:, None]
-    sections = Sections(states, np.ones(1), np.zeros(1, dtype=bool), 1)
+    sections = Sections(states, np.ones(1), np.zeros(1, dtype=bool), 1, 1.0)
     found, _ = indicators_of(("recurrence",), sections, NONE, NONE, 1.0, 0)
     assert found["period"] == 0
