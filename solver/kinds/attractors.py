@@ -3,12 +3,16 @@
 from collections.abc import Mapping
 from typing import ClassVar
 
+from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.methods import check_reduced
 from jointplay.solver.kinds.motion_map import J, Motions, MotionsJob
+from jointplay.solver.kinds.phases import phase_offsets
+from jointplay.solver.kinds.section import CrankSection
 from jointplay.solver.kinds.section_study import indicators_of
 from jointplay.solver.runs.study.cycles import outputs_of
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.statistics import Output
 
 
@@ -21,6 +25,12 @@ class AttractorKind(Motions[J]):
         """Check and fill in; see `Kind.admit`."""
         check_told_apart(job, "Attractors are told apart by")
         return super().admit(job)
+
+    def offset(self, job: J, scenes: PointScenes) -> Floats | None:
+        """Return where sections lie that are the same whatever phase a driver begins with."""
+        if not isinstance(job.section, CrankSection):
+            return None
+        return phase_offsets(scenes, job.section.crank_angle)
 
     def outputs(self, study: Study) -> Mapping[str, Output]:
         """Return the statistics that the job chose, and what tells attractors apart."""

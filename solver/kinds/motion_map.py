@@ -5,6 +5,7 @@ from typing import Annotated, Any, ClassVar, TypeVar
 
 from pydantic import Field
 
+from jointplay.records.arrays import Floats
 from jointplay.records.coarse_to_fine import COARSEST
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import documents
@@ -42,6 +43,7 @@ from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.cycles import outputs_of
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.statistics import Output
 
 
@@ -115,6 +117,10 @@ class Motions(StudyKind[J]):
         """Return how often cells may be split; 0: every point is computed."""
         return 0
 
+    def offset(self, job: J, scenes: PointScenes) -> Floats | None:
+        """Return (points,) s: how far sections lie behind whole periods; None: at a crank angle."""
+        return None
+
     def admit(self, job: J) -> Study:
         """Check and fill in; see `Kind.admit`."""
         indicators = indicators_of(job)
@@ -165,7 +171,7 @@ class Motions(StudyKind[J]):
         return make_study(
             filled,
             placed,
-            section_spans(job, units),
+            section_spans(job, units, self.offset(job, placed.scenes)),
             kept,
             (self.continuation(job), placed.points.shape[0]),  # a chain is a row
             self.perturbation(job),

@@ -2,9 +2,9 @@
 
 from typing import Annotated, Any, Literal, TypeVar, get_args
 
-import numpy as np
 from pydantic import Field
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.job import Energies, Job, Observables
@@ -154,12 +154,15 @@ class SectionStudy(StudyKind[J]):
         )
 
 
-def section_spans(job: SectionsJob, units: Periods) -> Spans:
-    """Return how long points run until they have settled and their sections are taken."""
+def section_spans(job: SectionsJob, units: Periods, offset: Floats | None = None) -> Spans:
+    """Return how long points run until they have settled and their sections are taken.
+
+    `offset` : (points,) s, of sections behind whole periods; by default that of the crank angle.
+    """
     settle, recording = most_periods(job)
-    offset = np.zeros(len(units.seconds))
-    if isinstance(job.section, CrankSection):
-        offset = crank_offsets(units, job.section.crank_angle)
+    if offset is None:
+        angle = job.section.crank_angle if isinstance(job.section, CrankSection) else 0.0
+        offset = crank_offsets(units, angle)
     unit = units.seconds
     return Spans(unit, settle * unit, (settle + recording) * unit + offset, offset)
 
