@@ -7,7 +7,7 @@ import numpy as np
 from jointplay.solver.continuation.multipliers import size
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Scales
 from jointplay.solver.continuation.passage import Passage, Section
-from jointplay.solver.continuation.section_map import TURN, SectionMap
+from jointplay.solver.continuation.section_map import DIFFERENCE, TURN, SectionMap
 from jointplay.solver.continuation.settled import NoStart, Settled
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.mechanics.start.states import mechanism_size
@@ -15,6 +15,8 @@ from jointplay.solver.runs.starts import start_scales
 
 LEAST_EXTENT = 1e-3
 """Least extent of a state that hardly moves, in what counts as one in it."""
+AT_REST = DIFFERENCE
+"""The same up to which a state does not move: where it begins to, by how much is not known."""
 SAME = 1e-6
 """Distance, in the scales of the states, within which an orbit has come back."""
 WOUND = 1e-4
@@ -25,7 +27,8 @@ def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
     """Return the curve of orbits in the scales of a motion.
 
     Differences are shares of what counts as one in each state, or of its extent if that is less;
-    lengths along the branch are in extents, so that a state that moves far does not rule them.
+    lengths along the branch are in extents, so that a state that moves far does not rule them. That
+    of a state at rest is one: it says nothing of motions that begin in it.
     Impact rates are measured in the fastest motion, m/s: of what turns at the mechanism's size.
     """
     scene, kernel = map_.scene_at(value), map_.kernel
@@ -33,7 +36,8 @@ def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
         map_ = replace(map_, crossing=replace(map_.crossing, interval=settled.interval))
     one = start_scales(scene, kernel.coordinates, map_.interval(scene))
     pairs = len(kernel.pairs)
-    extents = np.maximum(settled.extents, LEAST_EXTENT * one)
+    moves = settled.extents > AT_REST * one
+    extents = np.where(moves, np.maximum(settled.extents, LEAST_EXTENT * one), one)
     count = len(kernel.coordinates)
     reach = mechanism_size(scene, shortest_link(scene))
     arms = np.array([reach if name.endswith(".theta") else 1.0 for name in kernel.coordinates])

@@ -100,4 +100,5 @@ def test_orbits_of_twice_the_period_are_stable_where_doubling_is_soft(
     first, behind = doubled(stiffness)
     (doubling,) = [one for one in first.special if one.label == "PD"]
     assert (behind.column("unstable")[:3] == float(sense < 0.0)).all()
-    assert (sense * (behind.column("value")[1:] - doubling.value) > 0.0).all()
+    # farther on, the branch behind a hard doubling folds back
+    assert (sense * (behind.column("value")[1:4] - doubling.value) > 0.0).all()
