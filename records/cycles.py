@@ -1,6 +1,7 @@
 """Cycles of sections that points end on, as numbers by which they are told apart.
 
-The mean and the spread of every state over a cycle are the same wherever on it a record ends.
+The mean and the spread of every state over a cycle are the same wherever on it a record ends, as
+are the covariances of states, by which mirror images differ whose means are zero.
 """
 
 from collections.abc import Mapping
@@ -13,7 +14,9 @@ from jointplay.records.arrays import Flags, Floats
 
 MEAN: Final = "cycle_mean."
 SPREAD: Final = "cycle_spread."
-"""Beginnings of names of statistics: of each state, its mean over a cycle and its spread."""
+COVARIANCE: Final = "cycle_covariance."
+"""Beginnings of names of statistics: of each state, its mean over a cycle and its spread; of each
+but the first, its covariance with those before."""
 INDEPENDENT: Final = "independent_sections"
 """Name of a statistic of motions that do not recur: of so many independent sections means and
 spreads would scatter as they do."""
@@ -24,10 +27,10 @@ attractors are one. It is twice what sections may differ by that recur."""
 
 @dataclass(frozen=True)
 class Cycles:
-    """Where in the states' space points end: means and spreads over a cycle."""
+    """Where in the states' space points end: means, spreads and covariances over a cycle."""
 
     places: Floats
-    """(points, columns)."""
+    """(points, 3 states - 1)."""
     scales: Floats
     """(columns,) what counts as one."""
     angles: Flags
@@ -53,14 +56,18 @@ class Cycles:
         return np.asarray(np.maximum(self.scales, found), np.float64)
 
     def scatter(self) -> Floats:
-        """Return (points, columns) standard errors of means and spreads."""
-        spread = self.places[:, self.places.shape[1] // 2 :]
+        """Return (points, columns) standard errors; of covariances nothing is known."""
+        count = (self.places.shape[1] + 1) // 3
+        spread = self.places[:, count : 2 * count]
         errors = spread / np.sqrt(self.independent)[:, None]
         turning = self.angles[: spread.shape[1]]
         # the direction of a mean of unit vectors whose length is 1 - spread^2 / 2
         length = np.where(turning, np.maximum(1.0 - 0.5 * spread**2, 1e-3), 1.0)
-        both = np.concatenate([errors / length, errors], axis=1)
-        return np.asarray(np.maximum(np.nan_to_num(both, nan=np.inf), self.scales * SAME))
+        unknown = np.full_like(errors[:, 1:], np.inf)
+        found = np.concatenate([errors / length, errors, unknown], axis=1)
+        return np.asarray(
+            np.maximum(np.nan_to_num(found, nan=np.inf, posinf=np.inf), self.scales * SAME)
+        )
 
 
 def cycles_of(states: Mapping[str, Any], numbers: Mapping[str, Floats], points: int) -> Cycles:
@@ -72,15 +79,17 @@ def cycles_of(states: Mapping[str, Any], numbers: Mapping[str, Floats], points: 
         Of a study that compares them: `scales`, what counts as one in each state, and `angles`.
     numbers
         (points,) arrays by the names of statistics; of those that are missing nothing is known.
+        Studies of earlier versions have no covariances.
     """
     names = list(states["scales"])
     scales = np.array([states["scales"][name] for name in names])
     angles = np.array([name in states["angles"] for name in names])
     missing = np.full(points, np.nan)
     columns = [numbers.get(f"{kind}{name}", missing) for kind in (MEAN, SPREAD) for name in names]
+    columns += [numbers.get(f"{COVARIANCE}{name}", np.zeros(points)) for name in names[1:]]
     return Cycles(
         np.stack(columns, axis=1),
-        np.tile(scales, 2),
-        np.concatenate([angles, np.zeros_like(angles)]),
+        np.concatenate([scales, scales, scales[1:]]),
+        np.concatenate([angles, np.zeros(2 * len(names) - 1, np.bool_)]),
         numbers.get(INDEPENDENT, missing),
     )

@@ -1,6 +1,6 @@
-"""Mean and spread of a point's states over its last cycles of sections.
+"""Means, spreads and covariances of a point's states over its last cycles of sections.
 
-Both are the same wherever on a cycle the record ends, so that points on one attractor have the same
+They are the same wherever on a cycle the record ends, so that points on one attractor have the same
 numbers, to what is left of their transients.
 """
 
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.records.cycles import INDEPENDENT, MEAN, SAME, SPREAD
+from jointplay.records.cycles import COVARIANCE, INDEPENDENT, MEAN, SAME, SPREAD
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities.scalars import direction_angle, sine_cosine
 from jointplay.solver.runs.starts import start_scales
@@ -35,6 +35,10 @@ def outputs_of(scene: Scene) -> dict[str, Output]:
         for kind, what in ((MEAN, "mean"), (SPREAD, "spread"))
         for name, unit in zip(names_of(coordinates), units, strict=True)
     }
+    found |= {
+        f"{COVARIANCE}{name}": (unit, f"covariance over a cycle of {name} with states before it")
+        for name, unit in zip(names_of(coordinates)[1:], units[1:], strict=True)
+    }
     return {**found, INDEPENDENT: ("1", "independent sections of a motion that does not recur")}
 
 
@@ -52,7 +56,7 @@ def attributes_of(scene: Scene, period: float) -> dict[str, Any]:
 def cycle_of(
     coordinates: Sequence[str], sections: Floats, scales: Floats, angles: Flags, period: int
 ) -> dict[str, float]:
-    """Return mean and spread of the states over the last whole cycles of a record.
+    """Return means, spreads and covariances of states over the last whole cycles of a record.
 
     Parameters
     ----------
@@ -75,7 +79,7 @@ def cycle_of(
     -------
     Numbers by name. Of angles the mean is the direction of the mean of their unit vectors, zero
     where that has none, and the spread the root mean square of the chords from it, so that neither
-    depends on where a turn begins.
+    depends on where a turn begins. For covariances see `covariances`.
     """
     count = 2 * len(coordinates)
     if not len(sections):
@@ -93,9 +97,29 @@ def cycle_of(
     found: dict[str, float] = {}
     for name, centre, width in zip(names_of(coordinates), mean, spread, strict=True):
         found |= {f"{MEAN}{name}": float(centre), f"{SPREAD}{name}": float(width)}
+    sines, _ = sine_cosine(np.where(turning, whole - direction, 0.0))
+    away = np.where(turning, sines, whole - mean) / scales[:count]
+    for name, product, one in zip(
+        names_of(coordinates)[1:], covariances(away), scales[1:], strict=False
+    ):
+        found[f"{COVARIANCE}{name}"] = float(product * one)
     moves = spread > SAME * scales[:count]
     scattered = math.nan if period else independent(whole[:, moves], turning[moves])
     return found | {INDEPENDENT: scattered}
+
+
+def covariances(away: Floats) -> Floats:
+    """Return (states - 1,) covariances of each state with the mean of those before it.
+
+    Each over the root mean square of either, where that is above one, so that it is known as well
+    as the states are.
+
+    away : (sections, states) of the sections from their mean, in what counts as one.
+    """
+    before = np.add.accumulate(away, axis=1)[:, :-1] / np.arange(1, away.shape[1])
+    behind = away[:, 1:]
+    larger = np.maximum((before * before).mean(axis=0), (behind * behind).mean(axis=0))
+    return np.asarray((before * behind).mean(axis=0) / np.sqrt(np.maximum(larger, 1.0)))
 
 
 DIRECTED = 1e-3

@@ -7,7 +7,7 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.records.attractors import attractors_of
-from jointplay.records.cycles import INDEPENDENT, MEAN, SPREAD
+from jointplay.records.cycles import COVARIANCE, INDEPENDENT, MEAN, SPREAD
 from jointplay.records.motion import FAILED, UNDECIDED
 from jointplay.records.point import PointEnd, PointStatus
 from jointplay.records.study import StudyDataset
@@ -44,7 +44,7 @@ def of_all_starts(study: Study, run: PointRun, end: PointEnd) -> PointEnd:
     kept = {
         name: value
         for name, value in first.statistics.items()
-        if not name.startswith((MEAN, SPREAD, INDEPENDENT))
+        if not name.startswith((MEAN, SPREAD, COVARIANCE, INDEPENDENT))
     }
     kept["steps"] = sum(one.statistics["steps"] for one in ends)
     kept[COUNT] = float(_different(study, run.point, ends))
