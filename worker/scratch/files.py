@@ -127,12 +127,13 @@ class Scratch:
             return Taken((), (), ExitStack())
         there = {*self._files.running.names(folder)}
         gone = (one for one in [*self._sent] if one.startswith(folder) and one not in there)
+        paths = {name: self._folder / name for name in sorted(there, key=_turn)}
         with ExitStack() as opened:
-            found = [
-                (name, opened.enter_context(_File(self._folder / name)))
-                for name in sorted(there, key=_turn)
-            ]
-            new = tuple(one for one in found if one[1].version != self._sent.get(one[0]))
+            new = tuple(
+                (name, opened.enter_context(_File(path)))
+                for name, path in paths.items()
+                if _version(path) != self._sent.get(name)  # a long run has sent thousands
+            )
             return Taken(new, tuple(gone), opened.pop_all())
 
     def send(self, taken: Taken) -> None:
