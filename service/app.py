@@ -36,6 +36,7 @@ from jointplay.service.checking import Checker
 from jointplay.service.compression import Compression
 from jointplay.service.content_policy import ContentPolicy
 from jointplay.service.description import describe
+from jointplay.service.heads import Heads
 from jointplay.service.jobs.queueing import Queueing
 from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.metrics import registry_of
@@ -179,10 +180,13 @@ async def _running(app: FastAPI, *, patient: bool) -> AsyncIterator[None]:
 
 def _add_middleware(app: FastAPI, settings: Settings) -> None:
     """Add what looks at all requests, or at all answers; the last one is the outermost."""
+    locked = [one for part, _ in _BEHIND_THE_DOOR for one in part.router.routes]
+    unlocked = [one for part in _OPEN for one in part.router.routes]
+    known = [one for one in (*locked, *unlocked) if "HEAD" in getattr(one, "methods", ())]
     app.add_middleware(Compression)
+    app.add_middleware(Heads, known=known)
     app.add_middleware(SignedLinks)
     app.add_middleware(Pieces)
-    unlocked = [one for part in _OPEN for one in part.router.routes]
     app.add_middleware(Turns, unlocked=unlocked, keys=settings.keys == "required")
     app.add_middleware(ContentPolicy)
     if settings.log_format == "json":

@@ -55,25 +55,25 @@ _FOREVER: Final = {"Cache-Control": "public, max-age=31536000, immutable"}
 _VERSIONED: Final = re.compile(rf"([0-9a-f]{{{VERSION_LENGTH}}})/(.+)")
 
 
-@router.api_route("/", methods=["GET", "HEAD"])
+@router.get("/")
 def show_page(request: Request) -> Response:
     """Show the page; its views are told apart by what follows ``#`` in the address."""
     return _file(request, "index.html")
 
 
-@router.api_route("/docs", methods=["GET", "HEAD"])
+@router.get("/docs")
 def show_reference(request: Request) -> Response:
     """Show the reference of the API, made in the browser from ``/openapi.json``."""
     return _file(request, "reference/index.html")
 
 
-@router.api_route("/favicon.ico", methods=["GET", "HEAD"])
+@router.get("/favicon.ico")
 def show_icon(request: Request) -> Response:
     """Show the icon that browsers ask for unasked."""
     return _file(request, "icon.ico")
 
 
-@router.api_route("/page/{name:path}", methods=["GET", "HEAD"])
+@router.get("/page/{name:path}")
 def show_file(request: Request, name: str) -> Response:
     """Show a style, module or picture of the page.
 
@@ -89,7 +89,7 @@ def show_file(request: Request, name: str) -> Response:
     return answer
 
 
-@router.api_route("/report", methods=["GET", "HEAD"])
+@router.get("/report")
 def show_report(request: Request, settings: SettingsDependency) -> Response:
     """Show the reproduction's report, as it was written, or how to make one."""
     found = report_file(settings.report)

@@ -44,6 +44,7 @@ async def answer(request: Request, error: Exception) -> Response:
         refused = refusal(error)
     if refused.kind is kinds.METHOD_NOT_ALLOWED:
         known = _methods_at(request).union(refused.headers.get("Allow", "").split(", "))
+        known |= {"HEAD"} if "GET" in known else set()  # see `jointplay.service.heads`
         refused.headers["Allow"] = ", ".join(sorted(known - {""}))
     if refused.kind.status >= 500:
         _tell(request, refused, error)

@@ -36,7 +36,6 @@ _DRAWN: dict[int | str, dict[str, Any]] = {
 }
 
 
-@router.head("", dependencies=[NO_PARAMETERS], include_in_schema=False)
 @router.get("", dependencies=[NO_PARAMETERS])
 def list_figures(
     results: ResultsOfThePath, windows: Annotated[WindowProcess, of_the_application("windows")]
@@ -58,7 +57,6 @@ def list_figures(
     )
 
 
-@router.head("/{name}.{form}", include_in_schema=False)
 @router.get(
     "/{name}.{form}",
     response_class=Response,

@@ -106,7 +106,7 @@ def _answer(request: Request, key: str, content: Content) -> Response:
         "Cache-Control": f"{whose}, {_FOREVER}" if content.final else "no-cache",
     }
     media_type = "application/octet-stream"
-    asked = request.headers.get("range")
+    asked = ranges.asked(request)
     if key.endswith(_DOCUMENT):
         media_type = "application/json"
         headers["Vary"] = "Accept-Encoding"

@@ -14,6 +14,11 @@ class Unsatisfiable(Exception):
     """The range has no byte of the content."""
 
 
+def asked(request: Request) -> str | None:
+    """Return the Range header of a GET; for other methods it has no meaning."""
+    return request.headers.get("range") if request.method == "GET" else None
+
+
 def window(header: str | None, size: int) -> tuple[int, int] | None:
     """Return first byte and the one after the last that a Range header means.
 

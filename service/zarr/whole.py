@@ -79,7 +79,7 @@ def show_whole(
     }
     if ranges.names(request.headers.get("if-none-match"), headers["ETag"]):
         return Response(status_code=304, headers=headers)
-    asked = request.headers.get("range")
+    asked = ranges.asked(request)
     unchanged = request.headers.get("if-range") in (None, headers["ETag"])
     try:
         part = ranges.window(asked if unchanged else None, size)

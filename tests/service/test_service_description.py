@@ -218,5 +218,5 @@ def test_an_unknown_method_is_told_the_known_ones_without_the_description(
     with client_of(fresh_service) as http:
         answer = http.delete("/v1/jobs")
         of_keys = http.post("/v1/jobs/x/zarr/values/zarr.json")
-    assert (answer.status_code, answer.headers["Allow"]) == (405, "GET, POST")
+    assert (answer.status_code, answer.headers["Allow"]) == (405, "GET, HEAD, POST")
     assert of_keys.headers["Allow"] == "GET, HEAD"
