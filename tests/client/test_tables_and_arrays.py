@@ -1,5 +1,6 @@
 """Jobs as notebooks use them: pandas tables, lazy xarray, what is shown without asking."""
 
+import json
 import subprocess
 import sys
 import uuid
@@ -7,8 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from jointplay.client import NotFound, Refused
+from jointplay.client import Expired, NotFound, Refused
 from jointplay.client.axes import on_axes
 from jointplay.records.channel import Channel
 from jointplay.records.job import JobError
@@ -166,6 +168,37 @@ def test_results_of_many_jobs_come_in_the_order_of_their_documents(client, worke
     assert (first.label, first.state) == ("a", "failed")
     b.cancel()
     assert [(job.label, job.state) for job in results] == [("b", "cancelled"), ("c", "succeeded")]
+
+
+def test_a_job_that_is_gone_is_not_passed_over_in_silence(client, worker):
+    """Whoever counts documents and results together would take one job for another."""
+    document = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+    documents = [document | {"label": label} for label in ("one", "gone", "last")]
+    results = client.map(documents)
+    batch = next(job.batch for job in client.jobs(label="gone", state="queued"))
+    client.batch(batch).cancel()
+    one, gone, last = client.batch(batch).jobs()
+    gone.delete()
+    assert [job.id for job in client.batch(batch).jobs()] == [one.id, last.id]
+    assert next(results).label == "one"
+    with pytest.raises(Expired, match=gone.id):
+        next(results)
+
+
+def test_arrays_can_be_written_as_netcdf(client, finished_job, finished_study, tmp_path):
+    job, study = client.job(finished_job), client.job(finished_study)
+    assert json.loads(job.history.attrs["job"]) == job.job
+    assert job.history.attrs["complete"] == 1
+    for number, dataset in enumerate(
+        (job.history, job.open("impacts"), job.open("peaks"), study.open(), study.dataset)
+    ):
+        file = tmp_path / f"{number}.nc"
+        dataset.to_netcdf(file)
+        again = xr.load_dataset(file)
+        assert again.attrs.keys() == dataset.attrs.keys()
+        for name, stored in dataset.variables.items():
+            np.testing.assert_array_equal(again[name], stored)
+            assert again[name].attrs.keys() == stored.attrs.keys()
 
 
 def test_without_the_extra_it_says_what_to_install(service_url, finished_job):

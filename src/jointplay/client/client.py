@@ -135,6 +135,8 @@ class Client:
         ------
         Refused
             Documents are wrong: `fields` names them by their index among all of these.
+        Expired
+            While it yields: the next job has expired, or was deleted, before it was looked at.
         """
         given = list(jobs)
         batches: list[Batch] = []
@@ -148,7 +150,7 @@ class Client:
             if isinstance(error, Refused):
                 error.fields = counted_from(first, error.fields)
             raise
-        return (job.wait(check=False) for batch in batches for job in batch.jobs())
+        return (job.wait(check=False) for batch in batches for job in batch.every_job())
 
     def submit_batch(self, jobs: Sequence[Mapping[str, Any]], label: str = "") -> Batch:
         """Queue many jobs, or none; `Refused` names every field that is wrong, by index."""

@@ -70,7 +70,8 @@ class TabledJob(JobRecord, ABC):
         """Open a group of the job's Zarr store, lazily; by default the root.
 
         Groups of a simulation are ``poincare``, ``impacts`` and ``peaks``, of a study ``values``,
-        ``statistics``, ``indicators``, ``sections`` and ``peaks``.
+        ``statistics``, ``indicators``, ``sections`` and ``peaks``.  Attributes that are no text or
+        numbers, such as ``job``, are JSON text, so that `to_netcdf` takes them.
         """
         if group in self._opened:
             return self._opened[group]
@@ -169,6 +170,8 @@ class TabledJob(JobRecord, ABC):
         self._insist("points", "points")
 
     def _open(self, store: Store, group: str) -> "xr.Dataset":
+        from jointplay.client.attributes import in_netcdf
+
         try:
             import xarray as xr
             from zarr.storage import ZipStore
@@ -189,7 +192,7 @@ class TabledJob(JobRecord, ABC):
             what = f"no group {group!r}" if group else "no results"
             sentence = f"Job {self.id} is {self.state} and has {what}."
             raise NotFound(sentence) from error
-        return found
+        return in_netcdf(found)
 
 
 def _values(study: StudySource) -> dict[str, Any]:
