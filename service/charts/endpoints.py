@@ -27,7 +27,7 @@ PNG = "image/png"
 _SHARE = 2.0
 """Per cent of the values beyond each end of the colours."""
 _KEPT = "private, max-age=3600"
-"""A tile of so many points that had ended never changes."""
+"""A tile of as many points that had ended as were asked for never changes."""
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}", tags=["studies"], responses=problems(*kinds.OF_RESULTS)
@@ -78,7 +78,7 @@ class TileQuery(BaseModel):
 
 
 @router.get("/chart", response_model=schemas.Chart)
-def show_chart(study: StudyOfThePath, results: ResultsOfThePath) -> Response:
+def show_chart(study: StudyOfThePath) -> Response:
     """Return axes and quantities of a chart, also while it is computed."""
     count, of = int(grids.has_ended(study).sum()), axes(study)
     return as_json(
@@ -150,8 +150,8 @@ def show_values(results: ResultsOfThePath, query: Annotated[RectangleQuery, Quer
             "every", sentence, kinds.RESPONSE_TOO_LARGE, remedy="Choose larger cells."
         )
     count = int(grids.has_ended(study).sum())
-    values = grids.GRIDS.of(results, count, query.quantity, query.every)
-    part = values[y.start : y.stop, x.start : x.stop]
+    grid = grids.GRIDS.of(results, count, query.quantity, query.every)
+    part = grid.values[y.start : y.stop, x.start : x.stop]
     return as_json(
         schemas.Rectangle.model_construct(
             unit=found.unit,
@@ -181,12 +181,13 @@ def show_tile(
     state = _state(results, quantity, query.ended)
     labels = quantity in LABELS
     finest = grids.GRIDS.of(results, state, quantity, 1)
-    levels = _levels(finest.shape)
+    levels = _levels(finest.values.shape)
     if z >= levels:
         sentence = f"The chart has levels 0 to {levels - 1}."
         raise RequestRefused.of_parameter("z", sentence)
     stride = 1 << (levels - 1 - z)
-    values = finest if stride == 1 else grids.GRIDS.of(results, state, quantity, stride)
+    grid = finest if stride == 1 else grids.GRIDS.of(results, state, quantity, stride)
+    values = grid.values
     part = values[y * TILE : (y + 1) * TILE, x * TILE : (x + 1) * TILE]
     if not part.size:
         raise RequestRefused.of_parameter("x", f"Level {z} has no tile {x}, {y}.")
@@ -197,7 +198,7 @@ def show_tile(
         low = lowest if lowest is not None else float(known.min(initial=np.inf))
         high = highest if highest is not None else float(known.max(initial=-np.inf))
         picture = colouring.picture_of_values(part.astype(np.float64), low, high)
-    kept = "no-cache" if query.ended is None else _KEPT
+    kept = _KEPT if query.ended == grid.ended else "no-cache"
     return Response(picture, media_type=PNG, headers={"Cache-Control": kept})
 
 

@@ -6,14 +6,14 @@ Key of what is kept is how many points had ended: as a chart grows, its pictures
 from collections import OrderedDict
 from collections.abc import Callable
 from threading import Lock
-from typing import Any
+from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records import pyramid
-from jointplay.records.arrays import Flags, Floats
+from jointplay.records.arrays import Flags
 from jointplay.records.attractors import Attractors, attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import over_axes
@@ -93,11 +93,18 @@ def has_ended(store: StudyReader) -> Flags:
     return np.isin(store.status, (PointStatus.done, PointStatus.failed))
 
 
+class Grid(NamedTuple):
+    """A quantity over (y, x), and how many points had ended when it was read."""
+
+    ended: int
+    values: NDArray[Any]
+
+
 class Grids:
     """The quantities that were asked for last, by job, points that had ended, and resolution."""
 
     def __init__(self) -> None:
-        self._kept: OrderedDict[tuple[str, int, str, int], NDArray[Any]] = OrderedDict()
+        self._kept: OrderedDict[tuple[str, int, str, int], Grid] = OrderedDict()
         self._lock = Lock()
         self._turns = tuple(Lock() for _ in range(_TURNS))
         """One for each job, more or less: who asks second finds what the first has made."""
@@ -106,10 +113,11 @@ class Grids:
         """Whether a quantity is kept at full resolution."""
         return (job, ended, name, 1) in self._kept
 
-    def of(self, results: ResultsOfJob, ended: int, name: str, stride: int) -> Labels | Floats:
-        """Return a quantity over (y, x) in cells of `stride` points along each side.
+    def of(self, results: ResultsOfJob, ended: int, name: str, stride: int) -> Grid:
+        """Return a quantity in cells of `stride` points along each side.
 
-        `ended` : points that had ended when the caller looked; what is kept is as old as that.
+        `ended` : points that had ended when the caller looked. More have in what is returned if it
+        was not kept then.
         """
         key = (results.job.id, ended, name, stride)
         with self._turns[hash(results.job.id) % _TURNS]:
@@ -122,32 +130,37 @@ class Grids:
                     self._kept.move_to_end(key)
         return found
 
-    def _made(self, results: ResultsOfJob, key: tuple[str, int, str, int]) -> NDArray[Any]:
+    def _made(self, results: ResultsOfJob, key: tuple[str, int, str, int]) -> Grid:
         job, count, name, stride = key
         if stride > 1:
             fine = self._kept.get((job, count, name, 1))
             if fine is None:
                 fine = self._made(results, (job, count, name, 1))
                 self._keep((job, count, name, 1), fine)
-            if fine.dtype == np.uint8:
-                return pyramid.in_majority(np.asarray(fine, np.uint8), stride)
-            return pyramid.averaged(np.asarray(fine, np.float64), stride).astype(np.float32)
+            return Grid(fine.ended, _coarse(fine.values, stride))
         store = results.study()
-        order = store.layout.order
+        order, ended = store.layout.order, has_ended(store)
         values = over_axes(column(store, name), order, store.shape)
-        known = over_axes(has_ended(store), order, store.shape)
+        known = over_axes(ended, order, store.shape)
         if not known.all():
             values = pyramid.filled_in(values, np.asarray(known, np.bool_))
-        return values if values.dtype == np.uint8 else values.astype(np.float32)
+        shown = values if values.dtype == np.uint8 else values.astype(np.float32)
+        return Grid(int(ended.sum()), shown)
 
-    def _keep(self, key: tuple[str, int, str, int], values: NDArray[Any]) -> None:
+    def _keep(self, key: tuple[str, int, str, int], grid: Grid) -> None:
         with self._lock:
-            self._kept[key] = values
-            while sum(one.nbytes for one in self._kept.values()) > _MOST_BYTES:
+            self._kept[key] = grid
+            while sum(one.values.nbytes for one in self._kept.values()) > _MOST_BYTES:
                 self._kept.popitem(last=False)
 
 
 GRIDS = Grids()
+
+
+def _coarse(fine: NDArray[Any], stride: int) -> NDArray[Any]:
+    if fine.dtype == np.uint8:
+        return pyramid.in_majority(np.asarray(fine, np.uint8), stride)
+    return pyramid.averaged(np.asarray(fine, np.float64), stride).astype(np.float32)
 
 
 def counted(labels: Labels) -> dict[int, int]:

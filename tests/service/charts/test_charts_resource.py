@@ -140,6 +140,18 @@ def test_only_tiles_of_a_state_that_is_named_are_kept_by_clients(http, growing):
     ]
 
 
+def test_a_tile_of_a_state_that_has_gone_by_is_kept_by_nobody(http, worker):
+    """More points have ended than when the chart was asked for: the tile is not of that state."""
+    job = worker.submit(**CHART)
+    claim = worker.start(job)
+    worker.compute(claim, points=4)
+    worker.compute(claim, points=8)
+    for place in ("0/0/0", "1/0/0"):
+        address = f"/v1/jobs/{job}/tiles/steps/{place}.png"
+        told = [http.get(f"{address}?ended={ended}").headers["Cache-Control"] for ended in (4, 8)]
+        assert told == ["no-cache", "private, max-age=3600"]
+
+
 @pytest.mark.parametrize("rule", [{"refine": 2}, {"continuation": "backward"}])
 def test_values_lie_where_their_points_are_in_other_orders(http, worker, rule):
     order = order_of(rule, (HEIGHT, WIDTH))
