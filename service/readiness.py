@@ -4,6 +4,7 @@ import asyncio
 import errno
 import os
 import socket
+import tempfile
 import time
 from typing import Final
 
@@ -11,11 +12,12 @@ from jointplay.service.vital import VitalThreads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.places.fitness import require_fit
 from jointplay.storage.places.folder import Folder
-from jointplay.storage.settings import Settings
+from jointplay.storage.settings import RUNNING, Settings
 
 _PERIOD: Final = 1.0
 """Seconds for which what was found holds: whoever asks, and anyone may, has no more written."""
 _PLACE_PERIOD: Final = 30.0  # s; five requests to another server
+_TRIAL: Final = b"trial"
 _AT_ONCE: Final = 0.0  # s that this process leads: the next one that proves it may write, too
 
 
@@ -60,16 +62,16 @@ class Readiness:
 
     def _write(self) -> None:
         data = self._settings.data
-        path = data / "running" / f".{os.getpid()}.trial"
         if not data.is_dir():
             raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(data))
-        path.parent.mkdir(exist_ok=True)
-        try:
-            path.write_bytes(b"trial")
-            if path.read_bytes() != b"trial":
-                raise OSError(errno.EIO, os.strerror(errno.EIO), str(path))
-        finally:
-            path.unlink(missing_ok=True)
+        folder = data / RUNNING
+        folder.mkdir(exist_ok=True)
+        # without a name: in containers, APIs that share the folder have one process id
+        with tempfile.TemporaryFile(dir=folder) as trial:
+            trial.write(_TRIAL)
+            trial.seek(0)
+            if trial.read() != _TRIAL:
+                raise OSError(errno.EIO, os.strerror(errno.EIO), str(folder))
 
     def _try_place(self) -> None:
         if self._place_proved is None or time.monotonic() > self._place_proved + _PLACE_PERIOD:

@@ -1,6 +1,7 @@
 """Metrics that Prometheus is shown, and whether the service says that it is ready."""
 
 import asyncio
+import os
 import shutil
 from contextlib import suppress
 from pathlib import Path
@@ -140,6 +141,20 @@ def test_ready_is_who_can_write(tmp_path: Path) -> None:
         assert answer.json()["detail"] == "Results cannot be stored."
         (tmp_path / "data" / "running").unlink()
         until(lambda: http.get("/readyz").is_success)
+
+
+def test_readiness_leaves_the_files_of_other_services_alone(tmp_path: Path) -> None:
+    """In containers, services that share a data folder have one process id."""
+    settings = Settings(data=tmp_path)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    (settings.data / "running").mkdir()
+    others = settings.data / "running" / f".{os.getpid()}.trial"
+    others.write_bytes(b"another")
+    Readiness(catalogue, settings, VitalThreads()).prove()
+    assert others.read_bytes() == b"another"
+    assert [*others.parent.iterdir()] == [others]
+    catalogue.close()
 
 
 class Counted(Readiness):
