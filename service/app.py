@@ -35,6 +35,7 @@ from jointplay.service.access.turns import Turns
 from jointplay.service.checking import Checker
 from jointplay.service.compression import Compression
 from jointplay.service.content_policy import ContentPolicy
+from jointplay.service.dependencies import KNOWN_PARAMETERS
 from jointplay.service.description import describe
 from jointplay.service.heads import Heads
 from jointplay.service.jobs.queueing import Queueing
@@ -131,9 +132,10 @@ def create_app(settings: Settings | None = None, *, patient: bool = False) -> Fa
     _add_middleware(app, settings)
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)
+    refusals = problems.problems(*OF_THE_DOOR)
     for resource, key in _BEHIND_THE_DOOR:
-        refusals = problems.problems(*OF_THE_DOOR)
-        app.include_router(resource.router, dependencies=[key], responses=refusals)
+        looked_at = [key, KNOWN_PARAMETERS]
+        app.include_router(resource.router, dependencies=looked_at, responses=refusals)
     for resource in _OPEN:
         app.include_router(resource.router)
     describe(app)

@@ -1,5 +1,6 @@
 """Dependencies of endpoints on the application: the catalogue, the settings, a job of the path."""
 
+from collections import Counter
 from contextlib import suppress
 from datetime import UTC, datetime
 from typing import Annotated, Any
@@ -11,6 +12,7 @@ from jointplay.records.job import is_job_id
 from jointplay.service.access import Caller, CallerDependency
 from jointplay.service.checking import Checker
 from jointplay.service.problems import RequestRefused, clipped, kinds
+from jointplay.service.problems.parameters import query_names
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import Job
@@ -29,14 +31,23 @@ def of_the_application(name: str) -> Any:
     return Depends(found)
 
 
-async def _no_parameters(request: Request) -> None:
-    """Refuse query parameters where there are none, in the words for unknown ones elsewhere."""
-    errors = [{"type": "extra_forbidden", "loc": ("query", name)} for name in request.query_params]
-    if errors:
-        raise RequestValidationError(errors)
+async def _known_parameters(request: Request) -> None:
+    """Refuse query parameters that are given twice, and any where an address has none.
+
+    Of those that have some each refuses others.
+    """
+    if not request.scope["query_string"]:
+        return
+    given = Counter(name for name, _ in request.query_params.multi_items())
+    if any(query_names(request.scope["route"].dependant)):
+        kind, wrong = "repeated", [name for name, times in given.items() if times > 1]
+    else:
+        kind, wrong = "extra_forbidden", [*given]
+    if wrong:
+        raise RequestValidationError([{"type": kind, "loc": ("query", name)} for name in wrong])
 
 
-NO_PARAMETERS = Depends(_no_parameters)
+KNOWN_PARAMETERS = Depends(_known_parameters)
 CheckerDependency = Annotated[Checker, of_the_application("checker")]
 CatalogueDependency = Annotated[Catalogue, of_the_application("catalogue")]
 SettingsDependency = Annotated[Settings, of_the_application("settings")]

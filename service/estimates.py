@@ -11,7 +11,6 @@ from jointplay.service.access import CallerDependency
 from jointplay.service.body import JobBody
 from jointplay.service.checking import CheckJob
 from jointplay.service.dependencies import (
-    NO_PARAMETERS,
     CatalogueDependency,
     CheckerDependency,
     of_the_application,
@@ -62,7 +61,6 @@ class Estimate(BaseModel):
 
 @router.post(
     "",
-    dependencies=[NO_PARAMETERS],
     openapi_extra={"requestBody": REQUEST_BODY},
     responses=problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST),
 )

@@ -10,7 +10,7 @@ from fastapi.sse import EventSourceResponse, format_sse_event
 from pydantic import BaseModel, Field
 
 from jointplay.service.access import CallerDependency
-from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
+from jointplay.service.dependencies import CatalogueDependency, JobOfThePath
 from jointplay.service.jobs.schemas import Progress, moment
 from jointplay.service.jobs.waiting import Watcher, WatcherDependency
 from jointplay.service.owners import SHARES
@@ -71,7 +71,6 @@ class JobProgress(BaseModel):
 @router.get(
     "/{job_id}/events",
     response_class=Response,
-    dependencies=[NO_PARAMETERS],
     responses=STREAM | problems(*kinds.OF_A_JOB, kinds.INVALID_REQUEST),
 )
 async def show_events(

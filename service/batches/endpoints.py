@@ -9,7 +9,7 @@ from pydantic import BaseModel, Field
 from jointplay.records.job import is_job_id
 from jointplay.service.access import CallerDependency
 from jointplay.service.body import BatchBody
-from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency
+from jointplay.service.dependencies import CatalogueDependency
 from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.listing import PageQuery
 from jointplay.service.jobs.queueing import QueueingDependency
@@ -136,7 +136,6 @@ def list_batches(
 
 @router.get(
     "/{batch_id}",
-    dependencies=[NO_PARAMETERS],
     responses=problems(kinds.UNKNOWN_BATCH, kinds.INVALID_REQUEST),
 )
 def show_batch(batch: BatchOfThePath) -> BatchResource:

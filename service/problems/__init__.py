@@ -13,6 +13,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from jointplay.service.problems.kinds import INVALID_REQUEST, UNAVAILABLE, ProblemKind
 
 MEDIA_TYPE = "application/problem+json"
+MOST_ERRORS = 100
+"""Errors in one document; their count is in its detail."""
 _LONGEST_SENTENCE = 1000  # a client's own text may be quoted in it
 
 

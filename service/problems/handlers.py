@@ -14,6 +14,7 @@ from starlette.routing import compile_path
 from jointplay.service.access.signed import PREFIX
 from jointplay.service.problems import (
     MEDIA_TYPE,
+    MOST_ERRORS,
     ErrorDetail,
     ProblemDocument,
     RequestRefused,
@@ -93,7 +94,7 @@ def _of_parameters(error: RequestValidationError, request: Request) -> RequestRe
     """Name the parameters; the input is not echoed, as JSON could not carry all of it."""
     errors = [
         ErrorDetail(parameter=clipped(str(one["loc"][-1])), detail=sentence(one, request))
-        for one in error.errors()
+        for one in error.errors()[:MOST_ERRORS]
     ]
     names = ", ".join(str(one.parameter) for one in errors)
     return RequestRefused(kinds.INVALID_REQUEST, f"Correct the parameters: {names}.", errors)

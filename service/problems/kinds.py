@@ -264,7 +264,7 @@ ALL = {
     for kind in [*globals().values()]
     if isinstance(kind, ProblemKind)
 }
-OF_THE_DOOR = KEY_MISSING, SCOPE_MISSING, FOREIGN_HOST, TOO_MANY_REQUESTS
+OF_THE_DOOR = KEY_MISSING, SCOPE_MISSING, FOREIGN_HOST, TOO_MANY_REQUESTS, INVALID_REQUEST
 """Problems of every address that shows or changes jobs."""
 OF_A_JOB = UNKNOWN_JOB, EXPIRED_JOB
 """Problems of every address of a job."""

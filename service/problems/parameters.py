@@ -15,6 +15,7 @@ _BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _SAME = (*_BOUNDS, "finite_number", "string_too_long", "string_too_short")
 _SENTENCES = {kind: SENTENCES[kind] for kind in _SAME} | {
     "missing": "The parameter '{field}' is required.",
+    "repeated": "'{field}' is given more than once; give it once, with commas between names.",
     "extra_forbidden": "There is no field '{field}' here.",
     "timezone_aware": "'{field}' needs an offset, such as the Z of 2026-01-01T00:00:00Z.",
     "float_parsing": SENTENCES["float_type"],
@@ -32,7 +33,7 @@ def sentence(error: Mapping[str, Any], request: Request) -> str:
     kind = error["type"]
     if kind == "extra_forbidden" and error["loc"][0] == "query":
         name = str(error["loc"][-1])
-        known = sorted(set(_query_names(request.scope["route"].dependant)))
+        known = sorted(set(query_names(request.scope["route"].dependant)))
         return clipped(f"There is no parameter {name!r} here; {instead(name, known)}")
     given = float(error["input"]) if kind in _BOUNDS else ""
     values = {"field": error["loc"][-1], "given": given} | _NO_UNITS | error.get("ctx", {})
@@ -40,7 +41,7 @@ def sentence(error: Mapping[str, Any], request: Request) -> str:
     return clipped(said.rstrip(".") + ".")
 
 
-def _query_names(dependant: Dependant) -> Iterator[str]:
+def query_names(dependant: Dependant) -> Iterator[str]:
     """Yield the query parameters that an address takes, those of its dependencies too."""
     for parameter in dependant.query_params:
         model = parameter.field_info.annotation
@@ -49,4 +50,4 @@ def _query_names(dependant: Dependant) -> Iterator[str]:
         else:
             yield parameter.alias
     for inner in dependant.dependencies:
-        yield from _query_names(inner)
+        yield from query_names(inner)

@@ -7,7 +7,13 @@ from functools import singledispatch
 
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.records.strict_json import MalformedJson
-from jointplay.service.problems import ErrorDetail, RequestRefused, clipped, kinds
+from jointplay.service.problems import (
+    MOST_ERRORS,
+    ErrorDetail,
+    RequestRefused,
+    clipped,
+    kinds,
+)
 from jointplay.storage.catalogue.errors import (
     BatchNotFinished,
     BatchNotFound,
@@ -19,8 +25,6 @@ from jointplay.storage.catalogue.errors import (
     Unavailable,
 )
 from jointplay.worker.handed_in.errors import NotTheJobs
-
-_MOST_ERRORS = 100  # in one document; their count is in its detail
 
 
 @singledispatch
@@ -45,7 +49,7 @@ def _(error: InvalidInput) -> RequestRefused:
     kind = kinds.LIMIT_EXCEEDED if isinstance(error, LimitExceeded) else kinds.INVALID_JOB
     errors = [
         ErrorDetail(pointer=clipped(one.pointer), detail=clipped(one.detail))
-        for one in error.problems[:_MOST_ERRORS]
+        for one in error.problems[:MOST_ERRORS]
     ]
     count = len(error.problems)
     detail = errors[0].detail if count == 1 else f"{count} fields are wrong."

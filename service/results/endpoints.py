@@ -12,7 +12,6 @@ from jointplay.records.channel import TIME, by_name
 from jointplay.records.resolution import of_samples
 from jointplay.records.run import inside
 from jointplay.records.table_files import Column as FileColumn
-from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results import schemas
 from jointplay.service.results.certificate_schema import Certificate
@@ -148,7 +147,7 @@ def show_peaks(exact: ExactReaderOfThePath, window: Annotated[Window, Query()]) 
     return as_json(schemas.Peaks.model_construct(complete=reader.complete, peaks=found))
 
 
-@router.get("/statistics", dependencies=[NO_PARAMETERS])
+@router.get("/statistics")
 def show_statistics(reader: ReaderOfThePath) -> schemas.Statistics:
     """Return the steps that the run took, its energy ledger with the residual, and notes."""
     summary = reader.attributes.get("summary") or {}

@@ -8,7 +8,7 @@ from fastapi.concurrency import run_in_threadpool
 from jointplay import figures
 from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES, Form
-from jointplay.service.dependencies import NO_PARAMETERS, of_the_application
+from jointplay.service.dependencies import of_the_application
 from jointplay.service.fields import BINARY
 from jointplay.service.jobs.schemas import address
 from jointplay.service.places import Places, place_for
@@ -36,7 +36,7 @@ _DRAWN: dict[int | str, dict[str, Any]] = {
 }
 
 
-@router.get("", dependencies=[NO_PARAMETERS])
+@router.get("")
 def list_figures(
     results: ResultsOfThePath, windows: Annotated[WindowProcess, of_the_application("windows")]
 ) -> Figures:

@@ -8,7 +8,7 @@ from pydantic import BaseModel, Field, create_model
 from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES
 from jointplay.records.page_option import OPTIONS
 from jointplay.service.body import JobBody
-from jointplay.service.dependencies import NO_PARAMETERS, of_the_application
+from jointplay.service.dependencies import of_the_application
 from jointplay.service.fields import BINARY, in_unit
 from jointplay.service.problems import ErrorDetail, RequestRefused, clipped, kinds, problems
 from jointplay.service.results.figure_query import PAGE_FIELDS
@@ -139,7 +139,6 @@ DrawingQuery = create_model("DrawingQuery", __config__={"extra": "forbid"}, **PA
 
 @router.post(
     "/check",
-    dependencies=[NO_PARAMETERS],
     openapi_extra={"requestBody": _BODY},
     responses=_REFUSALS,
 )

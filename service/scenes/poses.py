@@ -6,7 +6,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
 from jointplay.service.body import JobBody
-from jointplay.service.dependencies import NO_PARAMETERS, of_the_application
+from jointplay.service.dependencies import of_the_application
 from jointplay.service.fields import in_unit
 from jointplay.service.problems import kinds, problems
 from jointplay.service.scenes.posing import DragQuestion, PosesQuestion
@@ -77,7 +77,6 @@ Poser = Annotated[SceneProcess, of_the_application("poser")]
 
 @router.post(
     "/poses",
-    dependencies=[NO_PARAMETERS],
     openapi_extra=_body_of(PosesQuestion),
     responses=_REFUSALS,
 )
@@ -92,7 +91,6 @@ def pose_scene(body: JobBody, poser: Poser) -> Poses:
 
 @router.post(
     "/drag",
-    dependencies=[NO_PARAMETERS],
     openapi_extra=_body_of(DragQuestion),
     responses=_REFUSALS,
 )

@@ -9,7 +9,6 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Response
 
 from jointplay.records.sensitivity.analysis import NoSuchOutput, sensitivity
-from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results.endpoints import show_sections
 from jointplay.service.results.forms import AS_FILES, IN_TURN, JSON, VARY, Form
@@ -88,7 +87,7 @@ def show_sensitivity(
     return as_json(Sensitivity.model_validate(found))
 
 
-@router.get("/accuracy", response_model=schemas.Accuracy, dependencies=[NO_PARAMETERS])
+@router.get("/accuracy", response_model=schemas.Accuracy)
 def show_accuracy(study: StudyOfThePath) -> Response:
     """Return what each method and tolerance costs and buys, as far as it was measured.
 
@@ -98,7 +97,7 @@ def show_accuracy(study: StudyOfThePath) -> Response:
     return as_json(schemas.Accuracy.model_validate(WorkPrecision.of(study).document()))
 
 
-@router.get("/calibration", response_model=Calibration, dependencies=[NO_PARAMETERS])
+@router.get("/calibration", response_model=Calibration)
 def show_calibration(results: ResultsOfThePath) -> Response:
     """Return the parameters that were found, how far each is known, and the search's history.
 

@@ -4,7 +4,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
 from jointplay.service.access import CallerDependency
-from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency
+from jointplay.service.dependencies import CatalogueDependency
 from jointplay.service.fields import in_unit
 from jointplay.service.jobs.schemas import Moment
 from jointplay.service.problems import kinds, problems
@@ -47,7 +47,7 @@ class Workers(BaseModel):
     workers: list[Worker]
 
 
-@router.get("", dependencies=[NO_PARAMETERS], responses=problems(kinds.INVALID_REQUEST))
+@router.get("", responses=problems(kinds.INVALID_REQUEST))
 def list_workers(catalogue: CatalogueDependency, caller: CallerDependency) -> Workers:
     """List the workers that are alive; none: what is queued waits until one is started."""
     found = []

@@ -8,7 +8,6 @@ from fastapi import APIRouter, Path, Request, Response
 
 from jointplay.service.access.signed import SIGNED
 from jointplay.service.compression import takes_gzip
-from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.fields import BINARY
 from jointplay.service.problems import ErrorDetail, RequestRefused, clipped, header, kinds, problems
 from jointplay.service.results.stores import ResultsOfThePath
@@ -48,7 +47,6 @@ _SERVED: dict[int | str, dict[str, Any]] = {
 
 @router.get(
     "",
-    dependencies=[NO_PARAMETERS],
     responses=problems(*kinds.OF_A_JOB, kinds.NOT_FOUND, kinds.INVALID_REQUEST),
 )
 def show_root(results: ResultsOfThePath) -> dict[str, Any]:
@@ -60,7 +58,7 @@ def show_root(results: ResultsOfThePath) -> dict[str, Any]:
     return root
 
 
-@router.head("/{key:path}", include_in_schema=False, dependencies=[NO_PARAMETERS])
+@router.head("/{key:path}", include_in_schema=False)
 @router.get(
     "/{key:path}",
     response_class=Response,
@@ -68,7 +66,6 @@ def show_root(results: ResultsOfThePath) -> dict[str, Any]:
     | problems(
         *kinds.OF_A_JOB, kinds.NOT_FOUND, kinds.RANGE_NOT_SATISFIABLE, kinds.INVALID_REQUEST
     ),
-    dependencies=[NO_PARAMETERS],
 )
 def show_stored(
     request: Request,

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Request, Response
 from fastapi.responses import RedirectResponse, StreamingResponse
 
 from jointplay.service.access.signed import SIGNED
-from jointplay.service.dependencies import NO_PARAMETERS, SettingsDependency
+from jointplay.service.dependencies import SettingsDependency
 from jointplay.service.fields import BINARY
 from jointplay.service.problems import RequestRefused, header, kinds, problems
 from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
@@ -43,7 +43,7 @@ _SERVED: dict[int | str, dict[str, Any]] = {
 }
 
 
-@router.head("/zarr.zip", include_in_schema=False, dependencies=[NO_PARAMETERS])
+@router.head("/zarr.zip", include_in_schema=False)
 @router.get(
     "/zarr.zip",
     response_class=Response,
@@ -56,7 +56,6 @@ _SERVED: dict[int | str, dict[str, Any]] = {
         kinds.RANGE_NOT_SATISFIABLE,
         kinds.INVALID_REQUEST,
     ),
-    dependencies=[NO_PARAMETERS],
 )
 def show_whole(
     request: Request, results: ResultsOfThePath, settings: SettingsDependency
