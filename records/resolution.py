@@ -1,10 +1,9 @@
 """Resolution of a window: what its numbers were computed from, and how far apart that is."""
 
 from dataclasses import dataclass
-from typing import Any, Final, Literal, Self, get_args
+from typing import Any, Literal, Self
 
 Basis = Literal["steps", "motion", "intervals", "samples"]
-BASES: Final[tuple[Basis, ...]] = get_args(Basis)
 
 
 @dataclass(frozen=True)

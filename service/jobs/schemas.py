@@ -112,7 +112,7 @@ class SubmittedJob(JobResource):
 
 
 class JobPage(BaseModel):
-    """Jobs, newest first."""
+    """One page of a list of jobs."""
 
     jobs: list[JobResource]
     next_page_token: str | None = Field(

@@ -8,6 +8,7 @@ from typing import Final
 
 from fastapi import APIRouter, Request, Response
 
+from jointplay.service import entity_tags
 from jointplay.service.dependencies import SettingsDependency
 from jointplay.service.page.files import (
     VERSION_LENGTH,
@@ -109,6 +110,6 @@ def _file(request: Request, name: str) -> Response:
 
 def _sent(request: Request, found: PageFile, policy: str) -> Response:
     headers = _HEADERS | {"ETag": f'"{found.digest}"', "Content-Security-Policy": policy}
-    if headers["ETag"] in request.headers.get("If-None-Match", ""):
+    if entity_tags.has(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
     return Response(found.content, headers=headers, media_type=found.media_type)

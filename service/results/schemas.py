@@ -71,15 +71,15 @@ class History(Partial):
 
 
 class Bins(BaseModel):
-    """Times of consecutive groups of samples."""
+    """Begin and end of consecutive spans of time, or first and last samples of groups of them."""
 
     unit: str
-    first: Values = Field(description="Time of the first sample of each group.")
-    last: Values = Field(description="Time of the last sample of each group.")
+    first: Values = Field(description="Where each span begins, or the first sample of each group.")
+    last: Values = Field(description="Where each span ends, or the last sample of each group.")
 
 
 class Extremes(Described):
-    """Smallest and largest value of one quantity in each group of samples."""
+    """Smallest and largest value of one quantity in each span of time, or group of samples."""
 
     minimum: Values
     maximum: Values
@@ -106,7 +106,7 @@ class Poincare(History):
 
 
 class Peak(BaseModel):
-    """Signed extremes of one channel over the whole run, found between the samples too."""
+    """Signed extremes of one channel over a window, or the run, found between the samples too."""
 
     unit: str
     minimum: float | None

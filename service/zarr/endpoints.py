@@ -6,6 +6,7 @@ from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Path, Request, Response
 
+from jointplay.service import entity_tags
 from jointplay.service.access.signed import SIGNED
 from jointplay.service.compression import takes_gzip
 from jointplay.service.fields import BINARY
@@ -113,7 +114,7 @@ def _answer(request: Request, key: str, content: Content) -> Response:
             content = Content(len(packed), tag, lambda start, stop: packed[start:stop])
             headers["Content-Encoding"] = "gzip"
     headers["ETag"] = content.tag
-    if ranges.names(request.headers.get("if-none-match"), content.tag):
+    if entity_tags.has(request, content.tag):
         return Response(status_code=304, headers=headers)
     condition = request.headers.get("if-range")
     part = ranges.window(asked if condition in (None, content.tag) else None, content.size)

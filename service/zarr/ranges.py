@@ -1,4 +1,4 @@
-"""Byte ranges and entity tags of requests (RFC 9110, sections 13 and 14)."""
+"""Byte ranges of requests (RFC 9110, section 14)."""
 
 import re
 from typing import Final
@@ -57,17 +57,9 @@ def window(header: str | None, size: int) -> tuple[int, int] | None:
 
 def refused(request: Request, name: str, size: int) -> RequestRefused:
     """Return the refusal of a range that has no byte of what is named."""
-    asked = clipped(request.headers.get("range", ""))
+    given = clipped(request.headers.get("range", ""))
     return RequestRefused(
         kinds.RANGE_NOT_SATISFIABLE,
-        f"{name} has {size} bytes, and none of them is in the range {asked!r}.",
+        f"{name} has {size} bytes, and none of them is in the range {given!r}.",
         headers={"Content-Range": f"bytes */{size}", "Accept-Ranges": "bytes"},
     )
-
-
-def names(header: str | None, tag: str) -> bool:
-    """Tell whether an If-None-Match header names an entity tag, compared weakly."""
-    if header is None:
-        return False
-    listed = [one.strip().removeprefix("W/") for one in header.split(",")]
-    return "*" in listed or tag in listed

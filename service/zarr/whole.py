@@ -8,6 +8,7 @@ from typing import Any, Final
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import RedirectResponse, StreamingResponse
 
+from jointplay.service import entity_tags
 from jointplay.service.access.signed import SIGNED
 from jointplay.service.dependencies import SettingsDependency
 from jointplay.service.fields import BINARY
@@ -76,7 +77,7 @@ def show_whole(
         "Cache-Control": f"{'private' if guarded else 'public'}, no-cache",
         "ETag": f'"{sha256(version.encode()).hexdigest()[:32]}"',
     }
-    if ranges.names(request.headers.get("if-none-match"), headers["ETag"]):
+    if entity_tags.has(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
     asked = ranges.asked(request)
     unchanged = request.headers.get("if-range") in (None, headers["ETag"])

@@ -188,7 +188,7 @@ class Submitted:
 
 @dataclass(frozen=True)
 class JobPage:
-    """One page of jobs, newest first; `next` is the `after` of the following page, if any."""
+    """One page of a list of jobs; `next` is the `after` of the following page, if any."""
 
     jobs: tuple[Job, ...]
     next: str | None

@@ -140,7 +140,7 @@ def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = (), *, until: flo
         .order_by(block.c.lease_until, block.c.id)
         .limit(_REAP_AT_ONCE)
     ).all()
-    requeued, ended = [], []
+    requeued, given_up = [], []
     for row in sorted(found, key=attrgetter("job")):  # locked in the order that all others have
         lock_job(unit, row.job)
         same = (block.c.id == row.id) & (block.c.attempt == row.attempt)
@@ -151,10 +151,10 @@ def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = (), *, until: flo
         if outcome is BlockState.queued:
             requeued.append(row.id)
         else:
-            ended.append(row.job)
+            given_up.append(row.job)
     unit.execute(delete(tables.idempotency).where(tables.idempotency.c.expires <= unit.now))
     usage.forget(unit)
-    return Reaped(tuple(requeued), tuple(ended))
+    return Reaped(tuple(requeued), tuple(given_up))
 
 
 def expire(unit: Unit, job_id: str) -> Job:
