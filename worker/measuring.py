@@ -3,8 +3,8 @@
 import logging
 
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.settings import Settings
-from jointplay.worker.passing import PASSING
 
 _AT_ONCE = 50
 _log = logging.getLogger(__name__)
@@ -12,10 +12,15 @@ _log = logging.getLogger(__name__)
 
 def measure_results(catalogue: Catalogue, settings: Settings) -> None:
     """Note the bytes of some jobs' results; what cannot be measured is tried again."""
+    sizes = {}
     try:
-        jobs = catalogue.unmeasured(_AT_ONCE)
-        catalogue.note_stored({job: _size(catalogue, settings, job) for job in jobs})
-    except PASSING as fault:
+        for job in catalogue.unmeasured(_AT_ONCE):
+            try:
+                sizes[job] = _size(catalogue, settings, job)
+            except OSError as fault:  # that of one job keeps no others' from being noted
+                _log.warning("results of job %s are not measured now: %s", job, fault)
+        catalogue.note_stored(sizes)
+    except Unavailable as fault:
         _log.warning("results are not measured now: %s", fault)
 
 

@@ -14,6 +14,7 @@ from typing import Annotated
 from fastapi import Depends, Header, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel, ConfigDict
+from sqlalchemy.exc import SQLAlchemyError
 
 from jointplay.service.dependencies import of_the_application
 from jointplay.service.fields import in_unit
@@ -98,13 +99,13 @@ class Watcher:
         return False
 
     async def _look(self) -> None:
-        """Look until no one watches; what a database that does not answer hides is seen later."""
+        """Look until no one watches; what a database that fails hides is seen later."""
         pause = _PERIOD
         while self._watches:
             self._woken.clear()
             try:
                 self._show(await self._statuses(list(self._watches)))
-            except Unavailable as error:
+            except (Unavailable, SQLAlchemyError) as error:
                 _log.warning("looking again: %s", error)
             pause = min(_GROWTH * pause, _LONGEST_PERIOD)
             try:

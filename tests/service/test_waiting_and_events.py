@@ -7,10 +7,12 @@ import time
 
 import httpx
 import pytest
+from sqlalchemy.exc import DBAPIError
 
 from jointplay.records.job import JobError
 from jointplay.service.jobs.waiting import Watcher
-from jointplay.storage.catalogue.records import BlockState
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
 from tests.waiting import PATIENCE, until
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
@@ -75,6 +77,42 @@ def test_waiting_ends_where_a_change_comes_as_its_time_ends(catalogue, worker):
         return done == {waiting} and not waiting.result()
 
     assert asyncio.run(waited())
+
+
+class Counting(Catalogue):
+    """A catalogue that counts looks in vain."""
+
+    in_vain = 0
+
+    def statuses(self, jobs):
+        try:
+            return super().statuses(jobs)
+        except DBAPIError:
+            self.in_vain += 1
+            raise
+
+
+def test_who_waits_goes_on_where_the_database_failed_for_a_while(tmp_path):
+    """As while it is restored: the fault is none of those by which a database is away."""
+    catalogue = Counting(f"sqlite:///{tmp_path / 'catalogue.sqlite'}")
+    catalogue.migrate()
+    job = catalogue.submit(NewJob("simulate", {}, "d" * 64, "1")).job.id
+
+    def renamed(old, new):
+        with catalogue.connections.writing() as connection:
+            connection.exec_driver_sql(f"ALTER TABLE {old} RENAME TO {new}")
+
+    async def seen():
+        with Watcher(catalogue).watching(job) as watch:
+            assert (await watch.change(PATIENCE)).state is JobState.queued
+            renamed("job", "away")
+            await asyncio.to_thread(until, lambda: catalogue.in_vain)
+            renamed("away", "job")
+            catalogue.request_cancel(job)
+            return await watch.change(PATIENCE)
+
+    assert asyncio.run(seen()).state is JobState.cancelled
+    catalogue.close()
 
 
 def test_a_submission_may_be_waited_for(http, worker, catalogue):

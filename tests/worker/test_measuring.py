@@ -42,3 +42,18 @@ def test_what_a_failed_job_left_counts_unless_it_goes(
     measure_results(catalogue, settings)
     assert [catalogue.get(job).stored for job in (unsealed, sealed, study)] == [13, 7, 6]
     assert catalogue.use_of("ada").stored == 26
+
+
+def test_a_job_that_cannot_be_measured_keeps_no_others_from_it(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, running="data")
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    odd, other = (catalogue.submit(NEW).job.id for _ in range(2))
+    for job in (odd, other):
+        assert catalogue.claim_block(f"{job}-0", "worker", 60.0)
+        settings.running_files(job).put("a1/documents", [b"documents"])
+        catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.failed, ERROR))
+    (settings.running_folder(odd) / "a1" / "rows").symlink_to("nowhere")
+    measure_results(catalogue, settings)
+    assert [catalogue.get(job).stored for job in (odd, other)] == [None, 9]
+    catalogue.close()
