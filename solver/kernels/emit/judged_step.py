@@ -15,6 +15,7 @@ from jointplay.solver.kernels.emit.judging import (
     SWINGING,
     contact_flags,
     growth,
+    jumps,
     swings,
 )
 from jointplay.solver.kernels.emit.knots import KnotTracer
@@ -152,11 +153,13 @@ class JudgedStep:
             return most, most
         v, last = self.variable, self.tableau.stages
         for i in range(self.coordinates, 2 * self.coordinates):
-            first, inside, end = (v(self._slope(s, i)) for s in (1, last - 1, last))
-            swing = swings(first, inside, end, self.tableau.nodes[-2], self._weighed(i))
-            most = maximum(most, swing)
-        late = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
-        due = maximum(late, v("tried") - GROWN * v("looked_into"))
+            first, second, late, end = (v(self._slope(s, i)) for s in (1, 2, last - 1, last))
+            swing = swings(first, late, end, self.tableau.nodes[-2], self._weighed(i))
+            mean = (v(f"stage{i}") - v(f"y{i}")) / v("tried")
+            jump = jumps(first, second, mean, end, self._weighed(i))
+            most = maximum(most, maximum(swing, jump))
+        is_time = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
+        due = maximum(is_time, v("tried") - GROWN * v("looked_into"))
         wanted = minimum(v("seeks_extremes"), minimum(most, due))
         return select_positive(wanted, self.tracer.constant(SWINGING), 0.0), most
 

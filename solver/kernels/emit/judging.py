@@ -19,6 +19,9 @@ rounding of places up to 100 m away, and no more than 1e-4 of clearances down to
 
 SWING = 0.003
 """Share of a slope by which it swings noticeably inside a step."""
+JUMP = 2.0
+"""Times the changes of a slope from stage to stage by which its mean may leave that of the ends of
+a step without a jump. A parabola does so by 1.23 of them at most."""
 NOTICED = 0.01
 """The least of that in tolerances of the speed: less may be rounding."""
 
@@ -58,6 +61,18 @@ def swings(first: Scalar, inside: Scalar, last: Scalar, share: float, weighed: S
     least = maximum(0.5 * abs(apart), SWING * (abs(first) + abs(last)))
     swing = away * abs(weighed)
     return select_positive(minimum(away - least, swing - NOTICED), swing, 0.0)
+
+
+def jumps(first: Scalar, second: Scalar, mean: Scalar, last: Scalar, weighed: Scalar) -> Scalar:
+    """Return by how much a slope is elsewhere on the mean of a step than at its ends, 0 if hardly.
+
+    `second` : the slope at the second stage; `weighed` : step by tolerance. Where friction reverses
+    at some stages and is back at the last one, their errors may cancel, and late stages look alike.
+    """
+    away = abs(mean - 0.5 * (first + last))
+    off = away - JUMP * (abs(last - first) + abs(second - first))
+    swing = off * abs(weighed)
+    return select_positive(swing - NOTICED, swing, 0.0)
 
 
 def contact_flags(
