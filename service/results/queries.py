@@ -91,7 +91,7 @@ def unknown_channels(error: NoSuchChannel, parameter: str = "channels") -> Reque
     return RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors)
 
 
-def check_size(rows: float, columns: int, what: str, seconds: float) -> None:
+def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
     """Refuse an answer of more than `MOST_VALUES` values, and say how to narrow the question.
 
     Parameters
@@ -107,14 +107,29 @@ def check_size(rows: float, columns: int, what: str, seconds: float) -> None:
         return
     rows_allowed = MOST_VALUES // columns
     sentence = (
-        f"{rows:.0f} {what} of {columns - 1} channels and the time are {rows * columns:.0f}"
-        " values; one "
+        f"{rows} {what} of {columns - 1} channels and the time are {rows * columns} values; one "
         f"answer carries at most {MOST_VALUES}. Ask for fewer channels with `channels`, or for "
         f"windows of {rows_allowed} {what} (about {seconds * rows_allowed / rows:.3g} s) with "
         "`start` and `stop`."
     )
     raise RequestRefused.of_parameter(
         "stop", sentence, kinds.RESPONSE_TOO_LARGE, remedy="Choose a shorter window."
+    )
+
+
+def check_step(step: float, seconds: float, channels: int) -> None:
+    """Refuse instants every `step` s of a window of `seconds` that are too many values."""
+    most = MOST_VALUES // (channels + 1)
+    if seconds < (1.0 - 1e-12) * most * step:
+        return
+    least = f"{1.01 * seconds / most:.3g}"  # more than is needed, also when it is rounded
+    sentence = (
+        f"Of {channels} channels and the time one answer carries at most {most} instants. Every "
+        f"{step:g} s there are more in {seconds:.3g} s; ask for a `step` of at least {least} s, "
+        "for fewer channels with `channels`, or for a shorter window with `start` and `stop`."
+    )
+    raise RequestRefused.of_parameter(
+        "step", sentence, kinds.RESPONSE_TOO_LARGE, remedy=f"Ask for at least {least} s."
     )
 
 

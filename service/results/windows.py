@@ -14,7 +14,7 @@ from jointplay.records.resolution import Resolution
 from jointplay.service.dependencies import of_the_application
 from jointplay.service.problems import RequestRefused
 from jointplay.service.results import schemas
-from jointplay.service.results.queries import check_points, check_size
+from jointplay.service.results.queries import check_points, check_step
 from jointplay.service.results.stores import ReaderOfThePath
 from jointplay.service.results.streaming import Column
 from jointplay.service.windows import WindowProcess
@@ -39,9 +39,9 @@ class ExactReader:
                 f"The run is known to {self.trajectory.reached:g} s; {first:g} s is after it."
             )
             raise RequestRefused.of_parameter("start", sentence)
-        count = max(np.floor((last - first) / step * (1.0 + 1e-12)), 0.0) + 1.0
-        check_size(count, len(names) + 1, "instants", last - first)
-        times = np.minimum(first + step * np.arange(int(count)), last)
+        check_step(step, last - first, len(names))
+        count = int((last - first) / step * (1.0 + 1e-12)) + 1
+        times = np.minimum(first + step * np.arange(count), last)
         found = self.trajectory.values(names, times)
         if found.values is None:
             raise RequestRefused.of_parameter("step", found.refused)

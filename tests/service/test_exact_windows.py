@@ -78,6 +78,19 @@ def test_values_at_any_instants_are_those_that_samples_have(http, job):
         assert np.allclose(close, one["values"], rtol=0.0, atol=1e-9 * scale)
 
 
+@pytest.mark.parametrize("step", [1e-8, 1e-300, 5e-324])
+def test_a_step_too_fine_for_an_answer_is_refused_with_one_that_is_not(http, job, step):
+    problem = ask(http, job, status=422, channels=FORCE, step=step)
+    assert problem["type"] == "/problems/response-too-large"
+    assert "inf" not in problem["detail"]
+    (error,) = problem["errors"]
+    assert error["parameter"] == "step"
+    advised = float(error["detail"].split()[-2])
+    assert advised == pytest.approx(DURATION / 500_000, rel=0.02)
+    shown = ask(http, job, channels=FORCE, step=advised, stop=DURATION)
+    assert 0.98 * 500_000 < len(shown["time"]["values"]) <= 500_000
+
+
 def test_one_impact_shows_its_loop_of_force_over_penetration(http, job):
     (impact, *_) = [
         one

@@ -68,7 +68,7 @@ def _values(
 ) -> Window | str:
     count = max(np.floor((last - first) / step * (1.0 + 1e-12)), 0.0) + 1.0
     if count * (len(names) + 1) > MOST_VALUES:
-        return f"{count:.3g} instants are too many at once; ask for a shorter window."
+        return f"{count:.3g} instants are too many; ask for a longer step or a shorter window."
     times = np.minimum(first + step * np.arange(int(count)), last)
     found = trajectory.values(names, times)
     if found.values is None:
