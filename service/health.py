@@ -11,6 +11,7 @@ from jointplay.service.dependencies import of_the_application
 from jointplay.service.problems import kinds, problems, unavailable
 from jointplay.service.readiness import Readiness
 from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.installation import OtherFiles
 from jointplay.storage.places.fitness import Unfit
 
 router = APIRouter(tags=["health"])
@@ -40,7 +41,7 @@ async def is_ready(readiness: Annotated[Readiness, of_the_application("readiness
     except (Unavailable, SQLAlchemyError, RuntimeError) as error:
         _log.warning("the catalogue does not do as asked: %s", error)
         raise unavailable("The catalogue cannot be written.", 5) from error
-    except (OSError, Unfit) as error:
+    except (OSError, OtherFiles, Unfit) as error:
         _log.warning("results cannot be stored: %s", error)
         raise unavailable("Results cannot be stored.", 5) from error
     return Health()

@@ -10,13 +10,14 @@ from typing import Final
 
 from jointplay.service.vital import VitalThreads
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.installation import require_own_files
 from jointplay.storage.places.fitness import require_fit
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.settings import RUNNING, Settings
 
 _PERIOD: Final = 1.0
 """Seconds for which what was found holds: whoever asks, and anyone may, has no more written."""
-_PLACE_PERIOD: Final = 30.0  # s; five requests to another server
+_PLACE_PERIOD: Final = 30.0  # s; six requests to another server
 _TRIAL: Final = b"trial"
 _AT_ONCE: Final = 0.0  # s that this process leads: the next one that proves it may write, too
 
@@ -53,12 +54,13 @@ class Readiness:
             The catalogue cannot be written, or has another schema.
         OSError
             The data folder, or the place, cannot be written.
+        OtherFiles
+            They are those of another catalogue, or a disk is not mounted.
         """
         self._catalogue.ping()
         self._catalogue.take_lead("readiness", self._name, _AT_ONCE)
         self._write()
-        if not isinstance(self._settings.place, Folder):
-            self._try_place()
+        self._try_place()
 
     def _write(self) -> None:
         data = self._settings.data
@@ -75,5 +77,7 @@ class Readiness:
 
     def _try_place(self) -> None:
         if self._place_proved is None or time.monotonic() > self._place_proved + _PLACE_PERIOD:
-            require_fit(self._settings.place, large=False)
+            require_own_files(self._settings, self._catalogue)
+            if not isinstance(self._settings.place, Folder):
+                require_fit(self._settings.place, large=False)
             self._place_proved = time.monotonic()

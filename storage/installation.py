@@ -8,6 +8,7 @@ import logging
 import secrets
 from collections.abc import Iterator
 from contextlib import suppress
+from pathlib import Path
 from typing import Final
 
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -26,7 +27,7 @@ class OtherFiles(Exception):
 
 
 def require_own_files(settings: Settings, catalogue: Catalogue) -> None:
-    """Compare the marks of data folder and bucket, as far as all processes share them.
+    """Compare the marks of data folder and place for results, as far as all processes share them.
 
     Raises
     ------
@@ -53,8 +54,9 @@ def require_own_files(settings: Settings, catalogue: Catalogue) -> None:
 def _shared(settings: Settings) -> Iterator[tuple[str, Place, str]]:
     if not settings.sends:
         yield "data", Folder(str(settings.data)), str(settings.data)
-    if not isinstance(settings.place, Folder):
-        yield "results", settings.place, settings.results_url.partition("?")[0]
+    place = settings.place
+    if not isinstance(place, Folder) or not Path(place.root).is_relative_to(settings.data):
+        yield "results", place, settings.results_url.partition("?")[0]
 
 
 def _mark_in(place: Place) -> str:

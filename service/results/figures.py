@@ -135,7 +135,8 @@ def _map(beneath: ResultsOfJob) -> StudyReader:
 
 def _damaged(beneath: ResultsOfJob, error: CorruptStore) -> RequestRefused:
     """Return the refusal of results that are damaged, which are not those of the path."""
-    return _naming_over(refusal_of(beneath.job.id, beneath.catalogue, str(error)))
+    found = refusal_of(beneath.job.id, beneath.settings, beneath.catalogue, str(error))
+    return _naming_over(found)
 
 
 def _naming_over(error: RequestRefused) -> RequestRefused:

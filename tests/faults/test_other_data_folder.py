@@ -72,6 +72,23 @@ def test_a_copy_that_is_made_as_the_page_says_is_served(tmp_path: Path) -> None:
         assert httpx.get(f"{url}/readyz", trust_env=False).status_code == 200
 
 
+def test_another_folder_of_results_is_refused(tmp_path: Path) -> None:
+    catalogue = Catalogue(f"sqlite:///{tmp_path / 'catalogue.sqlite'}")
+    with closing(catalogue):
+        catalogue.migrate()
+
+        def checked(results: str) -> None:
+            (tmp_path / "data").mkdir(exist_ok=True)
+            place = f"file:{tmp_path / results}"
+            require_own_files(Settings(data=tmp_path / "data", results_url=place), catalogue)
+
+        checked("mounted")
+        checked("mounted")
+        (tmp_path / "not mounted").mkdir()
+        with pytest.raises(OtherFiles, match="not mounted is new to this catalogue"):
+            checked("not mounted")
+
+
 def test_another_bucket_is_refused_and_another_machine_is_not(tmp_path: Path) -> None:
     with running_server() as server, running_store() as endpoint:
         url = server.new("template0")

@@ -30,6 +30,7 @@ from jointplay.storage.catalogue.records import (
     Solver,
     WorkerDevice,
 )
+from jointplay.storage.installation import MARK
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 from tests.waiting import until
@@ -140,6 +141,23 @@ def test_ready_is_who_can_write(tmp_path: Path) -> None:
         assert (answer.status_code, answer.headers["Retry-After"]) == (503, "5")
         assert answer.json()["detail"] == "Results cannot be stored."
         (tmp_path / "data" / "running").unlink()
+        until(lambda: http.get("/readyz").is_success)
+
+
+def test_who_has_the_files_of_no_catalogue_is_not_ready(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As where the disk with the data folder is not mounted."""
+    monkeypatch.setattr(readiness, "_PLACE_PERIOD", 0.0)
+    mark, away = tmp_path / MARK, tmp_path / "away"
+    with (
+        serving(create_app(Settings(data=tmp_path))) as url,
+        httpx.Client(base_url=url, trust_env=False, timeout=60) as http,
+    ):
+        assert http.get("/readyz").is_success
+        mark.rename(away)
+        until(lambda: http.get("/readyz").status_code == 503)
+        away.rename(mark)
         until(lambda: http.get("/readyz").is_success)
 
 

@@ -1,5 +1,6 @@
 """A job whose results are damaged: what is answered, and how it is computed anew."""
 
+import shutil
 from typing import Any, cast
 
 import httpx
@@ -7,6 +8,7 @@ import pytest
 import zarr
 
 from jointplay import figures
+from jointplay.storage.installation import MARK
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
@@ -40,6 +42,27 @@ def test_a_damaged_job_is_computed_anew_when_it_is_submitted_again(
     again = http.post("/v1/jobs", json=document)
     assert again.status_code == 202
     assert again.json()["id"] != job
+
+
+def test_results_that_are_not_mounted_are_not_lost(
+    http: httpx.Client, worker: Worker, settings: Settings
+) -> None:
+    job = worker.finished(label="not mounted for a while", duration=1.0)
+    away = settings.data / "away"
+    away.mkdir()
+    mounted = ("results", MARK)
+    for name in mounted:
+        (settings.data / name).rename(away / name)
+    try:
+        answer = http.get(f"/v1/jobs/{job}/history")
+    finally:
+        shutil.rmtree(settings.data / "results", ignore_errors=True)
+        for name in mounted:
+            (away / name).rename(settings.data / name)
+        away.rmdir()
+    assert (answer.status_code, answer.json()["type"]) == (503, "/problems/unavailable")
+    assert http.get(f"/v1/jobs/{job}").json()["damaged"] is None
+    assert http.get(f"/v1/jobs/{job}/history").status_code == 200
 
 
 @pytest.mark.parametrize("file", ["", "sections/time/c/0/0"])
