@@ -1,6 +1,7 @@
 /** Fields of parameters that have distributions: a name, a distribution and its two numbers each. */
 
 const SLOTS = [1, 2, 3];
+const OF_LOGARITHM = "log-normal"; // whose standard deviation is that of the logarithm
 export const NONE = "–"; // nothing is drawn, or varies
 
 export class DrawnParameters {
@@ -32,7 +33,8 @@ export class DrawnParameters {
         return { [a]: from, [b]: to };
       };
       const number = (place, value) => ({
-        title: `${title}, ${this.titles[place]}`, help: "", unit: "1", required: nth === 1, default: value, empty: "",
+        title: `${title}, ${this.titles[place]}`, help: "", required: nth === 1, default: value, empty: "",
+        unit: (all) => (place && all[kind] === OF_LOGARITHM ? "1" : one.units[all[name]]),
       });
       const range = proposes(one.default);
       return {

@@ -2,6 +2,7 @@
 
 import { withUnit } from "./numbers.js";
 import { preset } from "./scene_of_job.js";
+import { startNumber } from "./start_numbers.js";
 import { parameterWords } from "./state.js";
 
 /** Returns the declared parameters of the preset of a job's document; none of another scene. */
@@ -12,9 +13,10 @@ export async function declaredFor({ scene }) {
 /** Returns the words of a job's document. */
 export function jobWords(document, declared) {
   const { kind, duration, grid, parameters } = document;
-  const over = (name, all) => {
+  const over = (varied, all) => {
     const [from, to] = Array.isArray(all) ? [all[0], all.at(-1)] : [all.from, all.to];
-    return `${name} ${[from, to].map((one) => withUnit(one, declared[name]?.unit ?? "1")).join(" … ")}`;
+    const { name, unit } = named(varied, declared);
+    return `${name} ${[from, to].map((one) => withUnit(one, unit)).join(" … ")}`;
   };
   const axes = [document, ...Object.values(document)].filter((one) => (one?.parameter ?? one?.start) && one.values);
   const verb = { calibration: "finds", sensitivity: "draws" }[kind];
@@ -30,7 +32,12 @@ export function jobWords(document, declared) {
 /** Returns the words of starts that are drawn, or of how many each point has; none of the scene's own. */
 function starts(found) {
   if (typeof found === "number") return found > 1 && `${found} starts a point`;
-  return found && `draws ${Object.keys(found).join(", ")}`;
+  return found && `draws ${Object.keys(found).map((one) => named(one, {}).name).join(", ")}`;
+}
+
+/** Returns the name and unit of a parameter, or of a number of the start by its pointer. */
+function named(varied, declared) {
+  return varied.startsWith("/") ? startNumber(varied) : { name: varied, unit: declared[varied]?.unit ?? "1" };
 }
 
 /** Returns, for each of some jobs of one preset, the parameters in which they differ. */

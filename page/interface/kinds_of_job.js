@@ -124,16 +124,9 @@ export const KINDS = {
     help: "Extremes of forces and motions over one or two parameters.",
     fields: (document, duration) => ({
       ...varied(document, "first", "First parameter", { count: 5 }),
-      second: {
-        ...choice(document, { none: true }), title: "Second parameter", help: "For a map over two parameters.",
-        proposes: (chosen) => {
-          const { from, to } = proposed(document, chosen);
-          return { second_from: from, second_to: to };
-        },
-      },
-      second_from: { title: "Second: from", help: "", unit: "1", default: null, empty: "" },
-      second_to: { title: "Second: to", help: "", unit: "1", default: null, empty: "" },
-      second_count: { title: "Second: values", help: "", unit: "1", minimum: 1, default: 5 },
+      ...varied(document, "second", "Second parameter", {
+        count: 5, help: "For a map over two parameters.", before: "second", none: true,
+      }),
       duration: {
         title: "Duration", help: "Of every run.", unit: "s", minimum: 1e-9,
         default: duration,
@@ -214,7 +207,7 @@ function varied(document, name, title, { count = 48, help = "What is varied.", b
     return { [part("from")]: from, [part("to")]: to };
   };
   const end = (one) => ({
-    title: titled(one), help: "", unit: "1", required: !which.none, empty: "",
+    title: titled(one), help: "", unit: (all) => choices.units[all[name]], required: !which.none, empty: "",
     default: proposes(choices.default)[part(one)],
   });
   return {
@@ -253,23 +246,24 @@ function ends(values) {
 }
 
 /**
- * Returns the field of what varies.
+ * Returns the field of what varies, with the unit of each choice.
  *
- * @param of   what may: parameters, numbers of the start, or both; none given: parameters
+ * @param of   what may: parameters, numbers of the start, or both, those first that are proposed;
+ *             none given: parameters
  * @param none whether nothing may, too
  * @param nth  how many others are proposed before
  */
 function choice(document, { of = [], none = false, nth = 0 } = {}) {
   const starts = of.includes("start") ? startNumbers(document) : {};
   const parameters = of.length && !of.includes("parameter") ? {} : document.parameters ?? {};
-  const names = [
-    ...Object.entries(parameters).filter(([, { choices }]) => !choices).map(([name]) => name),
-    ...Object.keys(starts),
-  ];
+  const numbers = Object.fromEntries(Object.entries(parameters).filter(([, { choices }]) => !choices));
+  const all = of[0] === "start" ? { ...starts, ...numbers } : { ...numbers, ...starts };
+  const names = Object.keys(all);
   const likely = names.filter((name) => !parameters[name] || parameters[name].default > 0)[nth] ?? names[nth];
   return {
     unit: "1", choices: [...(none ? [NONE] : []), ...names], default: none ? NONE : likely,
     words: Object.fromEntries(Object.entries(starts).map(([pointer, { name }]) => [pointer, `start: ${name}`])),
+    units: { [NONE]: "1", ...Object.fromEntries(names.map((name) => [name, all[name].unit])) },
   };
 }
 

@@ -8,6 +8,8 @@ const SHOWN = 6; // others are folded away
 /**
  * Fields of declared parameters; those of a kind of job, whose place is "", are all shown.
  *
+ * A unit may be a function of the values of all fields: that of a range is its parameter's.
+ *
  * @property element   the form's part
  * @property values()  what differs from the defaults; throws where something is wrong
  */
@@ -17,6 +19,7 @@ export class ParameterFields {
     this.fields = Object.entries(parameters).map(([name, parameter]) =>
       new Field(name, parameter, given[name], () => {
         this.propose(name);
+        this.tellUnits();
         onchange();
       }, `${place.replaceAll("/", "-")}-${name}`));
     const required = this.fields.filter(({ parameter }) => parameter.required);
@@ -31,10 +34,16 @@ export class ParameterFields {
       rest.length > 0 && element(
         "details",
         { open: rest.some((one) => given[one.name] !== undefined) },
-        element("summary", {}, `${rest.length} more parameters`),
+        element("summary", {}, `${rest.length} more ${rest.length === 1 ? "parameter" : "parameters"}`),
         element("div", { class: "fields" }, rest.map((one) => one.element)),
       ),
     );
+    this.tellUnits();
+  }
+
+  tellUnits() {
+    const all = this.all();
+    for (const field of this.fields) field.tellUnit(all);
   }
 
   /** Shows in other fields what the choice in one proposes for them. */
@@ -99,12 +108,12 @@ class Field {
           oninput: checked,
         });
     this.wrong = element("p", { class: "wrong", id: `${id}-wrong` });
+    this.unit = element("span", { class: "unit" });
     this.element = element(
       "div",
       { class: "field" },
       element("label", { for: id }, parameter.title ?? name),
-      element("div", { class: "entry" }, this.input,
-        element("span", { class: "unit" }, parameter.unit === "1" ? "" : unitText(parameter.unit))),
+      element("div", { class: "entry" }, this.input, this.unit),
       element("p", { class: "help", id: `${id}-help` }, parameter.help, " ", range(parameter)),
       this.wrong,
     );
@@ -117,6 +126,12 @@ class Field {
     if (text === "") return undefined;
     const value = typed(text);
     return value === this.parameter.default ? undefined : value;
+  }
+
+  tellUnit(all) {
+    const { unit } = this.parameter;
+    const written = typeof unit === "function" ? unit(all) : unit;
+    this.unit.textContent = written === "1" ? "" : unitText(written);
   }
 
   /** Shows a value that is not typed. */
@@ -154,10 +169,10 @@ function written(value) {
 }
 
 function range({ minimum, maximum, unit, choices }) {
-  const of = unit === "1" || !unit ? "" : ` ${unitText(unit)}`;
-  if (choices) return "";
   const [low, high] = [minimum, maximum].map((one) => one !== null && one !== undefined);
+  if (choices || !(low || high)) return "";
+  const of = unit === "1" || !unit ? "" : ` ${unitText(unit)}`;
   if (low && high) return `${short(minimum)} to ${short(maximum)}${of}.`;
   if (low) return `At least ${short(minimum)}${of}.`;
-  return high ? `At most ${short(maximum)}${of}.` : "";
+  return `At most ${short(maximum)}${of}.`;
 }

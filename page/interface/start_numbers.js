@@ -7,9 +7,35 @@ const XY = ["x", "y"];
 const SHARE = 0.9; // of a play, up to which journals start
 const RATE = 0.1; // m/s
 const TURN = 6.283;
+const STROKE = 0.01; // m
+
+// what stands in a pointer beside the name of a body, joint or driver
+const NUMBERS = {
+  angles: ["angle", "rad"],
+  points: ["place", "m"],
+  angular_velocities: ["angular_velocity", "rad/s"],
+  velocities: ["velocity", "m/s"],
+  "joints eccentricity": ["eccentricity", "m"],
+  "joints rate": ["eccentricity_rate", "m/s"],
+  "guides offset": ["offset", "m"],
+  "guides tilt": ["tilt", "rad"],
+  "guides rate": ["offset_rate", "m/s"],
+  "guides tilt_rate": ["tilt_rate", "rad/s"],
+  "drivers position": ["position", "1"], // rad, or m if it slides
+};
+
+/** Returns the name and unit of a number by its pointer: `stop.eccentricity_x` in m. */
+export function startNumber(pointer) {
+  const [part, name, ...field] = pointer.split("/").slice(pointer.startsWith("/start/") ? 2 : 1);
+  const axis = XY[field.at(-1)];
+  if (axis) field.pop();
+  const [word, unit] = NUMBERS[[part, ...field].join(" ")] ?? [pointer, "1"];
+  return { name: `${name}.${word}${axis ? `_${axis}` : ""}`, unit };
+}
 
 /**
- * Returns by pointer the name of each number, and a range to begin with: `{name, from, to}`.
+ * Returns by pointer the name and unit of each number, and a range to begin with: `{name, unit, from,
+ * to}`; what moves and its speed stand side by side.
  *
  * These are places and speeds of journals in their play, angles and angular velocities of bodies that
  * the scene starts at, and positions of drivers. Others can be written in a job's document.
@@ -17,19 +43,24 @@ const TURN = 6.283;
 export function startNumbers(document) {
   const { joints, start, drivers } = withParameters(document);
   const found = {};
-  const add = (pointer, name, middle, width) => {
-    found[pointer] = { name, from: middle - width, to: middle + width };
+  const add = (pointer, middle, width, unit = startNumber(pointer).unit) => {
+    found[pointer] = { ...startNumber(pointer), unit, from: middle - width, to: middle + width };
   };
   for (const [name, joint] of Object.entries(joints)) {
     if (!marks(joint).is_journal || !(play(joint) > 0)) continue;
-    XY.forEach((axis, k) => add(`/start/joints/${name}/eccentricity/${k}`, `${name}.eccentricity_${axis}`,
-      0, SHARE * play(joint)));
-    XY.forEach((axis, k) => add(`/start/joints/${name}/rate/${k}`, `${name}.eccentricity_rate_${axis}`, 0, RATE));
+    for (const k of XY.keys()) {
+      add(`/start/joints/${name}/eccentricity/${k}`, 0, SHARE * play(joint));
+      add(`/start/joints/${name}/rate/${k}`, 0, RATE);
+    }
   }
-  for (const name of Object.keys(drivers ?? {})) add(`/drivers/${name}/position`, `${name}.position`, TURN / 2, TURN / 2);
+  for (const [name, { joint, position }] of Object.entries(drivers ?? {})) {
+    const slides = joint && !marks(joints[joint]).turns; // without a joint it turns a body
+    const range = slides ? [position ?? 0, STROKE, "m"] : [TURN / 2, TURN / 2, "rad"];
+    add(`/drivers/${name}/position`, ...range);
+  }
   for (const [name, angle] of Object.entries(start?.angles ?? {})) {
-    add(`/start/angles/${name}`, `${name}.angle`, angle, 1);
-    add(`/start/angular_velocities/${name}`, `${name}.angular_velocity`, start.angular_velocities?.[name] ?? 0, 1);
+    add(`/start/angles/${name}`, angle, 1);
+    add(`/start/angular_velocities/${name}`, start.angular_velocities?.[name] ?? 0, 1);
   }
   return found;
 }

@@ -28,7 +28,8 @@ export function drawn(canvas, scene, pose, box, { margin = 30, ...options } = {}
 export class Sketch {
   /**
    * @param canvas where scenes are drawn
-   * @param options of the drawing; `onKeyless` is called where the service asks for a key
+   * @param options of the drawing; `onKeyless` is called where the service asks for a key, `onFound` with
+   *                what it answers of each scene
    */
   constructor(canvas, options, signal) {
     Object.assign(this, { canvas, options, signal, playing: false, share: 0, poses: [] });
@@ -47,6 +48,7 @@ export class Sketch {
     });
     this.scene = { ...scene, curves: found.curves };
     Object.assign(this, { found, poses: found.poses, box: bounds(this.scene, found.poses) });
+    this.options.onFound?.(found);
     this.draw();
     if (this.playing) await this.sweep();
   }

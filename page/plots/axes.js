@@ -40,14 +40,14 @@ export function extent(lists, room = 0.04) {
   return [low - margin, high + margin];
 }
 
-/** Returns round numbers in a range, about as many as wanted. */
+/** Returns round numbers in a range, about as many as wanted; at least two, which show the scale. */
 export function ticks([low, high], wanted) {
   const raw = (high - low) / Math.max(wanted, 1);
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].find((one) => one * power >= raw) * power;
   const found = [];
   for (let k = Math.ceil(low / step); k * step <= high + 1e-9 * step; k++) found.push(k * step);
-  return found;
+  return found.length < 2 && high > low ? ticks([low, high], 2 * Math.max(wanted, 1)) : found;
 }
 
 /** Draws a frame with ticks and labels, whose units `[m]` get prefixes that suit the values. */

@@ -26,6 +26,7 @@ const TABS = {
   figures: ["Figures", () => import("./job/figures.js"), ["figures"]],
   document: ["Document", () => import("./job/document.js"), ["self"]],
 };
+const AGAIN = 10000; // ms after which the time since the submission is told anew
 const PATIENCE = 1500; // ms in the queue after which is asked who is there to compute
 
 export async function show(room, { parts, query, signal }) {
@@ -83,6 +84,7 @@ class Head {
     this.mark = element("span", { role: "status" });
     this.bar = element("progress", { max: 1, "aria-label": "Progress of the job" });
     this.words = element("p", { class: "quiet small" });
+    this.when = element("span", { title: job.created });
     this.notice = element("div", { "aria-live": "polite" });
     this.buttons = element("div", { class: "buttons" });
     const kind = job.kind === "simulate" ? "" : ` · ${job.kind}`;
@@ -96,7 +98,15 @@ class Head {
       this.bar,
     );
     this.watchQueue().catch(() => {});
+    this.tellWhen().catch(() => {}); // until the view is left
     this.refresh();
+  }
+
+  async tellWhen() {
+    for (;;) {
+      this.when.textContent = ago(this.job.created);
+      await pause(AGAIN, this.signal);
+    }
   }
 
   /** Shows, once there are results, what of the scene's start the run did not keep. */
@@ -131,7 +141,7 @@ class Head {
       { class: "facts" },
       fact("Duration", job.job.duration && withUnit(job.job.duration, "s")),
       parameters,
-      fact("Submitted", ago(job.created)),
+      fact("Submitted", this.when),
       job.label && fact("Mechanism", sceneName(job.job).replaceAll("-", " ")),
       job.batch && element("div", {}, element("dt", {}, "Batch"), element("dd", {},
         element("a", { href: address(["batch", job.batch]) }, job.batch))),

@@ -5,6 +5,7 @@ import { Estimate } from "../interface/estimate.js";
 import { jobAsText } from "../interface/job_as_text.js";
 import { KINDS, fieldsOf, kindsOfJobs, proposedDuration } from "../interface/kinds_of_job.js";
 import { ParameterFields } from "../interface/parameter_fields.js";
+import { withUnit } from "../interface/numbers.js";
 import { go, note } from "../interface/place.js";
 import { fields as wrongFields } from "../interface/trouble.js";
 import { onNewColours } from "../mechanism/palette.js";
@@ -20,7 +21,9 @@ export async function show(room, { parts, query, signal }) {
   const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
   const [duration] = await Promise.all([proposedDuration(document_, signal), kindsOfJobs(signal)]);
   const form = new JobForm(document_, query.get("kind") ?? "simulate", given, duration, signal);
-  const sketch = new Sketch(canvas, { labels: true }, signal);
+  const turn = element("p", { class: "quiet small", role: "status" });
+  const sketch = new Sketch(canvas, { labels: true, onFound: ({ drivers_time: once, repeats }) =>
+    fill(turn, once !== null && repeats && `Its drivers come round every ${withUnit(once, "s")}.`) }, signal);
   const redraw = () => {
     const { valid } = form.parameters;
     if (!valid && sketch.scene) return; // what was right last stays
@@ -41,7 +44,7 @@ export async function show(room, { parts, query, signal }) {
       element(
         "div",
         { class: "stacked" },
-        element("div", { class: "panel stage" }, canvas),
+        element("div", { class: "panel" }, element("div", { class: "stage" }, canvas), turn),
         element("section", { class: "panel" }, element("h2", {}, "The same job elsewhere"),
           form.text.element),
         document_.source && element("section", { class: "panel small quiet" },

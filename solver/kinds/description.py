@@ -26,19 +26,19 @@ def description() -> dict[str, Any]:
     A field has its ``help``, the ``form`` of its values (number, integer, flag, text, names,
     numbers, values, grid, axis, distributions or other), and where there are any its ``unit``,
     ``choices``, ``words`` that may stand in place of such a value, ``members``, the numbers that
-    each distribution is made of, and what ``varied`` may name, if that is not a parameter alone;
-    ``own`` fields are those of no other kind's documents.  A
-    kind that can be asked for by one option of a command line has its ``option``: the ``fields``
-    that it stands for, the ``form`` in which they are typed, and its ``name`` if that is not the
-    kind's.
+    each distribution is made of, and what ``varied`` may name, the usual first, if that is not a
+    parameter alone; ``own`` fields are those of no other kind's documents.  A kind that can be
+    asked for by one option of a command line has its ``option``: the ``fields`` that it stands for,
+    the ``form`` in which they are typed, and its ``name`` if that is not the kind's.
     """
     found: dict[str, Any] = {}
     for name, kind in KINDS.items():
         schema = kind.document.model_json_schema()
         own = _own_fields(kind.document)
+        starts_first = "attractors" in kind.results  # most basins are over numbers of the start
         rest = [f for f in schema["properties"] if f not in own and f not in ELSEWHERE]
         fields = {
-            field: _field(schema["properties"][field])
+            field: _field(schema["properties"][field], starts_first)
             | ({"own": True} if field in own else {})
             | ({"required": True} if field in schema["required"] else {})
             for field in own + rest
@@ -85,9 +85,10 @@ def _own_fields(document: type[MechanismJob]) -> list[str]:
     return [name for name in found if name not in ELSEWHERE]
 
 
-def _field(schema: dict[str, Any]) -> dict[str, Any]:
+def _field(schema: dict[str, Any], starts_first: bool) -> dict[str, Any]:
     forms = schema.get("anyOf") or schema.get("oneOf") or [schema]
-    varied = ["parameter", "start"] if any(_is(form, "AlongStart") for form in forms) else []
+    both = ["start", "parameter"] if starts_first else ["parameter", "start"]
+    varied = both if any(_is(form, "AlongStart") for form in forms) else []
     forms = [form for form in forms if form.get("type") != "null" and not _is(form, "AlongStart")]
     words = [form["const"] for form in forms if "const" in form]
     (form, *others) = [form for form in forms if "const" not in form]

@@ -6,6 +6,7 @@ from typing import Any
 
 from jointplay.records.failure import Problem
 from jointplay.solver.kinds.declared_hints import idle_widths, other_units
+from jointplay.solver.kinds.rate_hints import fast_starts
 from jointplay.solver.kinds.start_hints import (
     DIGITS,
     Pose,
@@ -52,6 +53,7 @@ def hints(written: Mapping[str, Any], scene: Scene, pose: Pose) -> list[Problem]
     found += [*deep_journals(scene), *idle_widths(written, scene, setting)]
     found += [*other_units(scene), *in_degrees(scene), *too_inert(scene), *nearly_turns(scene)]
     found += [*too_soft(scene), *reversed_drivers(scene), *behind_cams(scene, pose)]
+    found += fast_starts(scene)
     return [*found, *driven_from_zero(written, scene, setting)]
 
 

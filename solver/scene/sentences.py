@@ -72,6 +72,8 @@ def schema_problems(
                 sentence = _out_of_form(field, keys, root, document)
         else:
             sentence = _sentence(item, field, _unit(keys, root, document))
+        if item["type"] == "missing":
+            sentence += _of_parameter(pointer, document)
         found.setdefault(pointer, sentence)  # the first of a union's complaints says enough
     return [Problem(pointer, sentence) for pointer, sentence in found.items()]
 
@@ -104,6 +106,21 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
     more = units | {"meant": _meant_number(item) if kind == "int_type" else _meant_word(item)}
     return SENTENCES[kind].format(field=field, given=item["input"], **more, **context)
+
+
+def _of_parameter(pointer: str, document: object) -> str:
+    """Return what else to say of a missing field, if a parameter of the scene would set it."""
+    path = pointer.removeprefix("/scene")
+    scene = document.get("scene", document) if isinstance(document, Mapping) else None
+    declared = scene.get("parameters") if isinstance(scene, Mapping) else None
+    for name, parameter in declared.items() if isinstance(declared, Mapping) else ():
+        targets = parameter.get("targets") if isinstance(parameter, Mapping) else None
+        listed = targets if isinstance(targets, list) else []
+        if path in [one.get("path") for one in listed if isinstance(one, Mapping)]:
+            return (
+                f" The parameter '{name}' replaces it, but a scene is complete without parameters."
+            )
+    return ""
 
 
 def _meant_number(item: ErrorDetails) -> str:

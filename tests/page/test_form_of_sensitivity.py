@@ -44,6 +44,23 @@ def test_parameters_are_given_distributions_submitted_and_changed(browsing, http
         expect(page.locator(".row")).to_contain_text("draws clearance_A, friction")
 
 
+WITHIN = """async (found) => {
+  const { within } = await import("/page/views/job/sensitivity.js");
+  return found.map((one) => {
+    const [values, low, high] = one.map((number) => [number]);
+    return within({ values, low, high }, 0, "m");
+  });
+}"""
+
+
+def test_the_ends_of_an_interval_are_told_apart(browsing, service_url):
+    found = [[0.170312, 0.1703101, 0.1703139], [0.5, 0.25, 1.0], [0.5, 0.5, 0.5], [0.5, None, None]]
+    with browsing.page(f"{service_url}/") as page:
+        narrow, *others = page.evaluate(WITHIN, found)
+    assert narrow == "170.312 mm (170.3101 mm … 170.3139 mm)"
+    assert others == ["500 mm (250 mm … 1 m)", "500 mm (500 mm … 500 mm)", "500 mm (– … –)"]
+
+
 def test_every_output_is_shown_with_its_figure_and_a_limit(browsing, worker, service_url):
     job = worker.finished_study(**SENSITIVITY, label="shown", failing=())
     with browsing.page(f"{service_url}/#/job/{job}") as page:

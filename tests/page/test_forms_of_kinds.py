@@ -108,9 +108,7 @@ def test_numbers_of_the_start_vary_and_are_drawn(browsing, service_url):
     lacking = ("422", "404")
     place, rate = ("/start/joints/stop/eccentricity/0", "/start/joints/stop/rate/0")
     address = f"{service_url}/#/new/impact-oscillator?kind=basins"
-    with browsing.page(address, expected=lacking) as page:
-        page.get_by_label("Along", exact=True).select_option("start: stop.eccentricity_x")
-        page.get_by_label("By", exact=True).select_option("start: stop.eccentricity_rate_x")
+    with browsing.page(address, expected=lacking) as page:  # which proposes a place and its speed
         page.get_by_role("button", name="JSON").click()
         document = shown_document(page)
         values = {"from": -0.18, "to": 0.18, "count": 24}  # nine tenths of the play
@@ -120,6 +118,10 @@ def test_numbers_of_the_start_vary_and_are_drawn(browsing, service_url):
         run_and_come_back(page)
         expect(page.get_by_label("Along", exact=True)).to_have_value(place)
         expect(page.get_by_label("Along, to", exact=True)).to_have_value("0.18")
+        page.goto(f"{service_url}/#/jobs?kind=basins")
+        words = "stop.eccentricity_x −180 mm … 180 mm, stop.eccentricity_rate_x"
+        expect(page.locator(".row").first).to_contain_text(words)
+        page.go_back()
         page.get_by_label("What to compute").select_option("basin-stability")
         filled(page, Samples="7", Record="5")
         page.get_by_role("button", name="JSON").click()
@@ -132,6 +134,31 @@ def test_numbers_of_the_start_vary_and_are_drawn(browsing, service_url):
             "record": 5,
         }
         assert admit(document).points == 7
+
+
+def test_the_ends_of_a_range_have_the_unit_of_what_varies(browsing, service_url):
+    def unit(page, label):
+        return page.get_by_label(label, exact=True).locator("xpath=following-sibling::*")
+
+    with browsing.page(f"{service_url}/#/new/slider-crank?kind=sweep") as page:
+        expect(unit(page, "From")).to_have_text("m")
+        page.get_by_label("First parameter", exact=True).select_option("speed")
+        expect(unit(page, "To")).to_have_text("rad/s")
+        expect(unit(page, "Second parameter, from")).to_have_text("")
+        page.get_by_label("Second parameter", exact=True).select_option("clearance")
+        expect(unit(page, "Second parameter, from")).to_have_text("m")
+        page.get_by_label("What to compute").select_option("sensitivity")
+        deviation = "Parameter 1, high or standard deviation"
+        expect(unit(page, deviation)).to_have_text("m")
+        page.get_by_label("Parameter 1, distribution", exact=True).select_option("log-normal")
+        expect(unit(page, deviation)).to_have_text("")  # of the logarithm
+        expect(unit(page, "Parameter 1, low or mean or median")).to_have_text("m")
+        page.goto(f"{service_url}/#/new/slider-crank?kind=bifurcation&parameter=speed")
+        expect(unit(page, "From")).to_have_text("rad/s")
+        page.get_by_text("Its drivers come round every 12 ms.").wait_for()  # 5000 rpm
+        page.get_by_text("more parameters").click()
+        page.get_by_label("speed", exact=True).fill("100")
+        page.get_by_text("Its drivers come round every 62.83 ms.").wait_for()
 
 
 def test_the_command_line_says_all_of_a_run_or_takes_it_from_a_file(browsing, service_url):

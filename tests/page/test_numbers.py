@@ -37,6 +37,21 @@ def test_numbers_along_an_axis_differ(browsing, service_url):
     assert labels == ["friction", "clearance [mm]"]
 
 
+TICKS = """async (ranges) => {
+  const { ticks } = await import("/page/plots/axes.js");
+  return ranges.map(([low, high, wanted]) => ticks([low, high], wanted));
+}"""
+
+
+def test_the_scale_of_a_low_axis_can_be_read(browsing, service_url):
+    exponents = [-768, 700, 84 / 45]  # 1/s on 84 px: one round number alone says nothing
+    with browsing.page(f"{service_url}/") as page:
+        low, usual, point = page.evaluate(TICKS, [exponents, [0, 1, 5], [2, 2, 3]])
+    assert low == [-500, 0, 500]
+    assert usual == pytest.approx([0, 0.2, 0.4, 0.6, 0.8, 1])
+    assert len(point) <= 1
+
+
 HIDDEN = """async ([titles, row, look, width]) => {
   const { table } = await import("/page/interface/table.js");
   const made = table("Numbers", titles, [row], look);

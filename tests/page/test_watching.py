@@ -1,10 +1,14 @@
 """From a card on the start page to a mechanism that moves, on real jobs."""
 
+import csv
 import re
+import time
 
+import httpx
 import pytest
 
 from tests.page.browsing import barriers, expect
+from tests.page.conftest import submitted
 
 MOVED = "before => Number(document.querySelector('.stage canvas')?.dataset.frames ?? 0) > before"
 NARROWER = """width => {
@@ -95,6 +99,53 @@ def test_phase_portrait_and_spectrum_follow_the_window_shown(browsing, url, pres
         page.get_by_text("50000 instants, 500 ns apart.").wait_for()
         page.screenshot(path=artifacts / "phase-and-spectrum.png", full_page=True)
         assert barriers(page) == []
+
+
+def saved(page, name):
+    """Return the rows of the file that a button saves."""
+    with page.expect_download() as download:
+        page.get_by_role("button", name=name).click()
+    return list(csv.reader(download.value.path().read_text().splitlines()))
+
+
+def test_what_is_shown_is_saved_as_csv(browsing, url, press):
+    history = f"{url}/v1/jobs/{press}/history?channels=A.normal_force&start=0.02&stop=0.03"
+    samples = httpx.get(history, trust_env=False).json()
+    with browsing.page(f"{url}/#/job/{press}?channels=A.normal_force&from=0.02&to=0.03") as page:
+        page.locator(".uplot").wait_for()
+        head, *rows = saved(page, "Save these curves as CSV")
+        assert head == ["time [s]", "A.normal_force [N]"]
+        found = {round(float(time_) / 5e-6): float(force) for time_, force in rows}
+        assert [*found] == [*range(4000, 6001)]  # 2000 steps of 5 us
+        forces = samples["channels"]["A.normal_force"]["values"]
+        for time_, force in zip(samples["time"]["values"], forces, strict=True):
+            # of one polynomial; times differ by rounding, and forces by up to 1e9 N/s of that
+            assert found[round(time_ / 5e-6)] == pytest.approx(force, rel=1e-9, abs=1e-6)
+        page.get_by_role("link", name="Numbers").click()
+        head, *rows = saved(page, "Save contacts as CSV")
+    assert head[-1] == "impulse [N s]"
+    impacts = httpx.get(f"{url}/v1/jobs/{press}/impacts", trust_env=False).json()["impacts"]
+    expected = [(one["joint"], one["impulse"]) for one in impacts]
+    assert [(joint, float(impulse)) for joint, *_, impulse in rows] == expected
+
+
+def test_of_a_run_that_settles_each_tab_says_what_its_extremes_are_of(browsing, url):
+    scene = {"preset": "slider-crank"}
+    job = {"kind": "simulate", "scene": scene, "duration": 0.024, "settle": 0.012}
+    with browsing.page(f"{url}/#/job/{submitted(url, job)}/numbers") as page:
+        page.get_by_text("From 12 ms on.").wait_for()
+        page.get_by_role("link", name="Accuracy").click()
+        page.get_by_text("Largest values of the whole run, settling included, agree").wait_for()
+
+
+def test_the_time_since_the_submission_goes_on(browsing, url, press):
+    with browsing.page(f"{url}/#/job/{press}") as page:
+        page.clock.install(time=time.time())
+        page.reload()
+        facts = page.locator(".facts")
+        expect(facts).not_to_contain_text("10 h")
+        page.clock.fast_forward("10:30:00")
+        expect(facts).to_contain_text("10 h")
 
 
 def test_sections_of_a_run_are_points_of_a_plane(browsing, url, press):

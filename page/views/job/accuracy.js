@@ -16,12 +16,12 @@ export async function show(room, context) {
     fill(room, element("p", { class: "panel" }, "This run was computed without a certificate."));
   } else {
     await whenThere(room, context, links.certificate, {}, (answer) =>
-      fill(room, certificate(answer, job.duration)), ["succeeded", "failed"]);
+      fill(room, certificate(answer, job)), ["succeeded", "failed"]);
   }
 }
 
-function certificate(found, duration) {
-  const statements = words(found, duration);
+function certificate(found, { duration, settle }) {
+  const statements = words(found, duration, settle);
   return element("div", { class: "split beside" },
     element("section", { class: "panel" },
       element("h2", {}, "What you can trust"),
@@ -39,14 +39,15 @@ function certificate(found, duration) {
 }
 
 /** Returns sentences about a certificate, the most important first. */
-function words(found, duration) {
+function words(found, duration, settle) {
   const { forces_until: forces } = found;
   const [course, growth] = convergence(found, duration);
   const sentences = [course];
   const far = !gaps(found, 0, duration).length;
   const spread = spreads(found.channels);
   if (!far && spread) {
-    sentences.push(`Largest values agree between runs with other tolerances: ${spread}.`);
+    const whole = settle > 0 ? " of the whole run, settling included," : "";
+    sentences.push(`Largest values${whole} agree between runs with other tolerances: ${spread}.`);
   }
   if (forces !== null && forces !== undefined && !far) {
     sentences.push(`Forces and accelerations are accurate until ${withUnit(forces, "s", 3)}.`);

@@ -1,7 +1,7 @@
 /** A bifurcation diagram: density, verdicts, exponents; a click leads to that simulation. */
 
 import { element, fill } from "../../interface/element.js";
-import { short } from "../../interface/numbers.js";
+import { short, typed, unitText } from "../../interface/numbers.js";
 import { note } from "../../interface/place.js";
 import { offer } from "../../interface/point_of_study.js";
 import { prepared } from "../../mechanism/canvas.js";
@@ -41,13 +41,15 @@ class Diagram {
     } }, observables.map((name) =>
       element("option", { value: name, selected: name === this.observable }, name)));
     this.at = element("input", {
-      id: "value", inputmode: "decimal", onchange: () => this.pick(Number(this.at.value)),
+      id: "value", inputmode: "decimal", onchange: () => this.pick(typed(this.at.value)),
     });
+    this.unitOfAt = element("span", { class: "unit" });
     this.element = element("section", { class: "panel" },
       element("div", { class: "filters" },
         element("div", { class: "field" }, element("label", { for: "observable" }, "Observable"), select),
         element("div", { class: "field" },
-          element("label", { for: "value" }, job.job.parameter), this.at),
+          element("label", { for: "value" }, job.job.parameter),
+          element("div", { class: "entry" }, this.at, this.unitOfAt)),
         element("p", { class: "quiet small" }, "Click the diagram, or give a value, to run that simulation.")),
       this.canvas, this.legend, this.chosen);
     onNewColours(() => this.draw(), signal);
@@ -72,6 +74,7 @@ class Diagram {
     const { parameter } = answer;
     this.parameter = parameter;
     this.unit = answer.values[parameter].unit;
+    this.unitOfAt.textContent = this.unit === "1" ? "" : unitText(this.unit);
     this.answer = answer;
     this.points = pages.flatMap((page) => page.status.map((status, i) => ({
       value: page.values[parameter].values[i],

@@ -1,5 +1,6 @@
 /** Numbers of a run: extremes of every channel, contacts, the energy ledger. */
 
+import { tableAsCsv } from "../../interface/csv.js";
 import { element, fill } from "../../interface/element.js";
 import { notRounding, short, withUnit } from "../../interface/numbers.js";
 import { table } from "../../interface/table.js";
@@ -7,6 +8,10 @@ import { whenThere } from "../../interface/when_there.js";
 import { get } from "../../requests/service.js";
 
 const MOST_IMPACTS = 200;
+const COLUMNS = { // of contacts, as the command line names them
+  joint: "joint", onset: "onset [s]", release: "release [s]", approach_rate: "approach_rate [m/s]",
+  peak_force: "peak_force [N]", impulse: "impulse [N s]",
+};
 
 export async function show(room, context) {
   const { job, signal } = context;
@@ -16,7 +21,9 @@ export async function show(room, context) {
     fill(
       room,
       element("div", { class: "split" },
-        element("section", { class: "panel" }, element("h2", {}, "Extremes"), peakTable(peaks)),
+        element("section", { class: "panel" }, element("h2", {}, "Extremes"),
+          job.job.settle > 0 && element("p", { class: "quiet small" }, `From ${withUnit(job.job.settle, "s")} on.`),
+          peakTable(peaks)),
         element("div", { class: "stacked" },
           statistics && element("section", { class: "panel" }, element("h2", {}, "The computation"),
             ledger(statistics)),
@@ -32,7 +39,13 @@ function peakTable(peaks) {
     withUnit(notRounding(peak.minimum, peak.maximum), peak.unit), withUnit(peak.minimum_time, "s"),
     withUnit(notRounding(peak.maximum, peak.minimum), peak.unit), withUnit(peak.maximum_time, "s"),
   ]);
-  return table("Extremes", ["Channel", "Smallest", "at", "Largest", "at"], rows);
+  const all = Object.entries(peaks).map(([name, peak]) =>
+    [name, peak.unit, peak.minimum, peak.minimum_time, peak.maximum, peak.maximum_time]);
+  return [
+    table("Extremes", ["Channel", "Smallest", "at", "Largest", "at"], rows),
+    tableAsCsv("extremes",
+      ["channel", "unit", "minimum", "minimum_time [s]", "maximum", "maximum_time [s]"], all),
+  ];
 }
 
 function impactTable(impacts) {
@@ -45,6 +58,8 @@ function impactTable(impacts) {
     table("Contacts", ["Joint", "Onset", "Duration", "Approach", "Peak force"], shown),
     impacts.length > MOST_IMPACTS &&
       element("p", { class: "quiet small" }, `The first ${MOST_IMPACTS} are shown.`),
+    tableAsCsv("contacts", Object.values(COLUMNS), impacts.map((one) =>
+      Object.keys(COLUMNS).map((name) => one[name]))),
   ];
 }
 

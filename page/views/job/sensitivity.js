@@ -101,6 +101,10 @@ function quantiles({ quantiles: found, unit, output }) {
     [`${short(100 * share)} %`, within(found, i, unit)]), "small");
 }
 
-function within({ values, low, high }, i, unit) {
-  return `${withUnit(values[i], unit)} (${withUnit(low[i], unit)} … ${withUnit(high[i], unit)})`;
+/** Returns a value and its interval, with digits that tell the ends apart. */
+export function within({ values, low, high }, i, unit) {
+  const needed = Math.ceil(Math.log10(Math.abs(values[i]) / (high[i] - low[i]))) + 2;
+  const digits = Number.isFinite(needed) ? Math.max(4, needed) : 4;
+  const [value, ...ends] = [values[i], low[i], high[i]].map((one) => withUnit(one, unit, digits));
+  return `${value} (${ends.join(" … ")})`;
 }

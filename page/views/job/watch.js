@@ -2,6 +2,7 @@
 
 import { ChannelChoice } from "../../interface/channel_choice.js";
 import { gaps, spansInWords } from "../../interface/converged.js";
+import { historyAsCsv } from "../../interface/csv.js";
 import { element, fill } from "../../interface/element.js";
 import { saving } from "../../interface/saving.js";
 import { note } from "../../interface/place.js";
@@ -109,7 +110,8 @@ class Watch {
       this.history.show(names).then(() => this.certify());
     });
     this.marks = element("ul", { class: "legend" });
-    room.append(this.history.element, this.marks, choice.element);
+    room.append(this.history.element, this.marks,
+      historyAsCsv(job, () => this.history, this.signal), choice.element);
     if (query.has("from") && query.has("to")) {
       this.history.window = [Number(query.get("from")), Number(query.get("to"))];
     }

@@ -9,7 +9,15 @@ from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
 from jointplay.solver.scene import presets
 from tests.solver.closed_loops import four_bars, parallel_cranks
-from tests.solver.kinds.refusals import Refused, assert_points, assert_refused, at, both, changed
+from tests.solver.kinds.refusals import (
+    Refused,
+    assert_points,
+    assert_refused,
+    at,
+    both,
+    changed,
+    without,
+)
 
 SCENE: dict[str, Any] = {
     "kind": "simulate",
@@ -19,6 +27,11 @@ SCENE: dict[str, Any] = {
 A = "/scene/joints/A"
 BAD_SCENES: dict[str, Refused] = {
     "unknown body": (at(f"{A}/bearing", "crank9.pin"), f"{A}/bearing", "crank"),
+    "a number that a parameter alone gives": (
+        without(f"{A}/clearance/radial_clearance"),
+        f"{A}/clearance/radial_clearance",
+        "required. The parameter 'clearance' replaces it, but a scene is complete without",
+    ),
     "unknown point": (at(f"{A}/journal", "link2.Z"), f"{A}/journal", "point"),
     "malformed reference": (at(f"{A}/journal", "link2"), f"{A}/journal", ""),
     "unknown field": (at(f"{A}/slack", 1.0), f"{A}/slack", "There is no field"),

@@ -1,5 +1,6 @@
 """Hints of a check at what is allowed and may be meant otherwise."""
 
+import math
 from typing import Any
 
 import pytest
@@ -285,6 +286,26 @@ def test_a_course_that_repeats_after_nearly_a_turn_is_told(last, is_told):
     found = hints(crank(forces={"load": load}))
     assert [pointer for pointer, _ in found] == ["/forces/load/course"] * is_told
     assert all("repeats after 6.28 rad, and so shifts by -0.0032 rad" in text for _, text in found)
+
+
+@pytest.mark.parametrize(("angle", "is_told"), [(0.3, False), (0.001234, True)])
+def test_a_body_that_starts_fast_beside_a_dead_point_is_told(angle, is_told):
+    scene = presets.document("slider-crank")
+    for name in ("parameters", "outputs", "drivers", "reported"):
+        scene.pop(name, None)
+    for joint in scene["joints"].values():
+        joint.pop("clearance", None)
+    crank, rod = 0.05, 0.12  # m
+    tilt = -round(math.asin(crank / rod * math.sin(angle)), 6)  # as it is typed
+    found = hints(
+        scene
+        | {"start": {"angles": {"crank": angle, "rod": tilt}, "velocities": {"slider": [1, 0]}}}
+    )
+    assert [pointer for pointer, _ in found] == ["/start/velocities/slider"] * is_told
+    reach = math.sqrt(rod**2 - (crank * math.sin(angle)) ** 2)
+    stroke = -crank * math.sin(angle) * (1.0 + crank * math.cos(angle) / reach)  # m/rad
+    assert all(f"'crank' starts at {crank / 2 / abs(stroke):.4g} m/s" in text for _, text in found)
+    assert all(f" and {1 / stroke:.4g} rad/s" in text for _, text in found)
 
 
 def test_of_a_preset_nothing_is_told():

@@ -1,0 +1,54 @@
+/** Numbers as CSV: the curves of a run in a window of time, and tables; with all digits. */
+
+import { element } from "./element.js";
+import { save } from "./saving.js";
+import { get, getBytes, withQuery } from "../requests/service.js";
+
+const STEPS = 2000; // of a window, where a run keeps what is between its samples
+
+/** Returns a button that saves a table; `rows` are lists of texts and numbers, as long as `titles`. */
+export function tableAsCsv(name, titles, rows) {
+  return button(() => {
+    const lines = [titles, ...rows].map((row) => row.map(cell).join(","));
+    return save(new Blob([`${lines.join("\n")}\n`], { type: "text/csv" }), `${name}.csv`);
+  }, `Save ${name} as CSV`);
+}
+
+/**
+ * Returns a button that saves channels of a run, in equal steps, or its samples where it kept no more.
+ *
+ * @param shown returns `{channels, window: [start, stop]}` in s
+ */
+export function historyAsCsv(job, shown, signal) {
+  return button(async () => {
+    const { channels, window: [start, stop] } = shown();
+    const step = (stop - start) / STEPS;
+    const query = { channels: channels.join(","), start, stop };
+    const { exact } = await get(job.links.history, { ...query, stop: start + step, points: 1 }, signal);
+    const path = withQuery(job.links.history, exact ? { ...query, step } : query);
+    save(new Blob([await getBytes(path, "text/csv", signal)], { type: "text/csv" }), "history.csv");
+  }, "Save these curves as CSV");
+}
+
+function button(act, text) {
+  const said = element("span", { role: "status", class: "small quiet" });
+  return element("div", { class: "buttons" }, element("button", {
+    type: "button",
+    onclick: async (event) => {
+      event.target.disabled = true;
+      try {
+        await act();
+        said.textContent = "";
+      } catch (error) {
+        said.textContent = error.message;
+      } finally {
+        event.target.disabled = false;
+      }
+    },
+  }, text), said);
+}
+
+function cell(value) {
+  const text = String(value ?? "");
+  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
