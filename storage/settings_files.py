@@ -5,6 +5,8 @@ them, so that processes that others start find them, too.
 """
 
 import os
+import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote, urlsplit, urlunsplit
@@ -16,6 +18,13 @@ from pydantic_settings import (
     SecretsSettingsSource,
     SettingsError,
 )
+
+from jointplay.records.suggestions import did_you_mean
+
+ELSEWHERE = ("SETTINGS", "SECRETS", "URL", "KEY", "CACHE", "LANES")
+"""Variables that are no settings, and are read elsewhere."""
+OF_KUBERNETES = re.compile("(SERVICE|PORT)(_|$)")
+"""Variables that a service named ``jointplay`` has there."""
 
 
 class _Secrets(SecretsSettingsSource):
@@ -50,6 +59,22 @@ def named_files(settings: type[BaseSettings]) -> list[PydanticBaseSettingsSource
             raise SettingsError(f"JOINTPLAY_SECRETS is {folder}, which is no folder")
         sources.append(_Secrets(settings, secrets_dir=folder))
     return sources
+
+
+def mistyped_variables(settings: type[BaseSettings]) -> Iterator[str]:
+    """Yield a sentence for each variable of the environment that is nearly the name of a setting.
+
+    Others may be of other programs, and are passed over.
+    """
+    prefix = str(settings.model_config["env_prefix"])
+    names = [name.upper() for name in (*settings.model_fields, *ELSEWHERE)]
+    for variable in sorted(os.environ):
+        own = variable.upper().removeprefix(prefix)
+        if own == variable.upper() or own in names or OF_KUBERNETES.match(own):
+            continue
+        if meant := did_you_mean(own, names):
+            meant = meant.replace("'", f"'{prefix}", 1)
+            yield f"{variable} is not a setting, and changes nothing; {meant}"
 
 
 def with_password(url: str, password: str) -> str:

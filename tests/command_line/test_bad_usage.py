@@ -141,6 +141,28 @@ def test_a_wrong_file_ends_with_two_and_a_line_for_each_fault(jointplay, tmp_pat
     assert not (tmp_path / "OUT").exists()
 
 
+def test_a_scene_in_yaml_is_refused_as_such(jointplay, tmp_path):
+    (tmp_path / "mine.yaml").write_text("name: mine\nbodies:\n\tcrank: {mass: 1}\n")
+    line = jointplay("scene", "check", tmp_path / "mine.yaml").line()
+    assert "mine.yaml: jobs and scenes are read as JSON, not as YAML" in line
+
+
+def test_a_batch_of_what_is_no_job_ends_with_two_and_one_line(jointplay, tmp_path):
+    (tmp_path / "jobs.json").write_text('[{"kind": "simulate"}, 7]')
+    ended = jointplay("batch", tmp_path / "jobs.json")
+    assert ended.code == 2
+    assert "/jobs/1: a job is a JSON object" in ended.line()
+
+
+def test_a_variable_that_is_nearly_a_setting_is_told(jointplay, tmp_path, monkeypatch):
+    monkeypatch.setenv("JOINTPLAY_LEESE", "10")
+    with holding(tmp_path):
+        ended = jointplay("serve", "--port", "0", "--data", tmp_path)
+    told, _ = ended.lines()
+    assert "JOINTPLAY_LEESE is not a setting, and changes nothing" in told
+    assert told.endswith("did you mean 'JOINTPLAY_LEASE'?")
+
+
 def test_several_faults_are_a_line_each(jointplay, tmp_path):
     (tmp_path / "job.json").write_text('{"kind": "simulate", "durations": 1}')
     lines = jointplay("run", tmp_path / "job.json", "-o", tmp_path / "OUT").lines()

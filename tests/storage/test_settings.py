@@ -9,6 +9,7 @@ from redis.connection import parse_url
 from sqlalchemy import make_url
 
 from jointplay.storage.settings import Settings
+from jointplay.storage.settings_files import mistyped_variables
 from jointplay.worker.app import broker_url
 
 
@@ -141,3 +142,11 @@ def test_any_password_fits_into_an_address(
     # where the client of buckets looks
     assert os.environ["AWS_ACCESS_KEY_ID"] == "of the environment"
     assert os.environ["AWS_SECRET_ACCESS_KEY"] == "of a file"
+
+
+def test_variables_of_others_are_not_taken_for_settings(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("REPORTT", "PORT", "PORT_80_TCP", "SERVICE_HOST", "URL", "KEY", "CACHE", "SITE"):
+        monkeypatch.setenv(f"JOINTPLAY_{name}", "of another")
+    monkeypatch.setenv("jointplay_lease", "10")  # as settings may be written, too
+    (told,) = mistyped_variables(Settings)
+    assert told.startswith("JOINTPLAY_REPORTT is not a setting")

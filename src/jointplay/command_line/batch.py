@@ -74,11 +74,15 @@ def _jobs_in(path: Path) -> tuple[list[Any], str]:
     from jointplay.records.strict_json import parse
 
     document = parse(path.read_bytes())
-    if isinstance(document, dict) and isinstance(document.get("jobs"), list):
-        return document["jobs"], document.get("label", "")
+    label = ""
+    if isinstance(document, dict):
+        label, document = document.get("label", ""), document.get("jobs")
     if not isinstance(document, list):
         raise Stopped(f"{path}: a batch is a list of jobs, or an object with a list of 'jobs'.")
-    return document, ""
+    for index, job in enumerate(document):
+        if not isinstance(job, dict):
+            raise Stopped(f"{path}: /jobs/{index}: a job is a JSON object.")
+    return document, label
 
 
 def _replaced(jobs: Sequence[Any]) -> Iterator[str]:

@@ -70,9 +70,14 @@ def _varied(fields: Mapping[str, Any]) -> set[str | None]:
 
 def _read(path: Path) -> dict[str, Any]:
     """Read a JSON object from a file, strictly."""
-    from jointplay.records.strict_json import parse
+    from jointplay.records.strict_json import MalformedJson, parse
 
-    document = parse(path.read_bytes())
+    try:
+        document = parse(path.read_bytes())
+    except MalformedJson:
+        if path.suffix in (".yaml", ".yml"):
+            raise Stopped(f"{path}: jobs and scenes are read as JSON, not as YAML.") from None
+        raise
     if not isinstance(document, dict):
         raise Stopped(f"{path}: a job or a scene is a JSON object.")
     return document

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from jointplay.command_line.output import remark
+
 
 def serve(
     host: Annotated[str, typer.Option(help="Address to listen at.")] = "127.0.0.1",
@@ -37,5 +39,8 @@ def serve(
     """
     from jointplay.service.processes import serve as keep_serving
     from jointplay.service.processes.supervisor import settings_of
+    from jointplay.storage.settings import Settings
+    from jointplay.storage.settings_files import mistyped_variables
 
+    remark(mistyped_variables(Settings))
     keep_serving(host, port, settings_of(data).data, workers, as_json=as_json)

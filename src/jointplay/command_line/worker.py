@@ -9,7 +9,7 @@ import typer
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import remark, tell
 
 _MARGIN = 30.0  # s for a restart point to be stored and sent
 
@@ -84,6 +84,8 @@ def worker(
 
     from jointplay.records.log_lines import begin
     from jointplay.service.processes.supervisor import settings_of
+    from jointplay.storage.settings import Settings
+    from jointplay.storage.settings_files import mistyped_variables
     from jointplay.worker.holding import Refused
     from jointplay.worker.joined.connection import key_in
     from jointplay.worker.joined.processes import work_in
@@ -93,6 +95,7 @@ def worker(
     if device is not None:
         os.environ["JOINTPLAY_DEVICE"] = device
     found = settings_of()
+    remark(mistyped_variables(Settings))
     if join is None:
         if key_file is not None or idle is not None or until is not None:
             raise Stopped("--key-file, --idle and --until are for a worker with --join.")
