@@ -26,4 +26,13 @@ export const FIRST_SCENE = {
   },
   drivers: { motor: { joint: "main", position: 1, speed: 60 } },
   start: { angles: { crank: 1, rod: -0.4 } },
+  parameters: {
+    clearance: {
+      help: "Radial clearance of the small end.", unit: "m", default: 2e-4, minimum: 0, maximum: 1e-3,
+      targets: [{ path: "/joints/small/clearance/radial_clearance" }],
+    },
+    speed: {
+      help: "Speed of the crank.", unit: "rad/s", default: 60, targets: [{ path: "/drivers/motor/speed" }],
+    },
+  },
 };

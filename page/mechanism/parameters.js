@@ -13,6 +13,13 @@ export function withParameters(document, values = {}) {
   return filled;
 }
 
+/** Returns a copy of a scene document whose parameters have other defaults: it has no values beside it. */
+export function withDefaults(document, values) {
+  const declared = Object.entries(document.parameters ?? {}).map(([name, parameter]) =>
+    [name, name in values ? { ...parameter, default: values[name] } : parameter]);
+  return declared.length ? { ...document, parameters: Object.fromEntries(declared) } : document;
+}
+
 function put(node, path, value) {
   const keys = path.split("/").slice(1);
   const last = keys.pop();

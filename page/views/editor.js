@@ -5,6 +5,7 @@ import { fieldList } from "../editor/field_list.js";
 import { FreeMotion } from "../editor/free_motion.js";
 import { SceneSchema } from "../editor/schema.js";
 import { FIRST_SCENE } from "../editor/first_scene.js";
+import { keep, kept } from "../editor/kept.js";
 import { TextEditor } from "../editor/text.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
@@ -15,7 +16,6 @@ import { onNewColours } from "../mechanism/palette.js";
 import { patiently } from "../requests/patiently.js";
 import { get, pause, post } from "../requests/service.js";
 
-const KEPT = "jointplay-scene"; // in the tab's storage
 const QUIET = 500; // ms without typing before the service checks
 const ROUNDING = 1e-7; // share of the largest number beside it below which one is told as zero
 
@@ -29,7 +29,7 @@ export async function show(room, { query, signal }) {
 async function firstText(query, signal) {
   if (query.has("preset")) return pretty(await get(`/v1/scenes/${query.get("preset")}`, {}, signal));
   if (query.has("job")) return pretty((await get(`/v1/jobs/${query.get("job")}`, {}, signal)).job.scene);
-  return sessionStorage.getItem(KEPT) ?? pretty(FIRST_SCENE);
+  return kept() ?? pretty(FIRST_SCENE);
 }
 
 /** Writes a document with a line for each field, and lists of numbers in one. */
@@ -68,6 +68,7 @@ class Editing {
     this.notes = element("ul", { class: "quiet", "aria-label": "What a run does otherwise" });
     this.duration = element("input", { id: "duration", inputmode: "decimal" });
     this.button = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run");
+    this.more = element("button", { type: "button", onclick: () => go(["new"]) }, "Vary it …");
     this.estimate = new Estimate(() => this.job(), signal, (errors) => this.tell(errors));
     this.text = new TextEditor(text, help(schema, () => this.document), (now) => this.changed(now));
     const presets = element("select", { id: "preset", onchange: () => this.begin(presets.value) },
@@ -87,7 +88,7 @@ class Editing {
             element("div", { class: "field" }, element("label", { for: "duration" }, "Duration"),
               element("div", { class: "entry" }, this.duration, element("span", { class: "unit" }, "s"))),
             this.estimate.element,
-            element("div", { class: "buttons" }, this.button)))),
+            element("div", { class: "buttons" }, this.button, this.more)))),
       fieldList(schema.schema),
     );
     this.duration.addEventListener("input", () => this.estimate.later());
@@ -104,7 +105,7 @@ class Editing {
   }
 
   changed(text) {
-    sessionStorage.setItem(KEPT, text);
+    keep(text);
     try {
       this.document = JSON.parse(text);
     } catch (error) {
@@ -169,7 +170,7 @@ class Editing {
     fill(this.messages, shown.map(({ pointer, detail }) => element("li", {}, detail, " ",
       pointer && element("button", { type: "button", onclick: () => this.text.reveal(pointer) },
         element("code", {}, pointer)))));
-    this.button.disabled = shown.some(({ from }) => from !== undefined);
+    this.button.disabled = this.more.disabled = shown.some(({ from }) => from !== undefined);
   }
 
   async run() {

@@ -1,5 +1,6 @@
-/** A new job of a preset: its parameters, its cost before it is submitted, and how others submit it. */
+/** A new job of a preset, or of the scene that is being written: its parameters, its cost before it is submitted, and how others submit it. */
 
+import { kept } from "../editor/kept.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { jobAsText } from "../interface/job_as_text.js";
@@ -9,18 +10,19 @@ import { withUnit } from "../interface/numbers.js";
 import { go, note } from "../interface/place.js";
 import { fields as wrongFields } from "../interface/trouble.js";
 import { onNewColours } from "../mechanism/palette.js";
-import { withParameters } from "../mechanism/parameters.js";
+import { withDefaults, withParameters } from "../mechanism/parameters.js";
 import { Sketch, calm } from "../mechanism/sketch.js";
 import { get, post } from "../requests/service.js";
 
 export async function show(room, { parts, query, signal }) {
-  const [name] = parts;
-  const document_ = await get(`/v1/scenes/${encodeURIComponent(name)}`, {}, signal);
+  const [wanted] = parts;
+  const document_ = wanted ? await get(`/v1/scenes/${encodeURIComponent(wanted)}`, {}, signal) : written();
+  const { name } = document_;
   document.title = `${name} · jointplay`;
   const given = numbersOf(query, document_.parameters ?? {});
   const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
   const [duration] = await Promise.all([proposedDuration(document_, signal), kindsOfJobs(signal)]);
-  const form = new JobForm(document_, query.get("kind") ?? "simulate", given, duration, signal);
+  const form = new JobForm(document_, Boolean(wanted), query.get("kind") ?? "simulate", given, duration, signal);
   const turn = element("p", { class: "quiet small", role: "status" });
   const sketch = new Sketch(canvas, { labels: true, onFound: ({ drivers_time: once, repeats }) =>
     fill(turn, once !== null && repeats && `Its drivers come round every ${withUnit(once, "s")}.`) }, signal);
@@ -60,9 +62,16 @@ export async function show(room, { parts, query, signal }) {
   form.estimate.refresh();
 }
 
+/** Returns the scene that is being written in this tab. */
+function written() {
+  const text = kept();
+  if (text === null) throw new Error("No mechanism is being written in this tab; begin under “Your own”.");
+  return JSON.parse(text);
+}
+
 class JobForm {
-  constructor(document_, kind, given, duration, signal) {
-    Object.assign(this, { scene: document_, duration, signal, onchange: () => {} });
+  constructor(document_, isPreset, kind, given, duration, signal) {
+    Object.assign(this, { scene: document_, isPreset, duration, signal, onchange: () => {} });
     const changed = () => this.changed();
     this.parameters = new ParameterFields(document_.parameters ?? {}, given, changed);
     this.kindRoom = element("div");
@@ -81,7 +90,8 @@ class JobForm {
         this.kind, this.kindHelp),
       this.kindRoom,
       element("h2", {}, "Parameters of the mechanism"),
-      this.parameters.element,
+      Object.keys(document_.parameters ?? {}).length ? this.parameters.element : element("p", { class: "help" },
+        "It declares none. A study varies what “parameters” of the scene name: add them under “Your own”."),
       element("div", { class: "field" }, element("label", { for: "label" }, "Label"), this.label,
         element("p", { class: "help" }, "A name of your own, to find the job by.")),
       element("div", { class: "acting" }, this.estimate.element, this.wrong,
@@ -118,8 +128,8 @@ class JobForm {
     if (!fine) throw new Error(this.own.lacking ?? "Correct the marked fields first.");
     const parameters = this.parameters.values();
     const kind = this.kind.value;
-    const scene = { preset: this.scene.name };
-    if (Object.keys(parameters).length) scene.parameters = parameters;
+    const named = { preset: this.scene.name, ...(Object.keys(parameters).length ? { parameters } : {}) };
+    const scene = this.isPreset ? named : withDefaults(this.scene, parameters);
     const label = this.label.value.trim();
     const made = KINDS[kind].made(this.own.all());
     return { kind, scene, ...made, ...(label ? { label } : {}) };

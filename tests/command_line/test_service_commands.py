@@ -9,7 +9,10 @@ import pytest
 
 from jointplay.client.network import BlockingNetwork
 from jointplay.records.job import JobError
+from jointplay.service.app import create_app
 from jointplay.storage.catalogue.records import BlockState
+from jointplay.storage.settings import Settings
+from tests.service_in_thread import serving
 
 
 @pytest.fixture
@@ -193,3 +196,10 @@ def test_where_nobody_answers_the_exit_code_is_five(jointplay, command, monkeypa
     ended = jointplay(*command, "--url", f"http://127.0.0.1:{port}")
     assert ended.code == 5
     assert "jointplay serve" in ended.line()
+
+
+def test_a_key_that_a_service_asks_for_is_told_as_it_is_given(jointplay, tmp_path):
+    with serving(create_app(Settings(data=tmp_path, keys="required"))) as url:
+        ends = [jointplay("ls", "--url", url), jointplay("worker", "--join", url, "--idle", "60")]
+    for one in ends:
+        assert "a key that is valid: give it in the variable JOINTPLAY_KEY" in one.line()

@@ -2,6 +2,8 @@
 
 import json
 
+import httpx
+
 from jointplay.solver.scene import presets
 from tests.page.browsing import barriers, expect
 from tests.page.test_watching import MOVED
@@ -47,6 +49,28 @@ def test_a_mechanism_is_written_corrected_and_run(browsing, url, artifacts):
         page.get_by_label("Duration").fill("0.01")
         page.get_by_role("button", name="Run", exact=True).click()
         page.wait_for_function(MOVED, arg=0)
+
+
+def test_a_mechanism_of_ones_own_is_varied(browsing, url):
+    with browsing.page(f"{url}/#/editor") as page:
+        page.get_by_text("of one core").wait_for()
+        page.get_by_role("button", name="Vary it …").click()
+        page.get_by_label("What to compute").select_option("sweep")
+        page.get_by_label("First parameter", exact=True).select_option("clearance")
+        page.get_by_label("Values", exact=True).fill("3")
+        page.get_by_label("Duration", exact=True).fill("0.05")
+        page.get_by_label("speed", exact=True).fill("50")
+        assert barriers(page) == []
+        page.get_by_role("button", name="Run", exact=True).click()
+        page.get_by_role("heading", name="mine · sweep").wait_for()
+        page.get_by_text("succeeded", exact=True).wait_for()
+        page.get_by_text("As a table").wait_for()
+        job = page.url.split("/")[-1].split("?")[0]
+    document = httpx.get(f"{url}/v1/jobs/{job}", trust_env=False).json()["job"]
+    assert document["scene"]["parameters"]["speed"]["default"] == 50
+    assert document["grid"]["clearance"]["count"] == 3
+    with browsing.page(f"{url}/#/new") as page:
+        page.get_by_text("No mechanism is being written in this tab").wait_for()
 
 
 def test_the_editor_proposes_and_explains_what_the_schema_says(browsing, service_url):

@@ -136,8 +136,9 @@ SET_VALUE: Final = re.compile(r"(?:/scene)?/parameters/([^/]+)/default")
 COMMANDS_FOR: Final = {
     "GET /v1/jobs": "`jointplay ls`",
     "GET /v1/scenes": "`jointplay scene list`",
+    "Authorization: Bearer jp_...": "give it in the variable JOINTPLAY_KEY",
 }
-"""Commands for the requests that a service's sentences name."""
+"""Commands and variables for the requests and headers that a service's sentences name."""
 
 
 def run(arguments: list[str] | None = None) -> int:
@@ -150,7 +151,7 @@ def run(arguments: list[str] | None = None) -> int:
     except typer.TyperException as error:
         return _misused(error.format_message())
     except Stopped as error:
-        return _reported(error.code, str(error))
+        return _reported(error.code, _as_typed(str(error)))
     except Exception as error:
         lines = _lines_of(error, sys.argv[1:] if arguments is None else arguments)
         code = _exit_of(error)
