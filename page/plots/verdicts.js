@@ -18,7 +18,7 @@ export function drawVerdicts(context, to, points, colours) {
   }
 }
 
-/** Draws largest exponents in the colours of their directions, and where they are zero. */
+/** Draws largest exponents, bars of their standard errors, and where they are zero. */
 export function drawExponents(context, to, points, colours) {
   const [left, , width] = to.room;
   context.strokeStyle = colours.faint;
@@ -28,9 +28,11 @@ export function drawExponents(context, to, points, colours) {
   context.lineTo(left + width, to.y(0));
   context.stroke();
   context.setLineDash([]);
-  for (const { value, exponent, backward } of points) {
+  for (const { value, exponent, error, backward } of points) {
     if (exponent === null) continue;
     context.fillStyle = colours[backward ? "backward" : "curve-0"];
     context.fillRect(to.x(value) - 1.5, to.y(exponent) - 1.5, 3, 3);
+    const [high, low] = [exponent + error, exponent - error].map(to.y);
+    context.fillRect(to.x(value) - 0.5, high, 1, low - high);
   }
 }

@@ -14,6 +14,25 @@ TURNED = """async (angles) => {
 }"""
 
 
+EXPONENT = """async () => {
+  const { scales } = await import("/page/plots/axes.js");
+  const { drawExponents } = await import("/page/plots/verdicts.js");
+  const context = Object.assign(document.createElement("canvas"), { width: 100, height: 100 })
+    .getContext("2d");
+  const to = scales([0, 0, 100, 100], [0, 1], [-1, 1]);
+  const points = [{ value: 0.505, exponent: 0.4, error: 0.2 }];
+  drawExponents(context, to, points, { faint: "#0000", "curve-0": "#000" });
+  const drawn = [...context.getImageData(50, 0, 1, 100).data].filter((_, i) => i % 4 === 3);
+  return [drawn.findIndex((one) => one > 0), drawn.findLastIndex((one) => one > 0)];
+}"""
+
+
+def test_exponents_of_a_diagram_have_bars_of_their_errors(browsing, service_url):
+    with browsing.page(f"{service_url}/") as page:
+        first, last = page.evaluate(EXPONENT)
+    assert (first, last) == (20, 39)  # 0.6 and 0.2 of an axis from 1, at the top, to -1 on 100 px
+
+
 def test_a_click_on_a_diagram_runs_that_simulation(browsing, url, artifacts):
     with browsing.page(f"{url}/#/new/slider-crank") as page:
         page.get_by_label("What to compute").select_option("bifurcation")

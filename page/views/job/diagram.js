@@ -84,6 +84,7 @@ class Diagram {
       verdict: page.verdicts?.[i],
       reason: page.reasons?.[i],
       exponent: page.indicators.lyapunov?.values[i] ?? null,
+      error: page.indicators.lyapunov_error?.values[i] ?? 0,
     })));
     if (answer.sections.unit === "rad") {
       const shown = intoATurn(this.points.flatMap(({ sections }) => sections));
@@ -124,7 +125,8 @@ class Diagram {
       const band = [room[0], room[1] + room[3] + 8, room[2], size * BAND];
       drawVerdicts(context, scales(band, across, [0, 1]), points, colours);
       const lower = [room[0], band[1] + band[3] + 8, room[2], size * EXPONENTS];
-      const values = points.map(({ exponent }) => exponent).filter((one) => one !== null);
+      const values = points.filter(({ exponent }) => exponent !== null)
+        .flatMap(({ exponent, error }) => [exponent - error, exponent + error]);
       const to = scales(lower, across, extent([values, [0]], 0.1));
       drawExponents(context, to, points, colours);
       drawAxes(context, to, { xLabel, yLabel: "exponent [1/s]" }, colours);
@@ -137,7 +139,8 @@ class Diagram {
     fill(this.legend,
       both && [entry("swatch-0", "forward"), entry("swatch-backward", "backward")],
       judged && element("li", { class: "quiet" }, both ? "Band, forward above:" : "Band:"),
-      judged && VERDICTS.map((name) => entry(`verdict-${name}`, name)));
+      judged && VERDICTS.map((name) => entry(`verdict-${name}`, name)),
+      judged && element("li", { class: "quiet" }, "Bars: standard errors of the exponents."));
   }
 
   click(event) {
@@ -152,7 +155,7 @@ class Diagram {
       Math.abs(one.value - value) < Math.abs(best.value - value) ? one : best);
     this.at.value = String(nearest.value);
     const lines = [`${nearest.sections.length} sections`, nearest.verdict, nearest.reason].filter(Boolean);
-    const exponent = nearest.exponent === null ? "" : `exponent ${short(nearest.exponent, 3)} 1/s`;
+    const exponent = nearest.exponent === null ? "" : `exponent ${short(nearest.exponent, 3)} ± ${short(nearest.error, 2)} 1/s`;
     const values = { [this.parameter]: [nearest.value, this.unit] };
     offer(this.chosen, this.job, values, lines.join("; "), exponent);
   }
