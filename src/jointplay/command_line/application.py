@@ -133,6 +133,15 @@ EXITS: Final = {
 SET_VALUE: Final = re.compile(r"(?:/scene)?/parameters/([^/]+)/default")
 """Place of a value that `--set` gave, in a scene given whole."""
 
+PLAINLY: Final = {
+    "Value error, ": "",
+    "Input should be a valid number, .*": "give a number, such as 0.5 or 5e-4.",
+    "Input should be a valid integer, .*": "give a whole number.",
+    "Input should be a valid datetime or date, .*": "give a time, such as 2026-05-04T08:15.",
+    "Input should be (greater|less) than or equal to ": r"give a number \1 than or equal to ",
+}
+"""What is said in place of pydantic, which reads options for typer, by regular expression."""
+
 COMMANDS_FOR: Final = {
     "GET /v1/jobs": "`jointplay ls`",
     "GET /v1/scenes": "`jointplay scene list`",
@@ -149,7 +158,7 @@ def run(arguments: list[str] | None = None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         return _reported(Exit.INTERRUPTED, "interrupted")
     except typer.TyperException as error:
-        return _misused(error.format_message())
+        return _misused(error)
     except Stopped as error:
         return _reported(error.code, _as_typed(str(error)))
     except Exception as error:
@@ -163,10 +172,14 @@ def run(arguments: list[str] | None = None) -> int:
     return int(code or Exit.OK)
 
 
-def _misused(why: str) -> int:
+def _misused(error: typer.TyperException) -> int:
     """Say what is wrong with what was typed; nothing of a group alone, whose help was told."""
-    why = why.replace("Value error, ", "")  # pydantic's, which reads options for typer
-    return _reported(Exit.BAD_INPUT, f"{why} (see: jointplay --help)") if why else Exit.OK
+    why = error.format_message()
+    for theirs, ours in PLAINLY.items():
+        why = re.sub(theirs, ours, why)
+    context = getattr(error, "ctx", None)
+    command = "jointplay" if context is None else context.command_path
+    return _reported(Exit.BAD_INPUT, f"{why} (see: {command} --help)") if why else Exit.OK
 
 
 def _reported(code: Exit, *lines: str) -> int:
