@@ -46,7 +46,8 @@ export class Estimate {
 
 function words(found) {
   if (found.cached) return "An identical job is there already: it costs nothing.";
-  const points = found.points > 1 ? ` for ${found.points} points in ${found.blocks} blocks` : "";
+  const blocks = found.blocks === 1 ? "1 block" : `${found.blocks} blocks`;
+  const points = found.points > 1 ? ` for ${found.points} points in ${blocks}` : "";
   const compiling = found.compilation > 0.05
     ? " Its equations are being compiled for the first time."
     : "";

@@ -113,7 +113,7 @@ class Field {
       "div",
       { class: "field" },
       element("label", { for: id }, parameter.title ?? name),
-      element("div", { class: "entry" }, this.input, this.unit),
+      element("div", { class: "entry" }, this.input, !parameter.choices && this.unit),
       element("p", { class: "help", id: `${id}-help` }, parameter.help, " ", range(parameter)),
       this.wrong,
     );

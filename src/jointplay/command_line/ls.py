@@ -54,5 +54,5 @@ def ls(
 def _row(job: "Job") -> str:
     created = job.created.astimezone().strftime("%Y-%m-%d %H:%M:%S")
     done = f"{job.progress.fraction:.0%}"
-    row = f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:11}"
+    row = f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:15}"
     return f"{row}  {', '.join(job.labels) or job.scene_name}"
