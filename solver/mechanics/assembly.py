@@ -18,10 +18,9 @@ from jointplay.solver.mechanics.start.drawing import drawn_places
 from jointplay.solver.mechanics.start.given import Taken, distance, taken
 from jointplay.solver.mechanics.start.guess import first_angles, first_clocks, first_pose
 from jointplay.solver.mechanics.start.opening import opened, opened_but_for_one, within_play
+from jointplay.solver.mechanics.start.places import CLOSED, Places
 from jointplay.solver.mechanics.start.pose import (
-    CLOSED,
     FAR,
-    Places,
     hold,
     in_given_turns,
     nearest,

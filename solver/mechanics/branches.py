@@ -9,7 +9,7 @@ from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
 from jointplay.solver.mechanics.closing import arrays, rank
 from jointplay.solver.mechanics.start.closings import alike, closings, tried
-from jointplay.solver.mechanics.start.pose import Places
+from jointplay.solver.mechanics.start.places import Places
 from jointplay.solver.scene.document import Scene
 
 

@@ -8,7 +8,7 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.joints.joint import Joint
 from jointplay.solver.mechanics.closing import NEAR, close, close_many
 from jointplay.solver.mechanics.start.guess import first_angles, first_pose
-from jointplay.solver.mechanics.start.pose import Places
+from jointplay.solver.mechanics.start.places import Places
 
 DRAWN, SEED = 24, 11
 """Sets of start angles that are tried, and how they are drawn: the same each time."""

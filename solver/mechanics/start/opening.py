@@ -9,7 +9,8 @@ from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.start.given import Given, Rows
 from jointplay.solver.mechanics.start.levels import approach
-from jointplay.solver.mechanics.start.pose import KEPT, Places, named_bodies
+from jointplay.solver.mechanics.start.places import KEPT, Places
+from jointplay.solver.mechanics.start.pose import named_bodies
 from jointplay.solver.scene.document import Scene
 
 

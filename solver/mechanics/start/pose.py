@@ -10,7 +10,6 @@ the middle.
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,17 +17,12 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import LARGEST_TURN, arrays
-from jointplay.solver.mechanics.rows import Row
-from jointplay.solver.mechanics.start.given import Given, Rows, distance, given_places
+from jointplay.solver.mechanics.start.given import Given, Rows, distance
 from jointplay.solver.mechanics.start.levels import MOST_ITERATIONS, approach, step_of
-from jointplay.solver.mechanics.view import view
-from jointplay.solver.scene.clocks import clocks
+from jointplay.solver.mechanics.start.out_of_reach import as_near_as_it_gets
+from jointplay.solver.mechanics.start.places import KEPT, Places
 from jointplay.solver.scene.document import Scene
 
-CLOSED = 1e-11
-"""Largest residual, in lengths of the shortest link, of an assembled mechanism."""
-KEPT = 1e-10
-"""The same of what holds of what is given."""
 FAR = 1e-3
 """From which on other assemblies are sought: drawings give three digits."""
 ALIKE = 1e-6
@@ -36,65 +30,6 @@ ALIKE = 1e-6
 
 ROUGHLY, FEW = 6, 8
 """Steps towards what is given after which poses are sorted, and how many go on then."""
-
-
-@dataclass(frozen=True)
-class Places:
-    """Demands on a pose: constraints, and what is given."""
-
-    scene: Scene
-    closed: AbsoluteMechanism
-    """All play closed."""
-    loose: AbsoluteMechanism
-    """Play let go, but where the scene says how a joint starts."""
-    given: list[Given]
-    driven: dict[str, float]
-    """Each clock at t = 0."""
-    length: float
-    """Shortest link, m."""
-    scale: Floats
-    """(3 bodies,) that length, and a radian."""
-
-    @classmethod
-    def of(cls, scene: Scene, length: float) -> "Places":
-        """Return what a scene asks; length : of the shortest link, m."""
-        numbers = view(scene)
-        told = [*scene.start.joints, *scene.start.guides]
-        closed = AbsoluteMechanism(scene, numbers, close_play=True)
-        return cls(
-            scene,
-            closed,
-            AbsoluteMechanism(scene, numbers, close_play=False, held=told),
-            given_places(closed, length),
-            {name: clock.start for name, clock in clocks(scene).items()},
-            length,
-            np.tile([length, length, 1.0], len(closed.bodies)),
-        )
-
-    def constraints(self, mechanism: AbsoluteMechanism, pose: Floats) -> Rows:
-        """Return the rows of a mechanism's joints and drivers."""
-        count = len(pose)
-        return Rows(*arrays(mechanism.rows(pose.tolist(), [0.0] * count, self.driven), count))
-
-    def slack(self, pose: Floats) -> list[Row]:
-        """Return the rows of joints with play of which the scene does not say how they start."""
-        rows = self.closed.rows(pose.tolist(), [0.0] * len(pose), self.driven)
-        let_go = set(self.scene.joints).difference(self.loose.joints)
-        return [row for row in rows if row.joint in let_go]
-
-    def wanted(self, given: Iterable[Given], pose: Floats) -> Rows:
-        """Return the rows of what is given, together."""
-        still = np.zeros_like(pose)
-        return Rows.joined([one.rows(pose, still) for one in given], len(pose))
-
-    def is_closed(self, mechanism: AbsoluteMechanism, pose: Floats) -> bool:
-        """Whether the constraints of a mechanism hold."""
-        value = self.constraints(mechanism, pose).value
-        return bool(np.abs(value).max(initial=0.0) <= CLOSED * self.length)
-
-    def keeps(self, given: Iterable[Given], pose: Floats) -> bool:
-        """Whether a pose keeps what is given."""
-        return bool(np.abs(self.wanted(given, pose).value).max(initial=0.0) <= KEPT * self.length)
 
 
 def nearest(places: Places, poses: Iterable[Floats]) -> Floats:
@@ -108,7 +43,9 @@ def nearest(places: Places, poses: Iterable[Floats]) -> Floats:
     near = [_nearest_here(places, pose, MOST_ITERATIONS) for pose in found]
     least = min(map(apart, near)) * (1.0 + ALIKE) + KEPT * places.length
     alike = [pose for pose in near if apart(pose) <= least]
-    return unwound(places, places.closed, min(alike, key=lambda pose: _from_zero(places, pose)))
+    chosen = min(alike, key=lambda pose: _from_zero(places, pose))
+    chosen = as_near_as_it_gets(places, chosen, MOST_ITERATIONS)
+    return unwound(places, places.closed, chosen)
 
 
 def unwound(places: Places, held: AbsoluteMechanism, pose: Floats) -> Floats:
@@ -189,7 +126,9 @@ def _nearest_here(places: Places, pose: Floats, iterations: int) -> Floats:
         ]
 
     found = approach(pose, levels, places.scale, 2, iterations)
-    return found if places.is_closed(places.closed, found) else pose
+    if places.is_closed(places.closed, found):
+        return found
+    return as_near_as_it_gets(places, pose, iterations)
 
 
 def _with(places: Places, pose: Floats, kept: Sequence[Given], judged: int) -> Floats | None:

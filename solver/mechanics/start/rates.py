@@ -17,7 +17,7 @@ from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.start.given import Given, Rows, given_rates, without_rounding
 from jointplay.solver.mechanics.start.levels import Steps, off
-from jointplay.solver.mechanics.start.pose import KEPT, Places
+from jointplay.solver.mechanics.start.places import KEPT, Places
 from jointplay.solver.quantities.scalars import greatest
 
 HOLDS = 1e-12
