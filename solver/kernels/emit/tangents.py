@@ -58,7 +58,7 @@ def compile_tangents(kernel: Kernel) -> Tangents:
     allocate(layout, kernel.states, len(kernel.pairs), len(piecewise))
     fixed = FixedNodes(layout)
     sources = [
-        kinks.kink_function(piecewise, layout, fixed),
+        kinks.kink_function(piecewise, along_motion(equations), layout, fixed),
         slope_function(kernel, piecewise, layout, fixed),
         *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),
         *tangent_step.TangentTracer(equations, len(piecewise), layout).source(),
@@ -122,6 +122,13 @@ def hold_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> So
     return lane_function("hold_tangent", outputs, layout, fixed)
 
 
+def along_motion(equations: Equations) -> Derivative:
+    """Return the derivative in time at the state in the base's stage, whose slopes are known."""
+    tracer = equations.tracer
+    flow = {f"stage{i}": tracer.variable(f"slope{i}") for i in range(equations.states)}
+    return Derivative(flow | {"stage_time": tracer.constant(1.0)})
+
+
 def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> Source:
     """Return the source of tangent_gaps(W): what the latching of an impact rate needs.
 
@@ -133,8 +140,7 @@ def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> Sou
     tracer = equations.tracer
     states = equations.states
     tangent = Derivative({f"stage{i}": tracer.variable(f"tangent{i}") for i in range(states)})
-    flow = {f"stage{i}": tracer.variable(f"slope{i}") for i in range(states)}
-    motion = Derivative(flow | {"stage_time": tracer.constant(1.0)})
+    motion = along_motion(equations)
     outputs = []
     for j, (gap, rate) in enumerate(equations.gaps):
         outputs += [
