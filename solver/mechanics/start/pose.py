@@ -16,7 +16,8 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.closing import LARGEST_TURN, arrays
+from jointplay.solver.mechanics.closing import LARGEST_TURN, NEAR, arrays
+from jointplay.solver.mechanics.start.closings import alike
 from jointplay.solver.mechanics.start.given import Given, Rows, distance
 from jointplay.solver.mechanics.start.levels import MOST_ITERATIONS, approach, step_of
 from jointplay.solver.mechanics.start.out_of_reach import as_near_as_it_gets
@@ -29,7 +30,7 @@ ALIKE = 1e-6
 """Relative difference of distances up to which two assemblies are equally near."""
 
 ROUGHLY, FEW = 6, 8
-"""Steps towards what is given after which poses are sorted, and how many go on then."""
+"""Steps towards what is given after which poses are sorted, and how many different ones go on."""
 
 
 def nearest(places: Places, poses: Iterable[Floats]) -> Floats:
@@ -39,11 +40,14 @@ def nearest(places: Places, poses: Iterable[Floats]) -> Floats:
         return distance(places.given, pose, np.zeros_like(pose))
 
     found = [_nearest_here(places, pose, ROUGHLY) for pose in poses]
-    found = sorted(found, key=apart)[:FEW]
-    near = [_nearest_here(places, pose, MOST_ITERATIONS) for pose in found]
+    few: list[Floats] = []
+    for pose in sorted(found, key=apart):
+        if len(few) < FEW and not any(alike(pose, other, places.scale, NEAR) for other in few):
+            few.append(pose)
+    near = [_nearest_here(places, pose, MOST_ITERATIONS) for pose in few]
     least = min(map(apart, near)) * (1.0 + ALIKE) + KEPT * places.length
-    alike = [pose for pose in near if apart(pose) <= least]
-    chosen = min(alike, key=lambda pose: _from_zero(places, pose))
+    equal = [pose for pose in near if apart(pose) <= least]
+    chosen = min(equal, key=lambda pose: _from_zero(places, pose))
     chosen = as_near_as_it_gets(places, chosen, MOST_ITERATIONS)
     return unwound(places, places.closed, chosen)
 

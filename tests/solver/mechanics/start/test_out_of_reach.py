@@ -1,4 +1,4 @@
-"""A given angle that no pose has: the start stands at the dead point that comes nearest to it."""
+"""Starts that no pose can have: at the dead point that comes nearest, in the nearest assembly."""
 
 import math
 from typing import Any
@@ -54,3 +54,35 @@ def test_a_rocker_that_is_given_beyond_its_dead_point_stands_there(order: tuple[
     _, pose, _ = put_together(listed(document, order))
     # coupler and crank in line, 0.4 + 0.1 m: an isosceles triangle with sides 0.5, 0.5, 0.3
     assert pose["rocker"][2] == pytest.approx(math.acos(0.15 / 0.5), abs=1e-12)
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_of_equally_near_assemblies_that_nearest_to_zero_is_taken_in_any_order(
+    order: tuple[int, ...],
+) -> None:
+    # the guide keeps the slider from its angle, and the crank may lie to either side: at 0.56 rad,
+    # or at 2.66 rad, which was the only one among the eight nearest poses in the order (1, 2, 0)
+    document = {
+        "name": "slanted",
+        "ground": {"points": {"O": [0, 0], "guide": [0.2, 0.0451]}},
+        "bodies": {
+            "crank": bar(0.1) | {"points": {"a": [-0.1, 0.01], "b": [0.1, 0]}},
+            "rod": bar(0.1082),
+            "slider": {"mass": 1.0, "inertia": 0.1, "points": {"c": [0.01, 0]}},
+        },
+        "joints": {
+            "guide": {
+                "type": "prismatic",
+                "guide": "ground.guide",
+                "slider": "slider.c",
+                "axis": [1, -0.01],
+            },
+            "A": revolute("crank.b", "rod.a"),
+            "O": revolute("ground.O", "crank.a"),
+            "B": revolute("rod.b", "slider.c"),
+        },
+        "start": {"angles": {"rod": -0.256, "slider": -0.0075}},
+    }
+    _, pose, _ = put_together(listed(document, order))
+    assert pose["rod"][2] == pytest.approx(-0.256, abs=1e-9)
+    assert 0.5 < pose["crank"][2] < 0.6
