@@ -140,7 +140,7 @@ PLAINLY: Final = {
     "Input should be a valid datetime or date, .*": "give a time, such as 2026-05-04T08:15.",
     "Input should be (greater|less) than or equal to ": r"give a number \1 than or equal to ",
 }
-"""What is said in place of pydantic, which reads options for typer, by regular expression."""
+"""Sentences in place of those of pydantic, which reads options for typer, by regular expression."""
 
 COMMANDS_FOR: Final = {
     "GET /v1/jobs": "`jointplay ls`",
