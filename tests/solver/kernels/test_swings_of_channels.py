@@ -6,9 +6,9 @@ import numba
 import numpy as np
 import pytest
 
+from jointplay.solver.kernels.emit.scanning import UNSEEN
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.swinging import (
-    HIDDEN,
     MUCH,
     NEARBY,
     REACH,
@@ -50,7 +50,7 @@ def one_by_one(values: Any, *of_lane: Any) -> tuple[Any, ...]:
         rough |= swing > ROUGH * spread
         most = max(most, (MUCH * spread if swing > SEEN * spread else swing) / spread)
         about = 2401.0 / 384.0 * np.abs(np.diff(channel, 4)).max()
-        by = swing if swing > SEEN * spread else about if about > HIDDEN * spread else 0.0
+        by = swing if swing > SEEN * spread else about if about > UNSEEN * spread else 0.0
         if by > 0.0:
             bend = UNKNOWN if np.isnan(change) else abs(last - first - LONGER * change)
             bend += 1e-300
