@@ -4,7 +4,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit import scanning
 from jointplay.solver.kernels.emit.module import Module, load
-from jointplay.solver.kernels.emit.scanning import REACH, SPARE
+from jointplay.solver.kernels.emit.scanning import REACH, SPARE, TIMES, UNSEEN
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.target import own_target
 
@@ -38,11 +38,13 @@ def test_all_that_turned_in_reach_of_a_record_is_marked_and_nothing_else() -> No
         beyond = 0.25 * REACH / (longer * (longer + 1.0)) * uneven**2 + SPARE * both**2
         nearest = beyond / both * random.choice([0.01, 1.0 - BESIDE, 1.0 + BESIDE, 9.0], both.shape)
         above = np.where(random.uniform(size=both.shape) < 0.5, nearest, 2.0 * nearest)
+        below = 3.0 * nearest - above + random.choice([0.0, 1e4], both.shape)
+        beyond += both * np.minimum(UNSEEN * (above + below), TIMES * both)
         blocks = {"previous": before, "change": rose, "channel": before + change}
-        blocks |= {"highest": before + above, "lowest": before - 3.0 * nearest + above}
+        blocks |= {"highest": before + above, "lowest": before - below}
         for name, values in blocks.items():
             work[layout.block(name)] = values
-        nearest = np.minimum(above, 3.0 * nearest - above)
+        nearest = np.minimum(above, below)
         found = (module.scan if draw % 2 else module.scan_some)(work)
         clear = abs(beyond - nearest * both) > NO_ROUNDING * (beyond + nearest * both)
         expected = (rose * change <= 0.0) & (beyond > nearest * both)
