@@ -152,10 +152,11 @@ class JudgedStep:
         if self.tableau.watched_closely:
             return most, most
         v, last = self.variable, self.tableau.stages
+        shorter = 1.0 / v("tried")
         for i in range(self.coordinates, 2 * self.coordinates):
             first, second, late, end = (v(self._slope(s, i)) for s in (1, 2, last - 1, last))
             swing = swings(first, late, end, self.tableau.nodes[-2], self._weighed(i))
-            mean = (v(f"stage{i}") - v(f"y{i}")) / v("tried")
+            mean = shorter * (v(f"stage{i}") - v(f"y{i}"))
             jump = jumps(first, second, mean, end, self._weighed(i))
             most = maximum(most, maximum(swing, jump))
         is_time = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
