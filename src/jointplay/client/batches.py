@@ -22,7 +22,6 @@ class Batch(BatchRecord):
 
     def __init__(self, document: Mapping[str, Any], connection: Connection) -> None:
         super().__init__(**read_batch(document))
-        self._job_ids: list[str] = document.get("job_ids", [])  # of one that was just queued
         self._connection = connection
         self._path = f"/v1/batches/{segment(self.id)}"
 
@@ -34,21 +33,6 @@ class Batch(BatchRecord):
     def jobs(self) -> Iterator[Job]:
         """Yield the jobs in the order in which they were given, page by page as they are needed."""
         yield from jobs_of(self._connection, f"{self._path}/jobs")
-
-    def every_job(self) -> Iterator[Job]:
-        """Yield the jobs of a batch that this client has queued, as `jobs`; all or `Expired`.
-
-        Lists leave out jobs that have expired or were deleted.
-        """
-        listed = self.jobs()
-        following = next(listed, None)
-        for job_id in self._job_ids:
-            if following is not None and following.id == job_id:
-                yield following
-                following = next(listed, None)
-            else:
-                path = f"/v1/jobs/{segment(job_id)}"
-                yield ServiceJob(self._connection.get(path), self._connection)
 
     def cancel(self) -> Self:
         """Ask for every job that is not finished to be cancelled."""
@@ -104,6 +88,21 @@ def jobs_of(
         token = page["next_page_token"]
         if token is None:
             return
+
+
+def every_job(connection: Connection, queued: Mapping[str, Any]) -> Iterator[Job]:
+    """Yield the jobs of a batch, by what the service answered when it was queued; all or `Expired`.
+
+    Lists leave out jobs that have expired or were deleted.
+    """
+    listed = jobs_of(connection, f"/v1/batches/{segment(queued['id'])}/jobs")
+    following = next(listed, None)
+    for job_id in queued["job_ids"]:
+        if following is not None and following.id == job_id:
+            yield following
+            following = next(listed, None)
+        else:
+            yield ServiceJob(connection.get(f"/v1/jobs/{segment(job_id)}"), connection)
 
 
 def counted_from(first: int, problems: Iterable[FieldProblem]) -> tuple[FieldProblem, ...]:

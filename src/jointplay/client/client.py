@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self
 import httpx
 
 from jointplay import jobs as documents
-from jointplay.client.batches import Batch, counted_from, jobs_of
+from jointplay.client.batches import Batch, counted_from, every_job, jobs_of
 from jointplay.client.connection import LONGEST_ANSWER, Connection, segment
 from jointplay.client.errors import ClientError, Refused
 from jointplay.client.job import Job
@@ -139,23 +139,27 @@ class Client:
             While it yields: the next job has expired, or was deleted, before it was looked at.
         """
         given = list(jobs)
-        batches: list[Batch] = []
+        queued: list[Mapping[str, Any]] = []
         try:
             for first in range(0, len(given), MOST_JOBS):
-                batches.append(self.submit_batch(given[first : first + MOST_JOBS], label))
+                queued.append(self._queue(given[first : first + MOST_JOBS], label))
         except ClientError as error:
-            for batch in batches:
+            for batch in queued:
                 with suppress(ClientError):
-                    batch.cancel()
+                    Batch(batch, self._connection).cancel()
             if isinstance(error, Refused):
                 error.fields = counted_from(first, error.fields)
             raise
-        return (job.wait(check=False) for batch in batches for job in batch.every_job())
+        found = (job for batch in queued for job in every_job(self._connection, batch))
+        return (job.wait(check=False) for job in found)
 
     def submit_batch(self, jobs: Sequence[Mapping[str, Any]], label: str = "") -> Batch:
         """Queue many jobs, or none; `Refused` names every field that is wrong, by index."""
+        return Batch(self._queue(jobs, label), self._connection)
+
+    def _queue(self, jobs: Sequence[Mapping[str, Any]], label: str) -> Mapping[str, Any]:
         body = {"jobs": [dict(document) for document in jobs], "label": label}
-        return Batch(self._connection.post("/v1/batches", body), self._connection)
+        return self._connection.post("/v1/batches", body)
 
     def estimate(self, document: Mapping[str, Any]) -> Estimate:
         """Return what a job will cost; nothing is queued."""
