@@ -1,5 +1,6 @@
 """A type of joint from outside: in scenes, both formulations, figures and on the page by itself."""
 
+import json
 import math
 from collections.abc import Iterator
 from typing import Any
@@ -150,7 +151,7 @@ def test_figures_draw_its_ring_and_its_pin(platform: Platform) -> None:
         job = platform.computed(circling((0.0, SPEED), **fields))
         assert sign in job.figure("mechanism", form="svg").content.decode()
     stored = job.open().attrs
-    scene = stored["scene"] | {"curves": stored["curves"]}
+    scene = json.loads(stored["scene"]) | {"curves": json.loads(stored["curves"])}
     (axes,) = draw_mechanism(scene, {"disc": (RADIUS, 0.0, 0.0)}).axes
     (ring,) = (line for line in axes.lines if len(line.get_xdata()) > 100)
     np.testing.assert_allclose(np.hypot(*ring.get_xydata().T), RADIUS, rtol=1e-12)
