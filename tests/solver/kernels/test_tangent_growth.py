@@ -105,7 +105,7 @@ def test_the_press_grows_as_its_companion_does() -> None:
 def test_exponents_depend_little_on_the_tolerance() -> None:
     # a chaotic press whose friction holds in 1e-3 m/s: at 1e-6 its steps are at the limit of
     # stability, and the derivative of the base's own steps would give twice the exponent; so would,
-    # nearly, steps that end a contact with the stages of others, 6.0. Over 128 s 3.9, 4.1, 4.3 and
+    # nearly, steps that end a contact with the stages of others, 6.0. Over 128 s 4.0, 4.1, 4.3 and
     # 4.1 were found at 1e-6 to 1e-9, each +- 0.1
     scene = preset(
         "seven-bar-press",
