@@ -5,6 +5,7 @@ from typing import Any
 from benchmarks.lies.named.lie import Lie, by_extremes
 from benchmarks.lies.scenes.bearing import play
 from benchmarks.lies.scenes.mechanisms import loose_slider_crank
+from benchmarks.lies.scenes.pits import ring_on_pin
 
 
 def _press(duration: float, tolerance: float, parameters: dict[str, Any]) -> dict[str, Any]:
@@ -85,43 +86,23 @@ UNSEEN = {
 
 PRESSED = {
     "kind": "simulate",
-    "scene": {
-        "name": "pit",
-        "gravity": [0.0, 0.0],
-        "ground": {"points": {"O": [0.0, 0.0]}},
-        "bodies": {
-            "crank": {
-                "mass": 0.3,
-                "inertia": 1e-4,
-                "points": {"O": [0.0, 0.0], "pin": [4.487211850700405e-05, 0.0]},
-            },
-            "ring": {
-                "mass": 7.49492936699,
-                "inertia": 0.00643697003054,
-                "points": {"eye": [0.0, 0.0]},
-            },
+    "scene": ring_on_pin(
+        0.0,
+        4.487211850700405e-05,
+        (7.49492936699, 0.00643697003054),
+        play(
+            0.00021707620357,
+            0.0008914706873086226,
+            (52055833952.8, 0.682857879072),
+            (0.266012775526, 0.000167928114561, 0.0),
+        ),
+        (2.43974785372, 425.541297052),
+        {
+            "velocity": [-0.0883907196678, 0.1],
+            "angular_velocity": 37.6958944876,
+            "eccentricity": [-1.0343543700338162e-05, 2.0687087400676323e-05],
         },
-        "joints": {
-            "O": {"type": "revolute", "bearing": "ground.O", "journal": "crank.O"},
-            "E": {
-                "type": "revolute",
-                "bearing": "crank.pin",
-                "journal": "ring.eye",
-                "clearance": play(
-                    0.00021707620357,
-                    0.0008914706873086226,
-                    (52055833952.8, 0.682857879072),
-                    (0.266012775526, 0.000167928114561, 0.0),
-                ),
-            },
-        },
-        "drivers": {"motor": {"joint": "O", "position": 2.43974785372, "speed": 425.541297052}},
-        "start": {
-            "velocities": {"ring": [-0.0883907196678, 0.1]},
-            "angular_velocities": {"ring": 37.6958944876},
-            "joints": {"E": {"eccentricity": [-1.0343543700338162e-05, 2.0687087400676323e-05]}},
-        },
-    },
+    ),
     "duration": 0.05267431651424641,
     "method": "tsitouras",
     "tolerance": 2.42899e-05,
