@@ -32,7 +32,7 @@ export function historyAsCsv(job, shown, signal) {
 
 function button(act, text) {
   const said = element("span", { role: "status", class: "small quiet" });
-  return element("div", { class: "buttons" }, element("button", {
+  return element("div", { class: "buttons saving" }, element("button", {
     type: "button",
     onclick: async (event) => {
       event.target.disabled = true;
