@@ -13,8 +13,8 @@ from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop import runs
-from jointplay.solver.kernels.loop.lanes import attend_lanes, settle_lanes
-from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers
+from jointplay.solver.kernels.loop.lanes import attend_lanes, landing_lanes, settle_lanes
+from jointplay.solver.kernels.loop.runs import Buffers
 from jointplay.solver.kernels.loop.step import Group
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
@@ -111,14 +111,13 @@ def advance_one_lane(
     full, made = False, 0
     while made < budget and work[at.active, 0] > 0.0 and not full:
         made += 1
-        flagged = functions_at(call).attempt(work) != 0.0
-        quiet = not flagged and own[0].landing == NO_PAIR
-        full = not quiet and attend_lanes(group, buffers.rows)
+        wanted = functions_at(call).attempt(work) | landing_lanes(own)
+        full = wanted != 0 and attend_lanes(wanted, group, buffers.rows)
         if sizes.growths > 0 and work[at.accept, 0] > 0.0:
             functions_at(call).tangent_step(work)
         functions_at(call).take(work)
-        if not quiet:
-            full |= settle_lanes(group, buffers)
+        if wanted != 0:
+            full |= settle_lanes(wanted, group, buffers)
     for slot in range(sizes.slots):
         lanes.columns[slot * sizes.lanes + lane] = work[slot, 0]
     carray(lanes.runs, (sizes.lanes,))[lane] = own[0]

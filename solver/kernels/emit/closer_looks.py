@@ -22,7 +22,7 @@ EVERY = 256
 def source(layout: Layout, pairs: int, *, always: bool) -> Source:
     """Return the source of foresee_looks(W): ``may_look`` is positive where a lane's step may be.
 
-    Its value is the largest of them. `always` : of methods and scenes whose steps are all looked
+    Its value tells which lanes. `always` : of methods and scenes whose steps are all looked
     at.
     """
     tape, tracer = Tape(layout), Tracer()

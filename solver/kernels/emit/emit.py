@@ -89,7 +89,7 @@ class Tape:
         self.lines += [f"store {self.layout[name]} {self.carried[name]}" for name in names]
 
     def give(self, expression: Expression) -> None:
-        """End with the largest of an expression's lanes as the function's value."""
+        """End with the lanes in which an expression is positive as the function's value."""
         self.lines.append(f"return {self.evaluate(expression)}")
 
     def mark(self, name: str, expression: Expression) -> None:

@@ -20,23 +20,21 @@ WORK = float64[:, ::1]
 """Work array (slots, lanes)."""
 
 OVER_LANES = types.FunctionType(void(WORK))
-JUDGING = types.FunctionType(float64(WORK))
-"""Attempts a step, or looks at all lanes; the largest of their numbers."""
 MARKING = types.FunctionType(int64(WORK))
-"""Looks at all channels; bit k is set for lane k where one may have passed an extreme."""
+"""Attempts a step, or looks at all lanes; bit k is set for lane k where something is found."""
 WITHIN_STEP = types.FunctionType(void(WORK, WORK, int64))
 """Evaluates instants inside the step of one lane of its first argument, into its second."""
 
 SIGNATURES: Mapping[str, types.FunctionType] = {
     "right_hand_side": OVER_LANES,
-    "attempt": JUDGING,
+    "attempt": MARKING,
     "remember": OVER_LANES,
     "remember_some": OVER_LANES,
     "take": OVER_LANES,
     "weigh": OVER_LANES,
     "observe": OVER_LANES,
     "observe_rest": OVER_LANES,
-    "foresee_looks": JUDGING,
+    "foresee_looks": MARKING,
     "foresee_bends": OVER_LANES,
     "scan": MARKING,
     "scan_some": MARKING,
@@ -112,7 +110,6 @@ CALLS = ".calls"
 """Ends the name of the number of its calls."""
 VALUES = {
     "void": (types.void, None),
-    "double": (float64, ctypes.c_double),
     "i64": (int64, ctypes.c_int64),
 }
 """Types of a function's value for Numba and for Python, by LLVM's."""

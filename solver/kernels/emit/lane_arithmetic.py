@@ -199,16 +199,6 @@ def lower_and_upper(build: Builder, lower: str, upper: str) -> str:
     return _shuffled(build, lower, upper, [*range(half), *range(count + half, 2 * count)])
 
 
-def largest(build: Builder, x: str) -> str:
-    """Return the largest of the lanes' numbers, which are all numbers."""
-    count, width = build.count, build.count // 2
-    while width:
-        other = _shuffled(build, x, x, [(k + width) % count for k in range(count)])
-        x = build.choose(build.greater(x, other), x, other)
-        width //= 2
-    return build.new(f"extractelement {build.numbers_type} {x}, i32 0")
-
-
 def _shuffled(build: Builder, x: str, y: str, order: list[int]) -> str:
     chosen, numbers = ", ".join(f"i32 {one}" for one in order), build.numbers_type
     mask = f"<{build.count} x i32> <{chosen}>"

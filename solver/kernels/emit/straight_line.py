@@ -8,7 +8,7 @@ A tape has one statement a line::
     v0 = given 12           slot 12 of S
     v3 = mul v1 0.5         arithmetic: see `solver.kernels.trace.operations`
     store 14 v3             into slot 14 of S, or of W where there is no S
-    return v3               the largest of its lanes
+    return v3               bit k is set where lane k is positive
 
 Where S is written, its columns are eight instants of one lane's step, however many lanes there are:
 the tape is run for as many instants at a time as there are lanes.
@@ -44,7 +44,6 @@ from jointplay.solver.kernels.emit.elimination import factorise, substitute
 from jointplay.solver.kernels.emit.lane_arithmetic import (
     Builder,
     everywhere,
-    largest,
     lower_and_upper,
     mask,
     same,
@@ -157,10 +156,10 @@ class _Tape:
             case ["mark", slot, value]:
                 self._mark(slot, self._value(value))
             case ["return", "call", name]:
-                found = build.new(f"call double {self.symbol(name)}(ptr %W)")
-                build.lines.append(f"ret double {found}")
+                build.lines.append(f"ret i64 {build.new(f'call i64 {self.symbol(name)}(ptr %W)')}")
             case ["return", value]:
-                build.lines.append(f"ret double {largest(build, self._value(value))}")
+                found = mask(build, self._value(value))
+                build.lines.append(f"ret i64 {build.new(f'zext i8 {found} to i64')}")
             case ["call", name]:
                 build.lines.append(f"call void {self.symbol(name)}(ptr %W)")
             case ["call", name, row]:

@@ -37,9 +37,8 @@ class Source:
     @property
     def value(self) -> str:
         """LLVM's type of the function's value."""
-        if self.over == "rows":
-            return "i64"
-        return "double" if any(line.startswith("return ") for line in self.lines) else "void"
+        marks = self.over == "rows" or any(line.startswith("return ") for line in self.lines)
+        return "i64" if marks else "void"
 
     def of_numbers(
         self, symbol: Callable[[str], str], lanes: int, attributes: str = ON_ITS_OWN

@@ -18,10 +18,10 @@ from jointplay.solver.kernels.loop.lanes import (
     count_active,
     cross_lanes,
     keep_steps,
+    landing_lanes,
     look_closer_at_lanes,
     refine_lanes,
     settle_lanes,
-    still_landing,
 )
 from jointplay.solver.kernels.loop.runs import BUFFERS, Buffers
 from jointplay.solver.kernels.loop.step import WORKSPACE, Workspace, group_of
@@ -48,23 +48,25 @@ def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
     at, work, runs, call = group.at, group.work, group.runs, functions_at(group.call)
     marked = unowned(work.reshape(work.size).view(np.uint64))
     rows, steps = unowned(buffers.rows), unowned(buffers.steps)
-    running, landing, crossing = count_active(at, work), still_landing(runs), any_crossing(runs)
+    running, landing, crossing = count_active(at, work), landing_lanes(runs), any_crossing(runs)
     tangents = buffers.growths.shape[1] > 0
     made = 0
     while made < budget and running > 0:
         made += 1
-        quiet = call.attempt(work) == 0.0 and not landing
-        full = not quiet and attend_lanes(group, rows)
+        wanted = call.attempt(work) | landing
+        full = wanted != 0 and attend_lanes(wanted, group, rows)
         if watch or crossing:
             call.observe(work)
         if crossing:
             crossed, filled = cross_lanes(group, rows)
-            quiet, full = quiet and not crossed, full or filled
-        foreseen = watch and call.foresee_looks(work) > 0.0
-        if foreseen:
-            call.foresee_bends(work)
-        if watch and (foreseen or not quiet):
-            look_closer_at_lanes(group)
+            wanted, full = wanted | crossed, full or filled
+        quiet = wanted == 0
+        if watch:
+            foreseen = call.foresee_looks(work)
+            if foreseen != 0:
+                call.foresee_bends(work)
+            if foreseen | wanted != 0:
+                look_closer_at_lanes(foreseen | wanted, group)
         if watch or crossing:  # a scan also keeps the values from which channels go on
             candidates = call.scan(work) if quiet else call.scan_some(work)
             if watch and candidates > 0:
@@ -77,8 +79,8 @@ def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
         call.take(work)
         if quiet and not full:
             continue
-        full |= settle_lanes(group, buffers)
-        still, landing = count_active(at, work), still_landing(runs)
+        full |= settle_lanes(wanted, group, buffers)
+        still, landing = count_active(at, work), landing_lanes(runs)
         if full or still < running:  # a free lane may have a new problem waiting
             break
         running = still

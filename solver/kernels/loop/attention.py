@@ -23,6 +23,7 @@ from jointplay.solver.kernels.loop.contacts import (
 from jointplay.solver.kernels.loop.dense_rows import hand_out
 from jointplay.solver.kernels.loop.events import has_all_events, record_event
 from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import count_end
+from jointplay.solver.kernels.loop.onset import forget_looks
 from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, note_openings
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers, SectionKind, Status
@@ -40,6 +41,7 @@ def attend(flag: int, s: Step, rows: np.ndarray) -> bool:
     lane, run, at, work = s.lane, s.run, s.at, s.work
     run.attended += 1
     opening = 1.0
+    forget_looks(s)
     if flag & RELEASE:
         opening = note_openings(s, not flag & REJECTED)
     if flag & REJECTED:

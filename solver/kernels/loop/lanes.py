@@ -1,17 +1,19 @@
-"""Loops over the lanes of a group: which of them need what, while one attempt is looked after."""
+"""Loops over the lanes of a group: which of them need what, while one attempt is looked after.
+
+Sets of lanes are words: bit k is set for lane k.
+"""
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.judging import ATTENTION
 from jointplay.solver.kernels.emit.slots import Slots
 from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.loop.accepted_steps import write_step
 from jointplay.solver.kernels.loop.attention import attend, settle
-from jointplay.solver.kernels.loop.events import has_all_events, may_cross, record_crossings
+from jointplay.solver.kernels.loop.events import may_cross, record_crossings
 from jointplay.solver.kernels.loop.extremes.closer_look import look_closer
 from jointplay.solver.kernels.loop.extremes.peaks import refine_peaks
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers
-from jointplay.solver.kernels.loop.step import Group, Step, step_of
+from jointplay.solver.kernels.loop.step import Group, step_of
 
 
 @kernel()
@@ -34,64 +36,53 @@ def any_accepted(at: Slots, work: np.ndarray) -> bool:
 
 
 @inner_kernel()
-def still_landing(runs: np.ndarray) -> bool:
-    """Return whether a lane is about to land on an onset."""
+def landing_lanes(runs: np.ndarray) -> int:
+    """Return the lanes that are about to land on an onset."""
     landing = 0
     for lane in range(len(runs)):
         if runs[lane].landing != NO_PAIR:
-            landing += 1
-    return landing > 0
-
-
-@inner_kernel(forceinline=True, borrows=True)
-def wants_attention(s: Step) -> bool:
-    """Whether a lane is looked after by itself: for what its step did, or to land on an onset."""
-    flag = int(s.work[s.at.flag, s.lane])
-    return bool(flag & ATTENTION != 0 or s.run.landing != NO_PAIR)
+            landing |= 1 << lane
+    return landing
 
 
 @inner_kernel(borrows=True)
-def attend_lanes(group: Group, rows: np.ndarray) -> bool:
+def attend_lanes(wanted: int, group: Group, rows: np.ndarray) -> bool:
     """Look after lanes between their attempts and the commit. Returns whether a buffer is full."""
     full = False
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
-        if wants_attention(s) and s.work[s.at.active, lane] > 0.0:
+        if wanted >> lane & 1 and s.work[s.at.active, lane] > 0.0:
             full |= attend(int(s.work[s.at.flag, lane]), s, rows)
     return full
 
 
 @inner_kernel(borrows=True)
-def cross_lanes(group: Group, rows: np.ndarray) -> tuple[bool, bool]:
+def cross_lanes(group: Group, rows: np.ndarray) -> tuple[int, bool]:
     """Write sections where channels cross.
 
-    Returns whether one may, and whether a buffer is full.
+    Returns the lanes in which one may, and whether a buffer is full.
     """
-    crossed, full = False, False
+    crossed, full = 0, False
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
         if s.work[s.at.accept, lane] > 0.0 and may_cross(s):
-            crossed = True
+            crossed |= 1 << lane
             full |= record_crossings(s, rows)
     return crossed, full
 
 
 @inner_kernel(borrows=True)
-def look_closer_at_lanes(group: Group) -> None:
-    """Seek extremes that no scan of step ends finds, in the steps that lanes take.
-
-    Only first and last steps, and those that land on an onset, may have some that are not foreseen.
-    """
+def look_closer_at_lanes(wanted: int, group: Group) -> None:
+    """Seek extremes that no scan of step ends finds, in the steps that lanes take."""
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
-        wanted = s.work[s.at.may_look, lane] > 0.0 or wants_attention(s)
-        if wanted and s.work[s.at.accept, lane] > 0.0:
+        if wanted >> lane & 1 and s.work[s.at.accept, lane] > 0.0:
             look_closer(s)
 
 
 @inner_kernel(borrows=True)
 def refine_lanes(candidates: int, group: Group, marked: np.ndarray) -> None:
-    """Seek the extremes that the scan suspects, of lanes whose bits are set in `candidates`."""
+    """Seek the extremes that the scan suspects in the steps that lanes take."""
     for lane in range(len(group.runs)):
         if candidates >> lane & 1 and group.work[group.at.accept, lane] > 0.0:
             refine_peaks(step_of(lane, group), marked)
@@ -111,12 +102,11 @@ def keep_steps(group: Group, steps: np.ndarray) -> bool:
 
 
 @inner_kernel(borrows=True)
-def settle_lanes(group: Group, buffers: Buffers) -> bool:
+def settle_lanes(wanted: int, group: Group, buffers: Buffers) -> bool:
     """Look after lanes whose steps are taken. Returns whether a buffer is nearly full."""
     full = False
     for lane in range(len(group.runs)):
         s = step_of(lane, group)
-        wanted = wants_attention(s) or has_all_events(s.run)
-        if wanted and s.work[s.at.accept, lane] > 0.0:
+        if wanted >> lane & 1 and s.work[s.at.accept, lane] > 0.0:
             full |= settle(int(s.work[s.at.flag, lane]), s, buffers)
     return full

@@ -21,6 +21,20 @@ def look_between(low: float, high: float, s: Step) -> None:
 
 
 @inner_kernel()
+def forget_looks(s: Step) -> None:
+    """Say that what `spare` has is of another step."""
+    s.spare[s.at.theta, 0] = math.nan
+
+
+@inner_kernel()
+def look_at_eighths(s: Step) -> None:
+    """Evaluate all gaps at the ends of eighths of the step, unless that was the last look at it."""
+    first, last = s.spare[s.at.theta, 0], s.spare[s.at.theta, INSTANTS - 1]
+    if not (first == 1.0 / INSTANTS and last == 1.0):
+        look_between(0.0, 1.0, s)
+
+
+@inner_kernel()
 def first_onset(j: int, s: Step) -> float:
     """Return the share of the step after which pair j's gap first closes, `NO_ONSET` if never.
 
@@ -29,7 +43,7 @@ def first_onset(j: int, s: Step) -> float:
     """
     begun = 0
     while begun < INSTANTS:
-        look_between(0.0, 1.0, s)
+        look_at_eighths(s)
         i = next_suspect(1.0, j, begun, s)
         if i == INSTANTS:
             break

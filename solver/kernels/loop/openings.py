@@ -8,7 +8,7 @@ from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.onset import (
     NO_ONSET,
     crossed_between,
-    look_between,
+    look_at_eighths,
     next_suspect,
 )
 from jointplay.solver.kernels.loop.runs import NO_PAIR
@@ -31,7 +31,7 @@ def dip(j: int, s: Step) -> float:
     closed, or once open it stays so. Where contact has only just begun, it must have been deeper.
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
-    look_between(0.0, 1.0, s)
+    look_at_eighths(s)
     begun = 0
     if work[at.gap_start + j, lane] <= LANDED:
         while begun < INSTANTS and spare[at.gap + j, begun] <= LANDED:
@@ -51,7 +51,7 @@ def dip(j: int, s: Step) -> float:
         if open_at < NO_ONSET:
             return open_at
         begun = i + 1
-        look_between(0.0, 1.0, s)
+        look_at_eighths(s)
     return 1.0
 
 

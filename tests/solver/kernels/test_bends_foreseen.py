@@ -96,7 +96,7 @@ def test_looks_are_foreseen_wherever_bends_are(kernel: Kernel) -> None:
         work[layout["slip0"]] = work[layout["slip_start0"]] + random.normal(0.0, far, lanes)
         for name in ("slip_rate_start0", "slip_rate0"):
             work[layout[name]] = random.normal(0.0, 2.0 * far, lanes)
-        foreseen = kernel.module.foresee_looks(work) > 0.0
+        foreseen = kernel.module.foresee_looks(work) != 0
         kernel.module.foresee_bends(work)
         bends = bool((work[layout["may_pass_bend"]] > 0.0).any())
         assert foreseen or not bends
@@ -128,4 +128,4 @@ def test_looks_are_foreseen_where_steps_say_so(
         work[layout.block("bend")] = np.inf
         work[layout["mode0"]], work[layout["steps"]] = 1.0, steps
         work[layout[slot], lane] = value
-        assert (kernel.module.foresee_looks(work) > 0.0) == foreseen
+        assert kernel.module.foresee_looks(work) == (foreseen << lane)

@@ -134,7 +134,8 @@ def test_a_step_in_contact_asks_for_a_look_where_its_gap_may_have_opened(
         "gap0": end, "gap_rate0": end_rate,
     }.items():  # fmt: skip
         work[kernel.layout[name]] = value
-    assert kernel.module.judge(work) == (RELEASE if opens else 0.0)
+    assert kernel.module.judge(work) == ((1 << LANES) - 1 if opens else 0)
+    assert (work[kernel.layout["flag"]] == (RELEASE if opens else 0.0)).all()
 
 
 numbers = st.lists(st.floats(-1.0, 1.0), min_size=12, max_size=12)

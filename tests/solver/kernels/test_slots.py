@@ -85,7 +85,7 @@ def swapped(module: Any, one: str, other: str) -> Any:
 def test_a_function_of_another_kind_is_not_taken_and_none_may_be_missing() -> None:
     kernel = kernel_of("bouncing-journal")
     module = cast(Any, kernel.module)
-    for one, other in (("attempt", "take"), ("scan", "attempt"), ("states_within", "observe")):
+    for one, other in (("attempt", "take"), ("scan", "take"), ("states_within", "observe")):
         with pytest.raises(TypeError, match=f"'{other}' is"):
             addresses_of(swapped(module, one, other))
     lacking = swapped(module, "take", "take")
