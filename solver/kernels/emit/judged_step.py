@@ -16,6 +16,7 @@ from jointplay.solver.kernels.emit.judging import (
     contact_flags,
     growth,
     jumps,
+    passing_flag,
     swings,
 )
 from jointplay.solver.kernels.emit.knots import KnotTracer
@@ -91,8 +92,8 @@ class JudgedStep:
             for j, shape in enumerate(self.equations.enclosures)
         ]
         kinds = [reduce(maximum, kind) for kind in zip(*flags, strict=True)]
-        attention = select_positive(v("active"), reduce(add, kinds[:-1], attention), number(0.0))
-        inside = select_positive(v("active"), reduce(add, kinds[-1:], v("swinging")), number(0.0))
+        attention = select_positive(v("active"), reduce(add, kinds, attention), number(0.0))
+        inside = select_positive(v("active"), v("inside"), number(0.0))
         outputs = [
             ("accept", good * v("active")),
             ("flag", attention + inside),
@@ -106,13 +107,15 @@ class JudgedStep:
         return tape.function("judge")
 
     def _look_inside(self) -> Source:
-        """Return the source of look_inside(W): what the search for extremes asks of a step."""
+        """Return the source of look_inside(W): what extremes and crossings ask of a step."""
         v = self.variable
-        flag, swing = self._swinging()
+        swinging, swing = self._swinging()
+        shapes = enumerate(self.equations.enclosures)
+        passing = reduce(maximum, (passing_flag(v, j, shape) for j, shape in shapes), 0.0)
         tape = Tape(self.layout)
-        tape.go_on_where(v("seeks_extremes"))
+        tape.go_on_where(v("looks_inside"))
         reach = scanning.reach(v("tried"), v(before("tried")))
-        tape.store([("swinging", flag), ("swing", swing), *reach])
+        tape.store([("inside", swinging + passing), ("swing", swing), *reach])
         return tape.function("look_inside")
 
     def _at_knots(
@@ -144,9 +147,8 @@ class JudgedStep:
     def _swinging(self) -> tuple[Expression, Expression]:
         """Return SWINGING where a step that swings inside is to be looked at, and by how much.
 
-        In tolerances of the speed, of the acceleration that swings most. Only who seeks extremes
-        says when to look again, so only lanes that do are flagged; methods that are watched closely
-        need no flag for it.
+        In tolerances of the speed, of the acceleration that swings most. Methods that are watched
+        closely need no flag for it.
         """
         most: Expression = self.tracer.constant(0.0)
         if self.tableau.watched_closely:
@@ -161,7 +163,7 @@ class JudgedStep:
             most = maximum(most, maximum(swing, jump))
         is_time = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
         due = maximum(is_time, v("tried") - GROWN * v("looked_into"))
-        wanted = minimum(v("seeks_extremes"), minimum(most, due))
+        wanted = minimum(most, due)
         return select_positive(wanted, self.tracer.constant(SWINGING), 0.0), most
 
     def _away(self) -> Expression:

@@ -78,18 +78,17 @@ def jumps(first: Scalar, second: Scalar, mean: Scalar, last: Scalar, weighed: Sc
 def contact_flags(
     v: Callable[[str], Expression], j: int, away: Expression, enclosure: str, method: Method
 ) -> tuple[Expression, ...]:
-    """Flag a gap that closed, or perhaps did; one in contact that opened, or perhaps did; passages.
+    """Flag a gap that closed, or perhaps did; and one in contact that opened, or perhaps did.
 
     Either may be over at the step's end, so both look at what is in between; but not where steps
     are fixed: there contacts change where a step ends. A gap whose journal stays in an enclosure
     off the wall did not close, and one in contact that stays in one beyond it did not open
     (`solver.kernels.emit.enclosure`, also of `away`). Steps that are long beside what a contact
-    does in them have no enclosure there. A journal whose normal turns much is flagged: it may pass
-    the centre of its bearing.
+    does in them have no enclosure there.
     """
     gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
     start = v(f"gap_start{j}")
-    perhaps = dip = passing = 0.0
+    perhaps = dip = 0.0
     if method.error:
         held = "none" if method.watched_closely else enclosure
         perhaps = _where(ONSET, beyond(v, j, away, enclosure))
@@ -97,14 +96,15 @@ def contact_flags(
     onset = select_positive(gap, ONSET, perhaps)
     opened = _where(RELEASE, maximum(-rate, start - LANDED))
     release = select_positive(gap, dip, opened)
-    if enclosure == "circle":
-        passing = _where(PASSING, whips_round(v, j))
     touching = v(f"mode{j}")
-    return (
-        select_positive(touching, 0.0, onset),
-        _where(release, touching),
-        select_positive(touching, 0.0, passing),
-    )
+    return select_positive(touching, 0.0, onset), _where(release, touching)
+
+
+def passing_flag(v: Callable[[str], Expression], j: int, enclosure: str) -> Expression:
+    """Flag a free journal whose normal turns much: it may pass the centre of its bearing."""
+    touching = v(f"mode{j}")
+    passing = _where(PASSING, whips_round(v, j)) if enclosure == "circle" else 0.0 * touching
+    return select_positive(touching, 0.0, passing)
 
 
 def _where(value: Scalar, *positive: Expression) -> Scalar:

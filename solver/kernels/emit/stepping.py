@@ -32,7 +32,7 @@ def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) 
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
     layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
     layout.add("look_at", "look_beyond", "looked_into", "rough_until")
-    layout.add("swing", "swinging", "seeks_extremes")
+    layout.add("swing", "inside", "looks_inside")
     layout.add_block("y", states)
     for s in range(1, stages + 1):  # equal pieces, which the slopes are written into
         layout.add_block(f"k{s}_", states)

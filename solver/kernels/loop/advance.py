@@ -50,6 +50,8 @@ def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
     rows, steps = unowned(buffers.rows), unowned(buffers.steps)
     running, landing, crossing = count_active(at, work), landing_lanes(runs), any_crossing(runs)
     tangents = buffers.growths.shape[1] > 0
+    for lane in range(len(runs)):
+        work[at.looks_inside, lane] = float(watch or crossing)
     made = 0
     while made < budget and running > 0:
         made += 1

@@ -221,7 +221,6 @@ class Bundle:
         running = [group for group in self.groups if group.runs_on]
         goal = min((group.attempts for group in running), default=0) + budget
         for group in running:
-            group.work[self.kernel.layout["seeks_extremes"]] = float(self.watch)
             left = goal - group.attempts
             group.attempts += advance(self.workspace(group), group.buffers, int(self.watch), left)
         return int(np.count_nonzero(self.runs["status"] == RUNNING))
