@@ -3,7 +3,7 @@
 Motions that recur, or have come to rest, are told apart by the mean and the spread of their states
 over a cycle of sections, which are the same wherever on the cycle a record ends. Others are told
 apart where these differ beyond their own scatter (`scattered`). Over a parameter, attractors are
-those of the value before that they are nearest to.
+those of the value before that they are nearest to, also in a map with starts along its other axis.
 """
 
 from collections.abc import Iterator, Mapping
@@ -123,9 +123,16 @@ class _Chain:
 
 
 def parameter_of(source: StudySource) -> int | None:
-    """Return the column of the values over which shares are wanted; None: there is none."""
+    """Return the column of the parameter along which attractors are followed; None: there is none.
+
+    Of a map it is the one axis on which more depends than the start; earlier versions did not keep
+    which that is.
+    """
     job = source.attributes["job"]
-    return 0 if job["kind"] == "basin-stability" and job.get("along") else None
+    if job["kind"] == "basin-stability":
+        return 0 if job.get("along") else None
+    beyond_start = source.attributes.get("beyond_start", ())
+    return int(beyond_start[0]) if len(beyond_start) == 1 else None
 
 
 def _by_value(source: StudySource) -> Iterator[Integers]:
@@ -145,11 +152,15 @@ def _groups(motion: Labels, cycles: Cycles) -> Iterator[_Group]:
     widths = np.maximum(cycles.scales, cycles.of(closed).ranges()) * SAME
     for code in np.unique(motion[closed]).tolist():
         left = np.flatnonzero(motion == code)
-        while len(left):
+        for _ in range(MOST):
+            if not len(left):
+                break
             place = cycles.places[left[0]]
             near = (np.abs(cycles.apart(cycles.places[left], place)) <= widths).all(axis=1)
             yield _Group(code, left[near], place)
             left = left[~near]
+        if len(left):  # of so many none has a label of its own
+            yield _Group(code, left, cycles.places[left[0]])
     for code in (QUASI_PERIODIC, CHAOTIC):
         points = np.flatnonzero(motion == code)
         if len(points):
@@ -161,16 +172,18 @@ def _groups(motion: Labels, cycles: Cycles) -> Iterator[_Group]:
 def _carry_on(chains: list[_Chain], found: list[_Group], points: Integers, cycles: Cycles) -> None:
     """Add the attractors of a value to the nearest of those before, one to one, or as new ones."""
     ranges = cycles.ranges()
-    near = sorted(
-        (float(np.abs(cycles.apart(group.place, chain.place) / ranges).max()), g, c)
-        for g, group in enumerate(found)
-        for c, chain in enumerate(chains)
-        if group.code == chain.code
-    )
+    near: list[tuple[float, int, int]] = []
+    for code in {group.code for group in found} & {chain.code for chain in chains}:
+        before = [c for c, chain in enumerate(chains) if chain.code == code]
+        places = np.array([chains[c].place for c in before])
+        most = CARRIED if code >= EQUILIBRIUM else np.inf
+        for g, group in enumerate(found):
+            if group.code == code:
+                away = np.abs(cycles.apart(places, group.place) / ranges).max(axis=1).tolist()
+                near += [(x, g, c) for x, c in zip(away, before, strict=True) if x <= most]
     taken: dict[int, int] = {}
-    for distance, g, c in near:
-        recurs = found[g].code >= EQUILIBRIUM
-        if (distance <= CARRIED or not recurs) and g not in taken and c not in taken.values():
+    for _, g, c in sorted(near):
+        if g not in taken and c not in taken.values():
             taken[g] = c
     for g, group in enumerate(found):
         members = points[group.members]

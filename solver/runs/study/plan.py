@@ -114,7 +114,10 @@ class Study:
         """Return facts that a store keeps of this study beside its job and scene."""
         if not self.compares_cycles:
             return {}
-        return {"states": attributes_of(self.point_scene(0), float(self.period[0]))}
+        return {
+            "states": attributes_of(self.point_scene(0), float(self.period[0])),
+            "beyond_start": self.scenes.beyond_start,
+        }
 
     def scene_document(self) -> dict[str, Any]:
         """Return the scene of the first point as stores keep it."""

@@ -52,6 +52,11 @@ class PointScenes:
         """Whether points differ in numbers of their starts."""
         return any(OF_STARTS.fullmatch(leaf.path) for leaf in self.leaves)
 
+    @property
+    def beyond_start(self) -> list[int]:
+        """Columns of the values on which more depends than the start."""
+        return sorted({leaf.column for leaf in self.leaves if not OF_STARTS.fullmatch(leaf.path)})
+
     def column(self, leaf: Leaf) -> Floats:
         """Return what stands at a leaf, (points,)."""
         return np.asarray(self.values[:, leaf.column] * leaf.factor, np.float64)

@@ -8,7 +8,9 @@ between impacts).
 import numpy as np
 import pytest
 
+from jointplay.records.attractor_table import attractor_table
 from jointplay.records.attractors import attractors_of
+from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudyDataset
@@ -73,7 +75,7 @@ def computed(document):
 
     return StudyDataset(
         {"job": study.job, **study.attributes()},
-        (),
+        [Channel(name, "1", "") for name in study.parameters],
         study.values,
         np.array([PointStatus.failed if end.code else PointStatus.done for end in in_order]),
         statistics=columns(lambda end: end.statistics),
@@ -128,6 +130,45 @@ def test_a_refined_map_computes_where_attractors_meet_and_has_the_same_labels(ba
     for name, values in whole.statistics.items():
         np.testing.assert_array_equal(refined.statistics[name][own], values[own])
     np.testing.assert_array_equal(attractors_of(refined).labels, attractors_of(whole).labels)
+
+
+def place_without_impacts(speed):
+    """Return where the shaken mass is at crank angle 0, from the stop: x = Re(H a) - 10 mm."""
+    return (0.005 * 400.0 / (400.0 - speed**2 + 2.0j * speed)).real - 0.01
+
+
+def over_speed(**fields):
+    """Return basins of the oscillator over speeds at which both motions exist, and its place."""
+    scene = oscillator() | {
+        "parameters": {"speed": {"help": "Of the drive.", "targets": [MOTOR_SPEED]}}
+    }
+    speeds = {"parameter": "speed", "values": [26.0, 27.0, 28.0, 29.0]}
+    return job(6, scene=scene, along=speeds) | fields
+
+
+MOTOR_SPEED = {"path": "/drivers/motor/speed"}
+
+
+def test_over_a_parameter_attractors_are_those_of_its_neighbours():
+    """The motion without impacts moves by 0.6 to 1.1 mm a speed, and 0.4 mm tell starts apart."""
+    found, _ = computed(over_speed())
+    labels = attractors_of(found)
+    speed = found.values[:, 1]
+    quiet = np.abs(found.statistics["cycle_mean.mass.s"] - place_without_impacts(speed)) < 1e-5
+    assert {one.name for one in labels.found} == {"period-1 A", "period-1 B"}
+    assert len({*labels.labels[quiet]}) == len({*labels.labels[~quiet]}) == 1
+    along = attractor_table(found)["along"]
+    assert (along["parameter"], along["ended"]) == ("speed", [6, 6, 6, 6])
+
+
+def test_over_two_parameters_there_are_no_basins():
+    scene = over_speed()["scene"]
+    parameters = scene["parameters"] | {
+        "mass": {"help": "Of the mass.", "targets": [{"path": "/bodies/mass/mass"}]}
+    }
+    by = {"parameter": "mass", "values": [1.0, 1.1]}
+    with pytest.raises(InvalidInput, match="Basins are of starts"):
+        admit(over_speed(scene=scene | {"parameters": parameters}, by=by))
 
 
 @pytest.mark.long
