@@ -1,10 +1,12 @@
 """The start of a point that follows its neighbour: its last state, at the same crank angle."""
 
+import math
 from dataclasses import replace
 from typing import Final
 
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneStart
+from jointplay.solver.runs.geared_wheels import driven_wheels_back_after
 from jointplay.solver.runs.study.plan import Study
 
 WHOLE: Final = 1e-9
@@ -15,10 +17,20 @@ def neighbours_start(study: Study, bundle: Bundle, lane: int, following: int) ->
     """Return where another point starts after that which a lane has computed.
 
     With sections at another crank angle than 0, or at events, a run ends within a period. Then the
-    other one starts before its time 0, where its drivers are as far in their period.
+    other one starts before its time 0, where its drivers are as far in their period. So it does
+    where wheels behind gears are not back after the periods of the run: as many before its time 0
+    as make them so, unless the run itself had fewer.
     """
     last, found = bundle.lane(lane), bundle.state_of(lane)
-    share = last.number("time") / float(last.run["period"])
-    if not last.run["common"] or abs(share - round(share)) <= WHOLE:
+    if not last.run["common"]:
         return found
-    return replace(found, period=-1, time=share % 1.0 * float(study.period[following]))
+    share = last.number("time") / float(last.run["period"])
+    ends = abs(share - round(share)) <= WHOLE
+    gone = int(last.run["periods"]) + (round(share) if ends else math.floor(share))
+    period = float(study.period[following])
+    back_after = driven_wheels_back_after(study.point_scene(following), period)
+    if back_after > max(gone, 1):
+        back_after = 1
+    if ends:
+        return replace(found, period=-(-gone % back_after))
+    return replace(found, period=gone % back_after - back_after, time=share % 1.0 * period)

@@ -11,6 +11,11 @@ from fractions import Fraction
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.laws.function.whole_turn import TURN
+from jointplay.solver.mechanics.kinematics import Kinematics
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
 
 MOST_PERIODS = 1000
@@ -35,3 +40,27 @@ def periods_until_back(turns: Floats) -> int:
     if np.abs(turns - np.array(fractions, np.float64)).max(initial=0.0) > EXACT:
         return 1
     return math.lcm(*(one.denominator for one in fractions))
+
+
+def driven_wheels_back_after(scene: Scene, period: float) -> int:
+    """Return the least number of periods, of so many s, after which driven wheels are back.
+
+    Of wheels that nothing drives where they are says how far they have turned: they do not count.
+    """
+    if not scene.gears:
+        return 1
+    begun, gone = (_geared(scene, time) for time in (0.0, period))
+    return periods_until_back((gone - begun) / TURN)
+
+
+def _geared(scene: Scene, time: float) -> Floats:
+    """Return by how much each gear is off at a time if only drivers turn, (gears,), rad."""
+    tree = spanning_tree(scene)
+    rest = dict.fromkeys(tree.coordinates, 0.0)
+    driven = {name: one.start + one.rate * time for name, one in clocks(scene).items()}
+    moved = Kinematics(tree, view(scene), rest, rest, driven)
+    found = [
+        sum(factor * moved.whole_angle(body) for factor, body in gear.coupled(scene.joints))
+        for gear in scene.gears.values()
+    ]
+    return np.array(found, np.float64)
