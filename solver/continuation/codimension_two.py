@@ -51,21 +51,25 @@ def beside(piece: Piece) -> Iterator[Special]:
 
 
 def _cusps(piece: Piece) -> Iterator[Special]:
-    """Yield where both parameters turn at once, and come to rest."""
+    """Yield where both parameters turn at once, and come to rest by differences of either scale.
+
+    A run that errs by more than others spoils those of one scale alone.
+    """
     first, last = map(piece.directions, (piece.first, piece.last))
-    if float(np.sum(first * last)) < 0.0:
-        found = root(piece, *_along(piece, last - first))
-        rest = np.abs(piece.directions(found.orbit)).max()
+    if not float(np.sum(first * last)) < 0.0:
+        return
+    for coarser in (False, True):
+        tests = (_along(piece, last - first, one) for one in (coarser, not coarser))
+        found = root(piece, *tests)
+        rest = np.abs(piece.directions(found.orbit, coarser=coarser)).max()
         if rest < RESTING * np.abs(last - first).max():
             yield Special("CP", found)
+            return
 
 
-def _along(piece: Piece, way: Floats) -> tuple[Callable[[Orbit], float], Callable[[Orbit], float]]:
-    """Return the parameters' share of the tangent along a way, by both differences."""
-    return (
-        lambda orbit: float(np.sum(way * piece.directions(orbit))),
-        lambda orbit: float(np.sum(way * piece.directions(orbit, coarser=True))),
-    )
+def _along(piece: Piece, way: Floats, coarser: bool) -> Callable[[Orbit], float]:
+    """Return the parameters' share of the tangent along a way, by differences of one scale."""
+    return lambda orbit: float(np.sum(way * piece.directions(orbit, coarser=coarser)))
 
 
 def _generalised_doublings(piece: Piece) -> Iterator[Special]:

@@ -22,6 +22,12 @@ def cusped(state: Floats, p: float, q: float) -> list[float]:
     return [x + 0.5 * (p + q * x - x**3), 0.3 * y]
 
 
+def cusped_but_for_errors(state: Floats, p: float, q: float) -> list[float]:
+    """Return the same, but one of 20 ends is off by 1e-9, as of a run whose steps err the most."""
+    x, y = cusped(state, p, q)
+    return [x + 1e-9 * (math.sin(1e9 * (state[0] + 0.3 * state[1] + 0.1 * q)) > 0.99), y]
+
+
 def bogdanov(state: Floats, p: float, q: float) -> list[float]:
     x, y = state.tolist()
     y = y + q * y + p + x * x
@@ -113,6 +119,13 @@ def test_two_folds_meet_in_a_cusp_which_one_curve_passes() -> None:
     other = curve_of("LP", cusped, [-0.7, 0.0], (0.7 - 0.7**3, 1.0), ((-2.0, 2.0), (-1.0, 2.0)))
     assert passes(rows, next(row.orbit for row in other if row.length == 0.0))
     assert not passes(rows[len(rows) // 2 :], other[-1].orbit)
+
+
+def test_a_cusp_is_found_where_differences_of_one_scale_are_spoilt() -> None:
+    start, ranges = [3.0**-0.5, 0.0], ((-1.0, 1.0), (-0.5, 1.5))
+    rows = curve_of("LP", cusped_but_for_errors, start, (-2.0 / 27.0**0.5, 1.0), ranges)
+    (cusp,) = [row for row in rows if row.label == "CP"]
+    assert np.abs(cusp.orbit.values).max() < 1e-8
 
 
 def test_resonances_are_named_where_a_second_multiplier_comes_to_the_same_place() -> None:
