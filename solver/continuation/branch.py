@@ -35,6 +35,8 @@ VAGUE = 0.1
 """The same beyond which an orbit without contacts is refused."""
 CORNER = 1e-4
 """Length along the branch before and behind grazing where a hard stop's map may be a corner."""
+SLOW = 0.02
+"""Speed of an impact, in what counts as one, below which a lost branch is next to grazing."""
 LONG = 5.0
 """Period, in that at the start, beyond which a branch may end at a position of rest."""
 ENOUGH = 8
@@ -248,12 +250,23 @@ def _lost(orbit: Orbit, why: NoOrbit) -> str:
             driven = orbit.curve.sections.crossing is None
             cause += ", or lies on the section"
             remedy += f", or another {'phase of the drive' if driven else 'section'}"
+    elif speed := _slow_impact(orbit):
+        cause = f"{why.reason} next to grazing: an impact has {speed:.2g} m/s"
+        remedy = "a softer contact"
     else:
         cause, remedy = why.reason, "a smaller tolerance or a smaller 'largest_step'"
         if orbit.curve.sections.rubs:
             remedy = f"a wider ramp of friction, {remedy}"
     at = ", ".join(f"{one:.9g}" for one in orbit.values)
     return f"lost at {at}, because {cause}{_long(orbit)}; try {remedy}"
+
+
+def _slow_impact(orbit: Orbit) -> float:
+    """Return the speed of an impact that is next to grazing, m/s; 0: there is none."""
+    states = orbit.curve.sections.kernel.states
+    fast = orbit.curve.scales.extents[states : -orbit.curve.parameters].max(initial=0.0)
+    speed = orbit.looser.passage.margins.speed
+    return speed if speed < SLOW * fast else 0.0
 
 
 def _long(orbit: Orbit) -> str:

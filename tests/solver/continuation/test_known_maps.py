@@ -140,6 +140,26 @@ def test_a_branch_that_is_lost_says_what_to_try(rubs: bool) -> None:
     assert last.note.endswith(f"; try {friction}a smaller tolerance or a smaller 'largest_step'")
 
 
+@pytest.mark.parametrize(
+    ("speed", "words"),
+    [(1e-3, "next to grazing: an impact has 0.001 m/s; try a softer"), (0.5, "try a smaller")],
+)
+def test_a_branch_that_is_lost_with_a_slow_impact_says_that(speed: float, words: str) -> None:
+    def ends(state: Floats, a: float, *_second: float) -> list[float]:
+        return [a * float(state[0]) if a < 0.5 else math.nan, 0.0]
+
+    *_, last = rows_of(
+        ends,
+        [0.0, 0.0],
+        (0.1, 0.9),
+        impacts=lambda *_at: 1,
+        pairs=1,
+        speed=lambda *_at: speed,
+    )
+    assert last.label == "MX"
+    assert words in last.note
+
+
 def test_a_branch_that_is_lost_with_an_impact_says_that_it_may_lie_on_the_section() -> None:
     def strikes(state: Floats, a: float, *_second: float) -> list[float]:
         return [0.5 * float(state[0]) + a + (a > 0.5), 0.0]
