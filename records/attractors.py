@@ -85,11 +85,12 @@ def attractors_of(source: StudySource) -> Attractors:
     labels = np.minimum(motion, EQUILIBRIUM).astype(np.uint8)
     names = dict(enumerate(NAMES))
     chains: list[_Chain] = []
+    ranges = cycles.of(motion >= QUASI_PERIODIC).ranges()
     for chosen in _by_value(source):
         found = list(_groups(motion[chosen], cycles.of(chosen)))
         if len([one for one in found if one.code == CHAOTIC]) > 1:
             names[CHAOTIC] = "chaotic (not told apart)"
-        _carry_on(chains, found, chosen, cycles.of(motion >= QUASI_PERIODIC))
+        _carry_on(chains, found, chosen, cycles, ranges)
     alike = [chain.code for chain in chains]
     several = {code for code in alike if alike.count(code) > 1}
     shown = [one for one in chains if one.code >= EQUILIBRIUM or one.code in several]
@@ -169,9 +170,13 @@ def _groups(motion: Labels, cycles: Cycles) -> Iterator[_Group]:
                 yield _Group(code, points[members], own.places[members[0]])
 
 
-def _carry_on(chains: list[_Chain], found: list[_Group], points: Integers, cycles: Cycles) -> None:
-    """Add the attractors of a value to the nearest of those before, one to one, or as new ones."""
-    ranges = cycles.ranges()
+def _carry_on(
+    chains: list[_Chain], found: list[_Group], points: Integers, cycles: Cycles, ranges: Floats
+) -> None:
+    """Add the attractors of a value to the nearest of those before, one to one, or as new ones.
+
+    ranges : (columns,) of all attractors.
+    """
     near: list[tuple[float, int, int]] = []
     for code in {group.code for group in found} & {chain.code for chain in chains}:
         before = [c for c, chain in enumerate(chains) if chain.code == code]
