@@ -5,6 +5,8 @@ import numpy as np
 from jointplay.records.arrays import Flags, Floats
 
 TURN = 2.0 * np.pi
+WIDEST = TURN / 8.0
+"""Arc without points, rad, from which on a circle is not filled."""
 
 
 def unwound(states: Floats, angles: Flags) -> Floats:
@@ -19,6 +21,12 @@ def unwound(states: Floats, angles: Flags) -> Floats:
         for column in np.flatnonzero(angles):
             found[:, column] -= TURN * _turns(found[:, column])
     return found
+
+
+def goes_round(angle: Floats) -> bool:
+    """Return whether (n,) angles, rad, fill their circle: wherever it is cut, points are near."""
+    within = np.sort(angle % TURN)
+    return bool(np.diff(within, append=within[0] + TURN).max() < WIDEST)
 
 
 def _turns(angle: Floats) -> Floats:

@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.solver.linear_algebra.principal_directions import along_principal_directions
 from jointplay.solver.nonlinear.batch_means import FEWEST_BATCHES
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from jointplay.solver.nonlinear.lyapunov import (
@@ -16,11 +15,11 @@ from jointplay.solver.nonlinear.lyapunov import (
     in_smaller_steps,
 )
 from jointplay.solver.nonlinear.recurrence import recurrence_period
-from jointplay.solver.nonlinear.rotation import rotation_number
 from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
 from jointplay.solver.nonlinear.verdict import Verdict, decide
 from jointplay.solver.nonlinear.whole_turns import unwound
 from jointplay.solver.nonlinear.zero_one import zero_one_test
+from jointplay.solver.runs.study.going_round import principal_plane, rotation_of, uncut
 
 RECURS = 1e-3
 """Sections closer than this share are the same: of what counts as one in a state, or of its range
@@ -79,13 +78,16 @@ def indicators_of(
         stated = confirmed(lyapunov, finer)
         found |= {"lyapunov": stated.value, "lyapunov_error": stated.error}
     if "zero_one" in chosen:
-        zero_one = zero_one_test(states, resolution=RECURS) if len(states) else UNKNOWN
+        zero_one = UNKNOWN
+        if len(states):
+            whole = uncut(states, sections.scales, sections.angles)
+            zero_one = zero_one_test(whole, resolution=RECURS)
         found |= {"zero_one": zero_one.value, "zero_one_error": zero_one.error}
     if "recurrence" in chosen:
         found["period"] = math.nan if recurrence is None else float(recurrence)
     if "rotation" in chosen:
-        plane = principal_plane(states, sections.coordinates)
-        rotation = rotation_number(plane) if len(states) > 2 else None
+        if len(states) > 2:
+            rotation = rotation_of(states, sections.scales, sections.angles, sections.coordinates)
         found["rotation"] = rotation.value if rotation else math.nan
         found["rotation_error"] = rotation.error if rotation else math.nan
         rotation = rotation or UNKNOWN
@@ -148,18 +150,3 @@ def growth_by_period(rows: Floats, period: float, settled: int) -> Floats:
     grown = np.zeros(int(index[whole].max()) + 1)
     np.add.at(grown, index[whole], rows[whole, 1])
     return grown
-
-
-def principal_plane(states: Floats, coordinates: int) -> Floats:
-    """Return the states seen along the two directions in which they spread most, (n, 2).
-
-    From the side from which free oscillations turn counter-clockwise: positive speeds, which
-    follow the first coordinates, are below. So a motion that changes little keeps its sense, even
-    where another state begins to spread most.
-    """
-    centred = states - states.mean(axis=0)
-    along = np.column_stack(along_principal_directions(centred, 2))
-    first, second = (np.add.reduce(centred * part[:, None], axis=0) for part in along.T)
-    place, speed = slice(0, coordinates), slice(coordinates, 2 * coordinates)
-    clockwise = (first[place] * second[speed] - second[place] * first[speed]).sum() > 0.0
-    return along * [1.0, -1.0] if clockwise else along
