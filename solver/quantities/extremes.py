@@ -3,20 +3,14 @@
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.records.peak import Peak
+from jointplay.solver.quantities.corners import surpass_at_corners
 
 REFINEMENTS = 3
 """Each parabola's vertex is evaluated and becomes the middle of one ten times narrower; the
 error of a sampled smooth extreme falls to rounding in three."""
-SHARP = 1e-7
-"""Share of a channel's range by which a parabola's vertex may miss it."""
-ROUNDING = 1e-14
-"""Share of the largest value of all channels that is nothing but rounding."""
-NARROWINGS, INTO = 10, 8
-"""Times that an interval is divided evenly, into how many parts, of which two are left: 4^-10."""
 
 
 def refined_peaks(
@@ -56,7 +50,6 @@ def _refined(
     All channels are looked at together: an evaluation takes as long for one as for many.
     """
     best = (sense * values[:, channels]).argmax(axis=0)
-    least, sharp = least_miss(values[:, channels]), np.zeros(len(channels), np.bool_)
     value, at = values[best, channels], times[best]
     middle, spacing = times[np.clip(best, 1, len(times) - 2)], float(times[1] - times[0])
     going = np.arange(len(channels))  # those whose extremes may still be surpassed
@@ -74,54 +67,13 @@ def _refined(
         vertex = middle[going] + 0.5 * spacing * (a - c)[bent] / curvature[bent]
         refined = np.clip(vertex, times[0], times[-1])
         reached = evaluate(refined)[np.arange(len(going)), column]
-        top = (b - 0.125 * (a - c) ** 2 / np.where(bent, curvature, 1.0))[bent]
-        sharp[going] |= (refined == vertex) & (abs(reached - top) > least[going])
         better = sense * reached >= sense * value[going]
         value[going[better]], at[going[better]] = reached[better], refined[better]
         going = going[(at[going] != times[0]) & (at[going] != times[-1])]
         if not len(going):
             break
         middle[going], spacing = at[going], 0.1 * spacing
-    if sharp.any():
-        column, ends = np.take(channels, sharp.nonzero()[0]), (times[0], times[-1])
-        best = best[sharp]
-        start = values[best, column], times[best]
-        value[sharp], at[sharp] = narrowed(
-            evaluate, column, start, times[1] - times[0], ends, sense
-        )
-    return value, at
-
-
-def least_miss(values: Floats) -> Floats:
-    """Return (channels,) by how much (n, channels) may miss a parabola and count as smooth."""
-    found: Floats = SHARP * np.ptp(values, axis=0) + ROUNDING * np.abs(values).max(initial=0.0)
-    return found
-
-
-def narrowed(
-    evaluate: Callable[[Floats], Floats],
-    columns: NDArray[np.int64],
-    best: tuple[Floats, Floats],
-    reach: float,
-    ends: tuple[Floats | float, Floats | float],
-    sense: float,
-) -> tuple[Floats, Floats]:
-    """Return extremes and their times where channels have corners, or all but have them.
-
-    At even instants about the best of all, and then about the best of these. A distance of points
-    that pass one another has such a minimum.
-
-    columns : (k,) of channels. best : (k,) values so far, and their times, s. reach : s, how far
-    to either side. ends : s, of what is looked at.
-    """
-    value, at = (one.copy() for one in best)
-    shares, every = np.linspace(-1.0, 1.0, INTO + 1)[:, None], np.arange(len(columns))
-    for _ in range(NARROWINGS):
-        beside = np.clip(at + reach * shares, *ends)
-        rows = evaluate(beside.ravel()).reshape(INTO + 1, len(columns), -1)[:, every, columns]
-        highest = (sense * rows).argmax(axis=0)
-        found = rows[highest, every]
-        better = sense * found > sense * value
-        value[better], at[better] = found[better], beside[highest, every][better]
-        reach *= 2.0 / INTO
+    surpass_at_corners(
+        evaluate, channels, (times[None], values[None, :, channels]), (value[None], at[None]), sense
+    )
     return value, at

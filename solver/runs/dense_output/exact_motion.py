@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.quantities.extremes import least_miss, narrowed
+from jointplay.solver.quantities.corners import least_miss, misses, surpass_at_corners
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.ideal.run import IdealRun
 
@@ -49,41 +49,36 @@ class ExactMotion:
         shares = np.linspace(0.0, 1.0, min(max(count, FEWEST), MOST))
         times = edges[:-1, None] + np.diff(edges)[:, None] * shares
         values = self.channels(names, times.ravel()).reshape(*times.shape, len(names))
-        least = least_miss(values.reshape(-1, len(names)))
         found = np.empty((len(times), len(names), 4))
         for sense, column in ((-1.0, 0), (1.0, 2)):
-            highest, at, miss = _highest(sense * values, times)
-            bins, rows = (miss > least).nonzero()
-            if len(bins):
-                best = (sense * values).argmax(axis=1)[bins, rows]
-                start = values[bins, best, rows], times[bins, best]
-                reach, ends = times[bins, 1] - times[bins, 0], (times[bins, 0], times[bins, -1])
-                top, at[bins, rows] = narrowed(
-                    lambda when: self.channels(names, when), rows, start, reach, ends, sense
-                )
-                highest[bins, rows] = sense * top
-            found[:, :, column], found[:, :, column + 1] = sense * highest, at
+            best = _best(values, times, sense)
+            surpass_at_corners(
+                lambda when: self.channels(names, when),
+                range(len(names)),
+                (times, values),
+                best,
+                sense,
+            )
+            found[:, :, column], found[:, :, column + 1] = best
         return found
 
 
-def _highest(values: Floats, times: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the largest value (bins, names) of each bin, its time, and how values miss a parabola.
+def _best(values: Floats, times: Floats, sense: float) -> tuple[Floats, Floats]:
+    """Return the largest (sense 1) or smallest values (bins, names) of bins, and their times.
 
-    The miss is that of the five about the largest: 0 for polynomials of the third degree.
+    By parabolas, unless the five values about the best miss one.
     """
-    best = values.argmax(axis=1)
-    inner = np.clip(best, 1, values.shape[1] - 2)[:, None, :]
+    values = sense * values
+    best = values.argmax(axis=1)[:, None, :]
+    inner = np.clip(best, 1, values.shape[1] - 2)
     before, here, after = (
         np.take_along_axis(values, inner + shift, axis=1)[:, 0] for shift in (-1, 0, 1)
     )
     rise, fall = here - before, here - after
-    turns = (rise > 0.0) & (fall > 0.0)
-    both = np.where(turns, rise + fall, 1.0)
-    place = np.where(turns, 0.5 * (rise - fall) / both, 0.0)
+    smooth = np.take_along_axis(misses(values), best, axis=1)[:, 0] <= least_miss(values)
+    turns = (rise > 0.0) & (fall > 0.0) & smooth
+    place = np.where(turns, 0.5 * (rise - fall) / np.where(turns, rise + fall, 1.0), 0.0)
     top = here + 0.25 * (rise - fall) * place
+    highest = np.where(turns, top, np.take_along_axis(values, best, axis=1)[:, 0])
     spacing = (times[:, 1] - times[:, 0])[:, None]
-    at = np.take_along_axis(times, best, axis=1)
-    sampled = np.take_along_axis(values, best[:, None, :], axis=1)[:, 0]
-    five = np.clip(best, 2, values.shape[1] - 3)[:, None, :] + np.arange(-2, 3)[:, None]
-    miss = np.diff(np.take_along_axis(values, five, axis=1), 4, axis=1)[:, 0]
-    return np.where(turns, top, sampled), np.where(turns, at + spacing * place, at), np.abs(miss)
+    return sense * highest, np.take_along_axis(times, best[:, 0], axis=1) + spacing * place

@@ -50,3 +50,22 @@ def test_an_extreme_at_a_corner_is_found(beside, sense):
     assert -sense * value == pytest.approx(beside, abs=1e-7)
     assert time == pytest.approx(at, abs=1e-6)
     assert peaks["y"].maximum == pytest.approx(1.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+@pytest.mark.parametrize(("first", "second"), [(0.2195, 0.6015), (0.0501, 0.62), (0.0501, 0.68)])
+def test_the_highest_of_jumps_is_found_wherever_instants_are(sense, first, second):
+    """Instants show the lower jump as the higher one, or are at a jump but for their rounding."""
+    times, fall = np.linspace(0.0, 1.0, 51), 30.0
+
+    def evaluate(found):
+        saw = np.where(found > second, 1.01 - fall * (found - second), -fall * found)
+        saw = np.where((found > first) & (found <= second), 1.0 - fall * (found - first), saw)
+        return sense * saw[:, None]
+
+    peak = refined_peaks(["x"], evaluate, times, evaluate(times))["x"]
+    value, time = (
+        (peak.maximum, peak.maximum_time) if sense > 0 else (peak.minimum, peak.minimum_time)
+    )
+    assert sense * value == pytest.approx(1.01, abs=1e-6)
+    assert time == pytest.approx(second, abs=1e-7)

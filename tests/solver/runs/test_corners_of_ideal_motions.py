@@ -70,3 +70,19 @@ def test_the_largest_acceleration_is_that_at_a_knot_of_the_motion() -> None:
     for low, high in ((peak.minimum, peak.maximum), (window[0], window[2])):
         assert low == pytest.approx(bends.min(), abs=allowed)
         assert high == pytest.approx(bends.max(), abs=allowed)
+
+
+@pytest.mark.parametrize("knot", [0.08, 0.1312])
+def test_the_largest_acceleration_is_that_just_behind_a_jump(knot: float) -> None:
+    """An instant at a jump was taken to be before it and behind it: the jump was missed by 4e-4."""
+    last = DURATION - knot
+    # 0.9 rad/s^2 up to the knot, 54 rad/s^2 behind it, and from there on down to rest
+    cubic = -(0.9 * knot + 2.0 * 27.0 * last) / (3.0 * last**2)
+    pieces = [[0.0, 0.0, 0.45], [0.45 * knot**2, 0.9 * knot, 27.0, cubic]]
+    motion = {"type": "piecewise-polynomial", "knots": [0.0, knot, DURATION], "outside": "held"}
+    peak, window = extremes(turned({"motion": motion | {"coefficients": pieces}}), "disc.alpha")
+    lowest = 54.0 + 6.0 * cubic * last
+    allowed = SOUGHT * (54.0 - lowest)
+    for low, high in ((peak.minimum, peak.maximum), (window[0], window[2])):
+        assert low == pytest.approx(lowest, abs=allowed)
+        assert high == pytest.approx(54.0, abs=allowed)
