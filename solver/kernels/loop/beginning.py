@@ -58,7 +58,8 @@ def begin(lanes: Lane, start: LaneStart | None, resting: Floats, obstructed: Fla
         lanes[kind] = lanes["channel"][:rows]
     lanes["highest_time"] = lanes["lowest_time"] = 0.0
     lanes["change"] = math.nan
-    lanes["lowest"][rows - len(floor) :] = -math.inf
+    # largest forces of contacts are as they are foretold, but where a force jumps to its largest
+    lanes["lowest"][rows - len(floor) :] = np.where(lanes["abrupt"] > 0.0, 0.0, -math.inf)
     if lanes.tangents is not None:
         _start_tangents(lanes, obstructed)
 

@@ -92,3 +92,12 @@ def test_a_force_that_jumps_far_is_not_approached_by_ever_shorter_steps() -> Non
     found = run(scene, 1e-4, accuracy="reference")
     assert found.contacts("B")[0]["impulse"] == pytest.approx(mass * speed, rel=1e-9)
     assert found.statistics["smallest_step"] > 1e-13
+
+
+@pytest.mark.parametrize("method", ["tsitouras", "bogacki-shampine", "dormand-prince-853"])
+def test_the_largest_force_of_a_contact_is_that_just_behind_its_onset(method: str) -> None:
+    """It was that at a quarter of the first step, or at its end: up to 2 % less."""
+    damping, speed = 60.0, 0.5
+    scene = thrown(1e-2, 1e-3, 1e4, speed, {"law": "kelvin-voigt", "damping": damping})
+    (contact,) = run(scene, 0.01, method=method, tolerance=1e-6).contacts("B")
+    assert contact["peak_force"] == pytest.approx(damping * speed, rel=1e-6)
