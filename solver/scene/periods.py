@@ -8,6 +8,7 @@ from functools import lru_cache
 
 from jointplay.solver.laws.force import ForceElement
 from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.laws.function.whole_turn import repeats_every_turn
 from jointplay.solver.quantities.scalars import Scalar, greatest, sqrt
 from jointplay.solver.scene.clocks import timed, turns
 from jointplay.solver.scene.document import Scene
@@ -75,6 +76,15 @@ def drivers_period(scene: Scene) -> Period:
         if period > 0.0:
             speeds.append(2.0 * math.pi / period)
     return period_of(speeds)
+
+
+def forces_repeat(scene: Scene) -> bool:
+    """Return whether forces over an angle are what they were after every turn."""
+    return all(
+        repeats_every_turn(element.course)
+        for element in scene.forces.values()
+        if isinstance(element, Varying) and element.course and element.turns_counted()
+    )
 
 
 def first_speed(scene: Scene) -> float:

@@ -7,12 +7,11 @@ from jointplay.records.failure import Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.laws.force import Over
 from jointplay.solver.laws.force.varying import FULL_RATE, Varying
+from jointplay.solver.laws.function.whole_turn import repeats_every_turn
 from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Scene
 
 POINTS = frozenset({"angle", "distance", "x", "y"})
-WHOLE = 1e-9
-"""Mismatch within which a turn of a driver is a whole number of a course's periods."""
 
 
 def varying_problems(scene: Scene) -> Iterator[Problem]:
@@ -59,11 +58,10 @@ def _driver(scene: Scene, pointer: str, element: Varying, over: Over) -> Iterato
         sentence = sentence or unknown("driver", over.driver or "", scene.drivers)
         yield Problem(f"{pointer}/over/driver", sentence)
         return
-    period = 0.0 if element.course is None else element.course.period
-    if over.rate or period == 0.0 or not turns(scene, scene.drivers[over.driver]):
+    if over.rate or element.course is None or not turns(scene, scene.drivers[over.driver]):
         return
-    periods = 2.0 * math.pi / period
-    if math.isinf(period) or abs(periods - round(periods)) > WHOLE or round(periods) == 0:
+    if not repeats_every_turn(element.course):
+        period = element.course.period
         after = "does not repeat" if math.isinf(period) else f"repeats after {period:.9g} rad"
         yield Problem(
             f"{pointer}/course",

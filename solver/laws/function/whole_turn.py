@@ -7,6 +7,16 @@ from jointplay.solver.laws.function import Function
 TURN = 2.0 * math.pi
 NEARLY = 1e-6
 """Mismatch within which knots that repeat are meant to do so after a turn: 2 pi to seven digits."""
+WHOLE = 1e-9
+"""Mismatch within which a turn is a whole number of a function's periods."""
+
+
+def repeats_every_turn(function: Function) -> bool:
+    """Return whether a function of an angle, rad, is what it was after every turn."""
+    if function.period == 0.0:
+        return True
+    periods = TURN / function.period
+    return round(periods) > 0 and abs(periods - round(periods)) <= WHOLE
 
 
 def whole_turn(function: Function) -> Function:

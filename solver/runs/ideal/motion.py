@@ -18,7 +18,7 @@ from jointplay.solver.runs.ideal.constraints import Constraints, solve, solve_tr
 from jointplay.solver.runs.ideal.dead_point import elsewhere, lost_at
 from jointplay.solver.runs.ideal.path import Lost, Path
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import characteristic_time, quickest_driver
+from jointplay.solver.scene.periods import characteristic_time, forces_repeat, quickest_driver
 
 COMES_BACK = 1e-6
 """Distance of poses a period apart, in rad and lengths of the shortest link, that is rounding."""
@@ -61,6 +61,12 @@ class IdealMotion:
                 return None
         self.period, end = None, self.path.end.time
         return elsewhere(MOST_PERIODS, end) if end < duration else None
+
+    @property
+    def forces_period(self) -> float | None:
+        """s, after which forces repeat, too, or grow as before, as those of torsion springs do."""
+        turns = np.rint(self.path.turned[2::3] / (2.0 * math.pi))
+        return self.period if forces_repeat(self.scene) or not turns.any() else None
 
     def at(self, times: Floats, local: Floats) -> Motion:
         """Return the motion and all forces at times in s, `local` within the period.

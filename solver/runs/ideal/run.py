@@ -172,7 +172,7 @@ class IdealRun:
 
     def _extremes(self) -> dict[str, Peak]:
         """Seek the extremes of every channel on the exact motion."""
-        period, settle = self.motion.period, self.admission.settle
+        period, settle = self.motion.forces_period, self.admission.settle
         length = self.duration - settle
         span = min(length, period) if period else length
         count = max(math.ceil(SCAN_A_PERIOD * span / self.motion.unit), 16)

@@ -86,3 +86,16 @@ def test_the_largest_acceleration_is_that_just_behind_a_jump(knot: float) -> Non
     for low, high in ((peak.minimum, peak.maximum), (window[0], window[2])):
         assert low == pytest.approx(lowest, abs=allowed)
         assert high == pytest.approx(54.0, abs=allowed)
+
+
+def test_a_force_over_whole_turns_is_largest_in_any_of_them() -> None:
+    """Only the first turn and the last were looked at: a torque came to 0.76 for 2."""
+    course = {"type": "table", "knots": [0.0, 15.0, 20.0], "values": [0.0, 2.0, -1.0]}
+    torque = {"type": "torque", "moment": 1.0, "course": course | {"outside": "held"}}
+    on_disc = {"first": "ground.O", "second": "disc.O", "over": {"quantity": "angle"}}
+    scene = turned({"speed": 16.0 * math.pi})
+    scene["forces"]["s"] = torque | on_disc
+    peak, window = extremes(scene, "s.moment")
+    assert (peak.minimum, window[0]) == pytest.approx((-1.0, -1.0))
+    assert (peak.maximum, window[2]) == pytest.approx((2.0, 2.0), abs=SOUGHT)
+    assert peak.maximum_time == pytest.approx(15.0 / (16.0 * math.pi), rel=1e-4)
