@@ -4,12 +4,12 @@ import numpy as np
 
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.laws.force import Ends
-from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.courses import acting_between
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.domains import bounded_courses
 
 NEAR = 1e-6
 """Share of its span within which an argument is taken to be about to leave."""
@@ -18,12 +18,8 @@ POSE, RATES = ("x", "y", "theta"), ("vx", "vy", "omega")
 
 def left_domain(bundle: Bundle, lane: int, scene: Scene) -> str:
     """Return which force a lane stopped at for its course's sake, and where; empty: none."""
-    bounded = {
-        name: element
-        for name, element in scene.forces.items()
-        if isinstance(element, Varying) and element.course and element.course.domain
-    }
-    if not bounded:
+    courses = bounded_courses(scene)
+    if not courses:
         return ""
     rows, stopped = bundle.kernel.rows, bundle.lane(lane)
     columns = [[f"{b}.{n}" for b in scene.bodies for n in names] for names in (POSE, RATES)]
@@ -36,9 +32,8 @@ def left_domain(bundle: Bundle, lane: int, scene: Scene) -> str:
         return mechanism.ends((first, second), q, v)
 
     now = {name: clock.start + clock.rate * stopped.time for name, clock in clocks(scene).items()}
-    for name, element in bounded.items():
-        assert element.course is not None  # noqa: S101  (narrows the type)
-        first, last = element.course.domain or (0.0, 0.0)
+    for name, course in courses.items():
+        first, last = course.domain or (0.0, 0.0)
         at = float(acting_between(numbers, name, ends, now).argument)
         if min(at - first, last - at) <= NEAR * (last - first):
             return (

@@ -47,3 +47,12 @@ def _over(
             f"It is given from {first:g} to {last:g}, but {what} {way}, and"
             " others are refused. Give more knots, a shorter duration, or another 'outside'.",
         )
+
+
+def bounded_courses(scene: Scene) -> dict[str, Function]:
+    """Return the courses, by force, that refuse some arguments."""
+    return {
+        name: element.course
+        for name, element in scene.forces.items()
+        if isinstance(element, Varying) and element.course and element.course.domain
+    }

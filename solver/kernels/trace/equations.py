@@ -21,9 +21,10 @@ from jointplay.solver.mechanics.observe import channel_values, ledger_rates, sto
 from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import view
-from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.scalars import SLIGHT, Scalar
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.domains import bounded_courses
 from jointplay.solver.scene.drivers import SteadyDriver
 from jointplay.solver.scene.references import inner_states
 
@@ -102,6 +103,9 @@ def trace(scene: Scene, tree: Tree, formulation: str, tracer: Tracer | None = No
         channels[f"{body}.theta"] = channels[f"{body}.theta"] + wound
     channels["stored"] = lift(stored_energy(traced.observed))
     accelerations = tuple(map(lift, motion.accelerations))
+    for name in bounded_courses(scene):  # no number where it is refused, though it moves nothing
+        refused = SLIGHT * lift(motion.forces.elements[name].power)
+        accelerations = (accelerations[0] + refused, *accelerations[1:])
     inner_rates = tuple(lift(rate) for found in contacts for rate in found.inner_rates)
     derivative = _along_motion(tracer, accelerations)
     slips = [lift(found.rubbing_slip) for found in contacts]

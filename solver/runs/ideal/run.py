@@ -18,6 +18,7 @@ from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.followers import with_pulls
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.runs.ideal.pulls import pulls_of_motion
+from jointplay.solver.runs.ideal.refused import first_refusal
 from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.scene.periods import drivers_period
 from jointplay.solver.version import SOLVER_VERSION
@@ -39,6 +40,7 @@ class IdealRun:
         # not the admission's: the scene may give sections a period though nothing repeats
         period = drivers_period(admission.scene).seconds
         self.motion = IdealMotion(admission.scene, period, self.duration)
+        self.motion.lost = first_refusal(self.motion, self.duration) or self.motion.lost
         self.names = [channel.name for channel in admission.channels]
         self.samples_done = 0
         self.sections_done = 0

@@ -119,6 +119,30 @@ def test_a_run_ends_where_a_course_refuses_its_argument() -> None:
         assert words in str(failed.value)
 
 
+@pytest.mark.parametrize("hangs", [False, True])
+def test_a_run_ends_where_a_driver_brings_a_course_to_what_it_refuses(hangs: bool) -> None:
+    """Only the driver feels that torque: samples were no numbers, and so was the ledger."""
+    origin = {"points": {"O": [0.0, 0.0]}}
+    body = {"mass": 1.0, "inertia": 1.0, "points": {"O": [0.0, 0.0], "P": [0.1, 0.0]}}
+    ends, over = {"first": "ground.O", "second": "crank.O"}, {"quantity": "angle"}
+    joint = {"type": "revolute", "bearing": "ground.O", "journal": "crank.O"}
+    hung = {"type": "revolute", "bearing": "crank.P", "journal": "rod.P"}
+    scene = {
+        "name": "turned",
+        "ground": origin,
+        "bodies": {"crank": body} | ({"rod": body} if hangs else {}),
+        "joints": {"main": joint} | ({"pin": hung} if hangs else {}),
+        "drivers": {"motor": {"joint": "main", "speed": 4.0}},
+        "forces": {"f": {"type": "torque", "moment": 1.0, "course": ENDS, "over": over} | ends},
+    }
+    with pytest.raises(SimulationFailed) as failed:
+        run(scene, 3.0)
+    assert failed.value.code == "outside-of-a-function"
+    assert failed.value.time == pytest.approx(0.5 / 4.0, rel=1e-6)
+    assert "force 'f'" in str(failed.value)
+    assert "from -0.5 to 0.5" in str(failed.value)
+
+
 def test_a_duration_beyond_a_refused_course_is_refused() -> None:
     with pytest.raises(InvalidInput) as refused:
         run(pushed(ENDS | {"knots": [0.0, 0.2, 1.0]}, {"quantity": "time"}), 5.0)
