@@ -44,10 +44,7 @@ class ExactMotion:
         By parabolas through instants that are at most a 2000th of a period apart. Where these do
         not describe a channel, it is evaluated at more.
         """
-        width = float(np.diff(edges).max())
-        count = math.ceil(width / self._run.motion.unit * INSTANTS_A_PERIOD)
-        shares = np.linspace(0.0, 1.0, min(max(count, FEWEST), MOST))
-        times = edges[:-1, None] + np.diff(edges)[:, None] * shares
+        times = self._instants(edges[:-1, None], edges[1:, None])
         values = self.channels(names, times.ravel()).reshape(*times.shape, len(names))
         found = np.empty((len(times), len(names), 4))
         for sense, column in ((-1.0, 0), (1.0, 2)):
@@ -61,6 +58,22 @@ class ExactMotion:
             )
             found[:, :, column], found[:, :, column + 1] = best
         return found
+
+    def _instants(self, first: Floats, last: Floats) -> Floats:
+        """Return (bins, n) instants, s, from first to last (bins, 1).
+
+        Of bins longer than two periods those of the first one and of the last one: angles that go
+        on turning are extreme there, and all else repeats.
+        """
+        motion = self._run.motion
+        width, period = float((last - first).max()), motion.forces_period
+        if period is not None and float((last - first).min()) > 2.0 * period:
+            count = math.ceil(period / motion.unit * INSTANTS_A_PERIOD)
+            beyond = period * np.linspace(0.0, 1.0, max(count, FEWEST))
+            return np.concatenate([first + beyond, last - beyond[::-1]], axis=1)
+        count = math.ceil(width / motion.unit * INSTANTS_A_PERIOD)
+        shares = np.linspace(0.0, 1.0, min(max(count, FEWEST), MOST))
+        return np.asarray(first + (last - first) * shares, np.float64)
 
 
 def _best(values: Floats, times: Floats, sense: float) -> tuple[Floats, Floats]:

@@ -99,3 +99,18 @@ def test_a_force_over_whole_turns_is_largest_in_any_of_them() -> None:
     assert (peak.minimum, window[0]) == pytest.approx((-1.0, -1.0))
     assert (peak.maximum, window[2]) == pytest.approx((2.0, 2.0), abs=SOUGHT)
     assert peak.maximum_time == pytest.approx(15.0 / (16.0 * math.pi), rel=1e-4)
+
+
+def test_a_long_window_has_what_each_period_has() -> None:
+    """Its instants were three in a period, always the same ones: a peak of 0.04 s was not seen."""
+    bump = {"type": "table", "knots": [0.0, 0.1, 0.12, 0.14, 1.0], "values": [0.0, 0, 1.0, 0, 0]}
+    torque = {"type": "torque", "moment": 3.0, "course": bump | {"outside": "periodic"}}
+    scene = turned({"speed": 2.0 * math.pi})
+    scene["forces"]["s"] = torque | {"first": "ground.O", "second": "disc.O"}
+    long = 1333.0
+    admission = admit({"kind": "simulate", "scene": scene, "duration": long, "output_step": 1.0})
+    assert isinstance(admission, Admission)
+    names = ["s.moment", "disc.theta"]
+    moment, angle = ExactMotion(admission).extremes(names, np.array([0.0, long]))[0]
+    assert (moment[0], moment[2]) == pytest.approx((0.0, 3.0), abs=3.0 * SOUGHT)
+    assert (angle[0], angle[2]) == pytest.approx((0.0, 2.0 * math.pi * long))
