@@ -14,7 +14,6 @@ from typing import Annotated
 from fastapi import Depends, Header, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel, ConfigDict
-from sqlalchemy.exc import SQLAlchemyError
 
 from jointplay.service.dependencies import of_the_application
 from jointplay.service.fields import in_unit
@@ -105,7 +104,7 @@ class Watcher:
             self._woken.clear()
             try:
                 self._show(await self._statuses(list(self._watches)))
-            except (Unavailable, SQLAlchemyError) as error:
+            except Unavailable as error:
                 _log.warning("looking again: %s", error)
             pause = min(_GROWTH * pause, _LONGEST_PERIOD)
             try:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import partial
 
 from sqlalchemy import text
-from sqlalchemy.exc import DBAPIError
 
 from jointplay.storage.catalogue import (
     adoption,
@@ -33,7 +32,13 @@ from jointplay.storage.catalogue import (
     upkeep,
 )
 from jointplay.storage.catalogue.connections import Connections, Unit
-from jointplay.storage.catalogue.errors import SILENT, CatalogueError, Interrupted, Unavailable
+from jointplay.storage.catalogue.errors import (
+    SILENT,
+    Broken,
+    CatalogueError,
+    Interrupted,
+    Unavailable,
+)
 from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
 from jointplay.storage.catalogue.quotas import NO_QUOTA, Quota, use_of
@@ -116,11 +121,10 @@ class Catalogue:
         try:
             with self.connections.reading() as connection:
                 return schema.flaws(connection)
-        except DBAPIError as error:
-            return (f"cannot be read: {error.orig}",)
-        except Interrupted as error:
+        except (Broken, Interrupted) as error:
+            what = "cannot be read" if isinstance(error, Broken) else SILENT
             said = str(getattr(error.__cause__, "orig", "")).strip().splitlines()
-            return (": ".join((SILENT, *said[-1:])),)
+            return (": ".join((what, *said[-1:])),)
 
     # What users ask for
 

@@ -25,6 +25,13 @@ class Interrupted(Unavailable):
     """A unit was broken off, and may be begun anew at once: nothing it did is left."""
 
 
+class Broken(Unavailable):
+    """Pages of the database are damaged, or tables are gone; a backup may be put back."""
+
+    def __init__(self) -> None:
+        super().__init__("is damaged, or is being restored")
+
+
 class JobNotFound(CatalogueError):
     """No job has this id."""
 

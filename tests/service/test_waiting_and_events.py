@@ -7,11 +7,11 @@ import time
 
 import httpx
 import pytest
-from sqlalchemy.exc import DBAPIError
 
 from jointplay.records.job import JobError
 from jointplay.service.jobs.waiting import Watcher
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Broken
 from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
 from tests.waiting import PATIENCE, until
 
@@ -87,13 +87,13 @@ class Counting(Catalogue):
     def statuses(self, jobs):
         try:
             return super().statuses(jobs)
-        except DBAPIError:
+        except Broken:
             self.in_vain += 1
             raise
 
 
 def test_who_waits_goes_on_where_the_database_failed_for_a_while(tmp_path):
-    """As while it is restored: the fault is none of those by which a database is away."""
+    """As while it is restored."""
     catalogue = Counting(f"sqlite:///{tmp_path / 'catalogue.sqlite'}")
     catalogue.migrate()
     job = catalogue.submit(NewJob("simulate", {}, "d" * 64, "1")).job.id

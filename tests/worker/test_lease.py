@@ -61,6 +61,25 @@ def test_losing_the_block_is_noticed(catalogue: Catalogue, settings: Settings) -
             lease.record_progress(1.0, 0.5)
 
 
+def test_a_lease_outlives_a_catalogue_that_is_being_restored(
+    catalogue: Catalogue, settings: Settings, caplog: pytest.LogCaptureFixture
+) -> None:
+    block = new_block(catalogue)
+    claim = catalogue.claim_block(block, "worker", settings.lease)
+    assert claim is not None
+
+    def rename(old: str, new: str) -> None:
+        with catalogue.connections.writing() as connection:
+            connection.exec_driver_sql(f"ALTER TABLE {old} RENAME TO {new}")
+
+    with Lease(catalogue, claim, settings):
+        rename("block", "away")
+        until(lambda: f"heartbeat of block {block} failed" in caplog.text)
+        rename("away", "block")
+        before = lease_until(catalogue, block)
+        until(lambda: lease_until(catalogue, block) > before)
+
+
 def hang(settings: Settings, block: str) -> None:
     catalogue = Catalogue(settings.catalogue_url)
     claim = catalogue.claim_block(block, "worker", settings.lease)

@@ -15,7 +15,7 @@ from sqlalchemy import URL, Connection, create_engine
 from sqlalchemy.exc import DBAPIError, InterfaceError, OperationalError
 from sqlalchemy.exc import TimeoutError as PoolTimeout
 
-from jointplay.storage.catalogue.errors import BUSY, SILENT, Interrupted, Unavailable
+from jointplay.storage.catalogue.errors import BUSY, SILENT, Broken, Interrupted, Unavailable
 
 _CONNECTIONS: Final = 5
 """Connections that stay open; as many again are opened when all are in use."""
@@ -42,6 +42,8 @@ _DEADLOCK, _SERIALIZATION, _TAKEN = "40P01", "40001", "23505"
 _FULL, _LOCKED, _CANCELLED, _READ_ONLY, _IDLE = "53100", "55P03", "57014", "25006", "25P03"
 _LOST: Final = ("08", "57P", _IDLE)
 _CANNOT: Final = ("53", "57", "58", _READ_ONLY)
+_BROKEN: Final = ("XX", "42P01", "42703", "42883", "42501")
+"""Pages are damaged; a table, a column, a function or the right to use them is not there."""
 
 
 class PostgreSQL:
@@ -137,6 +139,8 @@ class PostgreSQL:
             fault = Interrupted(SILENT)
         elif state.startswith(_CANNOT):
             fault = Unavailable(SILENT)
+        elif state.startswith(_BROKEN):
+            fault = Broken()
         return fault
 
     def close(self) -> None:

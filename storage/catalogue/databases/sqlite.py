@@ -19,7 +19,7 @@ from sqlalchemy import URL, Connection, Engine, create_engine, event
 from sqlalchemy.exc import DBAPIError, InterfaceError, OperationalError
 
 from jointplay.storage.catalogue.databases.file_clock import FileClock
-from jointplay.storage.catalogue.errors import BUSY, SILENT, Unavailable
+from jointplay.storage.catalogue.errors import BUSY, SILENT, Broken, Unavailable
 
 _NEW_DATABASE_PATIENCE = 30.0
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.001, 0.02  # s
@@ -27,6 +27,8 @@ _OLD = 0.1
 """Seconds after which a unit that waits for other processes' asks twice as often, after twice that
 three times: SQLite's own waiting asks ever more rarely, so that the latest comer goes first."""
 _CANNOT = ("SQLITE_IOERR", "SQLITE_CANTOPEN", "SQLITE_PROTOCOL", "SQLITE_READONLY")
+_BROKEN = ("SQLITE_CORRUPT", "SQLITE_NOTADB", "SQLITE_ERROR")
+"""The last one: a table or a column is not there."""
 
 
 class SQLite:
@@ -45,7 +47,7 @@ class SQLite:
     def __init__(self, url: URL, patience: float) -> None:
         if not url.database or url.database == ":memory:":
             raise ValueError(f"the catalogue needs a file, such as sqlite:///jobs.sqlite: {url}")
-        self._file = Path(url.database)
+        self._file = Path(url.database).absolute()
         self._index = f"{url.database}-shm"
         self._clock = FileClock(self._file.parent)
         # not made by a connection: an empty file would stand in for one that is gone
@@ -57,6 +59,7 @@ class SQLite:
         # what a submission answers with 202 must survive a power cut; progress need not
         self._durable_writer = self._engine(url, "FULL", writes=True)
         self._turn = threading.Lock()  # without the database's lock, for which others only poll
+        self._opened: os.stat_result | None = None
 
     def _engine(self, url: URL, synchronous: Literal["NORMAL", "FULL"], *, writes: bool) -> Engine:
         engine = create_engine(url, max_overflow=-1)  # as many as threads, of which none waits
@@ -74,6 +77,7 @@ class SQLite:
             except sqlite3.Error:
                 dbapi_connection.close()  # the pool does not know it yet
                 raise
+            self._opened = self._opened or self._file.stat()
 
         @event.listens_for(engine, "begin")
         def _begin(connection: Connection) -> None:
@@ -89,7 +93,7 @@ class SQLite:
             try:
                 connection.execute("BEGIN IMMEDIATE")
                 return True
-            except sqlite3.OperationalError as error:
+            except sqlite3.DatabaseError as error:
                 if not error.sqlite_errorname.startswith("SQLITE_BUSY"):
                     break
             pause = min(_FIRST_PAUSE + waited, _LONGEST_PAUSE) / (1.0 + waited / _OLD)
@@ -105,14 +109,14 @@ class SQLite:
     @contextmanager
     def reading(self) -> Iterator[Connection]:
         """Open a view of the database as it is; writers go on."""
-        self._require_index()
+        self._require_file()
         with self._readers.begin() as connection:
             yield connection
 
     @contextmanager
     def writing(self, *, durable: bool) -> Iterator[Connection]:
         """Begin a unit that no other process can enter; `durable` waits for the disk."""
-        self._require_index()
+        self._require_file()
         engine = self._durable_writer if durable else self._writer
         if not self._turn.acquire(timeout=self._patience):
             raise Unavailable(BUSY)
@@ -122,12 +126,21 @@ class SQLite:
         finally:
             self._turn.release()
 
-    def _require_index(self) -> None:
-        """Refuse while the log's index, which every unit writes in memory, can be no more.
+    def _require_file(self) -> None:
+        """Refuse while the file is gone, or another one is in its place.
 
-        The system ends a process that writes there. The file is asked for and not opened: to close
-        it would give up the locks that SQLite has on it.
+        What is written to a file that was removed or moved is lost. To open the other one while
+        processes write the log of the first would mix both; whoever replaced it starts them anew.
+        Refuse also while the log's index, which every unit writes in memory, can be no more: the
+        system ends a process that writes there. Files are asked for and not opened: to close one
+        would give up the locks that SQLite has on it.
         """
+        try:
+            found = self._file.stat()
+        except OSError as error:
+            raise Unavailable(SILENT) from error
+        if self._opened is not None and not os.path.samestat(self._opened, found):
+            raise Unavailable("is another file than the one that was opened")
         if not os.access(self._index, os.W_OK) and os.access(self._index, os.F_OK):
             raise Unavailable(SILENT)
 
@@ -136,12 +149,14 @@ class SQLite:
         return self._clock.now()
 
     def fault(self, error: DBAPIError) -> Unavailable | None:
-        """Recognise a full disk, a database that others hold, and a file out of reach."""
+        """Recognise a full disk, a database that others hold, a file out of reach or broken."""
         name = getattr(error.orig, "sqlite_errorname", "")
         if name == "SQLITE_FULL":
             return Unavailable("has no room left on its disk", full=True)
         if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
             return Unavailable(BUSY)
+        if name.startswith(_BROKEN):
+            return Broken()
         lost = isinstance(error, (OperationalError, InterfaceError)) or error.connection_invalidated
         if name.startswith(_CANNOT) or (lost and not name):
             return Unavailable(SILENT)
@@ -151,6 +166,7 @@ class SQLite:
         """Close every connection."""
         for engine in (self._readers, self._writer, self._durable_writer):
             engine.dispose()
+        self._opened = None
 
 
 def _write_ahead(cursor: sqlite3.Cursor) -> None:

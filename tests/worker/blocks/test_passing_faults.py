@@ -5,7 +5,7 @@ import sqlite3
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, closing, contextmanager
 
 import pytest
 from one_block import run
@@ -65,6 +65,15 @@ def out_of_reach(settings: Settings, catalogue: Catalogue) -> Iterator[None]:
     elsewhere.replace(file)  # at once: in between, a new database would be made
 
 
+@contextmanager
+def being_restored(settings: Settings, _: Catalogue) -> Iterator[None]:
+    """Take a table away from a database to which there are connections."""
+    with closing(sqlite3.connect(settings.data / "catalogue.sqlite")) as other:
+        other.execute("ALTER TABLE block RENAME TO away")
+        yield
+        other.execute("ALTER TABLE away RENAME TO block")
+
+
 def test_results_that_cannot_be_written_are_tried_again(
     catalogue: Catalogue, settings: Settings, admission: Admission
 ) -> None:
@@ -111,7 +120,7 @@ def test_a_full_disk_is_waited_for_with_ever_longer_pauses(
     stored(catalogue, settings, job)
 
 
-@pytest.mark.parametrize("lost", [held_by_another_program, out_of_reach])
+@pytest.mark.parametrize("lost", [held_by_another_program, out_of_reach, being_restored])
 def test_a_catalogue_that_does_not_answer_is_waited_for(
     catalogue: Catalogue,
     settings: Settings,
