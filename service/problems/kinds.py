@@ -221,6 +221,12 @@ NOT_FOUND = _kind(
     "There is nothing at this address",
     "The addresses are in /openapi.json, readable at /docs.",
 )
+PRECONDITION_FAILED = _kind(
+    "precondition-failed",
+    412,
+    "It has changed since",
+    "ETag is that of the bytes that are there now; ask without If-Match to have them.",
+)
 RANGE_NOT_SATISFIABLE = _kind(
     "range-not-satisfiable",
     416,

@@ -65,7 +65,11 @@ def show_root(results: ResultsOfThePath) -> dict[str, Any]:
     response_class=Response,
     responses=_SERVED
     | problems(
-        *kinds.OF_A_JOB, kinds.NOT_FOUND, kinds.RANGE_NOT_SATISFIABLE, kinds.INVALID_REQUEST
+        *kinds.OF_A_JOB,
+        kinds.NOT_FOUND,
+        kinds.RANGE_NOT_SATISFIABLE,
+        kinds.PRECONDITION_FAILED,
+        kinds.INVALID_REQUEST,
     ),
 )
 def show_stored(

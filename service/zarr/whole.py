@@ -55,6 +55,7 @@ _SERVED: dict[int | str, dict[str, Any]] = {
         kinds.RESULTS_NOT_READY,
         kinds.DAMAGED_RESULTS,
         kinds.RANGE_NOT_SATISFIABLE,
+        kinds.PRECONDITION_FAILED,
         kinds.INVALID_REQUEST,
     ),
 )

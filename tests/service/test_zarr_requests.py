@@ -82,6 +82,19 @@ def test_a_range_of_another_version_is_the_whole(http, base, whole):
         assert http.get(f"{base}/time/c/0", headers=headers).status_code == status
 
 
+@pytest.mark.parametrize("path", ["/zarr/time/c/0", "/zarr.zip", "/page/start.js"])
+def test_what_has_changed_since_is_not_mixed_with_what_a_client_has(http, base, path):
+    address = path if path.startswith("/page") else base.removesuffix("/zarr") + path
+    tag = http.head(address, headers={"Accept-Encoding": "identity"}).headers["ETag"]
+    for condition in (tag, f'"other", {tag}', "*"):
+        assert http.get(address, headers={"If-Match": condition}).status_code == 200
+    asked = {"Range": "bytes=0-9", "If-None-Match": tag}
+    for condition in ('"other"', f"W/{tag}"):
+        answer = http.get(address, headers=asked | {"If-Match": condition})
+        assert (answer.status_code, answer.headers["ETag"]) == (412, tag)
+        assert answer.json()["type"] == "/problems/precondition-failed"
+
+
 def test_documents_are_compressed_for_those_who_ask(http, base):
     packed = http.get(f"{base}/zarr.json", headers={"Accept-Encoding": "gzip"})
     plain = http.get(f"{base}/zarr.json", headers={"Accept-Encoding": "gzip;q=0, br"})
