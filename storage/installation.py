@@ -4,6 +4,7 @@ Services with other files would answer that results are gone which are whole els
 what they take for left over.
 """
 
+import errno
 import logging
 import secrets
 from collections.abc import Iterator
@@ -49,6 +50,19 @@ def require_own_files(settings: Settings, catalogue: Catalogue) -> None:
                 f" catalogue. If its files were moved or restored here, write {known} into"
                 f" {where}/{MARK}"
             )
+
+
+def require_places(settings: Settings, catalogue: Catalogue) -> None:
+    """Look whether data folder and place for results are there, before results are stored there.
+
+    Raises
+    ------
+    OSError
+        A disk is not mounted, which had a mark, or a server does not answer.
+    """
+    for name, place, where in _shared(settings):
+        if place.version(MARK) is None and catalogue.mark_of(name) is not None:
+            raise FileNotFoundError(errno.ENOENT, "no disk with the results is mounted", where)
 
 
 def _shared(settings: Settings) -> Iterator[tuple[str, Place, str]]:

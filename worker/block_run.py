@@ -37,8 +37,8 @@ _MOST_WAITING = 4
 readers are as far behind as restart points are apart."""
 _LOOK = 0.25
 """Seconds after which the catalogue is asked again whether to go on."""
-_ASK_AGAIN = 1.0
-"""Seconds after which a catalogue that did not answer is asked again."""
+ASK_AGAIN = 1.0
+"""Seconds after which a catalogue that did not answer is asked again, or another block begun."""
 _LONG = 1.0
 """Seconds after which a block that has not advanced is said to be compiling."""
 
@@ -50,10 +50,18 @@ class BlockRun:
     ----------
     draining
         Set when this process shall end soon: the block is then checkpointed and given back.
+    require_places
+        Raises OSError while results cannot be stored. Asked before anything is computed, and again
+        before the block ends: what was stored in place of a disk is not on it.
     """
 
     def __init__(
-        self, catalogue: Holding, settings: Settings, claim: Claim, draining: threading.Event
+        self,
+        catalogue: Holding,
+        settings: Settings,
+        claim: Claim,
+        draining: threading.Event,
+        require_places: Callable[[], None] = lambda: None,
     ) -> None:
         self._catalogue = catalogue
         self._settings = settings
@@ -62,6 +70,7 @@ class BlockRun:
         self._job = claim.job
         self._lease = Lease(catalogue, claim, settings)
         self._draining = draining
+        self._require_places = require_places
         self._next_record = time.monotonic() + settings.progress_period
         self._next_look = time.monotonic() + _LOOK
         self._reports = 0
@@ -91,6 +100,7 @@ class BlockRun:
                 except PASSING as fault:
                     _log.warning("block %s is put off: %s", self._block.id, fault)
                     self._insist(self._catalogue.put_off, waits_for(fault))
+                    self._draining.wait(ASK_AGAIN)  # the next block would meet the same fault
                     return
                 if outcome.state == "left":
                     self._insist(self._catalogue.release)
@@ -130,15 +140,18 @@ class BlockRun:
                     raise
                 _log.warning("block %s waits: %s", self._block.id, fault)
                 self._lease.advanced()
-                time.sleep(_ASK_AGAIN)
+                time.sleep(ASK_AGAIN)
 
     def _compute(self) -> Outcome:
         try:
             self._require_room()
+            self._require_places()
             self._work = work_of(self._claim, self._settings)
             self._compiling.start()
             with watched(self._while_compiling, self._settings.longest_compilation):
-                return self._work.execute(self._report, self._lease.advanced)
+                outcome = self._work.execute(self._report, self._lease.advanced)
+            self._require_places()
+            return outcome
         except (Fenced, Refused, *PASSING):
             raise
         except InvalidInput as error:
@@ -188,7 +201,7 @@ class BlockRun:
                 return Answer.go_on
         except PASSING as fault:
             _log.warning("block %s goes on without a word: %s", self._block.id, fault)
-            self._next_record = self._next_look = time.monotonic() + _ASK_AGAIN
+            self._next_record = self._next_look = time.monotonic() + ASK_AGAIN
             return Answer.go_on
         self._next_look = now + _LOOK
         return Answer.go_on if verdict is Verdict.go_on else Answer.cancel
@@ -206,7 +219,7 @@ class BlockRun:
             return None if self._lease.verdict() is Verdict.go_on else Answer.cancel
         except PASSING as fault:
             _log.warning("block %s goes on without a word: %s", self._block.id, fault)
-            self._next_look = now + _ASK_AGAIN
+            self._next_look = now + ASK_AGAIN
             return None
 
     def _require_room(self) -> None:

@@ -11,8 +11,9 @@ from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Claim
+from jointplay.storage.installation import require_places
 from jointplay.storage.settings import Settings
-from jointplay.worker.block_run import BlockRun
+from jointplay.worker.block_run import ASK_AGAIN, BlockRun
 from jointplay.worker.passing import PASSING, waits_for
 from jointplay.worker.removal import withdraw
 from jointplay.worker.scratch.attempt import SentAttempt
@@ -29,7 +30,8 @@ def compute(
         with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
             _compute_in(Path(folder), catalogue, settings, claim, draining)
     else:
-        BlockRun(catalogue, settings, claim, draining).run()
+        there = partial(require_places, settings, catalogue)
+        BlockRun(catalogue, settings, claim, draining, there).run()
 
 
 def _compute_in(
@@ -42,6 +44,7 @@ def _compute_in(
     block = claim.block
     here = settings.model_copy(update={"data": folder, "running": "data"})
     scratch = Scratch(AttemptFiles(settings, block), here, block)
+    there = partial(require_places, settings, catalogue)
     beat = partial(catalogue.heartbeat, block.id, block.attempt, settings.lease)
     with about(job=block.job, block=block.id, attempt=block.attempt):
         try:
@@ -52,10 +55,11 @@ def _compute_in(
         except PASSING as fault:
             _log.warning("block %s is put off: %s", block.id, fault)
             _put_off(catalogue, claim, waits_for(fault))
+            draining.wait(ASK_AGAIN)
             return
         attempt = SentAttempt(catalogue, scratch)
         with scratch.sending_rows(), attempt.sending():
-            BlockRun(attempt, here, claim, draining).run()
+            BlockRun(attempt, here, claim, draining, there).run()
         if scratch.used:
             withdraw(catalogue, settings, block)
 

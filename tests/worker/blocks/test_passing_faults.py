@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, closing, contextmanager
+from pathlib import Path
 
 import pytest
 from one_block import run
@@ -16,9 +17,11 @@ from jointplay.storage.catalogue import connections
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
+from jointplay.storage.installation import require_own_files
 from jointplay.storage.settings import Settings
 from jointplay.worker import block_run
 from jointplay.worker.block_run import BlockRun
+from jointplay.worker.scratch.computing import compute
 from tests.stores import files_of, sealed_run
 from tests.waiting import until
 
@@ -26,7 +29,7 @@ from tests.waiting import until
 @pytest.fixture(autouse=True)
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(connections, "_PATIENCE", 0.1)
-    monkeypatch.setattr(block_run, "_ASK_AGAIN", 0.1)
+    monkeypatch.setattr(block_run, "ASK_AGAIN", 0.1)
 
 
 def submit(catalogue: Catalogue, admission: Admission) -> str:
@@ -96,6 +99,71 @@ def test_results_that_cannot_be_written_are_tried_again(
     assert catalogue.get(job).activity is None
     assert not settings.running_folder(job).exists()
     assert not list(settings.data.rglob("*.partial"))
+
+
+@pytest.fixture
+def mounted(settings: Settings, catalogue: Catalogue) -> Settings:
+    """Results on a disk of their own."""
+    disk = settings.data / "disk"
+    apart = settings.model_copy(update={"results_url": f"file:{disk}", "data": settings.data / "d"})
+    apart.data.mkdir()
+    require_own_files(apart, catalogue)
+    return apart
+
+
+def unmount(settings: Settings) -> Path:
+    """Return what is seen in place of the disk: an empty folder."""
+    disk = Path(settings.results_url.removeprefix("file:"))
+    disk.rename(disk.with_name("unmounted"))
+    disk.mkdir()
+    return disk
+
+
+def mount(disk: Path) -> None:
+    shutil.rmtree(disk)
+    disk.with_name("unmounted").rename(disk)
+
+
+def test_nothing_is_computed_while_the_disk_for_results_is_not_mounted(
+    catalogue: Catalogue, mounted: Settings, admission: Admission
+) -> None:
+    disk = unmount(mounted)
+    job = submit(catalogue, admission)
+
+    def tried() -> None:
+        claim = catalogue.claim_block(f"{job}-0", "this process", mounted.lease)
+        assert claim is not None
+        compute(catalogue, mounted, claim, threading.Event())
+
+    tried()
+    assert catalogue.get(job).activity == "waiting for the results' place"
+    assert not mounted.running_folder(job).exists()
+    mount(disk)
+    tried()
+    stored(catalogue, mounted, job)
+
+
+def test_results_stored_in_place_of_a_disk_that_went_are_stored_again_when_it_is_back(
+    catalogue: Catalogue, mounted: Settings, admission: Admission
+) -> None:
+    """They would be hidden beneath it, and the job would have succeeded without results."""
+    job = submit(catalogue, admission)
+    claim = catalogue.claim_block(f"{job}-0", "this process", mounted.lease)
+    assert claim is not None
+    computing = threading.Thread(
+        target=compute, args=(catalogue, mounted, claim, threading.Event()), daemon=True
+    )
+    computing.start()
+    until(mounted.running_folder(job).exists)
+    disk = unmount(mounted)
+    computing.join()
+    assert [one.outcome for one in catalogue.attempts(job)] == ["put-off"]
+    assert [*disk.rglob("*.zip")]
+    mount(disk)
+    claim = catalogue.claim_block(f"{job}-0", "this process", mounted.lease)
+    assert claim is not None
+    compute(catalogue, mounted, claim, threading.Event())
+    stored(catalogue, mounted, job)
 
 
 def test_a_full_disk_is_waited_for_with_ever_longer_pauses(
