@@ -136,6 +136,6 @@ def _links(job: Job) -> dict[str, str]:
     if job.batch is not None:
         links["batch"] = f"/v1/batches/{job.batch}"
     lacking = {"certificate"} if job.spec.get("certificate") is False else set()
-    return links | {
-        name: f"{base}/{name}" for name in KINDS[job.kind].results if name not in lacking
-    }
+    if job.kind in KINDS:  # else of another version of this program
+        links |= {n: f"{base}/{n}" for n in KINDS[job.kind].results if n not in lacking}
+    return links

@@ -39,6 +39,9 @@ class ResultsOfJob:
     """Results of a job, as they are now."""
 
     def __init__(self, job: Job, settings: Settings, catalogue: Catalogue) -> None:
+        if job.kind not in KINDS:
+            sentence = f"Job {job.id} is of kind {job.kind}, which this version does not know."
+            raise RequestRefused(kinds.WRONG_KIND, sentence)
         self.job, self.settings, self.catalogue = job, settings, catalogue
         self._names = KINDS[job.kind].results
         self.is_study = "history" not in self._names
