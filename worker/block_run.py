@@ -184,9 +184,8 @@ class BlockRun:
         if self._draining.is_set():
             self._keep(progress)
             return Answer.leave
+        self._require_room()  # several workers fill what is left for the catalogue in a second
         now = time.monotonic()
-        if now >= self._next_record:
-            self._require_room()
         try:
             if now >= self._next_record:
                 rest = self._keep(progress)

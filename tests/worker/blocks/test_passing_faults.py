@@ -188,6 +188,24 @@ def test_a_full_disk_is_waited_for_with_ever_longer_pauses(
     stored(catalogue, settings, job)
 
 
+def test_a_disk_that_gets_full_is_noticed_before_the_next_restart_point(
+    catalogue: Catalogue, settings: Settings, admission: Admission
+) -> None:
+    """Many samples fill what is left for the catalogue meanwhile, which then takes no word."""
+    rarely = settings.model_copy(update={"progress_period": 60.0})
+    job = submit(catalogue, admission)
+    claim = catalogue.claim_block(f"{job}-0", "this process", settings.lease)
+    assert claim is not None
+    computing = threading.Thread(
+        target=BlockRun(catalogue, rarely, claim, threading.Event()).run, daemon=True
+    )
+    computing.start()
+    until(settings.running_folder(job).exists)
+    vars(rarely)["reserve"] = 2**60  # as if others had taken all
+    computing.join()
+    assert catalogue.get(job).activity == "waiting for room on the disk"
+
+
 @pytest.mark.parametrize("lost", [held_by_another_program, out_of_reach, being_restored])
 def test_a_catalogue_that_does_not_answer_is_waited_for(
     catalogue: Catalogue,
