@@ -4,7 +4,6 @@ Services with other files would answer that results are gone which are whole els
 what they take for left over.
 """
 
-import errno
 import logging
 import secrets
 from collections.abc import Iterator
@@ -57,12 +56,12 @@ def require_places(settings: Settings, catalogue: Catalogue) -> None:
 
     Raises
     ------
-    OSError
+    ConnectionError
         A disk is not mounted, which had a mark, or a server does not answer.
     """
     for name, place, where in _shared(settings):
         if place.version(MARK) is None and catalogue.mark_of(name) is not None:
-            raise FileNotFoundError(errno.ENOENT, "no disk with the results is mounted", where)
+            raise ConnectionError(f"the disk with the results is not mounted at {where}")
 
 
 def _shared(settings: Settings) -> Iterator[tuple[str, Place, str]]:

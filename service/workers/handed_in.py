@@ -11,6 +11,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block, BlockState, Job
 from jointplay.storage.errors import CorruptStore
+from jointplay.storage.installation import require_places
 from jointplay.storage.packed.ranges import InFile, InParts
 from jointplay.storage.places import StoredObject
 from jointplay.storage.settings import Settings
@@ -26,7 +27,8 @@ class HandedIn:
 
     Methods raise `worker.handed_in.errors.NotTheJobs` for what is not the job's, with which the
     block is taken back, `Fenced` for what another attempt or block has, and ValueError or
-    FileNotFoundError for names that no file can have.
+    FileNotFoundError for names that no file can have, ConnectionError while results cannot be
+    stored.
     """
 
     def __init__(self, catalogue: Catalogue, settings: Settings, job: Job, held: Block) -> None:
@@ -75,6 +77,7 @@ class HandedIn:
         with self._taking_back():
             if sealed is not None:
                 results.require_sealed(source, self._job)
+                require_places(self._settings, self._catalogue)
                 try:
                     sealed.put(pieces)
                 except FileExistsError:  # the answer to an earlier try was lost
@@ -110,6 +113,7 @@ class HandedIn:
 
     def require_end(self, outcome: BlockState, steps: int | None) -> None:
         """Look whether what is stored is what the end of the block speaks of."""
+        require_places(self._settings, self._catalogue)
         with self._taking_back():
             results.require_end(self._settings, self._job, self._held, outcome, steps)
 
