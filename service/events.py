@@ -1,5 +1,7 @@
 """``/v1/jobs/{id}/events``: what happens to a job, as server-sent events."""
 
+import asyncio
+import logging
 from collections.abc import AsyncIterator, Awaitable, Callable
 from functools import partial
 from typing import Annotated, Any
@@ -16,12 +18,15 @@ from jointplay.service.jobs.waiting import Watcher, WatcherDependency
 from jointplay.service.owners import SHARES
 from jointplay.service.problems import kinds, problems
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import Event, Job, JobState
 
 _PAGE = 1000
 _QUIET = 15.0
 """Seconds after which a comment is sent: proxies cut connections that say nothing."""
 _COME_BACK = 1000  # ms after which a browser connects anew
+_LOOK_AGAIN = 1.0  # s
+_log = logging.getLogger(__name__)
 
 _FIELDS: dict[str, Any] = {
     "type": "object",
@@ -123,7 +128,7 @@ async def _stream(
                 yield format_sse_event(comment="the job goes on")
                 continue
             while last < status.last_event:
-                page = await run_in_threadpool(catalogue.events, job.id, after=last, limit=_PAGE)
+                page = await _further(catalogue, job.id, last)
                 if not page:
                     break
                 last = page[-1].seq
@@ -132,6 +137,16 @@ async def _stream(
             yield format_sse_event(event="progress", data_str=progress.model_dump_json())
             if status.state.terminal:
                 return
+
+
+async def _further(catalogue: Catalogue, job_id: str, last: int) -> tuple[Event, ...]:
+    """Return a job's next events, once the catalogue answers."""
+    while True:
+        try:
+            return await run_in_threadpool(catalogue.events, job_id, after=last, limit=_PAGE)
+        except Unavailable as fault:
+            _log.warning("looking again: %s", fault)
+            await asyncio.sleep(_LOOK_AGAIN)
 
 
 def _of_history(event: Event) -> bytes:

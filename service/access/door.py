@@ -69,11 +69,17 @@ class Door:
         return caller
 
     async def still_open_to(self, caller: Caller) -> bool:
-        """Tell whether the key of a request that is still answered is valid."""
+        """Tell whether the key of a request that is still answered is valid.
+
+        While the catalogue is away it is what it was: there is nothing then that it could open.
+        """
         if not caller.key:
             return True
-        key = await self._key(caller.key)
-        return key is not None and key.lives(self._catalogue.clock())
+        try:
+            key = await self._key(caller.key)
+            return key is not None and key.lives(self._catalogue.clock())
+        except Unavailable:
+            return True
 
     async def _of_link(self, link: Link) -> Caller:
         key = await self._key(link.key)

@@ -4,15 +4,21 @@ import asyncio
 import json
 import threading
 import time
+from functools import partial
 
 import httpx
 import pytest
 
 from jointplay.records.job import JobError
+from jointplay.service import events
+from jointplay.service.access import Caller, door
 from jointplay.service.jobs.waiting import Watcher
+from jointplay.service.vital import VitalThreads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Broken
+from jointplay.storage.catalogue.keys import id_in
 from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
+from jointplay.storage.settings import Settings
 from tests.waiting import PATIENCE, until
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
@@ -112,6 +118,52 @@ def test_who_waits_goes_on_where_the_database_failed_for_a_while(tmp_path):
             return await watch.change(PATIENCE)
 
     assert asyncio.run(seen()).state is JobState.cancelled
+    catalogue.close()
+
+
+def test_a_stream_goes_on_once_the_catalogue_is_back(tmp_path, monkeypatch):
+    """Its key was looked up while the file was away, and the stream broke off."""
+    monkeypatch.setattr(door, "_REMEMBERED", 0.0)
+    monkeypatch.setattr(events, "_QUIET", 0.05)
+    settings = Settings(data=tmp_path, keys="required")
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    key = id_in(catalogue.make_key("ada", ("jobs:read",), "", None)[0])
+    job = catalogue.submit(NewJob("simulate", {}, "d" * 64, "1", owner="ada")).job
+    file, away = tmp_path / "catalogue.sqlite", tmp_path / "away"
+
+    async def streamed():
+        opens = door.Door(catalogue, settings, VitalThreads()).still_open_to
+        still = partial(opens, Caller("ada", frozenset({"jobs:read"}), key))
+        stream = events._stream(job, catalogue, Watcher(catalogue), 0, still)
+        heard = b""
+        async for piece in stream:
+            heard += piece
+            if b"event: queued" in piece:
+                file.rename(away)
+            if piece == b": the job goes on\n\n" and away.exists():
+                away.rename(file)
+                catalogue.request_cancel(job.id)
+        return heard
+
+    assert b"event: cancelled" in asyncio.run(asyncio.wait_for(streamed(), PATIENCE))
+    catalogue.close()
+
+
+def test_events_are_read_once_the_catalogue_answers(tmp_path, caplog):
+    catalogue = Catalogue(f"sqlite:///{tmp_path / 'catalogue.sqlite'}")
+    catalogue.migrate()
+    job = catalogue.submit(NewJob("simulate", {}, "d" * 64, "1")).job.id
+    file, away = tmp_path / "catalogue.sqlite", tmp_path / "away"
+
+    async def read():
+        file.rename(away)
+        further = asyncio.create_task(events._further(catalogue, job, 0))
+        await asyncio.to_thread(until, lambda: "looking again" in caplog.text)
+        away.rename(file)
+        return await further
+
+    assert [one.type for one in asyncio.run(read())] == ["queued"]
     catalogue.close()
 
 
