@@ -1,5 +1,6 @@
 /** The form of a kind of job, made of what the service says of its fields. */
 
+import { accuracyOf, accurate } from "./accuracy.js";
 import { DrawnParameters, NONE } from "./drawn_parameters.js";
 
 /** Fields that other parts of the form ask for, or whose values nobody types. */
@@ -7,6 +8,7 @@ const ELSEWHERE = new Set(["label", "tolerance", "method", "step", "formulation"
 const TYPED = new Set(["number", "integer"]);
 const OF_PARAMETERS = new Set(["axis", "distributions"]);
 const DURATION = "duration"; // which periods stand for
+const ACCURACY = "accuracy"; // also a tolerance
 
 /**
  * Returns the title and help of a kind, its fields, the parts of the document that are made of their
@@ -44,8 +46,9 @@ export function formOfKind(name, described, { axis, ends, choice, proposed }) {
         values: { from: all[`${field}_from`], to: all[`${field}_to`], count: all[`${field}_count`] },
       }])),
       ...Object.fromEntries(others.map(([field]) => [field, all[field]])
-        .filter(([field, value]) => value !== null && value !== STANDARD
+        .filter(([field, value]) => value !== null && value !== STANDARD && field !== ACCURACY
           && (field !== DURATION || !all.periods))),
+      ...accurate(all[ACCURACY]),
     }),
     given: (document) => Object.assign(
       {},
@@ -56,7 +59,7 @@ export function formOfKind(name, described, { axis, ends, choice, proposed }) {
         ...Object.fromEntries(Object.entries(ends(document[field].values))
           .map(([part, value]) => [`${field}_${part}`, value])),
       })),
-      Object.fromEntries(others.map(([field]) => [field, document[field]])
+      Object.fromEntries(others.map(([field]) => [field, field === ACCURACY ? accuracyOf(document) : document[field]])
         .filter(([, value]) => value !== undefined && value !== null)),
     ),
   };
@@ -73,8 +76,8 @@ function inWords(described) {
   return { ...described, help: sentence(described.help) };
 }
 
-function ofField(name, { help, unit, choices, required }, duration) {
-  const shown = { title: titled(name), help: sentence(help), unit: unit ?? "1" };
+function ofField(name, { help, unit, choices, required, words, form }, duration) {
+  const shown = { title: titled(name), help: sentence(help), unit: unit ?? "1", accepts: words, whole: form === "integer" };
   if (choices.length) return { ...shown, choices: [STANDARD, ...choices], default: STANDARD };
   if (name === DURATION) return { ...shown, default: duration };
   return { ...shown, default: null, empty: STANDARD, required };

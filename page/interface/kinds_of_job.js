@@ -1,5 +1,6 @@
 /** Kinds of jobs as the page offers them: fields, and the document that they make. */
 
+import { ACCURACY, accuracyOf, accurate } from "./accuracy.js";
 import { CalibrationFields } from "./calibration_fields.js";
 import { NONE } from "./drawn_parameters.js";
 import { formOfKind } from "./form_of_kind.js";
@@ -12,13 +13,6 @@ import { describedKinds } from "../requests/kinds.js";
 import { poses } from "../requests/poses.js";
 import { Problem } from "../requests/service.js";
 
-const ACCURACY = {
-  title: "Accuracy",
-  help: "How small the error of every step is kept.",
-  unit: "1",
-  choices: ["draft", "standard", "fine", "reference"],
-  default: "standard",
-};
 const WITHOUT_TURNING = 0.05; // s, of mechanisms that neither turn nor fall
 const SAMPLES = 2000; // of a run whose output step is not given
 const TURNS = 4; // of the slowest driver
@@ -83,8 +77,8 @@ export const KINDS = {
     made: ({ duration, accuracy, output_step: step, settle }) => ({
       duration, settle, ...accurate(accuracy), ...(step === null ? {} : { output_step: step }),
     }),
-    given: ({ duration, accuracy, settle, output_step: step }) => ({
-      duration, accuracy, settle, output_step: Math.abs(step * SAMPLES - duration) < 1e-9 * duration ? null : step,
+    given: ({ duration, settle, output_step: step, ...job }) => ({
+      duration, accuracy: accuracyOf(job), settle, output_step: Math.abs(step * SAMPLES - duration) < 1e-9 * duration ? null : step,
     }),
   },
   bifurcation: {
@@ -94,10 +88,10 @@ export const KINDS = {
       ...varied(document, "parameter", "Parameter"),
       settle: {
         title: "Periods to settle", help: "Before the first section.", unit: "periods",
-        minimum: 0, default: 40,
+        minimum: 0, default: 40, whole: true, accepts: ["auto"],
       },
       record: {
-        title: "Sections", help: "Kept of each value.", unit: "1", minimum: 1, default: 30,
+        title: "Sections", help: "Kept of each value.", unit: "1", minimum: 1, default: 30, whole: true,
       },
       continuation: {
         title: "Continuation", unit: "1", default: "none",
@@ -114,9 +108,9 @@ export const KINDS = {
       parameter, values: { from, to, count }, settle, record, continuation,
       ...(verdicts === "yes" ? { indicators: "all" } : {}), ...accurate(accuracy),
     }),
-    given: ({ parameter, values, settle, record, continuation, indicators, accuracy }) => ({
+    given: ({ parameter, values, settle, record, continuation, indicators, ...job }) => ({
       parameter, ...ends(values), settle, record, continuation,
-      verdicts: indicators?.length ? "yes" : "no", accuracy,
+      verdicts: indicators?.length ? "yes" : "no", accuracy: accuracyOf(job),
     }),
   },
   sweep: {
@@ -131,6 +125,14 @@ export const KINDS = {
         title: "Duration", help: "Of every run.", unit: "s", minimum: 1e-9,
         default: duration,
       },
+      periods: {
+        title: "Periods", help: "Of every run, instead of a duration.", unit: "periods", minimum: 0,
+        default: null, empty: "as the duration says",
+      },
+      settle: {
+        title: "Settling", help: "What comes before does not count.", minimum: 0, default: 0,
+        unit: ({ periods }) => (periods ? "periods" : "s"),
+      },
       accuracy: ACCURACY,
     }),
     made: (given) => ({
@@ -142,15 +144,17 @@ export const KINDS = {
           },
         }),
       },
-      duration: given.duration,
+      ...(given.periods ? { periods: given.periods } : { duration: given.duration }),
+      settle: given.settle,
       ...accurate(given.accuracy),
     }),
-    given: ({ grid, duration, accuracy }) => {
+    given: ({ grid, duration, periods, settle, ...job }) => {
       const [first, second] = Object.entries(grid ?? {});
       const other = second && Object.entries(ends(second[1])).map(([name, value]) => [`second_${name}`, value]);
       return {
         ...(first ? { first: first[0], ...ends(first[1]) } : {}),
-        ...(second ? { second: second[0], ...Object.fromEntries(other) } : {}), duration, accuracy,
+        ...(second ? { second: second[0], ...Object.fromEntries(other) } : {}),
+        ...(periods ? { periods } : { duration }), settle, accuracy: accuracyOf(job),
       };
     },
   },
@@ -215,7 +219,7 @@ function varied(document, name, title, { count = 48, help = "What is varied.", b
     [part("from")]: end("from"),
     [part("to")]: end("to"),
     [part("count")]: {
-      title: titled("values"), help: "", unit: "1", minimum: 1, maximum: 100000, default: count,
+      title: titled("values"), help: "", unit: "1", minimum: 1, maximum: 100000, default: count, whole: true,
     },
   };
 }
@@ -265,10 +269,6 @@ function choice(document, { of = [], none = false, nth = 0 } = {}) {
     words: Object.fromEntries(Object.entries(starts).map(([pointer, { name }]) => [pointer, `start: ${name}`])),
     units: { [NONE]: "1", ...Object.fromEntries(names.map((name) => [name, all[name].unit])) },
   };
-}
-
-function accurate(accuracy) {
-  return accuracy === "standard" ? {} : { accuracy };
 }
 
 function rounded(value) {

@@ -114,7 +114,7 @@ class Field {
       { class: "field" },
       element("label", { for: id }, parameter.title ?? name),
       element("div", { class: "entry" }, this.input, !parameter.choices && this.unit),
-      element("p", { class: "help", id: `${id}-help` }, parameter.help, " ", range(parameter)),
+      element("p", { class: "help", id: `${id}-help` }, parameter.help, " ", range(parameter), orWords(parameter)),
       this.wrong,
     );
   }
@@ -124,6 +124,7 @@ class Field {
     const text = this.input.value.trim();
     if (this.parameter.choices) return text === this.parameter.default ? undefined : text;
     if (text === "") return undefined;
+    if (this.parameter.accepts?.includes(text)) return text;
     const value = typed(text);
     return value === this.parameter.default ? undefined : value;
   }
@@ -149,7 +150,9 @@ class Field {
       const low = parameter.minimum ?? -Infinity;
       const high = parameter.maximum ?? Infinity;
       if (text === "") wrong = parameter.required ? "This has no default; give a value." : "";
+      else if (parameter.accepts?.includes(text)) wrong = "";
       else if (Number.isNaN(value)) wrong = "This is no number; 0.0005 and 5e-4 are.";
+      else if (parameter.whole && !Number.isInteger(value)) wrong = "Give a whole number.";
       else if (value < low || value > high) wrong = `Allowed: ${range(parameter)}`;
     }
     this.complain(wrong);
@@ -168,10 +171,14 @@ function written(value) {
   return large ? value.toExponential().replace("+", "") : String(value);
 }
 
+function orWords({ accepts }) {
+  return accepts?.length ? ` Or: ${accepts.join(", ")}.` : "";
+}
+
 function range({ minimum, maximum, unit, choices }) {
   const [low, high] = [minimum, maximum].map((one) => one !== null && one !== undefined);
   if (choices || !(low || high)) return "";
-  const of = unit === "1" || !unit ? "" : ` ${unitText(unit)}`;
+  const of = unit === "1" || typeof unit !== "string" ? "" : ` ${unitText(unit)}`; // else it stands beside the field
   if (low && high) return `${short(minimum)} to ${short(maximum)}${of}.`;
   if (low) return `At least ${short(minimum)}${of}.`;
   return `At most ${short(maximum)}${of}.`;

@@ -25,6 +25,11 @@ export function note(query) {
   history.replaceState(null, "", address(parts, Object.fromEntries(here.query)));
 }
 
+/** Forgets all that the address notes of the view. */
+export function forget() {
+  note(Object.fromEntries([...place().query.keys()].map((name) => [name, null])));
+}
+
 /** Goes to a view. */
 export function go(parts, query = {}) {
   location.hash = address(parts, query);

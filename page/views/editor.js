@@ -11,7 +11,7 @@ import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { someDuration } from "../interface/kinds_of_job.js";
 import { short, typed } from "../interface/numbers.js";
-import { go, note } from "../interface/place.js";
+import { forget, go, note, place } from "../interface/place.js";
 import { onNewColours } from "../mechanism/palette.js";
 import { patiently } from "../requests/patiently.js";
 import { get, pause, post } from "../requests/service.js";
@@ -20,16 +20,24 @@ const QUIET = 500; // ms without typing before the service checks
 const ROUNDING = 1e-7; // share of the largest number beside it below which one is told as zero
 
 export async function show(room, { query, signal }) {
-  const [schema, { scenes }, text] = await Promise.all([
-    get("/v1/schemas/scene.json", {}, signal), get("/v1/scenes", {}, signal), firstText(query, signal),
+  const [schema, { scenes }, asked] = await Promise.all([
+    get("/v1/schemas/scene.json", {}, signal), get("/v1/scenes", {}, signal), askedFor(query, signal),
   ]);
+  const text = asked ?? kept() ?? pretty(FIRST_SCENE);
   new Editing(room, new SceneSchema(schema), scenes, text, signal);
 }
 
-async function firstText(query, signal) {
+/** Returns the text of the preset or the job that the address names; null: it names none. */
+async function askedFor(query, signal) {
   if (query.has("preset")) return pretty(await get(`/v1/scenes/${query.get("preset")}`, {}, signal));
   if (query.has("job")) return pretty((await get(`/v1/jobs/${query.get("job")}`, {}, signal)).job.scene);
-  return kept() ?? pretty(FIRST_SCENE);
+  return null;
+}
+
+/** Returns what the address says of a study of the mechanism, and the job if the text is still its scene. */
+function study() {
+  const { preset, ...query } = Object.fromEntries(place().query);
+  return query;
 }
 
 /** Writes a document with a line for each field, and lists of numbers in one. */
@@ -61,16 +69,17 @@ function notesOf({ given, turn, overshoots, replaced, hints }) {
 
 class Editing {
   constructor(room, schema, scenes, text, signal) {
-    Object.assign(this, { signal, document: {}, checking: new AbortController() });
+    Object.assign(this, { signal, first: text, document: {}, checking: new AbortController() });
     this.motion = new FreeMotion((found) => this.posed(found), signal);
     this.messages = element("ul", { class: "messages", "aria-live": "polite", "aria-label": "What is wrong" });
     this.facts = element("p", { class: "quiet", role: "status" });
     this.notes = element("ul", { class: "quiet", "aria-label": "What a run does otherwise" });
-    this.duration = element("input", { id: "duration", inputmode: "decimal" });
+    const duration = place().query.get("duration") ?? "";
+    this.duration = element("input", { id: "duration", inputmode: "decimal", value: duration });
     this.button = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run");
-    this.more = element("button", { type: "button", onclick: () => go(["new"]) }, "Vary it …");
+    this.more = element("button", { type: "button", onclick: () => go(["new"], study()) }, "Vary it …");
     this.estimate = new Estimate(() => this.job(), signal, (errors) => this.tell(errors));
-    this.text = new TextEditor(text, help(schema, () => this.document), (now) => this.changed(now));
+    this.text = new TextEditor(kept() ?? text, help(schema, () => this.document), (now) => this.changed(now));
     const presets = element("select", { id: "preset", onchange: () => this.begin(presets.value) },
       ["", ...scenes.map(({ name }) => name)].map((name) =>
         element("option", { value: name }, name || "choose …")));
@@ -94,18 +103,20 @@ class Editing {
     this.duration.addEventListener("input", () => this.estimate.later());
     onNewColours(() => this.motion.draw(), signal);
     addEventListener("resize", () => this.motion.draw(), { signal });
-    this.changed(text);
+    if (this.text.text === text) this.changed(text);
+    else this.text.text = text; // what was written before is one undo away
   }
 
   async begin(name) {
     if (!name) return;
     this.duration.value = "";
     this.text.text = pretty(await get(`/v1/scenes/${name}`, {}, this.signal));
-    note({ preset: null, job: null });
+    forget();
   }
 
   changed(text) {
     keep(text);
+    if (text !== this.first) note({ preset: null, job: null }); // who comes back finds what was written
     try {
       this.document = JSON.parse(text);
     } catch (error) {

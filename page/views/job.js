@@ -237,17 +237,15 @@ class Head {
   }
 }
 
-/** A link to the form with this job's values, or to the editor with its scene. */
+/** Links to the form with this job's values, and to the editor with its scene. */
 function changed(job) {
   const { scene, kind } = job.job;
-  if (!scene.preset) {
-    return element("a", { class: "button", href: address(["editor"], { job: job.id }) }, "Change");
-  }
-  const given = Object.fromEntries(
-    Object.entries(scene.parameters ?? {}).filter(([, value]) => value !== null));
-  const query = { ...given, kind: kind === "simulate" ? null : kind, ...KINDS[kind]?.given(job.job) };
-  return element("a", { class: "button", href: address(["new", scene.preset], query) },
-    "Run with changes");
+  const given = Object.fromEntries(Object.entries(scene.preset ? scene.parameters ?? {} : {})
+    .filter(([, value]) => value !== null));
+  const query = { ...given, kind: kind === "simulate" ? null : kind, ...KINDS[kind]?.given(job.job), job: job.id };
+  const link = (text, parts) => element("a", { class: "button", href: address(parts, query) }, text);
+  const form = link("Run with changes", ["new", ...(scene.preset ? [scene.preset] : [])]);
+  return scene.preset ? form : [form, link("Change the mechanism", ["editor"])];
 }
 
 const REMEDIES = {

@@ -1,6 +1,7 @@
 /** A new job of a preset, or of the scene that is being written: its parameters, its cost before it is submitted, and how others submit it. */
 
 import { kept } from "../editor/kept.js";
+import { asBefore, without } from "../interface/as_before.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { jobAsText } from "../interface/job_as_text.js";
@@ -16,13 +17,15 @@ import { get, post } from "../requests/service.js";
 
 export async function show(room, { parts, query, signal }) {
   const [wanted] = parts;
-  const document_ = wanted ? await get(`/v1/scenes/${encodeURIComponent(wanted)}`, {}, signal) : written();
+  const before = await jobBefore(query, signal);
+  const document_ = wanted ? await get(`/v1/scenes/${encodeURIComponent(wanted)}`, {}, signal)
+    : before?.scene ?? written();
   const { name } = document_;
   document.title = `${name} · jointplay`;
   const given = numbersOf(query, document_.parameters ?? {});
   const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
   const [duration] = await Promise.all([proposedDuration(document_, signal), kindsOfJobs(signal)]);
-  const form = new JobForm(document_, Boolean(wanted), query.get("kind") ?? "simulate", given, duration, signal);
+  const form = new JobForm(document_, { wanted, before }, query.get("kind") ?? "simulate", given, duration, signal);
   const turn = element("p", { class: "quiet small", role: "status" });
   const sketch = new Sketch(canvas, { labels: true, onFound: ({ drivers_time: once, repeats }) =>
     fill(turn, once !== null && repeats && `Its drivers come round every ${withUnit(once, "s")}.`) }, signal);
@@ -62,6 +65,17 @@ export async function show(room, { parts, query, signal }) {
   form.estimate.refresh();
 }
 
+/** Returns the document of the job that is to be run with changes; null: there is none any more. */
+async function jobBefore(query, signal) {
+  if (!query.has("job")) return null;
+  try {
+    return (await get(`/v1/jobs/${encodeURIComponent(query.get("job"))}`, {}, signal)).job;
+  } catch (error) {
+    if (error.status === 404 || error.status === 410) return null;
+    throw error;
+  }
+}
+
 /** Returns the scene that is being written in this tab. */
 function written() {
   const text = kept();
@@ -70,8 +84,8 @@ function written() {
 }
 
 class JobForm {
-  constructor(document_, isPreset, kind, given, duration, signal) {
-    Object.assign(this, { scene: document_, isPreset, duration, signal, onchange: () => {} });
+  constructor(document_, { wanted, before }, kind, given, duration, signal) {
+    Object.assign(this, { scene: document_, isPreset: Boolean(wanted), before, duration, signal, onchange: () => {} });
     const changed = () => this.changed();
     this.parameters = new ParameterFields(document_.parameters ?? {}, given, changed);
     this.kindRoom = element("div");
@@ -80,6 +94,7 @@ class JobForm {
       Object.entries(KINDS).map(([name, { title }]) =>
         element("option", { value: name, selected: name === kind }, title)));
     this.kindHelp = element("p", { class: "help", id: "kind-help" });
+    this.beginning = element("p", { class: "help" });
     this.wrong = element("div", { role: "alert" });
     this.button = element("button", { type: "submit", class: "main" }, "Run");
     this.estimate = new Estimate(() => this.document(), signal);
@@ -87,7 +102,7 @@ class JobForm {
       "form",
       { class: "panel stacked", novalidate: true, onsubmit: (event) => this.submit(event) },
       element("div", { class: "field" }, element("label", { for: "kind" }, "What to compute"),
-        this.kind, this.kindHelp),
+        this.kind, this.kindHelp, this.beginning),
       this.kindRoom,
       element("h2", {}, "Parameters of the mechanism"),
       Object.keys(document_.parameters ?? {}).length ? this.parameters.element : element("p", { class: "help" },
@@ -106,6 +121,8 @@ class JobForm {
     this.kind.value = kind;
     this.kindHelp.textContent = KINDS[kind].help;
     this.own = fieldsOf(kind, this.scene, this.duration, given, () => this.changed());
+    this.earlier = this.before?.kind === kind ? this.asEarlier() : null;
+    fill(this.beginning, this.earlier && "What has no field here is as in the job that is changed.");
     fill(this.kindRoom, this.own.element);
     this.changed();
   }
@@ -132,7 +149,16 @@ class JobForm {
     const scene = this.isPreset ? named : withDefaults(this.scene, parameters);
     const label = this.label.value.trim();
     const made = KINDS[kind].made(this.own.all());
-    return { kind, scene, ...made, ...(label ? { label } : {}) };
+    const all = this.earlier ? asBefore(this.earlier.document, this.earlier.made, made) : made;
+    return { kind, scene, ...all, ...(label ? { label } : {}) };
+  }
+
+  /** Returns what the form would make of the earlier job, and what of that job's document stays as it is. */
+  asEarlier() {
+    const { kind, scene, label, ...document } = this.before;
+    const own = fieldsOf(kind, this.scene, this.duration, KINDS[kind].given(this.before), () => {}).all();
+    const made = KINDS[kind].made(own);
+    return { made, document: without(document, Object.keys(own).filter((name) => !(name in made))) };
   }
 
   async submit(event) {
