@@ -1,11 +1,11 @@
 /** The attractors that many starts end on, as a table, and the boundary of a map of basins. */
 
 import { element } from "../interface/element.js";
-import { short } from "../interface/numbers.js";
+import { short, withError } from "../interface/numbers.js";
 
 /** Returns a share with its standard error, both between 0 and 1, in words. */
 export function share(value, error) {
-  return `${short(100 * value, 4)} ± ${short(100 * error, 2)} %`;
+  return `${withError(100 * value, 100 * error)} %`;
 }
 
 /** Returns the table of the attractors of an answer of the service, below it the boundary of a map. */
@@ -19,14 +19,15 @@ export function mapOfAttractors({ attractors, boundary }) {
 
 /** Returns the table of attractors: points, shares, exponents. */
 export function attractorTable(attractors) {
+  const judged = attractors.some(({ lyapunov }) => lyapunov !== null);
   const rows = attractors.map((one) => element("tr", {},
     element("th", { scope: "row" }, swatch(one.colour), ` ${one.name}`),
     element("td", {}, short(one.points, 7)),
     element("td", {}, share(one.share, one.share_error)),
-    element("td", {}, one.lyapunov === null ? "" : `${short(one.lyapunov, 3)} ± ${short(one.lyapunov_error, 2)}`)));
+    judged && element("td", {}, one.lyapunov === null ? "" : withError(one.lyapunov, one.lyapunov_error))));
   return element("table", {},
     element("thead", {}, element("tr", {},
-      ["Attractor", "Points", "Share", "Exponent (1/s)"].map((title) => element("th", { scope: "col" }, title)))),
+      ["Attractor", "Points", "Share", ...(judged ? ["Exponent (1/s)"] : [])].map((title) => element("th", { scope: "col" }, title)))),
     element("tbody", {}, rows));
 }
 

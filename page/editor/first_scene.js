@@ -25,7 +25,7 @@ export const FIRST_SCENE = {
     guide: { type: "prismatic", guide: "ground.O", slider: "slider.pin", axis: [1, 0] },
   },
   drivers: { motor: { joint: "main", position: 1, speed: 60 } },
-  start: { angles: { crank: 1, rod: -0.4 } },
+  start: { angles: { crank: 1 } },
   parameters: {
     clearance: {
       help: "Radial clearance of the small end.", unit: "m", default: 2e-4, minimum: 0, maximum: 1e-3,

@@ -28,7 +28,7 @@ export function formOfKind(name, described, { axis, ends, choice, proposed }) {
     .map(([field, one]) => new DrawnParameters(field, one, choice, proposed));
   const others = shown.filter(([, { form }]) => !OF_PARAMETERS.has(form));
   return {
-    title: titled(name),
+    title: TITLES[name] ?? titled(name),
     help: described.help,
     fields: (document, duration) => Object.assign(
       {},
@@ -66,6 +66,7 @@ export function formOfKind(name, described, { axis, ends, choice, proposed }) {
 }
 
 const STANDARD = "as usual";
+const TITLES = { poincare: "Poincaré sections" };
 
 /** Whether what varies is a number of the start, by its JSON pointer. */
 function isStart(name) {

@@ -5,9 +5,10 @@ import { preset } from "./scene_of_job.js";
 import { startNumber } from "./start_numbers.js";
 import { parameterWords } from "./state.js";
 
-/** Returns the declared parameters of the preset of a job's document; none of another scene. */
+/** Returns the parameters that the scene of a job's document declares. */
 export async function declaredFor({ scene }) {
-  return scene?.preset ? (await preset(scene.preset).catch(() => ({}))).parameters ?? {} : {};
+  const declaring = scene?.preset ? await preset(scene.preset).catch(() => ({})) : scene;
+  return declaring?.parameters ?? {};
 }
 
 /** Returns the words of a job's document. */

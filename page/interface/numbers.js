@@ -38,8 +38,16 @@ export function withUnit(value, unit, digits = 4) {
   if (unit === "1" || !unit) return short(value, digits);
   if (!PREFIXED.has(unit) || value === 0) return `${short(value, digits)} ${unitText(unit)}`;
   const [factor, prefix] =
-    PREFIXES.find(([one]) => Math.abs(value) >= one * 0.9995) ?? PREFIXES.at(-1);
+    PREFIXES.find(([one]) => Math.abs(value) >= one * 0.9995) ?? [1, ""];
   return `${short(value / factor, digits)} ${prefix}${unit}`;
+}
+
+/** Returns a value with its standard error, to the digits that the error leaves: 2.6 ± 1.2. */
+export function withError(value, error) {
+  if (!(error > 0)) return `${short(value)} ± ${short(error)}`;
+  const [size, last] = [value, error].map((one) => Math.floor(Math.log10(Math.abs(one))));
+  const digits = size - last + 2;
+  return `${short(value, Math.min(Math.max(digits, 1), 9))} ± ${short(error, 2)}`;
 }
 
 /** Returns what one of an axis's unit is in SI, and the unit with its prefix or factor, as figures have it. */

@@ -3,7 +3,8 @@
 import { element, refill } from "./element.js";
 
 const EXTREMES = ["maximum", "minimum", "range"];
-const TOGETHER = "extremes and mean";
+const TOGETHER = "extremes";
+const WITH_MEAN = "extremes and mean";
 
 export class Quantities {
   /** @param onchoice called with `{channel, of}` whenever one of them is chosen */
@@ -50,7 +51,8 @@ export class Quantities {
     const start = `${this.channel}.`;
     const own = Object.keys(statistics).filter((name) => name.startsWith(start))
       .map((name) => name.slice(start.length));
-    return [...(this.together ? [TOGETHER] : []), ...EXTREMES, ...own];
+    const all = own.includes("mean") ? WITH_MEAN : TOGETHER;
+    return [...(this.together ? [all] : []), ...EXTREMES, ...own];
   }
 
   /** Returns `{name, unit, curves: [{title, values, colour, swatch}]}`; a band has low and high. */
@@ -62,7 +64,7 @@ export class Quantities {
       title: quantity.replaceAll("_", " ") || channel, values: this.column(quantity),
       colour: colours[`curve-${place}`], swatch: `swatch-${place}`,
     });
-    if (of !== TOGETHER) return { name: of ? `${of.replaceAll("_", " ")} of ${channel}` : channel, unit, curves: [curve(of)] };
+    if (of !== TOGETHER && of !== WITH_MEAN) return { name: of ? `${of.replaceAll("_", " ")} of ${channel}` : channel, unit, curves: [curve(of)] };
     const mean = statistics[`${channel}.mean`] && curve("mean", 2);
     const spread = mean && statistics[`${channel}.standard_deviation`] && this.column("standard_deviation");
     const band = spread && {

@@ -28,7 +28,7 @@ OF_A_SEQUENCE = "saltelli"
 
 
 class SensitivityJob(ExtremesStudyJob):
-    """Shares of parameters with distributions in what extremes and statistics vary by."""
+    """Shares that each of some parameters has in the scatter of extremes and statistics."""
 
     kind: Literal["sensitivity"]
     parameters: Annotated[

@@ -35,9 +35,8 @@ SamplesPerPeriod = Annotated[
         ge=16,
         le=4096,
         description=(
-            "samples in a period that statistics of channels are made of; they are equally"
-            " spaced, of the dense output, in the scene's own time scale if the drivers have"
-            " no period"
+            "equally spaced samples in a period, from which statistics of channels are made;"
+            " without a common period, in the scene's own time scale instead"
         ),
     ),
 ]

@@ -19,7 +19,21 @@ def test_rounding_beside_a_larger_value_is_nothing(browsing, service_url):
     ]
     with browsing.page(f"{service_url}/") as page:
         read = page.evaluate(READ, pairs)
-    assert read == ["0 m", "0 m", "0.0049 pm", "80 mm", "–"]
+    assert read == ["0 m", "0 m", "4.9e−15 m", "80 mm", "–"]
+
+
+ERRORS = """async (pairs) => {
+  const { withError } = await import("/page/interface/numbers.js");
+  return pairs.map(([value, error]) => withError(value, error));
+}"""
+
+
+def test_a_value_has_the_digits_that_its_error_leaves(browsing, service_url):
+    pairs = [[2.60417, 1.17], [-1.6372, 2.31], [93.04, 2.6], [1234.5, 0.012], [0, 2.4], [1.5, 0]]
+    with browsing.page(f"{service_url}/") as page:
+        read = page.evaluate(ERRORS, pairs)
+    told = ["2.6 ± 1.2", "−1.6 ± 2.3", "93 ± 2.6", "1234.5 ± 0.012", "0 ± 2.4", "1.5 ± 0"]
+    assert read == told
 
 
 AXIS = """async (lists) => {

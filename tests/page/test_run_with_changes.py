@@ -116,6 +116,7 @@ def test_a_study_of_ones_own_mechanism_stays_one(browsing, http, service_url, ow
         again = opened(page, service_url, before["id"])
         assert made_of(http, again)["job"] == before["job"]
         page.go_back()
+        expect(page.get_by_text("speed 20 rad/s … 30 rad/s")).to_be_visible()
         page.get_by_role("link", name="Change the mechanism").click()
         page.get_by_label("Scene document").wait_for()
         document = page.evaluate("sessionStorage.getItem('jointplay-scene')")

@@ -1,7 +1,7 @@
 /** A bifurcation diagram: density, verdicts, exponents; a click leads to that simulation. */
 
 import { element, fill } from "../../interface/element.js";
-import { short, typed, unitText } from "../../interface/numbers.js";
+import { typed, unitText, withError } from "../../interface/numbers.js";
 import { note } from "../../interface/place.js";
 import { offer } from "../../interface/point_of_study.js";
 import { prepared } from "../../mechanism/canvas.js";
@@ -155,7 +155,7 @@ class Diagram {
       Math.abs(one.value - value) < Math.abs(best.value - value) ? one : best);
     this.at.value = String(nearest.value);
     const lines = [`${nearest.sections.length} sections`, nearest.verdict, nearest.reason].filter(Boolean);
-    const exponent = nearest.exponent === null ? "" : `exponent ${short(nearest.exponent, 3)} ± ${short(nearest.error, 2)} 1/s`;
+    const exponent = nearest.exponent === null ? "" : `exponent ${withError(nearest.exponent, nearest.error)} 1/s`;
     const values = { [this.parameter]: [nearest.value, this.unit] };
     offer(this.chosen, this.job, values, lines.join("; "), exponent);
   }
