@@ -7,6 +7,7 @@ import { SceneSchema } from "../editor/schema.js";
 import { FIRST_SCENE } from "../editor/first_scene.js";
 import { keep, kept } from "../editor/kept.js";
 import { TextEditor } from "../editor/text.js";
+import { documentIn } from "../editor/written.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { someDuration } from "../interface/kinds_of_job.js";
@@ -118,14 +119,13 @@ class Editing {
     keep(text);
     if (text !== this.first) note({ preset: null, job: null }); // who comes back finds what was written
     try {
-      this.document = JSON.parse(text);
+      this.document = documentIn(text);
     } catch (error) {
       this.checking.abort();
       fill(this.facts);
       fill(this.notes);
       this.estimate.refresh(); // which says that there is none
-      const at = Number(/position (\d+)/.exec(error.message)?.[1] ?? 0);
-      this.tell([{ from: Math.min(at, text.length), to: Math.min(at + 1, text.length), detail: error.message }]);
+      this.tell(error.places);
       return;
     }
     this.tell([]);
@@ -169,8 +169,7 @@ class Editing {
   job() {
     const duration = typed(this.duration.value);
     if (!(duration > 0)) throw new Error("Give a duration in s.");
-    JSON.parse(this.text.text);
-    return { kind: "simulate", scene: this.document, duration };
+    return { kind: "simulate", scene: documentIn(this.text.text), duration };
   }
 
   /** Shows what is wrong, at its place and in a list; pointers may lead into a job. */

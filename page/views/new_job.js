@@ -1,6 +1,7 @@
 /** A new job of a preset, or of the scene that is being written: its parameters, its cost before it is submitted, and how others submit it. */
 
 import { kept } from "../editor/kept.js";
+import { documentIn } from "../editor/written.js";
 import { asBefore, without } from "../interface/as_before.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
@@ -80,7 +81,7 @@ async function jobBefore(query, signal) {
 function written() {
   const text = kept();
   if (text === null) throw new Error("No mechanism is being written in this tab; begin under “Your own”.");
-  return JSON.parse(text);
+  return documentIn(text);
 }
 
 class JobForm {

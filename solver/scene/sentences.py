@@ -31,10 +31,10 @@ SENTENCES = {
     "int_type": "'{field}' must be a whole number{of_unit}{meant}",
     "int_from_float": "'{field}' must be a whole number{of_unit}.",
     "string_type": "'{field}' must be a string.",
-    "list_type": "'{field}' must be a list.",
+    "list_type": "'{field}' must be a list{of_pairs}.",
     "tuple_type": "'{field}' must be a list.",
     "dict_type": "'{field}' must be an object.",
-    "model_type": "'{field}' must be an object.",
+    "model_type": "'{field}' must be an object{with_fields}.",
     "literal_error": "'{field}' must be {expected}{meant}",
     "too_short": "'{field}' has {actual_length} entries, and needs at least {min_length}.",
     "too_long": "'{field}' has more entries than the {max_length} that it may have.",
@@ -71,7 +71,9 @@ def schema_problems(
             if hints <= MOST_HINTS:
                 sentence = _out_of_form(field, keys, root, document)
         else:
-            sentence = _sentence(item, field, _unit(keys, root, document))
+            sentence = _sentence(
+                item, field, _unit(keys, root, document), _reached(keys, root, document)
+            )
         if item["type"] == "missing":
             sentence += _of_parameter(pointer, document)
         found.setdefault(pointer, sentence)  # the first of a union's complaints says enough
@@ -87,7 +89,11 @@ def _out_of_form(field: str, keys: list[str], root: type[BaseModel], document: o
     return f"There is no field '{field}' here; {instead(field, known)}"
 
 
-def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
+Place = tuple[list[FieldInfo], list[type[BaseModel]]]
+"""The last fields on the way to a place of a document, and the models that are meant there."""
+
+
+def _sentence(item: ErrorDetails, field: str, unit: str, place: Place) -> str:
     """Return what is wrong with a field; `unit` has a space before."""
     kind, context = item["type"], item.get("ctx", {})
     if kind not in SENTENCES:
@@ -104,8 +110,29 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
     elif r"\." in pattern:
         kind = "reference"
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
+    units |= {"of_pairs": _of_pairs(place[0]), "with_fields": _with_fields(place[1])}
     more = units | {"meant": _meant_number(item) if kind == "int_type" else _meant_word(item)}
     return SENTENCES[kind].format(field=field, given=item["input"], **more, **context)
+
+
+def _of_pairs(fields: Sequence[FieldInfo]) -> str:
+    """Return what a list must be of, where fields hold pairs of numbers: places, directions."""
+    inside: list[Any] = [*fields]
+    while inside:
+        part = inside.pop()
+        told = getattr(part, "metadata", ())
+        lengths = [getattr(one, f"{end}_length", None) for end in ("min", "max") for one in told]
+        if lengths.count(2) == 2:
+            return " of 2 numbers"
+        inside += [*getattr(part, "__args__", ()), *getattr(part, "__metadata__", ())]
+        inside += [part.annotation] if isinstance(part, FieldInfo) else []
+    return ""
+
+
+def _with_fields(models: Sequence[type[BaseModel]]) -> str:
+    """Return what an object must have, where one model is meant."""
+    needed = [f"'{name}'" for model in models for name, f in _fields(model) if f.is_required()]
+    return f" with {' and '.join(needed)}" if len(models) == 1 and needed else ""
 
 
 def _of_parameter(pointer: str, document: object) -> str:
@@ -159,9 +186,7 @@ def _unit(keys: Sequence[str], root: type[BaseModel], document: object) -> str:
     return "" if unit == "1" else f" {unit}"
 
 
-def _reached(
-    keys: Sequence[str], root: type[BaseModel], document: object
-) -> tuple[list[FieldInfo], list[type[BaseModel]]]:
+def _reached(keys: Sequence[str], root: type[BaseModel], document: object) -> Place:
     """Return the last fields on the way along keys, and the models that a document means there."""
     models, value, is_key = [root], document, False
     fields: list[FieldInfo] = []

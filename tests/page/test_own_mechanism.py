@@ -134,6 +134,9 @@ def test_what_is_told_of_a_scene_is_told_of_the_one_that_is_there(browsing, serv
         page.get_by_text("No estimate: ").wait_for()
         expect(page.get_by_text("Degrees of freedom")).to_have_count(0)
         expect(page.get_by_role("button", name="Run", exact=True)).to_be_disabled()
+        paste(page, json.dumps(arm()).replace('"mass"', '"mass": 3.0, "mass"', 1))
+        page.get_by_text("The key 'mass' is given twice").first.wait_for()
+        expect(page.get_by_role("button", name="Run", exact=True)).to_be_disabled()
         duration.fill("0.5")
         swung = arm() | {"drivers": {}, "start": {"points": {"arm.E": [0.0, 0.2]}}}
         paste(page, json.dumps(swung))

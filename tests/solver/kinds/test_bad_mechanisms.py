@@ -68,6 +68,17 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
         "/forces/spring/second",
         ["did you mean 'crank'?"],
     ),
+    "gravity as one number": ({"/gravity": -9.81}, "/gravity", ["must be a list of 2 numbers."]),
+    "a point as one number": (
+        {"/bodies/crank/points/b": 0.2},
+        "/bodies/crank/points/b",
+        ["'b' must be a list of 2 numbers."],
+    ),
+    "a clearance as a number": (
+        {"/joints/A/clearance": 2e-4},
+        "/joints/A/clearance",
+        ["must be an object with 'radial_clearance' and 'bearing_radius' and 'contact'."],
+    ),
     "a misspelt type of joint": (
         {"/joints/A/type": "revolut"},
         "/joints/A/type",
