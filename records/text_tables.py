@@ -37,11 +37,21 @@ def csv_lines(
             yield f"# {line}".rstrip() + "\n"
     yield ",".join(titles) + "\n"
     for block in blocks:
-        columns = [np.asarray(column) for column in block]
+        columns = [_quoted(np.asarray(column)) for column in block]
         row = ",".join([_FORMATS[column.dtype.kind] for column in columns]) + "\n"
         values = zip(*(column.tolist() for column in columns), strict=True)
         if text := "".join([row % one for one in values]):
             yield text
+
+
+def _quoted(column: NDArray[Any]) -> NDArray[Any]:
+    """Return a column of text with quotes about what would be cut elsewhere (RFC 4180)."""
+    if column.dtype.kind != "U":
+        return column
+    cells = column.tolist()
+    return np.array(
+        ['"' + one.replace('"', '""') + '"' if {*one} & {*',"\n'} else one for one in cells]
+    )
 
 
 def json_numbers(values: NDArray[np.float64]) -> str:

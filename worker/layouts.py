@@ -1,6 +1,7 @@
 """Layouts of the stores of jobs: what results a job has, before anything of it is computed."""
 
 from jointplay.records.channel import Channel
+from jointplay.records.point_numbers import OUTPUTS
 from jointplay.solver.joints.curves import joint_curves
 from jointplay.solver.kinds import KINDS, Admission, Study
 from jointplay.solver.nonlinear.settling import SETTLINGS
@@ -11,7 +12,6 @@ from jointplay.solver.runs.dense_output.columns import (
     period_of_steps,
     step_columns,
 )
-from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.studies.layout import StudyLayout

@@ -28,8 +28,8 @@ from jointplay.records.motion import (
     name_of,
 )
 from jointplay.records.point import PointStatus
+from jointplay.records.point_numbers import OUTPUTS
 from jointplay.service.results.stores import ResultsOfJob
-from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies.reader import StudyReader
 
 _VERDICT = "verdict"

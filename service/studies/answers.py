@@ -11,6 +11,7 @@ from jointplay.records.branch import branch_document
 from jointplay.records.channel import Channel, by_name
 from jointplay.records.peak import PeakColumns
 from jointplay.records.point import PointStatus
+from jointplay.records.point_numbers import OUTPUTS
 from jointplay.service.results.schemas import Series
 from jointplay.service.studies import schemas
 from jointplay.service.studies.queries import (
@@ -24,7 +25,6 @@ from jointplay.service.studies.queries import (
     page,
 )
 from jointplay.solver.nonlinear.reasons import undecided_reasons
-from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies.reader import StudyReader
 
 UNKNOWN = ("1", "")

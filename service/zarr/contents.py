@@ -10,8 +10,8 @@ from hashlib import sha256
 from typing import Final, Self
 
 from jointplay.records.channel import Channel
+from jointplay.records.point_numbers import OUTPUTS
 from jointplay.service.results.stores import ResultsOfJob
-from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.identity import growing_study

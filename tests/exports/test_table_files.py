@@ -108,6 +108,23 @@ def test_words_and_numbers_of_tables_are_kept(job, study, tmp_path):
     np.testing.assert_array_equal(sections["time"], study.study().section_times().ravel())
 
 
+def test_verdicts_have_their_reasons_and_exponents_their_unit_in_every_table(tmp_path):
+    described = jobs.bifurcation(
+        "impact-oscillator", "speed", [25.0], settle=5, record=12, indicators=["lyapunov"]
+    )
+    judged = jointplay.run(described, output=tmp_path / "OUT", processes=1)
+    (reason,) = judged.points["reason"]
+    assert "," in reason  # which is no end of a cell
+    text = judged.export(tmp_path / "points.csv", "points").read_text()
+    titles, row = csv.reader(text.splitlines())
+    cells = dict(zip(titles, row, strict=True))
+    assert cells["reason"] == reason
+    assert float(cells["lyapunov [1/s]"]) == judged.points["lyapunov"][0]
+    assert float(cells["smallest_step [s]"]) > 0
+    assert judged.points.attrs["units"]["lyapunov"] == "1/s"
+    assert judged.dataset["lyapunov"].attrs["units"] == "1/s"
+
+
 def test_what_no_form_is_named_for_is_refused(job, study, tmp_path):
     with pytest.raises(UnknownForm, match=r"x\.xls: tables are written as \.csv, .* or \.parquet"):
         job.export(tmp_path / "x.xls")

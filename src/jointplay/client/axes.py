@@ -1,12 +1,12 @@
 """A study as an xarray dataset whose axes are its parameters."""
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.point import PointStatus
+from jointplay.records.point_numbers import meanings_of
 from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def on_axes(study: StudySource) -> "xr.Dataset":
     if study.verdicts is not None:
         names = np.array([*study.verdict_names, ""])
         variables["verdict"] = (axes, laid_out(names[study.verdicts]))
-    meanings: Mapping[str, Any] = study.attributes.get("meanings", {})
+    meanings = meanings_of(study)
     for name, values in {**study.indicators, **study.statistics}.items():
         if name != "verdict":
             unit, long_name = meanings.get(name, ("", ""))

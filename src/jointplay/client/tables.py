@@ -16,6 +16,7 @@ from jointplay.client.results import Results, Store
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
 from jointplay.records.point import PointStatus
+from jointplay.records.point_numbers import meanings_of
 from jointplay.records.study import StudySource, directions_of
 
 if TYPE_CHECKING:
@@ -157,7 +158,7 @@ class TabledJob(JobRecord, ABC):
         numbers = {**study.indicators, **study.statistics}
         columns |= {name: one for name, one in numbers.items() if name != "verdict"}
         units = {one.name: one.unit for one in study.parameters}
-        units |= {name: unit for name, (unit, _) in study.attributes.get("meanings", {}).items()}
+        units |= {name: unit for name, (unit, _) in meanings_of(study).items()}
         return _table(columns, units).rename_axis("point")
 
     def _insist(self, what: str, *results: str) -> None:

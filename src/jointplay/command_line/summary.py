@@ -117,10 +117,9 @@ def _sections_of(source: "StudySource") -> dict[str, int] | None:
 
 def units(source: "StudySource") -> dict[str, str]:
     """Return the units of the statistics and indicators of points, by name."""
-    from jointplay.solver.runs.study.outputs import OUTPUTS
+    from jointplay.records.point_numbers import meanings_of
 
-    own = source.attributes.get("meanings", {})
-    return {name: unit for name, (unit, _) in {**OUTPUTS, **own}.items()}
+    return {name: unit for name, (unit, _) in meanings_of(source).items()}
 
 
 def _missed(job: Mapping[str, Any], fewest: int) -> str:

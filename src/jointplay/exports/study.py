@@ -76,8 +76,6 @@ def point_lines(
     columns: dict[str, Any] = dict(words_of_points(source))
     columns |= {one.title: source.values[:, at] for at, one in enumerate(source.parameters)}
     columns |= columns_of_points(source, channels, units)
-    if "reason" in columns:  # sentences have commas
-        columns["reason"] = ['"' + one.replace('"', '""') + '"' for one in columns["reason"]]
     yield from csv_lines(["point", *columns], _point_blocks(points, columns), comments)
 
 

@@ -10,6 +10,7 @@ from jointplay.exports.study import columns_of_points, words_of_points
 from jointplay.records.channel_choice import choose
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
+from jointplay.records.point_numbers import meanings_of
 from jointplay.records.run import inside
 from jointplay.records.study import directions_of
 from jointplay.records.table_files import Column
@@ -124,8 +125,7 @@ def _of_points(source: "StudySource", part: slice) -> Iterator[Column]:
         yield Column(name, "", np.array(words[part], np.str_))
     for at, one in enumerate(source.parameters):
         yield Column(one.name, one.unit, source.values[part, at])
-    meanings: Mapping[str, Any] = source.attributes.get("meanings", {})
-    units = {name: str(unit) for name, (unit, _) in meanings.items()}
+    units = {name: unit for name, (unit, _) in meanings_of(source).items()}
     for title, values in columns_of_points(source, _names(source.channels), units).items():
         found = re.fullmatch(r"(.*) \[(.*)\]", title)
         name, unit = found.groups() if found else (title, "")

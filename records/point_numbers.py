@@ -1,5 +1,7 @@
 """Numbers that every point has beside its sections and peaks: unit and long name."""
 
+from jointplay.records.study import StudySource
+
 STATISTICS = {
     "steps": ("1", "accepted steps"),
     "rejections": ("1", "rejected steps"),
@@ -34,3 +36,11 @@ INDICATORS = {
     "verdict": ("1", "a position in the attribute verdicts"),
 }
 OUTPUTS = STATISTICS | INDICATORS
+
+
+def meanings_of(source: StudySource) -> dict[str, tuple[str, str]]:
+    """Return unit and long name of the statistics and indicators of a study, by name.
+
+    Those of every study come first, then those of its kind, and those that the job chose.
+    """
+    return {**OUTPUTS, **source.attributes.get("meanings", {})}
