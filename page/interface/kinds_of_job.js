@@ -235,12 +235,19 @@ function axis(document, name, title, { help, required, varied: of }, nth, before
   return varied(document, name, title, { count: 24, help, before, none: !required, of, nth });
 }
 
-/** Returns the range that is proposed for a parameter, or a number of the start. */
+/** Returns the range that is proposed for a parameter, within its own, or for a number of the start. */
 function proposed(document, name) {
   if (name === NONE) return { from: null, to: null };
-  const { from, to } = startNumbers(document)[name] ?? {};
-  const middle = document.parameters?.[name]?.default || 1;
-  return { from: rounded(from ?? middle * 0.5), to: rounded(to ?? middle * 1.5) };
+  const start = startNumbers(document)[name];
+  return start ? { from: rounded(start.from), to: rounded(start.to) }
+    : aboutDefault(document.parameters?.[name] ?? {});
+}
+
+function aboutDefault({ default: middle, minimum, maximum }) {
+  const [low, high] = [minimum ?? -Infinity, maximum ?? Infinity];
+  if (!middle && Number.isFinite(high - low)) return { from: low, to: high };
+  const ends = [0.5, 1.5].map((share) => Math.min(Math.max(rounded(share * (middle || 1)), low), high));
+  return { from: Math.min(...ends), to: Math.max(...ends) };
 }
 
 /** Returns from, to and count of values that are given so, or one by one. */

@@ -33,12 +33,20 @@ export function startNumber(pointer) {
   return { name: `${name}.${word}${axis ? `_${axis}` : ""}`, unit };
 }
 
+/** Returns the bodies that a driver turns against the ground. */
+function movedBy({ joint, body }, joints) {
+  if (body) return [body];
+  const ends = Object.values(joints[joint] ?? {}).filter((one) => typeof one === "string" && one.includes("."));
+  const bodies = ends.map((one) => one.split(".")[0]);
+  return bodies.includes("ground") ? bodies : [];
+}
+
 /**
  * Returns by pointer the name and unit of each number, and a range to begin with: `{name, unit, from,
  * to}`; what moves and its speed stand side by side.
  *
  * These are places and speeds of journals in their play, angles and angular velocities of bodies that
- * the scene starts at, and positions of drivers. Others can be written in a job's document.
+ * the scene starts at and no driver turns, and positions of drivers. Others can be written in a job's document.
  */
 export function startNumbers(document) {
   const { joints, start, drivers } = withParameters(document);
@@ -53,14 +61,16 @@ export function startNumbers(document) {
       add(`/start/joints/${name}/rate/${k}`, 0, RATE);
     }
   }
+  const moved = new Set(Object.values(drivers ?? {}).flatMap((one) => movedBy(one, joints)));
+  for (const [name, angle] of Object.entries(start?.angles ?? {})) {
+    if (moved.has(name)) continue;
+    add(`/start/angles/${name}`, angle, 1);
+    add(`/start/angular_velocities/${name}`, start.angular_velocities?.[name] ?? 0, 1);
+  }
   for (const [name, { joint, position }] of Object.entries(drivers ?? {})) {
     const slides = joint && !marks(joints[joint]).turns; // without a joint it turns a body
     const range = slides ? [position ?? 0, STROKE, "m"] : [TURN / 2, TURN / 2, "rad"];
     add(`/drivers/${name}/position`, ...range);
-  }
-  for (const [name, angle] of Object.entries(start?.angles ?? {})) {
-    add(`/start/angles/${name}`, angle, 1);
-    add(`/start/angular_velocities/${name}`, start.angular_velocities?.[name] ?? 0, 1);
   }
   return found;
 }

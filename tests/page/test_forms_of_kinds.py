@@ -136,6 +136,22 @@ def test_numbers_of_the_start_vary_and_are_drawn(browsing, service_url):
         assert admit(document).points == 7
 
 
+def test_proposed_ranges_ascend_within_what_is_allowed(browsing, service_url):
+    proposed = {
+        ("double-four-bar", "sweep", "First parameter", "speed"): ("-1.5", "-0.5"),  # of -1 rad/s
+        ("jansen-leg", "sweep", "First parameter", "restitution"): ("0.45", "1"),  # at most
+        ("slider-crank", "sweep", "First parameter", "clearance_Q"): ("0", "0.01"),  # 0 by default
+    }
+    with browsing.page(service_url, expected=("422",)) as page:
+        for (scene, kind, label, parameter), ends in proposed.items():
+            page.goto(f"{service_url}/#/new/{scene}?kind={kind}")
+            page.get_by_label(label, exact=True).select_option(parameter)
+            for end, value in zip(("From", "To"), ends, strict=True):
+                expect(page.get_by_label(end, exact=True)).to_have_value(value)
+        page.goto(f"{service_url}/#/new/driven-pendulum?kind=basins")  # its motor turns the crank
+        expect(page.get_by_label("Along", exact=True)).to_have_value("/start/angles/rod")
+
+
 def test_the_ends_of_a_range_have_the_unit_of_what_varies(browsing, service_url):
     def unit(page, label):
         return page.get_by_label(label, exact=True).locator("xpath=following-sibling::*")
