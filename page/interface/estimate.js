@@ -22,6 +22,12 @@ export class Estimate {
     this.refresh(QUIET);
   }
 
+  /** Says why there is none. */
+  none(reason) {
+    this.asking.abort();
+    fill(this.element, "No estimate: ", reason);
+  }
+
   async refresh(wait = 0) {
     this.asking.abort();
     this.asking = new AbortController();
@@ -38,7 +44,7 @@ export class Estimate {
       this.onWrong([]);
     } catch (error) {
       if (error.name === "AbortError") return;
-      fill(this.element, "No estimate: ", error.message);
+      this.none(error.message);
       if (error.errors?.length) this.onWrong(error.errors);
     }
   }

@@ -156,7 +156,8 @@ class Editing {
       fill(this.facts, factsOf(found));
       fill(this.notes, notesOf(found).map((sentence) => element("li", {}, sentence)));
       this.tell(found.problems);
-      if (!found.problems.length) this.estimate.refresh();
+      if (found.problems.length) this.estimate.none(found.problems[0].detail);
+      else this.estimate.refresh();
     } catch (error) {
       if (error.name === "AbortError") return; // typed on
       fill(this.facts);

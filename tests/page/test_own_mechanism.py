@@ -142,3 +142,7 @@ def test_what_is_told_of_a_scene_is_told_of_the_one_that_is_there(browsing, serv
         paste(page, json.dumps(swung))
         page.get_by_text("asks for 0, 0.2 m; the start has 0, 0.1 m.").wait_for()
         expect(duration).to_have_value("0.5")
+        estimate.wait_for()
+        aside = {"outputs": [{"name": "height", "channel": "arm.z", "help": "none"}]}
+        paste(page, json.dumps(swung | aside))
+        expect(page.get_by_text("No estimate: ")).to_contain_text("There is no channel 'arm.z'")
