@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from one_block import run
 
+from jointplay.records.point import PointStatus
 from jointplay.solver.kernels import cache, compile_loop, kernel_cache
 from jointplay.solver.kernels.emit import module as emit_module
 from jointplay.solver.kinds import Admission, Study, admit
@@ -167,7 +168,9 @@ def test_a_cancelled_study_keeps_what_it_computed(
     assert catalogue.get(study).state is JobState.cancelled
     assert catalogue.claim_block(f"{study}-2", "this process", 30) is None
     reader = StudyReader(settings.running_study(study))
-    assert reader.status.tolist() == [2] * 8 + [0] * 4
+    ended, stopped = reader.status[:8], reader.status[8:]
+    assert (ended == PointStatus.done).all()
+    assert (stopped <= PointStatus.running).all()  # at a report: before or behind a first slice
     assert not reader.complete
 
 
