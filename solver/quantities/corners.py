@@ -33,8 +33,9 @@ def misses(values: Floats) -> Floats:
 
     0 for polynomials of the third degree; the first and the last two have the miss beside them.
     """
+    count = values.shape[1]
     inner = np.abs(np.diff(values, 4, axis=1))
-    return np.pad(inner, ((0, 0), (2, 2), *[(0, 0)] * (values.ndim - 2)), mode="edge")
+    return np.asarray(inner[:, np.clip(np.arange(count) - 2, 0, count - 5)], np.float64)
 
 
 def surpass_at_corners(
@@ -71,9 +72,12 @@ def _corners(values: Floats, best: Floats, least: Floats) -> NDArray[np.int64]:
     found = []
     for row in range(values.shape[-1]):  # one at a time: all at once take much memory
         own = values[..., row]
+        sharp = misses(own) > least[row]
+        if not sharp.any():
+            continue
         rise = np.diff(own, axis=1)
         before, after = np.pad(rise, ((0, 0), (1, 0))), np.pad(-rise, ((0, 0), (0, 1)))
-        beyond = (before >= 0.0) & (after >= 0.0) & (misses(own) > least[row])
+        beyond = (before >= 0.0) & (after >= 0.0) & sharp
         beyond &= own + np.maximum(before, after) > best[:, row, None]
         found += [(row, *place) for place in np.argwhere(beyond)]
     return np.array(found, dtype=np.int64).reshape(-1, 3)
