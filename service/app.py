@@ -16,6 +16,7 @@ import jointplay.service.problems.endpoints
 import jointplay.service.results.endpoints
 import jointplay.service.results.figures
 import jointplay.service.results.spectra
+import jointplay.service.scenes.channels
 import jointplay.service.scenes.endpoints
 import jointplay.service.scenes.looks
 import jointplay.service.scenes.poses
@@ -79,6 +80,7 @@ _BEHIND_THE_DOOR = (
     (jointplay.service.batches.endpoints, _JOBS),
     (jointplay.service.scenes.looks, needs("jobs:write")),
     (jointplay.service.scenes.poses, needs("jobs:read")),
+    (jointplay.service.scenes.channels, needs("jobs:read")),
     (jointplay.service.charts.endpoints, _RESULTS),
     (jointplay.service.charts.attractors, _RESULTS),
     (jointplay.service.studies.endpoints, _RESULTS),

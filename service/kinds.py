@@ -21,6 +21,7 @@ Form = Literal[
     "grid",
     "axis",
     "distributions",
+    "section",
     "other",
 ]
 
@@ -31,13 +32,16 @@ class JobField(BaseModel):
     help: str
     form: Form = Field(
         description="Of its value; values: a list or a range, grid: values by parameter, axis: a "
-        "parameter and its values, distributions: a distribution by parameter."
+        "parameter and its values, distributions: a distribution by parameter, section: where "
+        "sections are taken."
     )
     unit: str | None = None
     choices: list[str] = Field(default=[], description="Values that there are.")
     words: list[str] = Field(default=[], description="Words that may stand in place of a value.")
     members: dict[str, list[str]] = Field(
-        default={}, description="Of distributions, the numbers that each is made of."
+        default={},
+        description="Of distributions, the numbers that each is made of; of a section, the fields"
+        " of each of its forms.",
     )
     varied: list[Literal["parameter", "start"]] = Field(
         default=[],

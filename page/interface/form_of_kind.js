@@ -2,6 +2,7 @@
 
 import { accuracyOf, accurate } from "./accuracy.js";
 import { DrawnParameters, NONE } from "./drawn_parameters.js";
+import { fades, sectionFields, sectionGiven, sectionMade } from "./section_fields.js";
 
 /** Fields that other parts of the form ask for, or whose values nobody types. */
 const ELSEWHERE = new Set(["label", "tolerance", "method", "step", "formulation"]);
@@ -9,6 +10,8 @@ const TYPED = new Set(["number", "integer"]);
 const OF_PARAMETERS = new Set(["axis", "distributions"]);
 const DURATION = "duration"; // which periods stand for
 const ACCURACY = "accuracy"; // also a tolerance
+const SETTLE = "settle";
+const RECORD = "record"; // sections, one in each period if they are taken so
 
 /**
  * Returns the title and help of a kind, its fields, the parts of the document that are made of their
@@ -27,16 +30,20 @@ export function formOfKind(name, described, { axis, ends, choice, proposed }) {
   const drawn = shown.filter(([, { form }]) => form === "distributions")
     .map(([field, one]) => new DrawnParameters(field, one, choice, proposed));
   const others = shown.filter(([, { form }]) => !OF_PARAMETERS.has(form));
+  const { section } = described.fields;
   return {
     title: TITLES[name] ?? titled(name),
     help: described.help,
-    fields: (document, duration) => Object.assign(
+    fields: (document, { duration, sections }) => Object.assign(
       {},
       ...drawn.map((one) => one.fields(document)),
       own ? axis(document, "parameter", "Parameter", inWords(described.fields.parameter), 0, "") : {},
       ...axes.map((field, nth) =>
         axis(document, field, titled(field), inWords(described.fields[field]), nth + Number(own))),
-      Object.fromEntries(others.map(([field, one]) => [field, ofField(field, one, duration)])),
+      Object.fromEntries(others.map(([field, one]) => [field, ofField(field, one, {
+        duration, settle: section?.members.onset && fades(document, sections) ? 0 : null,
+      })])),
+      section && sectionFields(section, sections),
     ),
     made: (all) => ({
       ...Object.fromEntries(drawn.map((one) => [one.field, one.made(all)])),
@@ -48,6 +55,7 @@ export function formOfKind(name, described, { axis, ends, choice, proposed }) {
       ...Object.fromEntries(others.map(([field]) => [field, all[field]])
         .filter(([field, value]) => value !== null && value !== STANDARD && field !== ACCURACY
           && (field !== DURATION || !all.periods))),
+      ...sectionMade(all),
       ...accurate(all[ACCURACY]),
     }),
     given: (document) => Object.assign(
@@ -61,6 +69,7 @@ export function formOfKind(name, described, { axis, ends, choice, proposed }) {
       })),
       Object.fromEntries(others.map(([field]) => [field, field === ACCURACY ? accuracyOf(document) : document[field]])
         .filter(([, value]) => value !== undefined && value !== null)),
+      sectionGiven(document.section),
     ),
   };
 }
@@ -77,11 +86,13 @@ function inWords(described) {
   return { ...described, help: sentence(described.help) };
 }
 
-function ofField(name, { help, unit, choices, required, words, form }, duration) {
+function ofField(name, { help, unit, choices, required, words, form }, proposed) {
   const shown = { title: titled(name), help: sentence(help), unit: unit ?? "1", accepts: words, whole: form === "integer" };
   if (choices.length) return { ...shown, choices: [STANDARD, ...choices], default: STANDARD };
-  if (name === DURATION) return { ...shown, default: duration };
-  return { ...shown, default: null, empty: STANDARD, required };
+  if (name === DURATION) return { ...shown, default: proposed.duration };
+  if (name === RECORD && unit === "periods") shown.unit = ({ section }) => (section === "crank_angle" ? unit : "sections");
+  const value = name === SETTLE ? proposed.settle : null;
+  return { ...shown, default: value, empty: String(value ?? STANDARD), required };
 }
 
 function titled(name) {

@@ -6,41 +6,24 @@ import { NONE } from "./drawn_parameters.js";
 import { formOfKind } from "./form_of_kind.js";
 import { linesOf } from "./measured_table.js";
 import { ParameterFields } from "./parameter_fields.js";
+import { UNKNOWN, fades, sectionFields, sectionGiven, sectionMade } from "./section_fields.js";
+import { proposedDuration, rounded } from "./some_duration.js";
 import { startNumbers } from "./start_numbers.js";
-import { bounds } from "../mechanism/bounds.js";
 import { withParameters } from "../mechanism/parameters.js";
 import { describedKinds } from "../requests/kinds.js";
-import { poses } from "../requests/poses.js";
+import { channels } from "../requests/poses.js";
 import { Problem } from "../requests/service.js";
 
-const WITHOUT_TURNING = 0.05; // s, of mechanisms that neither turn nor fall
 const SAMPLES = 2000; // of a run whose output step is not given
-const TURNS = 4; // of the slowest driver
-const SWINGS = 20; // in times of a fall through the mechanism
 
-/**
- * Returns a duration in s in which something can be seen: some turns, or some swings.
- *
- * @param found what the service answers of the scene's pose
- */
-export function someDuration(document, { poses: [pose], curves, drivers_time: once, repeats }) {
-  if (document.reported?.length) return document.reported[0].duration;
-  if (once !== null) return rounded(repeats ? TURNS * once : once);
-  const scene = { ...withParameters(document), curves };
-  const gravity = Math.hypot(...(scene.gravity ?? [0, 0]));
-  if (!gravity || !pose) return WITHOUT_TURNING;
-  const [left, low, right, high] = bounds(scene, [pose]);
-  return rounded(SWINGS * Math.sqrt(Math.hypot(right - left, high - low) / gravity));
-}
-
-/** Returns `someDuration` of a scene, for which the service is asked. */
-export async function proposedDuration(document, signal) {
-  if (document.reported?.length) return document.reported[0].duration;
+/** Returns what forms propose of a scene whose parameters have values: a `duration` in s, and `sections`. */
+export async function offers(document, values, signal) {
+  const duration = await proposedDuration(document, signal);
   try {
-    return someDuration(document, await poses(withParameters(document), [0], signal));
+    return { duration, sections: await channels(withParameters(document, values), signal) };
   } catch (error) {
     if (!(error instanceof Problem) || error.status === 401) throw error;
-    return WITHOUT_TURNING; // what is wrong with the scene is told when it is run
+    return { duration, sections: UNKNOWN };
   }
 }
 
@@ -50,16 +33,15 @@ export async function firstJob(document) {
 }
 
 /**
- * The kinds by name: what they are, their fields (as declared parameters are described; the duration
- * in s is a proposal), the parts
- * of the job's document that are `made` of the values, and the values that are `given` by a job's
- * document.
+ * The kinds by name: what they are, their fields (as declared parameters are described; they take what
+ * `offers` returns), the parts of the job's document that are `made` of the values, and the values that
+ * are `given` by a job's document.
  */
 export const KINDS = {
   simulate: {
     title: "One run",
     help: "One trajectory from the start, to watch and to measure.",
-    fields: (document, duration) => ({
+    fields: (document, { duration }) => ({
       duration: {
         title: "Duration", help: "Simulated time.", unit: "s", minimum: 1e-9,
         default: duration,
@@ -83,12 +65,12 @@ export const KINDS = {
   },
   bifurcation: {
     title: "Bifurcation diagram",
-    help: "The motion once a turn, over the values of one parameter.",
-    fields: (document) => ({
+    help: "The motion at its sections, such as once a turn, over the values of one parameter.",
+    fields: (document, { sections }) => ({
       ...varied(document, "parameter", "Parameter"),
       settle: {
         title: "Periods to settle", help: "Before the first section.", unit: "periods",
-        minimum: 0, default: 40, whole: true, accepts: ["auto"],
+        minimum: 0, default: fades(document, sections) ? 0 : 40, whole: true, accepts: ["auto"],
       },
       record: {
         title: "Sections", help: "Kept of each value.", unit: "1", minimum: 1, default: 30, whole: true,
@@ -102,21 +84,22 @@ export const KINDS = {
         title: "Regular or chaotic", unit: "1", default: "yes", choices: ["yes", "no"],
         help: "Judge the motion of every value; takes longer.",
       },
+      ...sectionFields(described.bifurcation.fields.section, sections),
       accuracy: ACCURACY,
     }),
-    made: ({ parameter, from, to, count, settle, record, continuation, verdicts, accuracy }) => ({
-      parameter, values: { from, to, count }, settle, record, continuation,
+    made: ({ parameter, from, to, count, settle, record, continuation, verdicts, accuracy, ...all }) => ({
+      parameter, values: { from, to, count }, settle, record, continuation, ...sectionMade(all),
       ...(verdicts === "yes" ? { indicators: "all" } : {}), ...accurate(accuracy),
     }),
-    given: ({ parameter, values, settle, record, continuation, indicators, ...job }) => ({
-      parameter, ...ends(values), settle, record, continuation,
+    given: ({ parameter, values, settle, record, continuation, indicators, section, ...job }) => ({
+      parameter, ...ends(values), settle, record, continuation, ...sectionGiven(section),
       verdicts: indicators?.length ? "yes" : "no", accuracy: accuracyOf(job),
     }),
   },
   sweep: {
     title: "Sweep",
     help: "Extremes of forces and motions over one or two parameters.",
-    fields: (document, duration) => ({
+    fields: (document, { duration }) => ({
       ...varied(document, "first", "First parameter", { count: 5 }),
       ...varied(document, "second", "Second parameter", {
         count: 5, help: "For a map over two parameters.", before: "second", none: true,
@@ -161,7 +144,7 @@ export const KINDS = {
   "accuracy-study": {
     title: "What accuracy costs",
     help: "Every method and tolerance against a reference.",
-    fields: (document, duration) => ({
+    fields: (document, { duration }) => ({
       duration: {
         title: "Duration", help: "Of every run.", unit: "s", minimum: 1e-9,
         default: rounded(duration / 10),
@@ -182,18 +165,26 @@ export const KINDS = {
   },
 };
 
+let described = {}; // kinds, as the service does
+
 /** Returns the kinds by name: those above, and of all others those that can be typed. */
 export async function kindsOfJobs(signal) {
-  for (const [name, described] of Object.entries(await describedKinds(signal))) {
-    if (described.option) KINDS[name] ??= formOfKind(name, described, { axis, ends, choice, proposed });
+  described = await describedKinds(signal);
+  for (const [name, one] of Object.entries(described)) {
+    if (one.option) KINDS[name] ??= formOfKind(name, one, { axis, ends, choice, proposed });
   }
   return KINDS;
 }
 
-/** Returns the fields of a kind; `given` are values by name, as an address keeps them. */
-export function fieldsOf(kind, document, duration, given, onchange) {
+/**
+ * Returns the fields of a kind.
+ *
+ * @param offered what `offers` returns of the scene
+ * @param given   values by name, as an address keeps them
+ */
+export function fieldsOf(kind, document, offered, given, onchange) {
   if (kind === "calibration") return new CalibrationFields(document, given, onchange);
-  return new ParameterFields(KINDS[kind].fields(document, duration), given, onchange, "");
+  return new ParameterFields(KINDS[kind].fields(document, offered), given, onchange, "");
 }
 
 /**
@@ -276,8 +267,4 @@ function choice(document, { of = [], none = false, nth = 0 } = {}) {
     words: Object.fromEntries(Object.entries(starts).map(([pointer, { name }]) => [pointer, `start: ${name}`])),
     units: { [NONE]: "1", ...Object.fromEntries(names.map((name) => [name, all[name].unit])) },
   };
-}
-
-function rounded(value) {
-  return Number(value.toPrecision(2));
 }

@@ -8,7 +8,8 @@ const SHOWN = 6; // others are folded away
 /**
  * Fields of declared parameters; those of a kind of job, whose place is "", are all shown.
  *
- * A unit may be a function of the values of all fields: that of a range is its parameter's.
+ * A unit may be a function of the values of all fields: that of a range is its parameter's.  So may be
+ * whether a field is `shown`; what is hidden is never wrong.
  *
  * @property element   the form's part
  * @property values()  what differs from the defaults; throws where something is wrong
@@ -43,7 +44,10 @@ export class ParameterFields {
 
   tellUnits() {
     const all = this.all();
-    for (const field of this.fields) field.tellUnit(all);
+    for (const field of this.fields) {
+      field.tellUnit(all);
+      field.element.hidden = field.parameter.shown?.(all) === false;
+    }
   }
 
   /** Shows in other fields what the choice in one proposes for them. */
@@ -73,8 +77,9 @@ export class ParameterFields {
   blame(errors) {
     return errors.filter(({ pointer, detail }) => {
       const inside = pointer?.startsWith(`${this.place}/`);
-      const name = inside ? pointer.slice(this.place.length + 1).split("/")[0] : null;
-      const field = this.fields.find((one) => one.name === name);
+      const within = inside ? pointer.slice(this.place.length + 1) : null;
+      const field = this.fields.find(({ parameter }) => within && parameter.pointer === within)
+        ?? this.fields.find(({ name }) => name === within?.split("/")[0]);
       field?.complain(detail);
       return !field;
     });
@@ -145,7 +150,7 @@ class Field {
     const { parameter } = this;
     const text = this.input.value.trim();
     let wrong = "";
-    if (!parameter.choices) {
+    if (!parameter.choices && !this.element.hidden) {
       const value = typed(text);
       const low = parameter.minimum ?? -Infinity;
       const high = parameter.maximum ?? Infinity;

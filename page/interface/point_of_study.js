@@ -1,10 +1,10 @@
 /** One point of a study: the values of its parameters, and the simulation that has them. */
 
 import { element, fill } from "./element.js";
-import { proposedDuration } from "./kinds_of_job.js";
 import { withUnit } from "./numbers.js";
 import { go } from "./place.js";
 import { sceneOf } from "./scene_of_job.js";
+import { proposedDuration } from "./some_duration.js";
 import { post } from "../requests/service.js";
 
 /**

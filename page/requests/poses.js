@@ -1,4 +1,4 @@
-/** Poses of a scene before it is run, as the solver puts it together and follows it. */
+/** Poses of a scene before it is run, as the solver puts it together and follows it; and its channels. */
 
 import { patiently } from "./patiently.js";
 import { post } from "./service.js";
@@ -12,7 +12,16 @@ let turn = Promise.resolve();
  * @param times instants, s
  */
 export function poses(scene, times, signal) {
-  const ask = () => patiently(() => post("/v1/scenes/poses", { scene: plain(scene), times }, signal), signal);
+  return inTurn("/v1/scenes/poses", { scene: plain(scene), times }, signal);
+}
+
+/** Returns what `POST /v1/scenes/channels` answers: channels, contacts, and sections that suit. */
+export function channels(scene, signal) {
+  return inTurn("/v1/scenes/channels", { scene: plain(scene) }, signal);
+}
+
+function inTurn(address, question, signal) {
+  const ask = () => patiently(() => post(address, question, signal), signal);
   const answer = turn.then(ask, ask);
   turn = answer.catch(() => {});
   return answer;

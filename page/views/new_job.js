@@ -6,7 +6,7 @@ import { asBefore, without } from "../interface/as_before.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { jobAsText } from "../interface/job_as_text.js";
-import { KINDS, fieldsOf, kindsOfJobs, proposedDuration } from "../interface/kinds_of_job.js";
+import { KINDS, fieldsOf, kindsOfJobs, offers } from "../interface/kinds_of_job.js";
 import { ParameterFields } from "../interface/parameter_fields.js";
 import { withUnit } from "../interface/numbers.js";
 import { go, note } from "../interface/place.js";
@@ -25,8 +25,8 @@ export async function show(room, { parts, query, signal }) {
   document.title = `${name} · jointplay`;
   const given = numbersOf(query, document_.parameters ?? {});
   const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
-  const [duration] = await Promise.all([proposedDuration(document_, signal), kindsOfJobs(signal)]);
-  const form = new JobForm(document_, { wanted, before }, query.get("kind") ?? "simulate", given, duration, signal);
+  const [offered] = await Promise.all([offers(document_, given, signal), kindsOfJobs(signal)]);
+  const form = new JobForm(document_, { wanted, before }, query.get("kind") ?? "simulate", given, offered, signal);
   const turn = element("p", { class: "quiet small", role: "status" });
   const sketch = new Sketch(canvas, { labels: true, onFound: ({ drivers_time: once, repeats }) =>
     fill(turn, once !== null && repeats && `Its drivers come round every ${withUnit(once, "s")}.`) }, signal);
@@ -85,8 +85,8 @@ function written() {
 }
 
 class JobForm {
-  constructor(document_, { wanted, before }, kind, given, duration, signal) {
-    Object.assign(this, { scene: document_, isPreset: Boolean(wanted), before, duration, signal, onchange: () => {} });
+  constructor(document_, { wanted, before }, kind, given, offered, signal) {
+    Object.assign(this, { scene: document_, isPreset: Boolean(wanted), before, offered, signal, onchange: () => {} });
     const changed = () => this.changed();
     this.parameters = new ParameterFields(document_.parameters ?? {}, given, changed);
     this.kindRoom = element("div");
@@ -121,7 +121,7 @@ class JobForm {
   choose(kind, given = {}) {
     this.kind.value = kind;
     this.kindHelp.textContent = KINDS[kind].help;
-    this.own = fieldsOf(kind, this.scene, this.duration, given, () => this.changed());
+    this.own = fieldsOf(kind, this.scene, this.offered, given, () => this.changed());
     this.earlier = this.before?.kind === kind ? this.asEarlier() : null;
     fill(this.beginning, this.earlier && "What has no field here is as in the job that is changed.");
     fill(this.kindRoom, this.own.element);
@@ -157,7 +157,7 @@ class JobForm {
   /** Returns what the form would make of the earlier job, and what of that job's document stays as it is. */
   asEarlier() {
     const { kind, scene, label, ...document } = this.before;
-    const own = fieldsOf(kind, this.scene, this.duration, KINDS[kind].given(this.before), () => {}).all();
+    const own = fieldsOf(kind, this.scene, this.offered, KINDS[kind].given(this.before), () => {}).all();
     const made = KINDS[kind].made(own);
     return { made, document: without(document, Object.keys(own).filter((name) => !(name in made))) };
   }

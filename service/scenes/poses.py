@@ -67,7 +67,8 @@ def scene_poser() -> SceneProcess:
     return SceneProcess("jointplay.service.scenes.posing", _PATIENCE)
 
 
-def _body_of(model: type[BaseModel]) -> dict[str, Any]:
+def body_of(model: type[BaseModel]) -> dict[str, Any]:
+    """Return how the body of a request is described that has the fields of a model."""
     content = {"application/json": {"schema": model.model_json_schema()}}
     return {"requestBody": {"required": True, "content": content}}
 
@@ -77,7 +78,7 @@ Poser = Annotated[SceneProcess, of_the_application("poser")]
 
 @router.post(
     "/poses",
-    openapi_extra=_body_of(PosesQuestion),
+    openapi_extra=body_of(PosesQuestion),
     responses=_REFUSALS,
 )
 def pose_scene(body: JobBody, poser: Poser) -> Poses:
@@ -91,7 +92,7 @@ def pose_scene(body: JobBody, poser: Poser) -> Poses:
 
 @router.post(
     "/drag",
-    openapi_extra=_body_of(DragQuestion),
+    openapi_extra=body_of(DragQuestion),
     responses=_REFUSALS,
 )
 def drag_point(body: JobBody, poser: Poser) -> DraggedPose:

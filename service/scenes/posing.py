@@ -1,4 +1,7 @@
-"""`python -m jointplay.service.scenes.posing FD`: poses scenes that it receives, until idle."""
+"""`python -m jointplay.service.scenes.posing FD`: poses scenes that it receives, until idle.
+
+It also tells the channels of a scene, and where its sections may be taken.
+"""
 
 import json
 from functools import lru_cache
@@ -13,12 +16,16 @@ from jointplay.records.strict_json import parse
 from jointplay.service.questions import answer_or_refuse
 from jointplay.solver.joints.curves import joint_curves
 from jointplay.solver.kinds.assembled import resolved_scene
+from jointplay.solver.kinds.proposed_sections import proposed_sections
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.dragging import drag
 from jointplay.solver.quantities.units import Angle, Coordinate, PointReference, Strict, quantity
 from jointplay.solver.runs.ideal.following import follow
+from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers_time import drivers_time
+from jointplay.solver.scene.pairs import pairs_of
+from jointplay.solver.scene.periods import characteristic_time, common_period
 from jointplay.solver.scene.sentences import schema_problems
 
 _IDLE = 300.0  # s; it is small, and a page that is open soon asks again
@@ -57,7 +64,13 @@ class DragQuestion(Strict):
     ] = None
 
 
-Question = TypeVar("Question", PosesQuestion, DragQuestion)
+class ChannelsQuestion(Strict):
+    """A scene whose channels are wanted."""
+
+    scene: Annotated[dict[str, Any], _GIVEN]
+
+
+Question = TypeVar("Question", PosesQuestion, DragQuestion, ChannelsQuestion)
 
 
 def poses(document: Any) -> dict[str, Any]:
@@ -100,6 +113,23 @@ def dragged(document: Any) -> dict[str, Any]:
     return {"scene": scene.name, "pose": _by_body(scene, found)}
 
 
+def offered(document: Any) -> dict[str, Any]:
+    """Return the channels, contacts and sections that a `ChannelsQuestion` asks for."""
+    scene = _scene(_parsed(ChannelsQuestion, document).scene)
+    own = common_period(scene).seconds
+    return {
+        "scene": scene.name,
+        "channels": [
+            {"name": one.name, "unit": one.unit, "help": one.long_name} for one in channels(scene)
+        ],
+        "contacts": [
+            pair.name for name, joint in scene.joints.items() for pair in pairs_of(name, joint)
+        ],
+        "period": characteristic_time(scene, shortest_link(scene)) if own is None else own,
+        "sections": [section.model_dump() for section in proposed_sections(scene)],
+    }
+
+
 def _parsed(model: type[Question], document: Any) -> Question:
     try:
         return model.model_validate(document)
@@ -120,7 +150,7 @@ def _by_body(scene: Scene, pose: Floats) -> dict[str, list[float]]:
     return dict(zip(scene.bodies, pose.reshape(-1, 3).tolist(), strict=True))
 
 
-_ANSWERS = {"poses": poses, "drag": dragged}
+_ANSWERS = {"poses": poses, "drag": dragged, "channels": offered}
 
 
 def posed(what: str, body: bytes) -> object:

@@ -9,27 +9,37 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
+from pydantic import BaseModel
+
 from jointplay.solver.distributions import DISTRIBUTIONS
 from jointplay.solver.kinds import KINDS
 from jointplay.solver.kinds.job import Job, MechanismJob
+from jointplay.solver.kinds.section import ChannelSection, CrankSection, OnsetSection
 from jointplay.solver.kinds.section_study import SectionStudyJob
 from jointplay.solver.scene import start_numbers
 
 ELSEWHERE = ("kind", "scene")
 SHARED = (Job, SectionStudyJob)
 """Documents that those of several kinds extend: their fields are nobody's own."""
+SECTIONS: dict[str, type[BaseModel]] = {
+    "crank_angle": CrankSection,
+    "onset": OnsetSection,
+    "channel": ChannelSection,
+}
+"""Forms of a section, by the field that only they have."""
 
 
 def description() -> dict[str, Any]:
     """Return kinds by name, each with a sentence and its fields, those of its own first.
 
     A field has its ``help``, the ``form`` of its values (number, integer, flag, text, names,
-    numbers, values, grid, axis, distributions or other), and where there are any its ``unit``,
-    ``choices``, ``words`` that may stand in place of such a value, ``members``, the numbers that
-    each distribution is made of, and what ``varied`` may name, the usual first, if that is not a
-    parameter alone; ``own`` fields are those of no other kind's documents.  A kind that can be
-    asked for by one option of a command line has its ``option``: the ``fields`` that it stands for,
-    the ``form`` in which they are typed, and its ``name`` if that is not the kind's.
+    numbers, values, grid, axis, distributions, section or other), and where there are any its
+    ``unit``, ``choices``, ``words`` that may stand in place of such a value, ``members``, the
+    numbers that each distribution is made of, or the fields of each form of a section, and what
+    ``varied`` may name, the usual first, if that is not a parameter alone; ``own`` fields are those
+    of no other kind's documents.  A kind that can be asked for by one option of a command line has
+    its ``option``: the ``fields`` that it stands for, the ``form`` in which they are typed, and its
+    ``name`` if that is not the kind's.
     """
     found: dict[str, Any] = {}
     for name, kind in KINDS.items():
@@ -94,8 +104,11 @@ def _field(schema: dict[str, Any], starts_first: bool) -> dict[str, Any]:
     (form, *others) = [form for form in forms if "const" not in form]
     items = form.get("items", {})
     kind = "other"
+    sections = _sections(forms)
     if _is(form, "Range"):
         kind = "values"
+    elif sections:
+        kind = "section"
     elif not others:
         kind = {"number": "number", "integer": "integer", "boolean": "flag", "string": "text"}.get(
             form.get("type", ""), "other"
@@ -110,11 +123,11 @@ def _field(schema: dict[str, Any], starts_first: bool) -> dict[str, Any]:
         "unit": schema.get("unit", items.get("unit")),
         "choices": [one for one in form.get("enum", items.get("enum", [])) if one not in words],
         "words": words,
-        "members": _members() if kind == "distributions" else None,
+        "members": _members() if kind == "distributions" else sections,
         "varied": varied,
     }
     found = {"help": schema.get("description", ""), "form": kind}
-    return found | {name: fact for name, fact in facts.items() if fact not in (None, [], "1")}
+    return found | {name: fact for name, fact in facts.items() if fact not in (None, [], {}, "1")}
 
 
 def _members() -> dict[str, list[str]]:
@@ -122,6 +135,15 @@ def _members() -> dict[str, list[str]]:
     return {
         name: [field for field in model.model_fields if field != "distribution"]
         for name, model in DISTRIBUTIONS.items()
+    }
+
+
+def _sections(forms: list[dict[str, Any]]) -> dict[str, list[str]]:
+    """Return the fields of each form of a section that there is among some schemas."""
+    return {
+        name: list(model.model_fields)
+        for name, model in SECTIONS.items()
+        if any(_is(form, model.__name__) for form in forms)
     }
 
 

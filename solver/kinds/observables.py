@@ -55,13 +55,20 @@ def coordinate_channels(checked: PlacedPoints) -> list[str]:
     Where points differ in their coordinates, those of the structure with most of them.
     """
     scene = max(checked.firsts.values(), key=lambda one: len(spanning_tree(one).coordinates))
-    tree, names = spanning_tree(scene), []
-    for branch in tree.branches:
+    names = [name for both in coordinates_with_rates(scene) for name in both]
+    pairs = spanning_tree(scene).pairs
+    return names + [f"{pair}.{name}" for pair in pairs for name in ECCENTRICITY]
+
+
+def coordinates_with_rates(scene: Scene) -> list[tuple[str, str]]:
+    """Return the channels of each generalised coordinate and of its rate, in the tree's order."""
+    found = []
+    for branch in spanning_tree(scene).branches:
         for coordinate in branch.coordinates:
             body, kind = coordinate.split(".")
             kind = _direction(scene, branch) if kind == "s" else kind
-            names += [f"{body}.{kind}", f"{body}.{RATES[kind]}"]
-    return names + [f"{pair}.{name}" for pair in tree.pairs for name in ECCENTRICITY]
+            found.append((f"{body}.{kind}", f"{body}.{RATES[kind]}"))
+    return found
 
 
 def peak_channels(checked: PlacedPoints) -> list[str]:

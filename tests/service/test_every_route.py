@@ -43,6 +43,7 @@ SCOPE = {
     "/v1/scenes/drawing.{form}": "jobs:write",
     "/v1/scenes/poses": "jobs:read",
     "/v1/scenes/drag": "jobs:read",
+    "/v1/scenes/channels": "jobs:read",
 }
 OF_JOBS = re.compile(r"/v1/(jobs(/{job_id}(/cancel|/retry|/contradict|/events)?)?|batches.*)")
 

@@ -59,7 +59,7 @@ def _fields() -> dict[str, dict[str, Any]]:
             continue
         option = kind.get("option", {}).get("fields", ())
         for field, one in kind["fields"].items():
-            if field in option or (one["form"] in _IN_DOCUMENTS and field != "section"):
+            if field in option or one["form"] in _IN_DOCUMENTS:
                 continue
             seen = found.setdefault(field, one | {"kinds": []})
             seen["kinds"].append(name)
