@@ -22,8 +22,7 @@ EVERY = 256
 def source(layout: Layout, pairs: int, *, always: bool) -> Source:
     """Return the source of foresee_looks(W): ``may_look`` is positive where a lane's step may be.
 
-    Its value tells which lanes. `always` : of methods and scenes whose steps are all looked
-    at.
+    Its value tells which lanes. `always` : of methods and scenes whose steps are all looked at.
     """
     tape, tracer = Tape(layout), Tracer()
     found = tracer.constant(1.0) if always else _may_be(tracer.variable, pairs)

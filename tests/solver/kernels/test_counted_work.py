@@ -38,9 +38,9 @@ CALLS = {
         "crossings": {"scan_some": 0.009, "channels_within": 0.01},
     },
     "press, in flight": {
-        "bare": {"gaps_within": 1.613, "weigh": 0.136},
+        "bare": {"gaps_within": 1.395, "weigh": 0.136},
         "extremes": {
-            "gaps_within": 2.047,
+            "gaps_within": 1.808,
             "scan_some": 0.643,
             "foresee_bends": 0.675,
             "channels_within": 0.685,
