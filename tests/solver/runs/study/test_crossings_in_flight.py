@@ -1,5 +1,6 @@
 """Sections at a value are taken at every crossing, also at several in one long step."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -56,3 +57,12 @@ def test_a_driven_crank_crosses_when_it_has_turned_so_far(
     found = sections({"preset": "seven-bar-press"}, channel, value, 3)
     times = np.concatenate(found.times[0])
     np.testing.assert_allclose(np.pi * times, first + 2.0 * np.pi * np.arange(3), rtol=1e-12)
+
+
+def test_a_slip_is_looked_at_where_a_journal_passes_the_centre_within_a_step() -> None:
+    """It flies straight on, and slips by v d / r, d off the centre: hardly so at a step's ends."""
+    speed, off, before = 0.3, 1e-5, 5e-4  # m/s, m, m
+    flight = {"velocity_x": speed, "gravity_y": 0.0, "position_x": -before, "position_y": off}
+    scene = {"preset": "bouncing-journal", "parameters": flight}
+    (passed,) = sections(scene, "bearing.slip_velocity", -0.5 * speed, 1).times[0]
+    assert passed == pytest.approx((before + math.sqrt(3.0) * off) / speed, rel=1e-9)  # r = 2 d
