@@ -54,7 +54,11 @@ class Target:
         return hashlib.sha256(repr(about).encode()).hexdigest()[:12]
 
     def machine(self) -> Any:
-        """Return LLVM's generator of code for it, set as Numba sets its own."""
+        """Return LLVM's generator of code for it, set as Numba sets its own, but for addresses.
+
+        On x86 a module's numbers are within reach of its instructions (`machine_code` sees to
+        that): to write out where each of them is made steps 6 % longer.
+        """
         binding.initialize_native_target()
         binding.initialize_native_asmprinter()
         on_x86 = platform.machine().lower() in ("x86_64", "amd64")
@@ -62,8 +66,8 @@ class Target:
             cpu=self.processor,
             features=self.features,
             opt=CODE_LEVEL,
-            reloc="static" if on_x86 else "default",
-            codemodel="jitdefault",
+            reloc="pic" if on_x86 else "default",
+            codemodel="small" if on_x86 else "jitdefault",
             jit=True,
         )
 

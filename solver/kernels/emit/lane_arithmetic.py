@@ -157,9 +157,9 @@ class Builder:
         given = ", ".join(f"{self.numbers_type} {one}" for one in operands)
         return self.new(f"call {self.numbers_type} @llvm.{name}.v{self.count}f64({given})")
 
-    def load(self, address: str) -> str:
+    def load(self, address: str, kind: str = "load") -> str:
         """Return the numbers at an address."""
-        return self.new(f"load {self.numbers_type}, ptr {address}, align {ALIGNED}")
+        return self.new(f"{kind} {self.numbers_type}, ptr {address}, align {ALIGNED}")
 
     def store(self, value: str, address: str) -> None:
         """Write numbers to an address."""

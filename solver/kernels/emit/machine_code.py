@@ -55,6 +55,9 @@ def _passes(machine: Any, level: int) -> Any:
 
 @cache
 def _engine() -> Any:
-    """Return what holds all code that is loaded, as long as the process lives."""
+    """Return what holds all code that is loaded, as long as the process lives.
+
+    Its manager of memory keeps a module's code and numbers together.
+    """
     machine = own_target().machine()
-    return binding.create_mcjit_compiler(binding.parse_assembly(""), machine)
+    return binding.create_mcjit_compiler(binding.parse_assembly(""), machine, use_lmm=True)

@@ -59,6 +59,11 @@ ARGUMENTS: dict[str, dict[str, str]] = {
 }
 """Arguments of a function and their types, by what its tape goes over."""
 
+WRITTEN_OVER = "load volatile"
+"""How slots are loaded that a tape writes, too: mostly some lanes keep what is there. Of that, LLVM
+would make a store into the other lanes alone, which takes AMD's processors with vectors of 256 bits
+so long that a step took a tenth longer. It leaves volatile loads as they are."""
+
 Symbol = Callable[[str], str]
 """Gives the name by which LLVM knows a function of the module."""
 
@@ -113,9 +118,12 @@ class _Tape:
         self.target, self.row, self.part = target, row, part
         self.values: dict[str, str] = {}
         self.ways: list[str] = []
+        self.written: set[str] = set()
+        """Slots."""
 
     def run(self, lines: Sequence[str]) -> None:
         """Write the code of a tape's lines."""
+        self.written |= {line.split()[1] for line in lines if line.startswith("store ")}
         for i, line in enumerate(lines):
             words = line.split()
             if words[0] == "where":
@@ -173,7 +181,8 @@ class _Tape:
         return self.values[text] if text in self.values else same(float(text))
 
     def _load(self, array: str, slot: str) -> str:
-        return self.build.load(self._place(array, slot))
+        over = self.build.count > 1 and array == self.target and slot in self.written
+        return self.build.load(self._place(array, slot), WRITTEN_OVER if over else "load")
 
     def _store(self, slot: str, value: str) -> None:
         self.build.store(value, self._place(self.target, slot))

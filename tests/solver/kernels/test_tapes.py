@@ -1,6 +1,7 @@
 """Functions of tapes: they call one another, are kept in a file, and take work arrays alone."""
 
 import os
+import platform
 import re
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from numba import int64, void
 from jointplay.solver.kernels.emit import module
 from jointplay.solver.kernels.emit.functions import WORK
 from jointplay.solver.kernels.emit.module import load
-from jointplay.solver.kernels.emit.tapes import Source
+from jointplay.solver.kernels.emit.tapes import Source, module_text
 from jointplay.solver.kernels.target import Target, own_target
 
 LANES = own_target().lanes
@@ -94,3 +95,28 @@ def test_vectors_on_the_stack_lie_in_one_line_of_the_cache() -> None:
     moved = re.findall(r"(vmov\w+) .*%rsp\)", code.replace("\t", " "))
     assert moved  # by instructions that ask for such a place
     assert set(moved) <= {"vmovaps", "vmovapd"}
+
+
+KEPT = ("v0 = load 0", "v1 = load 1", "v2 = load 2", "v3 = select v0 v1 v2", "store 2 v3")
+SCALED = ("v0 = load 0", "v1 = mul v0 0.3", "store 1 v1")
+
+
+@pytest.fixture(params=[(4, "x86-64-v3"), (8, "x86-64-v4")])
+def code(request: pytest.FixtureRequest) -> str:
+    """Instructions of both tapes."""
+    if platform.machine() not in ("x86_64", "AMD64"):
+        pytest.skip("instructions of another processor have other names")
+    lanes, processor = request.param
+    text = module_text([Source("keep", KEPT), Source("scale", SCALED)], "code", lanes)
+    machine = Target(lanes, processor, "").machine()
+    return str(machine.emit_assembly(binding.parse_assembly(text)))
+
+
+def test_numbers_that_some_lanes_keep_are_stored_whole(code: str) -> None:
+    assert "vcmpltpd" in code
+    assert not re.search(r"vmaskmov|vmov[au]pd.*\) \{%k\d\}$", code, re.MULTILINE), code
+
+
+def test_numbers_written_out_are_read_beside_their_instructions(code: str) -> None:
+    assert re.search(r"LCPI\S*\(%rip\)", code)
+    assert "movabs" not in code
