@@ -46,7 +46,7 @@ class AbsoluteMechanism:
         self.turned = {d.body: name for name, d in drivers.items() if d.body}
         for body in list(self.turned):
             pin = _pin_on_ground(scene, body)
-            if pin is not None:
+            if pin is not None and pin not in self.drivers:
                 self.drivers[pin] = self.turned.pop(body)
         self.joints = tuple(
             name

@@ -89,9 +89,11 @@ def spanning_tree(scene: Scene) -> Tree:
                 here, there = sides if outward else sides[::-1]
                 if there[0] in reached:
                     continue
-                used.add(name)
                 turned_by = turning.get(there[0])
                 driver = drivers.get(name)
+                if turned_by and driver:  # it closes a loop: no branch has both motions
+                    continue
+                used.add(name)
                 if turned_by and here[0] == "ground" and outward and joint.freedom == "turn":
                     driver, turned_by = turned_by, None  # the joint's angle is the body's
                 reached.append(there[0])

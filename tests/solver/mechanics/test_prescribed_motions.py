@@ -217,3 +217,39 @@ def test_the_certificate_of_a_journal_on_a_crank_that_starts_up_covers_its_error
     for name in ("bob.theta", "bob.omega", "P.eccentricity_x"):
         estimated = np.interp(found.time, certificate.time, certificate.error[:, names.index(name)])
         assert np.all(np.abs(found[name] - finer[name]) <= estimated + 1e-12)
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+def test_a_body_driven_by_its_joint_and_against_the_ground_moves_what_carries_it(
+    formulation: str,
+) -> None:
+    # the angle of the crank is that of the rod less that of the joint, whatever hangs beside it
+    ends = {"a": [-0.2, 0.0], "b": [0.2, 0.0]}
+    scene = {
+        "name": "driven-twice",
+        "gravity": [0.0, -9.81],
+        "ground": {"points": {"O": [0.0, 0.0], "Q": [1.0, 0.0]}},
+        "bodies": {
+            name: {"mass": 1.0, "inertia": 0.02, "points": ends} for name in ("crank", "rod", "bob")
+        },
+        "joints": {
+            name: {"type": "revolute", "bearing": bearing, "journal": journal}
+            for name, bearing, journal in (
+                ("O", "ground.O", "crank.a"),
+                ("P", "crank.b", "rod.a"),
+                ("Q", "ground.Q", "bob.a"),
+            )
+        },
+        "drivers": {
+            "joint": {"joint": "P", "position": 0.5, "speed": 2.0},
+            "body": {"body": "rod", "position": 0.2, "motion": SINE},
+        },
+        "start": {"angles": {"crank": -0.3}},
+    }
+    found = run(scene, 4.0, tolerance=1e-9, formulation=formulation)
+    sine = 0.2 + 0.7 * np.sin(5.0 * found.time + 0.4)
+    np.testing.assert_allclose(found["rod.theta"], sine, rtol=0, atol=1e-9)
+    crank = sine - 0.5 - 2.0 * found.time
+    np.testing.assert_allclose(found["crank.theta"], crank, rtol=0, atol=1e-7)
+    energy = found.statistics["energy"]
+    assert abs(energy["residual"]) <= 1e-6 * energy["gross_work"]
