@@ -14,6 +14,7 @@ from jointplay.solver.mechanics.assembly import (
 )
 from jointplay.solver.mechanics.misfit import fighting_drivers
 from jointplay.solver.mechanics.redundancy import SelfStress, self_stresses
+from jointplay.solver.runs.ideal.agreement import drivers_agree
 from jointplay.solver.runs.ideal.turn import turn
 from jointplay.solver.scene.document import Scene
 
@@ -45,7 +46,7 @@ def redundant_while_held(scene: Scene, assembly: Assembly) -> bool:
 
 
 def check_redundant(scene: Scene, assembly: Assembly) -> None:
-    """Refuse redundant constraints, unless the mechanism moves and they stay redundant."""
+    """Refuse redundant constraints, unless the mechanism moves and they stay so, and agree."""
     if not assembly.freedom:
         check_drivers(scene)
         if _stay_redundant(scene, assembly):
@@ -53,7 +54,10 @@ def check_redundant(scene: Scene, assembly: Assembly) -> None:
         raise _over_constrained(scene, assembly)
     ranks = [rank for _, residual, rank in poses_nearby(scene) if residual <= ASSEMBLED]
     if ranks and max(ranks) <= assembly.rank:
-        return
+        if drivers_agree(scene):
+            return
+        check_drivers(scene)
+        raise _over_constrained(scene, assembly)
     twice = [found for found in self_stresses(scene) if found.is_one_sided]
     if twice and (ranks or all(found.ends for found in twice)):
         raise InvalidInput(Problem("/scene/joints", _held_twice(found)) for found in twice)

@@ -30,16 +30,17 @@ class System(NamedTuple):
 
 
 class Constraints:
-    """The rows of a scene with its play closed; lengths are measured in its shortest link.
+    """The rows of a scene, by default with its play closed; lengths are in its shortest link.
 
     `scale` : (3 bodies,) what coordinates are measured in, m and rad. `free` : whether something
     moves that drivers do not.
     """
 
-    def __init__(self, scene: Scene) -> None:
-        self.numbers = view(scene)
-        self.mechanism = AbsoluteMechanism(scene, self.numbers, close_play=True)
-        self.length, self.free = shortest_link(scene), assemble(scene).freedom > 0
+    def __init__(self, scene: Scene, *, close_play: bool = True) -> None:
+        self.numbers, start = view(scene), assemble(scene)
+        self.mechanism = AbsoluteMechanism(scene, self.numbers, close_play=close_play)
+        self.length = shortest_link(scene)
+        self.free = (start.freedom if close_play else start.freedom_with_play) > 0
         self.scale = np.tile([self.length, self.length, 1.0], len(self.mechanism.bodies))
         self._clocks = clocks(scene)
 

@@ -177,3 +177,63 @@ def test_what_was_held_twice_goes_with_a_slot() -> None:
     slot = {"type": "pin-in-slot", "slot": "plate.r", "pin": "long2.b", "axis": [1, 0]}
     scene["joints"]["p2"] = slot
     assert admit(of(scene)).joints == ()
+
+
+def geared(**second: Any) -> dict[str, Any]:
+    """Return two wheels, both driven, whose gear of ratio -2 agrees with one speed; a pendulum."""
+    wheel = {"mass": 1.0, "inertia": 0.1, "points": {"o": [0, 0]}}
+    bob = {"mass": 1.0, "inertia": 0.1, "points": {"top": [0, 0.2]}}
+    return {
+        "name": "geared",
+        "bodies": {"w1": wheel, "w2": wheel, "bob": bob},
+        "ground": {"points": {"O": [0, 0], "P": [1, 0]}},
+        "joints": pins(o1="ground.O w1.o", o2="ground.P w2.o", hung="ground.O bob.top"),
+        "gears": {"g": {"first": "o1", "second": "o2", "ratio": -2.0}},
+        "drivers": {"m1": {"joint": "o1", "speed": 3.0}, "m2": {"joint": "o2", **second}},
+        "gravity": [0, -9.81],
+    }
+
+
+def test_drivers_that_agree_run_beside_a_part_that_moves_freely() -> None:
+    job = of(geared(speed=-6.0)) | {"channels": ["w2.theta", "bob.theta"], "certificate": False}
+    simulation = Simulation(admit(job))
+    second, bob = np.concatenate([piece.samples for piece in simulation.slices()]).T
+    np.testing.assert_allclose(second, -0.06 * np.arange(201), rtol=0, atol=1e-10)
+    assert np.ptp(bob) == 0.0  # it hangs below its pin
+
+
+@pytest.mark.parametrize(
+    "second",
+    [
+        {"speed": -5.0},
+        {"motion": {"type": "start-up", "start_speed": -6.0, "speed": -7.0, "length": 1.0}},
+        {"motion": {"type": "sinusoidal", "amplitude": 6.0, "frequency": 1.0, "phase": math.pi}},
+    ],
+    ids=["at once", "later", "where one bends"],
+)
+def test_drivers_that_fight_are_refused_beside_a_part_that_moves_freely(
+    second: dict[str, Any],
+) -> None:
+    # one of them was left out: the wheels then turned as no gear lets them
+    with pytest.raises(InvalidInput) as refused:
+        admit(of(geared(**second)))
+    assert_points(refused.value, "/scene/drivers", "'m1' and 'm2' is prescribed twice")
+
+
+def test_a_driver_of_what_joints_hold_is_refused_beside_a_part_that_moves_freely() -> None:
+    scene = geared(speed=-6.0)
+    scene["ground"]["points"]["Q"] = [1, 0.5]
+    scene["bodies"]["w2"] = scene["bodies"]["w2"] | {"points": {"o": [0, 0], "rim": [0, 0.5]}}
+    scene["joints"] |= pins(stuck="ground.Q w2.rim")
+    scene["gears"], scene["drivers"] = {}, {"m2": scene["drivers"]["m2"]}
+    with pytest.raises(InvalidInput) as refused:
+        admit(of(scene))
+    assert_points(refused.value, "/scene/joints", "among those of 'o2' and 'stuck'")
+
+
+def test_two_drivers_of_a_crank_are_refused_beside_a_part_that_moves_freely() -> None:
+    scene = geared(speed=-6.0)
+    scene["gears"], scene["drivers"]["m1"] = {}, {"body": "w2", "speed": -6.5}
+    with pytest.raises(InvalidInput) as refused:
+        admit(of(scene))
+    assert_points(refused.value, "/scene/drivers", "'m2' and 'm1' is prescribed twice")
