@@ -1,6 +1,6 @@
 """Checks of the mechanism that every kind of job shares: its parameters, references, assembly."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from typing import Any
 
@@ -117,7 +117,7 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
         Its equations in this formulation, if one is given, are too long to compile.
     InvalidInput
         Functions that refuse t = 0, redundant constraints, an assembly that cannot close, a start
-        where assemblies meet.
+        where assemblies meet, play where nothing is free to move.
     """
     channels(scene)  # outputs of channels that there are not, before equations compute them
     nowhere = list(domain_problems(scene, 0.0))
@@ -142,29 +142,14 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
         )
     if not is_closed:
         raise InvalidInput(_open(scene))
-    for name in directionless(scene, assembly.pose):
-        sentence = (
-            f"The points of '{name}' start in one place, where its force has no direction; start"
-            " them apart, or give no free length."
-        )
-        raise InvalidInput.at(f"/scene/forces/{name}", sentence)
-    pairs = [(force.first, force.second) for force in scene.forces.values()]
-    between = [name for name in (*tree.closing, *tree.play) if name in scene.joints]
-    pairs += [scene.joints[name].points for name in between]
-    held = {branch.parent for branch in tree.branches} | {_body(p) for pair in pairs for p in pair}
-    adrift = [b.body for b in tree.branches if b.freedom == "all" and b.body not in held]
-    if adrift:
-        raise InvalidInput(
-            [
-                Problem(
-                    f"/scene/bodies/{body}",
-                    f"No joint holds body '{body}' and no force does; join it or drop it.",
-                )
-                for body in adrift
-            ]
-        )
+    problems = [*_without_direction(scene, assembly), *_adrift(scene, tree)]
+    if problems:
+        raise InvalidInput(problems)
     if (assembly.redundant_with_play or assembly.redundant) and not only_held:
         check_redundant(scene, assembly)
+    problems = [] if assembly.freedom_with_play else list(_without_freedom(scene))
+    if problems:
+        raise InvalidInput(problems)
     if formulation is not None and tree.closing and assembly.freedom_with_play:
         check_length(scene, tree, formulation)
     return tree, assembly
@@ -203,6 +188,42 @@ def _of_undecided(name: str, scene: Scene) -> Problem:
         f"'{second}' of joint '{name}' begins in one place with '{first}', and may go to any side"
         f" of it. Say to which: give a place of '{second}'.",
     )
+
+
+def _adrift(scene: Scene, tree: Tree) -> Iterator[Problem]:
+    """Yield the bodies that nothing holds."""
+    pairs = [(force.first, force.second) for force in scene.forces.values()]
+    between = [name for name in (*tree.closing, *tree.play) if name in scene.joints]
+    pairs += [scene.joints[name].points for name in between]
+    held = {branch.parent for branch in tree.branches} | {_body(p) for pair in pairs for p in pair}
+    for branch in tree.branches:
+        if branch.freedom == "all" and branch.body not in held:
+            yield Problem(
+                f"/scene/bodies/{branch.body}",
+                f"No joint holds body '{branch.body}' and no force does; join it or drop it.",
+            )
+
+
+def _without_direction(scene: Scene, assembly: Assembly) -> Iterator[Problem]:
+    """Yield the forces whose points start in one place."""
+    for name in directionless(scene, assembly.pose):
+        yield Problem(
+            f"/scene/forces/{name}",
+            f"The points of '{name}' start in one place, where its force has no direction; start"
+            " them apart, or give no free length.",
+        )
+
+
+def _without_freedom(scene: Scene) -> Iterator[Problem]:
+    """Yield the joints with play, of a scene in which nothing is free to move."""
+    for name, joint in scene.joints.items():
+        if joint.has_play:
+            yield Problem(
+                f"/scene/joints/{name}/clearance",
+                "Drivers and ideal joints leave nothing free to move, so that the contacts of"
+                f" joint '{name}' cannot be integrated. Let something move: drive through a spring,"
+                " or add a body on a pin of its own.",
+            )
 
 
 def _left_open(scene: Scene) -> str:

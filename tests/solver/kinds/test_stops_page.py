@@ -10,7 +10,10 @@ from typing import Any
 
 import pytest
 
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import admit
 from tests.solver.completed_runs import run
+from tests.solver.kinds.refusals import assert_points
 
 PAGE = (Path(__file__).resolve().parents[3] / "docs" / "stops.md").read_text()
 STOPS, BACKLASH, TRAVEL = (
@@ -28,6 +31,50 @@ def test_a_slide_strikes_its_stops_where_they_are_and_comes_back_more_slowly() -
     assert near["onset"] - far["release"] == pytest.approx(0.1 / 0.7, rel=1e-3)
     depth = (2.5 * 0.5 * 1.0**2 / 1e8) ** 0.4  # m, without loss
     assert 0.0 < near["peak_force"] < far["peak_force"] < 1.2 * 1e8 * depth**1.5
+
+
+def driven_into_its_stops() -> dict[str, Any]:
+    """Return the slide driven 0.1 mm into both stops, 10 times a second."""
+    motion = {"type": "sinusoidal", "amplitude": 0.0501, "frequency": 20.0 * math.pi}
+    driver = {"joint": "guide", "position": 0.05, "motion": motion}
+    return {name: part for name, part in STOPS.items() if name != "start"} | {
+        "drivers": {"motor": driver}
+    }
+
+
+def test_a_stop_that_a_driver_runs_into_holds_as_its_stiffness_says() -> None:
+    scene = driven_into_its_stops()
+    idle = {"mass": 1.0, "inertia": 1e-3, "points": {"o": [0.0, 0.0]}}
+    pin = {"type": "revolute", "bearing": "ground.O", "journal": "idle.o"}
+    scene["bodies"], scene["joints"] = (
+        scene["bodies"] | {"idle": idle},
+        scene["joints"] | {"aside": pin},
+    )
+    found = run(scene, 0.1, output_step=1e-5, tolerance=1e-9)
+    depth, rate = found["stops.wall_2.penetration"], found["stops.wall_2.penetration_rate"]
+    assert depth.max() == pytest.approx(1e-4, rel=1e-3)
+    far, near = found.impacts
+    turn = 20.0 * math.pi
+    # asin(0.05 / 0.0501) of a turn, and half a turn later
+    assert far["onset"] == pytest.approx(math.asin(0.05 / 0.0501) / turn, abs=1e-10)
+    assert near["onset"] - far["onset"] == pytest.approx(math.pi / turn, abs=1e-10)
+    assert far["approach_rate"] == pytest.approx(turn * math.sqrt(0.0501**2 - 0.05**2), rel=1e-6)
+    # chi of restitution 0.7: chi (1 + e) = ln((1 + chi) / (1 - chi e))
+    chi = 0.6348282812664141
+    touching = depth > 0.0
+    force = 1e8 * depth[touching] ** 1.5 * (1.0 + chi * rate[touching] / far["approach_rate"])
+    load = found["stops.wall_2.normal_force"][touching]
+    assert load == pytest.approx(force, rel=1e-6)
+    pushed = found["motor.torque"] - found["block.ax"]  # 1 kg
+    assert pushed[touching] == pytest.approx(load, rel=1e-9)
+
+
+def test_stops_of_which_nothing_moves_freely_are_refused() -> None:
+    # they were accepted, and ended as redundant constraints, or in an error of its own
+    job = {"kind": "simulate", "scene": driven_into_its_stops(), "duration": 0.1}
+    with pytest.raises(InvalidInput) as refused:
+        admit(job)
+    assert_points(refused.value, "/scene/joints/stops/clearance", "leave nothing free to move")
 
 
 def test_a_coupling_turns_by_its_backlash_before_it_carries() -> None:
