@@ -253,3 +253,34 @@ def test_a_body_driven_by_its_joint_and_against_the_ground_moves_what_carries_it
     np.testing.assert_allclose(found["crank.theta"], crank, rtol=0, atol=1e-7)
     energy = found.statistics["energy"]
     assert abs(energy["residual"]) <= 1e-6 * energy["gross_work"]
+
+
+@pytest.mark.parametrize("free", [False, True], ids=["driven alone", "beside what moves freely"])
+@pytest.mark.parametrize(
+    ("knots", "outside", "found"),
+    [
+        ([0.0, 1.0, 2.0], "held", [2.0, 2.0, 2.0, -2.0, -2.0, 0.0, 0.0]),
+        ([0.5, 1.5, 2.5], "held", [0.0, 2.0, 2.0, 2.0, -2.0, -2.0, 0.0]),
+        ([0.0, 1.0, 2.0], "periodic", [2.0, 2.0, 2.0, -2.0, 2.0, 2.0, 2.0]),
+    ],
+    ids=["held", "held from its first knot on", "periodic"],
+)
+def test_samples_at_jumps_have_the_value_before_but_where_a_function_begins(
+    free: bool, knots: list[float], outside: str, found: list[float]
+) -> None:
+    pieces = [[0.0, 0.0, 1.0], [1.0, 2.0, -1.0]]
+    if outside == "periodic":  # forth and back
+        pieces = [[0.0, -1.0, 1.0], [0.0, 1.0, -1.0]]
+    motion = {
+        "type": "piecewise-polynomial",
+        "knots": knots,
+        "coefficients": pieces,
+        "outside": outside,
+    }
+    scene = carried(motion, "prismatic")
+    if not free:
+        scene["bodies"].pop("bob")
+        scene["joints"] = {"J": scene["joints"]["J"]}
+        scene.pop("start", None)
+    run_of = run(scene, 3.0, output_step=0.5)
+    np.testing.assert_allclose(run_of["carrier.ax"], found, rtol=0, atol=1e-12)
