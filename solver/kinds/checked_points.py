@@ -19,6 +19,7 @@ from jointplay.solver.kinds.mechanism import Echo, check, declared, with_paramet
 from jointplay.solver.kinds.periods import check_period, differently_driven
 from jointplay.solver.kinds.points import MOST_NAMED, Points, check_map, check_parameters, with_rest
 from jointplay.solver.kinds.studies import PlacedPoints, of_parameters
+from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.study.fields import (
     distinct,
     geometry_columns,
@@ -154,6 +155,9 @@ def _check_mechanisms(
     """Check each distinct structure and geometry."""
     count = len(scenes.values)
     shapes = list(geometry_columns(scenes))
+    if assemble(scenes.scene(0)).redundant_with_play:  # drivers must agree at every point
+        driven = (leaf for leaf in scenes.leaves if leaf.path.startswith("/drivers/"))
+        shapes += [scenes.column(leaf) for leaf in driven]
     group = distinct([structure.astype(np.float64), *shapes], count)
     _, representatives = np.unique(group, return_index=True)
     _check_geometries(one.points, len(representatives))

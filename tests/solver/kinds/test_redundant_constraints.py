@@ -237,3 +237,17 @@ def test_two_drivers_of_a_crank_are_refused_beside_a_part_that_moves_freely() ->
     with pytest.raises(InvalidInput) as refused:
         admit(of(scene))
     assert_points(refused.value, "/scene/drivers", "'m2' and 'm1' is prescribed twice")
+
+
+def test_drivers_that_fight_at_one_point_of_a_study_are_refused_there() -> None:
+    scene = geared(speed=-6.0)
+    clearance = {"radial_clearance": 1e-4, "bearing_radius": 0.01}
+    clearance |= {"contact": {"law": "lankarani-nikravesh", "restitution": 0.8}}
+    scene["joints"]["hung"]["clearance"] = clearance
+    path = "/drivers/m2/speed"
+    scene["parameters"] = {"speed": {"help": "Speed.", "targets": [{"path": path}]}}
+    sweep = {"kind": "sweep", "scene": scene, "duration": 0.1}
+    assert admit(sweep | {"grid": {"speed": [-6.0]}})
+    with pytest.raises(InvalidInput) as refused:
+        admit(sweep | {"grid": {"speed": [-6.0, -5.0]}})
+    assert_points(refused.value, "/grid/speed/1", "'m1' and 'm2' is prescribed twice")
