@@ -7,9 +7,13 @@ from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression
+from jointplay.solver.quantities.scalars import select_positive
 
 MOVED = 0.01
 """Share of a step's way by which closing loops may move its end."""
+ROUNDED = 1e-15
+"""What a state is rounded by: a share of 1 m or 1 rad, a second in speeds, and of the state itself.
+Until something moves, tolerances are smaller than that."""
 
 
 def source(equations: Equations, layout: Layout, fixed: FixedNodes) -> Source:
@@ -28,7 +32,8 @@ def drift(v: Callable[[str], Expression], coordinates: int) -> Expression:
     """Return the square of how far the step's end was moved: in tolerances, at most one.
 
     Or in shares of the step's own way: where assemblies meet, rounding alone moves it by more than
-    a small tolerance, but a step that ends in another assembly was moved far.
+    a small tolerance, but a step that ends in another assembly was moved far. What rounding alone
+    moves it by does not count.
     """
     total: Expression = 0.0 * v("tried")
     for first, speeds_to_states in ((0, v("tried")), (coordinates, 1.0)):
@@ -36,8 +41,15 @@ def drift(v: Callable[[str], Expression], coordinates: int) -> Expression:
         way: Expression = moved
         for i in range(coordinates):
             weight = (v("full") / v("fastest")) * v(f"weight{first + i}")
-            correction = v(f"correction{first + i}") * weight
+            correction = _beyond_rounding(v, first + i) * weight
             motion = speeds_to_states * v(f"stage{coordinates + i}") * weight
             moved, way = moved + correction * correction, way + motion * motion
         total = total + moved / (1.0 + MOVED * MOVED * way)
     return total
+
+
+def _beyond_rounding(v: Callable[[str], Expression], i: int) -> Expression:
+    """Return by how much state i was moved, 0 where that may be rounding."""
+    correction = v(f"correction{i}")
+    beyond = abs(correction) - ROUNDED * (1.0 + abs(v(f"stage{i}")))
+    return select_positive(beyond, correction, 0.0)
