@@ -1,4 +1,4 @@
-"""Loops that a driver sets in motion from rest, beside play: nothing but rounding moves them yet."""
+"""Loops that a driver sets in motion from rest, beside play: only rounding moves them yet."""
 
 import copy
 import math
