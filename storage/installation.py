@@ -18,6 +18,8 @@ from jointplay.storage.settings import Settings
 
 MARK: Final = "installation"
 """Name of the file, or object, that holds the mark."""
+_DATA: Final = "data"
+_RESULTS: Final = "results"
 _LONGEST: Final = 64  # characters
 _log = logging.getLogger(__name__)
 
@@ -34,7 +36,7 @@ def require_own_files(settings: Settings, catalogue: Catalogue) -> None:
     OtherFiles
         One has another mark than the catalogue wants.
     """
-    for name, place, where in _shared(settings):
+    for name, place, where in _shared(settings, catalogue):
         known = catalogue.mark_of(name)
         try:
             found = _mark_in(place) or ("" if known else _marked(place))
@@ -59,17 +61,27 @@ def require_places(settings: Settings, catalogue: Catalogue) -> None:
     ConnectionError
         A disk is not mounted, which had a mark, or a server does not answer.
     """
-    for name, place, where in _shared(settings):
+    for name, place, where in _shared(settings, catalogue):
         if place.version(MARK) is None and catalogue.mark_of(name) is not None:
             raise ConnectionError(f"the disk with the results is not mounted at {where}")
 
 
-def _shared(settings: Settings) -> Iterator[tuple[str, Place, str]]:
+def _shared(settings: Settings, catalogue: Catalogue) -> Iterator[tuple[str, Place, str]]:
     if not settings.sends:
-        yield "data", Folder(str(settings.data)), str(settings.data)
+        yield _DATA, Folder(str(settings.data)), str(settings.data)
     place = settings.place
-    if not isinstance(place, Folder) or not Path(place.root).is_relative_to(settings.data):
-        yield "results", place, settings.results_url.partition("?")[0]
+    is_apart = not isinstance(place, Folder) or _is_apart(Path(place.root), settings.data)
+    if is_apart or catalogue.mark_of(_RESULTS) is not None:
+        yield _RESULTS, place, settings.results_url.partition("?")[0]
+
+
+def _is_apart(results: Path, data: Path) -> bool:
+    """Whether a folder is outside of the data folder, or a disk of its own is mounted there."""
+    if not results.is_relative_to(data):
+        return True
+    with suppress(FileNotFoundError, NotADirectoryError):
+        return results.stat().st_dev != data.stat().st_dev
+    return False
 
 
 def _mark_in(place: Place) -> str:

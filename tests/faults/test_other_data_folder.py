@@ -5,15 +5,17 @@ import shutil
 import sqlite3
 import subprocess
 import sys
+from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import httpx
 import pytest
 
 from jointplay.service.processes import StartFailed, running_service
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.installation import MARK, OtherFiles, require_own_files
+from jointplay.storage.installation import MARK, OtherFiles, require_own_files, require_places
 from jointplay.storage.settings import Settings
 from tests.postgresql_server import running_server
 from tests.seaweedfs_server import BUCKET, running_store
@@ -87,6 +89,41 @@ def test_another_folder_of_results_is_refused(tmp_path: Path) -> None:
         (tmp_path / "not mounted").mkdir()
         with pytest.raises(OtherFiles, match="not mounted is new to this catalogue"):
             checked("not mounted")
+
+
+@pytest.fixture
+def other_disk(tmp_path: Path) -> Iterator[Path]:
+    """Return a folder on another disk than the data folder."""
+    shared_memory = Path("/dev/shm")
+    if not shared_memory.is_dir() or shared_memory.stat().st_dev == tmp_path.stat().st_dev:
+        pytest.skip("there is no second disk")
+    with TemporaryDirectory(dir=shared_memory) as folder:
+        yield Path(folder)
+
+
+def test_a_disk_that_is_mounted_in_the_data_folder_is_missed(
+    tmp_path: Path, other_disk: Path
+) -> None:
+    """What is stored in its place would be hidden beneath it, and what is on it seem lost."""
+    settings = Settings(data=tmp_path)
+    results = tmp_path / "results"
+    with closing(Catalogue(settings.catalogue_url)) as catalogue:
+        catalogue.migrate()
+        require_own_files(settings, catalogue)  # before anything was stored
+        results.symlink_to(other_disk)
+        require_own_files(settings, catalogue)
+        require_places(settings, catalogue)
+        assert (other_disk / MARK).exists()
+        results.unlink()
+        results.mkdir()  # where the disk would be mounted
+        with pytest.raises(OtherFiles, match="results is new to this catalogue"):
+            require_own_files(settings, catalogue)
+        with pytest.raises(ConnectionError, match=f"not mounted at .*{results}"):
+            require_places(settings, catalogue)
+        assert not [*results.iterdir()]
+        shutil.copytree(other_disk, results, dirs_exist_ok=True)  # moved to the other disk
+        require_own_files(settings, catalogue)
+        require_places(settings, catalogue)
 
 
 def test_another_bucket_is_refused_and_another_machine_is_not(tmp_path: Path) -> None:
