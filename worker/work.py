@@ -17,6 +17,7 @@ from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.store import discard_others, seal
 from jointplay.worker.execute import Outcome, Report, execute
 from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.leaving_room import leaving_room
 from jointplay.worker.spent import publishing
 from jointplay.worker.study_block import run_block
 
@@ -64,7 +65,7 @@ class SimulationWork:
         return execute(
             self._admission,
             self._folder,
-            target,
+            leaving_room(target, self._settings),
             report=report,
             resume_from=restart,
             longest=self._settings.longest,
@@ -130,7 +131,7 @@ class SealWork:
     def __init__(self, study: Study, layout: StudyLayout, job: str, settings: Settings) -> None:
         self._study, self._layout = study, layout
         self._job, self._settings = job, settings
-        self._target = settings.sealed_study(job)
+        self._target = leaving_room(settings.sealed_study(job), settings)
         self._folder = settings.running_study(job).folder
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:

@@ -188,6 +188,38 @@ def test_a_full_disk_is_waited_for_with_ever_longer_pauses(
     stored(catalogue, settings, job)
 
 
+def test_sealing_leaves_half_of_the_reserve_to_the_catalogue(
+    catalogue: Catalogue,
+    settings: Settings,
+    admission: Admission,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It took all that was left, and the catalogue could take no word any more."""
+    undisturbed = submit(catalogue, admission)
+    run(catalogue, settings, f"{undisturbed}-0")
+    (sealed,) = (settings.data / "results").rglob("*.zip")
+    size = sealed.stat().st_size
+    small = settings.model_copy(update={"reserve": 4 * size})
+    left = 0
+
+    def room(one: Settings) -> int:
+        """Return what a disk has beyond the reserve: too little from when results are sealed."""
+        is_sealing = any(settings.data.glob("results/*/*.partial"))
+        return (left if is_sealing else 2 * one.reserve) - one.reserve
+
+    monkeypatch.setattr(Settings, "room", room)
+    job = submit(catalogue, admission)
+    left = 2 * size + 1
+    run(catalogue, small, f"{job}-0")
+    assert catalogue.get(job).activity == "waiting for room on the disk"
+    assert not [*settings.data.rglob("*.partial")]
+    left = 4 * size
+    run(catalogue, small, f"{job}-0")
+    assert [one.outcome for one in catalogue.attempts(job)] == ["put-off", "done"]
+    same = stored(catalogue, settings, job), stored(catalogue, settings, undisturbed)
+    assert same[0] == same[1]
+
+
 def test_a_disk_that_gets_full_is_noticed_before_the_next_restart_point(
     catalogue: Catalogue, settings: Settings, admission: Admission
 ) -> None:
