@@ -55,8 +55,10 @@ class Queueing:
                 return earlier
             found = self._checker.check(CheckJob(repeatable.sent_key), body)
             own = replace(found.job, owner=caller.owner)
-            quota = quota_of(caller, self._settings)
-            submitted = self._catalogue.submit(own, found.key, reuse=found.reuse, quota=quota)
+            key, quota = found.key, quota_of(caller, self._settings)
+            if key is None and not found.reuse:  # what finds it if the answer to a commit is lost
+                key = SentKey.made_here(caller.owner).with_document(None)
+            submitted = self._catalogue.submit(own, key, reuse=found.reuse, quota=quota)
         if submitted.created:
             self._wake(len(own.blocks))
         return submitted
