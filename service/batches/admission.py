@@ -17,7 +17,8 @@ from jointplay.storage.settings import Settings
 
 MOST_JOBS = 10_000
 LONGEST_LABEL = 200
-Check = Callable[[Any, Settings], NewJob]
+Check = Callable[[Any, Settings, float], NewJob]
+"""Takes a job's document, settings and the catalogue's time."""
 _MOST_PROBLEMS = 100  # that are looked for: as many as one problem document carries
 
 
@@ -53,7 +54,8 @@ class QueueBatch:
         self, document: object, settings: Settings, catalogue: Catalogue
     ) -> SubmittedBatch:
         """Check and queue a document's jobs; raises what `admit_batch` and `submit_batch` do."""
-        jobs, label = admit_batch(document, settings, repeated if self.retries else _submitted)
+        check = repeated if self.retries else _submitted
+        jobs, label = admit_batch(document, settings, check, catalogue.clock())
         ended = self.retries or (None,) * len(jobs)
         return catalogue.submit_batch(
             [
@@ -67,8 +69,12 @@ class QueueBatch:
         )
 
 
-def admit_batch(document: object, settings: Settings, check: Check) -> tuple[list[NewJob], str]:
+def admit_batch(
+    document: object, settings: Settings, check: Check, now: float
+) -> tuple[list[NewJob], str]:
     """Check a batch and return its jobs, each by a check of its own, and its label.
+
+    `now` : the catalogue's time, epoch seconds.
 
     Raises
     ------
@@ -83,7 +89,7 @@ def admit_batch(document: object, settings: Settings, check: Check) -> tuple[lis
     only_limits = True
     for index, one in enumerate(jobs):
         try:
-            admitted.append(check(one, settings))
+            admitted.append(check(one, settings, now))
         except InvalidInput as error:
             only_limits &= isinstance(error, LimitExceeded)
             problems += [
@@ -97,8 +103,8 @@ def admit_batch(document: object, settings: Settings, check: Check) -> tuple[lis
     return admitted, label
 
 
-def _submitted(job: object, settings: Settings) -> NewJob:
-    return checked(job, settings)[0]
+def _submitted(job: object, settings: Settings, now: float) -> NewJob:
+    return checked(job, settings, now)[0]
 
 
 def _parts(document: object) -> tuple[Sequence[object], str]:

@@ -44,9 +44,9 @@ class Checked:
 class RepeatJob:
     """The check of a stored job that is computed again; raises what `repeated` does."""
 
-    def __call__(self, document: object, settings: Settings, _catalogue: Catalogue) -> NewJob:
+    def __call__(self, document: object, settings: Settings, catalogue: Catalogue) -> NewJob:
         """Check a document that was filled in."""
-        return repeated(cast("dict[str, Any]", document), settings)
+        return repeated(cast("dict[str, Any]", document), settings, catalogue.clock())
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class CheckJob:
 
     def __call__(self, document: object, settings: Settings, catalogue: Catalogue) -> Checked:
         """Check a document."""
-        job, reuse = checked(document, settings)
+        job, reuse = checked(document, settings, catalogue.clock())
         key = None if self.key is None else self.key.with_document(document)
         return Checked(job, key, reuse)
 

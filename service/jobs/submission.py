@@ -1,6 +1,5 @@
 """From a document to a queued job."""
 
-import time
 from datetime import UTC, datetime
 from typing import Any
 
@@ -33,8 +32,10 @@ FIELDS: dict[str, dict[str, Any]] = {
 """The schemas of the fields that a document may have beside those of its job."""
 
 
-def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
+def checked(document: object, settings: Settings, now: float) -> tuple[NewJob, bool]:
     """Check a job's document. Returns what the catalogue takes, and whether to reuse a result.
+
+    `now` : the catalogue's time, by which jobs expire, epoch seconds.
 
     Raises
     ------
@@ -43,7 +44,7 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
     LimitExceeded
         The job is sound but too large, or takes too long to compile.
     """
-    expires = None if settings.keep is None else time.time() + settings.keep
+    expires = None if settings.keep is None else now + settings.keep
     cache: object = True
     problems = []
     if isinstance(document, dict) and FIELDS.keys() & document.keys():
@@ -51,7 +52,7 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
         if not isinstance(cache, bool):
             problems.append(Problem("/cache", "'cache' is true or false."))
         if document.get("expires") is not None:
-            expires = _to_come(document["expires"])
+            expires = _to_come(document["expires"], now)
             if expires is None:
                 sentence = (
                     "'expires' is a moment to come, before the year 10000 in UTC, in RFC 3339 with"
@@ -71,16 +72,16 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
     return new, cache is True
 
 
-def repeated(document: dict[str, Any], settings: Settings) -> NewJob:
+def repeated(document: dict[str, Any], settings: Settings, now: float) -> NewJob:
     """Return what the catalogue takes to compute a stored job again; raises what `checked` does.
 
     An earlier version may have admitted what is refused today: it is repeated as it was.
     """
-    expires = None if settings.keep is None else time.time() + settings.keep
+    expires = None if settings.keep is None else now + settings.keep
     try:
         admission = parse(document)
     except (InvalidInput, KeyError):  # of a version whose documents this one cannot read
-        return checked(document, settings)[0]
+        return checked(document, settings, now)[0]
     return _within_limits(admission, settings, expires)
 
 
@@ -104,12 +105,13 @@ def _within_limits(
     )
 
 
-def _to_come(text: object) -> float | None:
-    """Return the epoch seconds of a moment in the future; None where the text means none."""
+def _to_come(text: object, now: float) -> float | None:
+    """Return the epoch seconds of a moment after `now`; None where the text means none."""
     try:
         moment = datetime.fromisoformat(text) if isinstance(text, str) else None
-        if moment is None or moment.tzinfo is None or moment <= datetime.now(UTC):
+        if moment is None or moment.tzinfo is None:
             return None
-        return moment.astimezone(UTC).timestamp()  # an offset may lead beyond the year 9999
+        to_come = moment.astimezone(UTC).timestamp()  # an offset may lead beyond the year 9999
     except (ValueError, OverflowError):
         return None
+    return to_come if to_come > now else None

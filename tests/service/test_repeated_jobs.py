@@ -2,18 +2,26 @@
 
 import math
 import threading
+from contextlib import closing, contextmanager
 from datetime import UTC, datetime, timedelta
 
 import httpx
 import pytest
 from sqlalchemy import update
 
+from jointplay.records.failure import InvalidInput
 from jointplay.records.job import JobError
 from jointplay.service import checking
 from jointplay.service.app import create_app
+from jointplay.service.batches.admission import QueueBatch
+from jointplay.service.checking import CheckJob, RepeatJob
+from jointplay.service.idempotency import SentKey
 from jointplay.service.jobs.submission import checked
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.connections import Connections
+from jointplay.storage.catalogue.errors import Interrupted
+from jointplay.storage.catalogue.quotas import NO_QUOTA
 from jointplay.storage.catalogue.records import BlockEnd, BlockState
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
@@ -291,3 +299,41 @@ def test_jobs_are_listed_by_what_they_are(own):
     assert listed(since=moment) == ["poincare", "pendulum"]
     assert listed(before=moment) == ["slider"]
     assert listed(since="0001-01-01T00:00:00Z", before="9999-12-31T23:59:59Z") == listed()
+
+
+@pytest.mark.parametrize("document", [JOB, JOB | {"cache": False}])
+def test_a_job_is_made_once_where_the_answer_to_its_commit_is_lost(own, monkeypatch, document):
+    """The unit is begun anew, and must find what it has done."""
+    http, catalogue = own
+    lost = []
+    writing = Connections.writing
+
+    @contextmanager
+    def losing(connections, *, durable=False):
+        with writing(connections, durable=durable) as connection:
+            yield connection
+        if durable and not lost:
+            lost.append(durable)
+            raise Interrupted("does not answer")
+
+    monkeypatch.setattr(Connections, "writing", losing)
+    answer = http.post("/v1/jobs", json=document)
+    assert lost
+    (job,) = catalogue.jobs().jobs
+    assert answer.json()["id"] == job.id
+
+
+def test_jobs_expire_by_the_clock_of_the_catalogue(tmp_path):
+    """That of an API's machine may be hours behind: all of its jobs would have expired."""
+    settings, moment = Settings(data=tmp_path, keep=3600.0), 4e9
+    with closing(Catalogue(settings.catalogue_url, clock=lambda: moment)) as catalogue:
+        catalogue.migrate()
+        assert CheckJob()(dict(JOB), settings, catalogue).job.expires == moment + 3600.0
+        stored = CheckJob()(dict(JOB), settings, catalogue).job.spec
+        assert RepeatJob()(stored, settings, catalogue).expires == moment + 3600.0
+        queue = QueueBatch(SentKey.made_here(""), "", NO_QUOTA)
+        (queued,) = queue({"jobs": [dict(JOB)]}, settings, catalogue).jobs
+        assert catalogue.get(queued).expires == moment + 3600.0
+        past = JOB | {"expires": datetime.fromtimestamp(moment - 1.0, UTC).isoformat()}
+        with pytest.raises(InvalidInput, match="a moment to come"):
+            CheckJob()(past, settings, catalogue)

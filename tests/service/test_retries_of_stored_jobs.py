@@ -29,7 +29,7 @@ class Service(NamedTuple):
 
     def stored(self, **changes: Any) -> NewJob:
         """Return a job as an earlier version might have filled it in."""
-        new, _ = checked(JOB | {"channels": CHANNELS}, self.settings)
+        new, _ = checked(JOB | {"channels": CHANNELS}, self.settings, 0.0)
         spec = copy.deepcopy(new.spec) | changes
         spec["scene"]["parameters"]["youngs_modulus"] = 7e10
         return replace(new, spec=spec, digest="0" * 64)
