@@ -53,6 +53,7 @@ from jointplay.service.request_log import RequestLog
 from jointplay.service.results.damage import answer_damage
 from jointplay.service.scenes.looks import scene_looker
 from jointplay.service.scenes.poses import scene_poser
+from jointplay.service.targets import Targets
 from jointplay.service.vital import VitalThreads
 from jointplay.service.windows import WindowProcess
 from jointplay.service.workers.bell import Bell
@@ -192,6 +193,7 @@ def _add_middleware(app: FastAPI, settings: Settings) -> None:
     app.add_middleware(SignedLinks)
     app.add_middleware(Pieces)
     app.add_middleware(Turns, unlocked=unlocked, keys=settings.keys == "required")
+    app.add_middleware(Targets)
     app.add_middleware(ContentPolicy)
     if settings.log_format == "json":
         app.add_middleware(RequestLog)

@@ -7,7 +7,9 @@ from fastapi import Request
 
 from jointplay.service.problems import RequestRefused, clipped, kinds
 
-_SINGLE: Final = re.compile(r"bytes=(?:(\d{1,19})-(\d{0,19})|-(\d{1,19}))", re.ASCII)
+_SINGLE: Final = re.compile(
+    r"bytes=(?:(\d{1,19})-(\d{0,19})|-(\d{1,19}))", re.ASCII | re.IGNORECASE
+)
 
 
 class Unsatisfiable(Exception):

@@ -18,6 +18,7 @@ def whole(http, base):
     ("asked", "start", "stop"),
     [
         ("bytes=0-0", 0, 1),
+        ("Bytes=0-0", 0, 1),  # names of units have no case (RFC 9110, section 14.1)
         ("bytes=10-99", 10, 100),
         ("bytes=100-", 100, None),
         ("bytes=-260", -260, None),
