@@ -11,7 +11,7 @@ from jointplay.storage.catalogue.submission import insert_jobs, row_of
 
 
 def adopt(unit: Unit, job_id: str, new: NewJob, attempt: int, steps: int | None) -> None:
-    """Make the job of whole results that has none, as one that has succeeded.
+    """Make the job of whole results that has none, as one that has succeeded now.
 
     Parameters
     ----------
@@ -33,6 +33,7 @@ def adopt(unit: Unit, job_id: str, new: NewJob, attempt: int, steps: int | None)
     ended = {
         "state": JobState.succeeded,
         "attempt": attempt,
+        "finished": unit.now,  # as far as it is known: until there is a time, clients wait
         "steps": steps,
         "progress_fraction": 1.0,
         "progress_time": float(new.spec.get("duration") or 0.0),

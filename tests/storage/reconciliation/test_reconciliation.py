@@ -169,6 +169,7 @@ def test_whole_results_without_a_job_get_one_that_can_be_found(installed: Instal
         for name in (*same, "progress_fraction"):
             assert getattr(job, name) == getattr(former, name), name
         assert job.created == pytest.approx(former.created, abs=1e-3)  # ids count milliseconds
+        assert job.finished == pytest.approx(installed.clock(), abs=60.0)  # who waits for it ends
     left = {one.subjects[0].rpartition("/")[2]: one for one in installed.look()}
     running = ("cut short", "cut short, too", "given up", "running")
     cancelled = installed.sealed("cancelled").key.rpartition("/")[2]
