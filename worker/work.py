@@ -11,9 +11,11 @@ from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore, IncompleteStudy, NotAStore
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
+from jointplay.storage.results.manifest import verify
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import discard_others, seal
 from jointplay.worker.execute import Outcome, Report, execute
 from jointplay.worker.layouts import layout_of_study
@@ -54,12 +56,24 @@ class SimulationWork:
         target = self._sealed(self._block.attempt)
         if (adopted := self._adopted(target)) is not None:
             return adopted
+        self._clear(target)
         try:
             return self._simulated(target, report, self._block.checkpoint)
         except CorruptStore as damage:
             _log.warning("block %s begins anew: %s", self._block.id, damage)
             shutil.rmtree(self._folder)
             return self._simulated(target, report, None)
+
+    def _clear(self, target: StoredObject) -> None:
+        """Remove what an attempt of this number left of which the catalogue knows no more.
+
+        An older copy of it was put back, or a power cut undid the claim.
+        """
+        if target.exists():
+            _log.warning("block %s: %s is of an attempt that was undone", self._block.id, target)
+            target.place.remove(target.key)
+        if self._folder.exists():
+            shutil.rmtree(self._folder)
 
     def _simulated(self, target: StoredObject, report: Report, restart: str | None) -> Outcome:
         return execute(
@@ -77,9 +91,9 @@ class SimulationWork:
     def _adopted(self, target: StoredObject) -> Outcome | None:
         """Take over what an attempt sealed that was lost before it could say so.
 
-        Returns None if none sealed anything.
+        It may have had the number of this one, see `_clear`. Returns None if none sealed anything.
         """
-        for attempt in range(self._block.attempt - 1, 0, -1):
+        for attempt in range(self._block.attempt, 0, -1):
             lost = self._sealed(attempt)
             try:
                 run = ResultReader(Packed(lost))
@@ -87,7 +101,7 @@ class SimulationWork:
             except (NotAStore, CorruptStore):
                 continue
             if run.complete and run.attributes["solver_version"] == SOLVER_VERSION:
-                if not target.place.adopt(target.key, lost.key):
+                if lost != target and not target.place.adopt(target.key, lost.key):
                     continue
                 end = float(self._admission.job["duration"])
                 return Outcome("succeeded", end, 1.0, statistics=run.attributes["summary"])
@@ -105,8 +119,10 @@ class StudyWork:
         self._settings = settings
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
-        """Compute the block's points."""
+        """Compute the block's points, unless the study was sealed: see `_is_sealed`."""
         block = self._block
+        if _is_sealed(self._settings.sealed_study(block.job), self._layout):
+            return Outcome("succeeded", 0.0, 1.0)
         name = block.checkpoint
         folder = self._settings.running_study(block.job).folder
         if discard_others(folder, self._layout):
@@ -139,6 +155,11 @@ class SealWork:
 
         What a block left and is damaged by now is computed again.
         """
+        if _is_sealed(self._target, self._layout, whole=True):
+            return Outcome("succeeded", 0.0, 1.0)
+        if self._target.exists():
+            _log.warning("%s is not what it was, and is sealed again", self._target)
+            self._target.place.remove(self._target.key)
         try:
             with publishing():
                 seal(self._folder, self._layout, self._target, advanced)
@@ -154,6 +175,22 @@ class SealWork:
             with publishing():
                 seal(self._folder, self._layout, self._target, advanced)
         return Outcome("succeeded", 0.0, 1.0)
+
+
+def _is_sealed(target: StoredObject, layout: StudyLayout, *, whole: bool = False) -> bool:
+    """Whether there are results of this study, by this solver, of which the catalogue knows not.
+
+    An older copy of it was put back, or whoever sealed them was lost. `whole` : every byte is
+    looked at.
+    """
+    try:
+        packed = Packed(target)
+        attributes = StudyReader(packed).attributes
+        if whole:
+            verify(packed)
+    except (NotAStore, CorruptStore):
+        return False
+    return bool(attributes["complete"]) and attributes["layout"] == layout.digest
 
 
 _last_study: tuple[str, Study, StudyLayout] | None = None

@@ -1,6 +1,9 @@
 """One block in this process, against a real catalogue: how it ends, whatever happens to it."""
 
+import sqlite3
 import threading
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 import pytest
@@ -233,6 +236,74 @@ def test_what_a_worker_sealed_before_it_was_lost_is_adopted(
     assert adopted.read(0, adopted.size()) == content  # with the seconds that the first one took
     assert not sealed.exists()
     assert not settings.running_folder(job.id).exists()
+
+
+@contextmanager
+def undone(catalogue: Catalogue, settings: Settings) -> Iterator[None]:
+    """Put the catalogue back at the end as it is now, as from a backup or by a power cut."""
+    file, copy = settings.data / "catalogue.sqlite", settings.data / "copy.sqlite"
+    with closing(sqlite3.connect(file)) as one, closing(sqlite3.connect(copy)) as other:
+        one.backup(other)
+    yield
+    catalogue.close()
+    for left in settings.data.glob(f"{file.name}?*"):
+        left.unlink()
+    copy.replace(file)
+
+
+@pytest.mark.parametrize("answer", [Answer.go_on, Answer.cancel, None])
+def test_what_an_attempt_left_whose_claim_was_undone_is_in_nobodys_way(
+    catalogue: Catalogue, settings: Settings, block: str, answer: Answer | None
+) -> None:
+    """Its next claim has the same number: whole results are taken, all else is made anew."""
+    job = catalogue.blocks(block.rpartition("-")[0])[0].job
+    sealed = settings.sealed_run(job, 1)
+    content = None
+    with undone(catalogue, settings):
+        if answer is None:
+            run(catalogue, settings, block, draining=True)
+            assert settings.running_run(job, 1).folder.exists()
+        else:
+            lost = catalogue.claim_block(block, "lost", lease=0.0)
+            assert lost is not None
+            work.work_of(lost, settings).execute(lambda _: answer, lambda: None)
+            content = sealed.read(0, sealed.size())
+    assert catalogue.blocks(job)[0].attempt == 0
+    state, ended = run(catalogue, settings, block)
+    assert (state, ended.attempt) == (JobState.succeeded, 1)
+    assert sealed_run(settings, catalogue.get(job)).complete
+    assert (sealed.read(0, sealed.size()) == content) is (answer is Answer.go_on)
+    assert not settings.running_folder(job).exists()
+
+
+@pytest.mark.parametrize("damaged", [False, True])
+def test_a_study_that_was_sealed_is_not_computed_again_where_the_catalogue_is_an_older_one(
+    catalogue: Catalogue,
+    settings: Settings,
+    study: str,
+    monkeypatch: pytest.MonkeyPatch,
+    damaged: bool,
+) -> None:
+    sealed = settings.sealed_study(study)
+    path = settings.data / "results" / sealed.key
+    blocks = [f"{study}-{index}" for index in range(len(catalogue.blocks(study)))]
+    with undone(catalogue, settings):
+        for block in blocks:
+            run(catalogue, settings, block)
+        content = path.read_bytes()
+        if damaged:
+            path.write_bytes(content[:2000] + b"?" + content[2001:])
+    computed: list[int] = []
+    compute = work.run_block
+    monkeypatch.setattr(
+        work, "run_block", lambda *given, **of: computed.append(1) or compute(*given, **of)
+    )
+    for block in blocks:
+        run(catalogue, settings, block)
+    assert catalogue.get(study).state is JobState.succeeded
+    assert path.read_bytes() == content
+    assert bool(computed) is damaged
+    assert not settings.running_folder(study).exists()
 
 
 SEVERAL_BODIES = {"kind": "simulate", "scene": chain(10).model_dump(mode="json"), "duration": 0.1}
