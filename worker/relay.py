@@ -25,6 +25,8 @@ from jointplay.worker.removal import clear_up, remove_expired
 from jointplay.worker.wake_up import WakeUpListener, connection
 
 _TASK = "relay"
+_JUMP = "jump of the clock"
+"""Task of one of the relays that see the same jump."""
 _LEAD_SECONDS = 5.0
 _LONGEST_TURN = 5.0  # s; between two turns of a process that was not stopped
 _UNDERWAY = 2.0  # s; a message is in a queue, or its block is claimed, after less than that
@@ -56,11 +58,15 @@ class Relay:
         """Do what is due now, if this process leads."""
         now = time.monotonic()
         seen = self._catalogue.clock()
-        self._give_the_living_time(now, seen)
+        jumped = self._give_the_living_time(now, seen)
+        if jumped:  # others may lead since then
+            self._lead_until = 0.0
         if now > self._lead_until - _LEAD_SECONDS / 2:
             if not self._lead():
                 return
             self._lead_until = now + _LEAD_SECONDS
+        if jumped > 0.0 and self._catalogue.take_lead(_JUMP, self._name, self._settings.lease):
+            self._catalogue.pass_over(jumped, seen - jumped)
         if now >= self._reap_next:
             self._reap_next = now + self._settings.reaper_period
             self._catalogue.mend_after_setting_back(
@@ -109,19 +115,23 @@ class Relay:
             self._clear_up_pause = self._settings.lease if found else longer
             self._clear_up_next = time.monotonic() + self._clear_up_pause
 
-    def _give_the_living_time(self, now: float, seen: float) -> None:
+    def _give_the_living_time(self, now: float, seen: float) -> float:
         """Call no lease run out yet where the catalogue's clock was set, or all here was stopped.
 
         All leases seem to have run out then; the living extend theirs with their next heartbeat.
+        Returns the seconds by which the clock was set, or this machine slept; else 0.
         """
         awake, passed = now - self._last_turn, seen - self._last_seen
+        jumped = 0.0
         if abs(passed - awake) > _LONGEST_TURN:  # it was set, or this machine slept
+            jumped = passed - awake
             _log.warning("the clock has gone on by %.1f s in %.1f s", passed, awake)
             self._trust_leases = now + self._settings.lease
         elif awake > _LONGEST_TURN:
             _log.warning("%.1f s have passed since the last turn", awake)
             self._trust_leases = max(self._trust_leases, now + self._settings.heartbeat + 1.0)
         self._last_turn, self._last_seen = now, seen
+        return jumped
 
     def publish(self) -> None:
         """Send every due wake-up to Redis; what cannot be sent stays due."""

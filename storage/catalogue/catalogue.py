@@ -30,6 +30,7 @@ from jointplay.storage.catalogue import (
     tally,
     turns,
     upkeep,
+    usage,
 )
 from jointplay.storage.catalogue.connections import Connections, Unit
 from jointplay.storage.catalogue.errors import (
@@ -290,6 +291,7 @@ class Catalogue:
     unmeasured = reading(stored.unmeasured)
     note_stored = writing(stored.note_stored)
     mend_after_setting_back = writing(upkeep.mend_after_setting_back)
+    pass_over = writing(usage.pass_over)
     announce_again = writing(upkeep.announce_again)
     contradicting = reading(disagreements.find)
     reconcile = writing(disagreements.mend)

@@ -9,7 +9,7 @@ units wait for each other. What runs is added when it is asked for.
 
 from typing import Final
 
-from sqlalchemy import and_, delete, func, select, text
+from sqlalchemy import and_, delete, exists, func, select, text, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
@@ -28,6 +28,19 @@ def add(unit: Unit, owner: str, worker: str, seconds: float) -> None:
     """Count core seconds that an attempt of this worker took."""
     hour = int(unit.now // _HOUR)
     unit.execute(_ADD, {"owner": owner, "hour": hour, "worker": worker, "seconds": seconds})
+
+
+def pass_over(unit: Unit, seconds: float, before: float) -> None:
+    """Have attempts that began before a moment, and go on, be so many seconds shorter.
+
+    By so much the clock was set forward since then, or so long the machine slept: nobody computed.
+    """
+    block, attempt = tables.block, tables.attempt
+    of_block = (attempt.c.block == block.c.id) & (attempt.c.number == block.c.attempt)
+    goes_on = exists().where(of_block, block.c.state == BlockState.running)
+    began = (attempt.c.ended.is_(None)) & (attempt.c.started <= before)
+    later = {"started": attempt.c.started + seconds}
+    unit.execute(update(attempt).where(began, goes_on).values(later))
 
 
 def core_seconds_of(unit: Unit, owner: str) -> float:

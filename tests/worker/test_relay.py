@@ -10,7 +10,7 @@ from redis import Redis
 
 from jointplay.service.processes.broker import Broker
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import NewJob
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker import relay as relay_module
 from jointplay.worker import tasks
@@ -132,6 +132,37 @@ def test_no_block_is_taken_back_until_the_living_had_time_for_a_heartbeat(
     assert time.monotonic() - began >= 3.0  # a lease
     assert catalogue.attempts(held)[0].outcome is None
     relay.release_lead()
+
+
+@pytest.mark.parametrize("relays", [1, 2])
+def test_nobody_pays_for_the_time_by_which_a_clock_was_set_ahead(
+    catalogue: Catalogue, settings: Settings, monkeypatch: pytest.MonkeyPatch, relays: int
+) -> None:
+    """An owner would have used up his core seconds of a day, and others would go before him."""
+    ahead, true_time = 0.0, catalogue.clock
+    monkeypatch.setattr(catalogue, "clock", lambda: true_time() + ahead)
+    began = catalogue.clock()
+    seeing = [Relay(catalogue, settings) for _ in range(relays)]
+    for number, relay in enumerate(seeing):
+        relay._name += str(number)  # a process of its own
+        relay.turn()
+    held, later = (catalogue.submit(replace(NEW, owner="ada")).job.id for _ in range(2))
+    catalogue.claim_block(f"{held}-0", "worker", lease=30.0)
+    ahead = 36_000.0
+    catalogue.claim_block(f"{later}-0", "worker", lease=30.0)
+    for relay in seeing:
+        relay.turn()
+    took = catalogue.clock() - began - ahead
+    assert 0.0 <= catalogue.use_of("ada").computed <= 2 * took
+    catalogue.finish(f"{held}-0", 1, BlockEnd(BlockState.done))
+    catalogue.settle()
+    took = catalogue.clock() - began - ahead
+    assert 0.0 <= catalogue.use_of("ada").computed <= 2 * took
+    with catalogue.connections.reading() as connection:
+        (owed,) = connection.exec_driver_sql("SELECT next FROM share WHERE owner = 'ada'").one()
+    assert 0.0 <= owed < 60.0  # with what the other block will probably cost
+    for relay in seeing:
+        relay.release_lead()
 
 
 def test_what_a_process_had_that_ended_is_taken_over_before_its_time(
