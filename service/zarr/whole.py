@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from contextlib import suppress
 from hashlib import sha256
+from pathlib import Path
 from typing import Any, Final
 
 from fastapi import APIRouter, Request, Response
@@ -15,8 +16,11 @@ from jointplay.service.fields import BINARY
 from jointplay.service.problems import RequestRefused, header, kinds, problems
 from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
 from jointplay.service.zarr import ranges
+from jointplay.storage.errors import LostObject
 from jointplay.storage.packed import Packed
+from jointplay.storage.packed.ranges import OpenFile, Ranges
 from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
 
 router = APIRouter(prefix="/v1/jobs/{job_id}", tags=["results"])
 
@@ -93,8 +97,9 @@ def show_whole(
     status = 206 if part else 200
     if request.method == "HEAD":
         return Response(b"", status, headers, _TYPE)
-    Packed(sealed).check(start, stop)  # whose directory is checked, too
-    return StreamingResponse(_pieces(sealed, start, stop), status, headers, _TYPE)
+    source = _held(sealed)
+    Packed(source).check(start, stop)  # whose directory is checked, too
+    return StreamingResponse(_pieces(source, start, stop), status, headers, _TYPE)
 
 
 def _sealed_version(results: ResultsOfJob) -> str:
@@ -108,7 +113,20 @@ def _sealed_version(results: ResultsOfJob) -> str:
     raise RequestRefused(kinds.NO_RESULTS, sentence)
 
 
-def _pieces(sealed: StoredObject, start: int, stop: int) -> Iterator[bytes]:
-    with suppress(FileNotFoundError):  # removed meanwhile: the answer ends too early
+def _held(sealed: StoredObject) -> Ranges:
+    """Return a store to be read to its end, as it is now, even if its job is deleted meanwhile.
+
+    A bucket cannot keep it for that long.
+    """
+    if not isinstance(sealed.place, Folder):
+        return sealed
+    try:
+        return OpenFile(str(sealed), Path(sealed.place.root) / sealed.key)
+    except FileNotFoundError as error:
+        raise LostObject(f"{sealed} was removed") from error
+
+
+def _pieces(source: Ranges, start: int, stop: int) -> Iterator[bytes]:
+    with suppress(FileNotFoundError):  # removed from a bucket: the answer ends too early
         for begin in range(start, stop, _PIECE):
-            yield sealed.read(begin, min(begin + _PIECE, stop))
+            yield source.read(begin, min(begin + _PIECE, stop))

@@ -1,7 +1,9 @@
 """Bytes that are read by ranges: an object of a place, a file without a name, or in memory."""
 
 import os
+from pathlib import Path
 from typing import IO, Final, Protocol
+from weakref import finalize
 
 _PART: Final = 2**23  # bytes
 
@@ -62,6 +64,25 @@ class InFile:
     def read(self, start: int, stop: int) -> bytes:
         """Return bytes [start, stop)."""
         return os.pread(self._descriptor, stop - start, start)
+
+
+class OpenFile(InFile):
+    """Bytes of the file of a path, which is open until nobody uses this any more.
+
+    Whoever removes it meanwhile removes its name.
+
+    Parameters
+    ----------
+    name
+        For sentences.
+    path
+        Of the file; FileNotFoundError if there is none.
+    """
+
+    def __init__(self, name: str, path: Path) -> None:
+        self._name = name
+        self._descriptor = os.open(path, os.O_RDONLY)
+        finalize(self, os.close, self._descriptor)
 
 
 class InParts:

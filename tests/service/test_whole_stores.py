@@ -16,6 +16,7 @@ from obstore.store import HTTPStore
 from jointplay.service.app import create_app
 from jointplay.service.zarr import whole
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.packed import Packed
 from jointplay.storage.settings import Settings
 from tests.seaweedfs_server import BUCKET, running_store
 from tests.service.guarded import Guarded
@@ -51,6 +52,28 @@ def by_curl(address: str, key: str = "") -> bytes:
     header = ["-H", f"Authorization: Bearer {key}"] if key else []
     command = ["curl", "-sSfL", "--noproxy", "*", *header, address]
     return subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
+
+
+def test_a_file_is_sent_to_its_end_though_its_job_is_deleted_meanwhile(
+    http: httpx.Client, finished_job: str, settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The answer ended too early, and the log had tracebacks."""
+    (file,) = Path(settings.results_url.removeprefix("file:")).glob(f"*/{finished_job}-*.zip")
+    content, check = file.read_bytes(), Packed.check
+
+    def deleted_once_checked(packed: Packed, start: int, stop: int) -> None:
+        check(packed, start, stop)
+        file.unlink()
+
+    monkeypatch.setattr(Packed, "check", deleted_once_checked)
+    try:
+        for asked, part in (("bytes=0-", slice(None)), ("bytes=100-", slice(100, None))):
+            headers = {"Range": asked}
+            answer = http.get(f"/v1/jobs/{finished_job}/zarr.zip", headers=headers)
+            assert (answer.status_code, answer.content) == (206, content[part])
+            file.write_bytes(content)
+    finally:
+        file.write_bytes(content)
 
 
 def test_the_file_and_its_ranges(guarded: Guarded, tmp_path: Path) -> None:
