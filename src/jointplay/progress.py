@@ -30,10 +30,10 @@ def _bar(title: str) -> Iterator[Callable[[float, str], None]]:
     from rich.progress import TimeRemainingColumn as Remaining
 
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),  # it may be a label
         BarColumn(),
         TaskProgressColumn(),
-        TextColumn("{task.fields[note]}"),
+        TextColumn("{task.fields[note]}", markup=False),
         Remaining(),
     )
     with Progress(*columns, console=Console(stderr=True)) as bars:

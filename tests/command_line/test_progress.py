@@ -32,7 +32,7 @@ def test_a_terminal_shows_a_bar():
     ours, theirs = os.openpty()
     program = (
         "from jointplay.progress import progress\n"
-        "with progress('work') as report:\n"
+        "with progress('work [/of] [0.3 mm]') as report:\n"  # a label, and no markup
         "    report(0.5, 'half'); report(1.0, 'all of it')\n"
     )
     environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100"}
@@ -41,7 +41,7 @@ def test_a_terminal_shows_a_bar():
     shown = os.read(ours, 100_000).decode()
     os.close(ours)
     assert ended.returncode == 0
-    assert "work" in shown
+    assert "work [/of] [0.3 mm]" in shown
     assert "100%" in shown
     assert "━" in shown
 

@@ -69,6 +69,18 @@ def test_a_job_is_listed_by_each_label_that_it_was_asked_for_with(jointplay, at)
         assert listed.endswith("a, b\n")
 
 
+def test_a_label_cannot_command_the_terminal_of_whoever_lists_it(jointplay, at, http):
+    label = "a\x1b[2J\x9b31m\u202eb\r\nc\u2028 \u00b5m é\u0301 😀"
+    job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.03, "label": label}
+    job_id = http.post("/v1/jobs", json=job).json()["id"]
+    seen = r"a\x1b[2J\x9b31m\u202eb\r\nc\u2028" + " \u00b5m é\u0301 😀"
+    (row,) = [one for one in jointplay("ls", *at).out.splitlines() if job_id in one]
+    assert row.endswith(f"  {seen}")
+    assert "\x1b" not in jointplay("show", job_id, *at).out
+    (told,) = json.loads(jointplay("ls", "-n", "1", "--json", *at).out)["jobs"]
+    assert told["label"] == label
+
+
 def test_jobs_are_retried_and_deleted_by_what_they_are(jointplay, at, worker):
     named = ["--label", "to be retried", *at]
     jobs = [worker.submit(label="to be retried", duration=0.1 * n) for n in (1, 2, 3)]

@@ -9,7 +9,7 @@ import typer
 from jointplay.command_line.chosen_jobs import KIND, LABEL, SCENE
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import tell, visible
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -55,4 +55,4 @@ def _row(job: "Job") -> str:
     created = job.created.astimezone().strftime("%Y-%m-%d %H:%M:%S")
     done = f"{job.progress.fraction:.0%}"
     row = f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:15}"
-    return f"{row}  {', '.join(job.labels) or job.scene_name}"
+    return f"{row}  {visible(', '.join(job.labels) or job.scene_name, kept='')}"

@@ -3,23 +3,40 @@
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import Final
+from unicodedata import bidirectional, category
 
 import typer
 
 from jointplay.command_line.exits import Stopped
 from jointplay.records.strict_json import finite
 
+_TURNS: Final = frozenset({"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"})
+"""Classes of characters that embed or override a direction of writing."""
+
 
 def tell(document: object, lines: Iterable[object], *, as_json: bool) -> None:
     """Print what a command found: the document, or else the lines."""
-    for line in [json_text(document)] if as_json else lines:
+    for line in [json_text(document)] if as_json else map(visible, map(str, lines)):
         typer.echo(line)
 
 
 def remark(lines: Iterable[str]) -> None:
     """Print what users should know, and what ends nothing, to stderr."""
     for line in lines:
-        typer.echo(f"jointplay: {line}", err=True)
+        typer.echo(f"jointplay: {visible(line)}", err=True)
+
+
+def visible(text: str, *, kept: str = "\n\t") -> str:
+    """Return a text with escapes in place of characters that terminals obey, but for those kept.
+
+    Labels and names are others' texts, which could clear a screen, or turn a line round.
+    """
+    return "".join(ascii(one)[1:-1] if _is_obeyed(one) and one not in kept else one for one in text)
+
+
+def _is_obeyed(character: str) -> bool:
+    return category(character) in ("Cc", "Zl", "Zp") or bidirectional(character) in _TURNS
 
 
 def print_json(document: object) -> None:
