@@ -8,14 +8,20 @@ from contextvars import ContextVar
 from datetime import UTC, datetime
 from typing import Any, Literal
 
+from jointplay.records.log_repetitions import Repetitions
+
 LogFormat = Literal["text", "json"]
 _TEXT = "%(asctime)s %(levelname)s %(message)s"
 _about: ContextVar[Mapping[str, object]] = ContextVar("about", default={})  # noqa: B039 - never changed
 
 
 def begin(log_format: LogFormat, level: int = logging.INFO) -> None:
-    """Write lines of this level and above, and warnings, to standard error."""
+    """Write lines of this level and above, and warnings, to standard error.
+
+    Of warnings that repeat one is written a minute.
+    """
     handler = logging.StreamHandler()
+    handler.addFilter(Repetitions())
     handler.setFormatter(JsonLines() if log_format == "json" else logging.Formatter(_TEXT))
     logging.basicConfig(level=level, handlers=[handler])
     logging.captureWarnings(True)
