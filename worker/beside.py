@@ -10,12 +10,19 @@ MOST_BLOCKS = 256
 
 
 def claim_beside(
-    catalogue: Catalogue, settings: Settings, held: Block, solver: Solver, most: int
+    catalogue: Catalogue,
+    settings: Settings,
+    held: Block,
+    solver: Solver,
+    most: int,
+    *,
+    elsewhere: bool = False,
 ) -> list[Claim]:
     """Claim queued blocks of a held block's study for its worker, by index, and at most so many.
 
     With them it holds no more than `MOST_BLOCKS`, and `most_running` of the job's owner are
-    computed, but for those that others claim at the same moment.
+    computed, but for those that others claim at the same moment. `elsewhere` : the worker goes on
+    where this machine ends.
 
     Raises
     ------
@@ -24,10 +31,11 @@ def claim_beside(
     """
     worker = held.worker or ""
     most = min(most, MOST_BLOCKS - len(catalogue.held_by(worker)))
+    claim_block = catalogue.claim_block_elsewhere if elsewhere else catalogue.claim_block
     claims = list[Claim]()
     try:
         for one in catalogue.queued_of(held.job, most, settings.most_running):
-            claim = catalogue.claim_block(one, worker, settings.lease, solver)
+            claim = claim_block(one, worker, settings.lease, solver)
             claims += [] if claim is None else [claim]
     except Unavailable:
         if not claims:  # those that were claimed are not left to end with their leases

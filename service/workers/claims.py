@@ -50,7 +50,7 @@ async def claim_block(
     pause = _FIRST_PAUSE
     while not await request.is_disconnected():
         claim = await run_in_threadpool(
-            catalogue.claim_next,
+            catalogue.claim_next_elsewhere,
             worker,
             settings.lease,
             asked.solver,
@@ -73,7 +73,7 @@ def claim_blocks_beside(
     asked: Annotated[ClaimBeside, said(ClaimBeside)],
 ) -> ClaimedBeside:
     """Answer with blocks that wait of the study of one that is held, for a device."""
-    found = claim_beside(catalogue, settings, held, asked.solver, asked.most)
+    found = claim_beside(catalogue, settings, held, asked.solver, asked.most, elsewhere=True)
     return ClaimedBeside(claims=tuple(map(_shown, found)))
 
 

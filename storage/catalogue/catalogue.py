@@ -251,6 +251,10 @@ class Catalogue:
 
     claim_block = claiming(claims.claim)
     claim_next = claiming(claims.claim_next)
+    # by workers elsewhere, which go on where a power cut ends whoever keeps a catalogue in a file:
+    # claims that were forgotten would give another worker the number of their attempt
+    claim_block_elsewhere = durably(claims.claim)
+    claim_next_elsewhere = durably(claims.claim_next)
     wake_again = writing(solvers.wake_again)
     held_by = reading(listing.held_by)
     queued_of = reading(listing.queued_of)

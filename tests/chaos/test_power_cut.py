@@ -50,6 +50,24 @@ def test_an_accepted_job_stays_and_a_claim_is_forgotten(installation: Installati
     catalogue.close()
 
 
+def test_a_claim_by_a_worker_elsewhere_stays(installation: Installation) -> None:
+    """It goes on, and the next one must not have the number of its attempt."""
+    claims = (
+        "claim_next_elsewhere('worker', 60.0, solver)",
+        "claim_block_elsewhere(f'{job}-0', 'w', 60)",
+    )
+    for number, claim in enumerate(claims, 1):
+        solver = (
+            "from jointplay.storage.catalogue.records import Solver; solver = Solver('1', 'any')"
+        )
+        killed(installation, f"{solver}; job = submit(); assert catalogue.{claim}")
+        cut_catalogue(installation.folder)
+        catalogue = Catalogue(installation.settings.catalogue_url)
+        jobs = catalogue.jobs().jobs
+        assert [job.attempt for job in jobs] == [1] * number
+        catalogue.close()
+
+
 def test_a_claim_stays_if_anything_was_promised_after_it(installation: Installation) -> None:
     claimed = "job = submit(); catalogue.claim_block(f'{job}-0', 'worker', 60.0); submit()"
     killed(installation, claimed)
