@@ -1,4 +1,4 @@
-"""What a request is for, and where it ends, as RFC 9112 has it.
+"""Targets of requests, and requests with two ends, as RFC 9112 has them.
 
 A target may name the whole address (section 3.2.2). A request with two lengths, as in attacks by
 what passes a proxy unseen (section 6.3), is refused, and its connection ends with it.

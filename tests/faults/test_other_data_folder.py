@@ -104,7 +104,7 @@ def other_disk(tmp_path: Path) -> Iterator[Path]:
 def test_a_disk_that_is_mounted_in_the_data_folder_is_missed(
     tmp_path: Path, other_disk: Path
 ) -> None:
-    """What is stored in its place would be hidden beneath it, and what is on it seem lost."""
+    """Results in its place would be hidden beneath it, and those on it would seem lost."""
     settings = Settings(data=tmp_path)
     results = tmp_path / "results"
     with closing(Catalogue(settings.catalogue_url)) as catalogue:

@@ -40,7 +40,7 @@ def test_a_target_may_be_a_whole_address(
 
 
 def test_a_request_with_two_lengths_is_the_last_of_its_connection(service_url: str) -> None:
-    """What follows it could be what a proxy took for its body."""
+    """A proxy may have taken the next one for its body."""
     head = "POST /v1/estimates HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
     lengths = "Content-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n"
     hidden = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
