@@ -17,6 +17,7 @@ from jointplay.solver.continuation.settled import NoStart, Settled, settle
 from jointplay.solver.continuation.start import (
     first_orbit,
     isolated,
+    repeated,
     scaled,
     shorter_period,
     within_a_turn,
@@ -121,7 +122,7 @@ class _Search:
             if isinstance(orbit, NoOrbit):
                 nearest = min(nearest, orbit.residual)
             elif not self._is_known(orbit.section):
-                found += self._taken(isolated(orbit))
+                found += self._taken(repeated(isolated(orbit)))
         missing = self.count - len(found)
         return found + [self._lack(len(found), len(sections), tries, nearest)] * missing
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from jointplay.solver.continuation.multipliers import size
+from jointplay.solver.continuation.multipliers import largest, size
 from jointplay.solver.continuation.orbit import Curve, NoOrbit, Orbit, Scales
 from jointplay.solver.continuation.passage import Passage, Section
 from jointplay.solver.continuation.section_map import DIFFERENCE, TURN, SectionMap
@@ -72,7 +72,23 @@ def first_orbit(curve: Curve, section: Section) -> Orbit:
             f"The orbit that was found repeats after {shorter} of the {curve.map.periods} periods;"
             f" ask for 'period' {shorter}."
         )
-    return within_a_turn(isolated(found))
+    return within_a_turn(repeated(isolated(found)))
+
+
+def repeated(orbit: Orbit) -> Orbit:
+    """Return an orbit of a driven mechanism that comes back another time, as the clock goes on.
+
+    NoStart: it does not, where a force depends on how often a driver has turned.
+    """
+    map_, section = orbit.curve.sections, orbit.section
+    (again,) = replace(map_, periods=2 * map_.periods).passages([section])
+    lost = WOUND * max(1.0, largest(orbit.multipliers))
+    if map_.crossing is None and not again.failure and _apart(map_, again, section) > lost:
+        raise NoStart(
+            "The motion comes back after the first period of the drive and not after the next: a"
+            " force depends on how often a driver has turned. Give that a course that repeats."
+        )
+    return orbit
 
 
 def isolated(orbit: Orbit) -> Orbit:

@@ -8,6 +8,7 @@ from jointplay.solver.kinds.section_checks import check_section
 from jointplay.solver.kinds.studies import PlacedPoints
 from jointplay.solver.kinds.values import Range
 from jointplay.solver.scene.clocks import moved_in_time
+from jointplay.solver.scene.periods import never_back
 
 GIVE = (
     "Give a 'section' where a channel crosses a value, such as {'channel': 'crank.theta', 'value':"
@@ -52,8 +53,10 @@ def _problems(values: Range, pointer: str) -> list[Problem]:
 
 def check_sections(job: ContinuationJob, checked: PlacedPoints, units: Periods) -> None:
     """Refuse (InvalidInput) sections that orbits do not come back to at every point."""
-    scenes = (checked.scenes.scene(point) for point in range(checked.points.count))
+    scenes = [checked.scenes.scene(point) for point in range(checked.points.count)]
     moving = next(filter(None, map(moved_in_time, scenes)), "")
+    if never := next(filter(None, map(never_back, scenes)), ""):
+        raise InvalidInput.at("/scene", f"{never}: there is no motion that comes back.")
     if job.section is not None and moving:
         raise InvalidInput.at("/section", f"'{moving}' moves the mechanism in time, so {LEAVE}")
     if job.section is None and units.notes and not moving:

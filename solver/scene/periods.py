@@ -78,6 +78,39 @@ def drivers_period(scene: Scene) -> Period:
     return period_of(speeds)
 
 
+def never_back(scene: Scene) -> str:
+    """Return why a scene is not the same again after its period; empty: it is.
+
+    A slider that is driven at a constant speed does not come back, but what it moves may.
+    """
+    if drivers_period(scene).seconds is not None:
+        return ""
+    for name, period in _moving(scene).items():
+        if math.isinf(period):
+            return f"'{name}' moves the mechanism in time and never repeats"
+        times = (scene.period or 0.0) / period
+        if not (round(times) and math.isclose(times, round(times), rel_tol=AGREEING)):
+            whole = "the scene gives no 'period' after which all that moves it is back"
+            if scene.period is not None:
+                whole = f"the scene's period of {scene.period:.9g} s is no multiple of that"
+            return f"'{name}' repeats after {period:.9g} s, and {whole}"
+    return ""
+
+
+def _moving(scene: Scene) -> dict[str, float]:
+    """Return the periods of what moves a scene in time, s, but for sliders at a constant speed."""
+    found = {}
+    for name, driver in scene.drivers.items():
+        if isinstance(driver, MovingDriver):
+            found[name] = driver.motion.period
+        elif driver.clock_rate != 0.0 and turns(scene, driver):
+            found[name] = 2.0 * math.pi / abs(driver.clock_rate)
+    for name, element in timed(scene).items():
+        if element.course is not None:
+            found[name] = element.course.period
+    return {name: period for name, period in found.items() if period > 0.0}
+
+
 def forces_repeat(scene: Scene) -> bool:
     """Return whether forces over an angle are what they were after every turn."""
     return all(
