@@ -28,7 +28,7 @@ from jointplay.records.motion import (
     name_of,
 )
 from jointplay.records.scattered import Places, told_apart
-from jointplay.records.share_error import share_error
+from jointplay.records.share_error import error_of_starts
 from jointplay.records.study import StudySource
 
 CARRIED: Final = 0.2
@@ -50,7 +50,7 @@ class Attractor:
     share: float
     """Part of the points that have ended."""
     error: float
-    """Standard error of the share, see `share_error`."""
+    """Standard error of the share, see `error_of_starts`."""
     example: int
     """Index of the first point that ends on it."""
 
@@ -100,7 +100,7 @@ def attractors_of(source: StudySource) -> Attractors:
         nth = [one.code for one in shown[:index]].count(chain.code)
         letter = f" {_letter(nth)}" if chain.code in several else ""
         names[code] = "others" if index >= MOST else name_of(chain.code) + letter
-    return Attractors(labels, tuple(_table(labels, names)))
+    return Attractors(labels, tuple(_table(labels, names, _starts(source))))
 
 
 @dataclass
@@ -145,6 +145,15 @@ def _by_value(source: StudySource) -> Iterator[Integers]:
     order = np.argsort(source.values[:, column], kind="stable")
     values = source.values[order, column]
     yield from np.split(order, np.flatnonzero(np.diff(values)) + 1)
+
+
+def _starts(source: StudySource) -> Integers:
+    """Return (points,) the number of each point's start, of which all values have the same ones."""
+    column = parameter_of(source)
+    if column is None:
+        return np.arange(source.points)
+    others = np.delete(source.values, column, axis=1)
+    return np.unique(others, axis=0, return_inverse=True)[1].reshape(-1)
 
 
 def _groups(motion: Labels, cycles: Cycles) -> Iterator[_Group]:
@@ -200,13 +209,15 @@ def _carry_on(
             chains.append(_Chain(group.code, [members], group.place))
 
 
-def _table(labels: Labels, names: Mapping[int, str]) -> list[Attractor]:
+def _table(labels: Labels, names: Mapping[int, str], starts: Integers) -> list[Attractor]:
     codes, first, counts = np.unique(labels, return_index=True, return_counts=True)
-    ended = int(counts[codes != WAITING].sum())
+    known = labels != WAITING
+    ended, trials = int(known.sum()), np.bincount(starts[known])
     found = []
     for code, point, count in zip(codes.tolist(), first.tolist(), counts.tolist(), strict=True):
         if code != WAITING:
-            error = float(share_error(count, ended))
+            own = np.bincount(starts[labels == code], minlength=len(trials))
+            error = error_of_starts(own, trials)
             found.append(Attractor(code, names[code], count, count / ended, error, point))
     return found
 

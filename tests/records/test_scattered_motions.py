@@ -109,6 +109,16 @@ def test_shares_are_of_the_points_of_each_value_that_have_ended():
     assert found["boundary"] is None
 
 
+def test_the_share_over_all_values_has_the_error_of_the_starts_that_all_values_have():
+    """Three starts end alike at both values: that is three trials, not six."""
+    source = over([1.0] * 3 + [2.0] * 3, [-1.0, 1.0, 1.0] * 2)
+    source.values[:, 1] = [0.1, 0.2, 0.3] * 2
+    first, second = attractors_of(source).found
+    assert (first.share, second.share) == (1 / 3, 2 / 3)
+    assert first.error == pytest.approx(float(share_error(1, 3)), rel=1e-12)
+    assert first.error == second.error
+
+
 def test_a_value_of_which_nothing_has_ended_has_no_shares():
     source = over([1.0, 2.0], [0.0, 0.0])
     source.status[1] = 0
