@@ -88,6 +88,7 @@ def test_a_document_is_fitted_and_what_is_left_is_repeated_bit_for_bit(
     assert "not fitted" in ended.out
     assert "stiffness and mass make up for one another" in ended.out
     assert "reaches its minimum and maximum" in ended.out
+    assert "'lowest to highest' has the true value in 68 % of the cases" in ended.out
     ended = jointplay("calibrate", found, "-o", again, "--processes", "2", "--json")
     assert ended.code == 0, ended.err
     assert again.read_bytes() == found.read_bytes()

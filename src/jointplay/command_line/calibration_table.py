@@ -5,6 +5,7 @@ from itertools import combinations
 from typing import Any
 
 from jointplay.command_line.output import aligned
+from jointplay.records.calibration_coverage import coverage
 
 ROUGH = 0.5  # tolerances: more than that between neighbours is no place for a fit
 TOGETHER = 0.8  # correlation from which parameters are said to make up for one another
@@ -77,6 +78,7 @@ def _notes(document: dict[str, Any]) -> Iterator[str]:
         f"cost {document['cost']:.3g}: the root mean square of the misses, in tolerances; up to"
         f" {limit:.3g} ({factor:g} times the best, or 1) fits equally well"
     )
+    yield from _coverage(document)
     yield from _pairs(document["correlation"])
     rough = [t for t in document["targets"] if (t["roughness"] or 0.0) > ROUGH]
     if rough:
@@ -99,6 +101,21 @@ def _notes(document: dict[str, Any]) -> Iterator[str]:
         )
     if search["failed"]:
         yield f"{search['failed']} of {search['candidates']} candidates could not be computed"
+
+
+def _coverage(document: dict[str, Any]) -> Iterator[str]:
+    share = coverage(document)
+    if share is not None:
+        yield (
+            "these are no confidence intervals: where tolerances are standard deviations of"
+            " readings whose errors are independent, 'lowest to highest' has the true value"
+            f" {_often(share)}"
+        )
+
+
+def _often(share: float) -> str:
+    percent = 100.0 * share
+    return f"in {percent:.0f} % of the cases" if percent < 99.5 else "nearly always"
 
 
 def _pairs(correlation: dict[str, Any]) -> Iterator[str]:
