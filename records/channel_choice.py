@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
+from jointplay.records.quantity_terms import in_other_terms
+
 _LONGEST_PATTERN = 80  # the longest name of a channel has 64 characters
 _MOST_NAMED = 20  # what is wrong, so often; a near name takes 10 ms to find
 _MOST_LISTED = 12
@@ -65,7 +67,7 @@ def _matches(name: str, pattern: str) -> bool:
 
 def _suggestion(pattern: str, names: Sequence[str]) -> str:
     pattern = pattern[:_LONGEST_PATTERN]
-    near = get_close_matches(pattern, names, n=3, cutoff=0.5)
+    near = in_other_terms(pattern, names) or get_close_matches(pattern, names, n=3, cutoff=0.5)
     if near:
         return f"There is no channel {pattern!r}; did you mean {' or '.join(near)}?"
     listed = ", ".join(names[:_MOST_LISTED]) + (", …" if len(names) > _MOST_LISTED else "")

@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+from jointplay.records.quantity_terms import in_other_terms
+
 MOST_LISTED = 20
 NEAR = 0.75
 """Share of letters in common, as difflib counts it, from which a name may have been meant."""
@@ -15,10 +17,13 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     if len(name) > LONGEST:
         return ""
     names = list(known)
-    near = [other for other in names if other.casefold() == name.casefold()] or (
-        get_close_matches(name, names, n=1, cutoff=NEAR)
+    near = (
+        [other for other in names if other.casefold() == name.casefold()][:1]
+        or in_other_terms(name, names)
+        or get_close_matches(name, names, n=1, cutoff=NEAR)
     )
-    return f"did you mean '{near[0]}'?" if near else ""
+    meant = " or ".join(f"'{one}'" for one in near)
+    return f"did you mean {meant}?" if near else ""
 
 
 def instead(name: str, known: Iterable[str]) -> str:

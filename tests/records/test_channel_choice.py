@@ -3,6 +3,7 @@ import time
 import pytest
 
 from jointplay.records.channel_choice import NoSuchChannel, choose
+from jointplay.records.suggestions import did_you_mean
 
 NAMES = ["crank.x", "crank.y", "A.normal_force", "energy.kinetic"]
 
@@ -40,6 +41,31 @@ def test_names_and_globs_choose_in_their_own_order(text, chosen):
 def test_what_matches_nothing_is_named(text, says):
     with pytest.raises(NoSuchChannel, match=says.replace("*", r"\*")):
         choose(text, NAMES)
+
+
+BODY = [f"rocker.{one}" for one in ["x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha"]]
+JOINT = [f"B.{one}" for one in ("force_x", "force_y", "normal_force", "slip_velocity")]
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("rocker.angle", ["rocker.theta"]),
+        ("rocker.angular_velocity", ["rocker.omega"]),
+        ("rocker.Angle", ["rocker.theta"]),
+        ("rocker.velocity", ["rocker.vx", "rocker.vy"]),
+        ("rocker.acceleration_y", ["rocker.ay"]),
+        ("B.contact_force", ["B.normal_force"]),
+        ("B.normal_forse", ["B.normal_force"]),
+    ],
+)
+def test_a_quantity_by_another_term_is_the_one_that_was_meant(name, meant):
+    said = f"There is no channel '{name}'; did you mean {' or '.join(meant)}?"
+    quoted = " or ".join(f"'{one}'" for one in meant)
+    assert did_you_mean(name, BODY + JOINT) == f"did you mean {quoted}?"
+    with pytest.raises(NoSuchChannel) as caught:
+        choose(name, BODY + JOINT)
+    assert str(caught.value).startswith(said.removesuffix("?"))
 
 
 def test_a_hostile_list_is_refused_quickly():
