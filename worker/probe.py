@@ -220,7 +220,8 @@ def _run_block(study: Study, index: int, budget: float) -> tuple[list[Mark], str
         for point in piece.ended:
             failure = failure or (f"Point {point.point}: {point.detail}" if point.code else None)
         marks.append(Mark(run.seconds, piece.fraction, run.steps))
-        if run.seconds > budget and piece.fraction > 0.0:
+        first = marks[0]  # before it the starts of all points were put together: that is no pace
+        if run.seconds - first.seconds > budget and piece.fraction > first.fraction:
             break
     return marks, failure
 
@@ -230,7 +231,8 @@ def _extrapolated(marks: list[Mark]) -> Mark:
     last = marks[-1]
     settled = next(mark for mark in marks if mark.fraction >= _BEGINNING * last.fraction)
     if settled.fraction >= last.fraction:
-        settled = Mark(0.0, 0.0, 0.0)
+        first = marks[0]
+        settled = first if first.fraction < last.fraction else Mark(0.0, 0.0, 0.0)
     share = (1.0 - last.fraction) / max(last.fraction - settled.fraction, 1e-12)
     return Mark(
         last.seconds + share * (last.seconds - settled.seconds),

@@ -1,6 +1,7 @@
 """Cost of a job, estimated from its beginning."""
 
 import time
+from types import SimpleNamespace
 from typing import cast
 
 import pytest
@@ -46,3 +47,32 @@ def test_what_is_compiled_on_the_way_is_no_pace_of_a_job(monkeypatch):
     cost = probe.cost_of(admit(job).job)
     assert cost.compilation == pytest.approx(1e6, abs=1e3)  # and what is compiled here
     assert 0.0 < cost.seconds < 1e4
+
+
+@pytest.mark.parametrize("pieces", [1000, 4])
+def test_what_a_block_takes_to_begin_is_no_pace_of_its_points(monkeypatch, pieces):
+    """Starts of 64 points of a four-bar took 5 s: an estimate of ten minutes said eight days."""
+    begun, piece_seconds = 5.0, 0.2
+
+    class Block:
+        seconds, steps = begun, 0.0
+
+        def slices(self):
+            for nth in range(pieces):
+                self.seconds, self.steps = self.seconds + piece_seconds, self.steps + 1.0
+                yield SimpleNamespace(fraction=(nth + 1) / pieces, ended=[])
+
+    monkeypatch.setattr(probe, "computation_of", lambda study, index: Block())
+    study = admit(
+        {
+            "kind": "basin-stability",
+            "scene": given("impact-oscillator"),
+            "starts": {
+                "/start/joints/stop/rate/0": {"distribution": "uniform", "low": 0, "high": 0.1}
+            },
+            "samples": 256,
+        }
+    )
+    cost = probe._of_study(study)
+    assert cost.seconds == pytest.approx(len(study.blocks) * (begun + pieces * piece_seconds))
+    assert cost.steps == len(study.blocks) * pieces
