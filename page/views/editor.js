@@ -2,6 +2,7 @@
 
 import { help } from "../editor/help.js";
 import { fieldList } from "../editor/field_list.js";
+import { sceneFiles } from "../editor/files.js";
 import { FreeMotion } from "../editor/free_motion.js";
 import { SceneSchema } from "../editor/schema.js";
 import { FIRST_SCENE } from "../editor/first_scene.js";
@@ -81,14 +82,15 @@ class Editing {
     this.more = element("button", { type: "button", onclick: () => go(["new"], study()) }, "Vary it …");
     this.estimate = new Estimate(() => this.job(), signal, (errors) => this.tell(errors));
     this.text = new TextEditor(kept() ?? text, help(schema, () => this.document), (now) => this.changed(now));
-    const presets = element("select", { id: "preset", onchange: () => this.begin(presets.value) },
+    this.presets = element("select", { id: "preset", onchange: () => this.begin(this.presets.value) },
       ["", ...scenes.map(({ name }) => name)].map((name) =>
         element("option", { value: name }, name || "choose …")));
     fill(
       room,
       element("div", { class: "head" }, element("h1", {}, "Your own mechanism"),
         element("div", { class: "buttons" },
-          element("label", { for: "preset", class: "small" }, "Begin with"), presets)),
+          sceneFiles(() => ({ text: this.text.text, name: this.document?.name }), (written) => this.take(written)),
+          element("label", { for: "preset", class: "small" }, "Begin with"), this.presets)),
       element("p", { class: "quiet" }, "Ctrl+Space proposes what may stand here; hover over a word"
         + " to read what it means. Lengths in m, masses in kg, angles in rad."),
       element("div", { class: "editing" }, this.text.element,
@@ -109,9 +111,14 @@ class Editing {
   }
 
   async begin(name) {
-    if (!name) return;
+    if (name) this.take(pretty(await get(`/v1/scenes/${name}`, {}, this.signal)));
+    this.presets.value = ""; // it may be chosen again
+  }
+
+  /** Replaces the text by another; the earlier one is one undo away. */
+  take(text) {
     this.duration.value = "";
-    this.text.text = pretty(await get(`/v1/scenes/${name}`, {}, this.signal));
+    this.text.text = text;
     forget();
   }
 

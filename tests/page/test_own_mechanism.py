@@ -146,3 +146,32 @@ def test_what_is_told_of_a_scene_is_told_of_the_one_that_is_there(browsing, serv
         aside = {"outputs": [{"name": "height", "channel": "arm.z", "help": "none"}]}
         paste(page, json.dumps(swung | aside))
         expect(page.get_by_text("No estimate: ")).to_contain_text("There is no channel 'arm.z'")
+
+
+def test_a_scene_is_saved_as_a_file_and_opened_from_one(browsing, service_url, tmp_path):
+    with browsing.page(f"{service_url}/#/editor", expected=("422",)) as page:
+        text = page.get_by_label("Scene document")
+        text.wait_for()
+        written = json.dumps(arm(speed=4.0) | {"name": "arm-1"}, indent=1)
+        paste(page, written)
+        with page.expect_download() as begun:
+            page.get_by_role("button", name="Save as a file").click()
+        assert begun.value.suggested_filename == "arm-1.json"
+        saved = tmp_path / "saved.json"
+        begun.value.save_as(saved)
+        assert saved.read_text() == written
+        page.get_by_label("Begin with").select_option("pendulum")
+        page.wait_for_function(
+            "() => sessionStorage.getItem('jointplay-scene').includes('pendulum')"
+        )
+        page.get_by_label("A file with a scene").set_input_files(saved)
+        page.wait_for_function(KEPT, arg=written)
+        page.get_by_text("saved.json is open.").wait_for()
+        page.get_by_text("Degrees of freedom: 0.").wait_for()
+        other = tmp_path / "notes.txt"
+        other.write_text("no scene")
+        page.get_by_label("A file with a scene").set_input_files(other)
+        page.get_by_text("No estimate: ").wait_for()
+        text.press("Control+z")
+        page.wait_for_function(KEPT, arg=written)  # what was there is one undo away
+        assert barriers(page) == []
