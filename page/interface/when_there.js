@@ -9,6 +9,7 @@ const LEAST = 1000; // ms between two questions
 /**
  * Shows what a GET answers; again whenever the job has gone on, until it is finished.
  *
+ * @param query of the GET, or a function that returns it as the reader has chosen by now
  * @param draw called with the answer
  * @param ends states of a job that has ended in which there is something, if there is nothing before
  */
@@ -24,7 +25,7 @@ export async function whenThere(room, { job, signal, onChange }, path, query, dr
   const ask = async () => {
     asked = performance.now();
     try {
-      const answer = await get(path, query, signal);
+      const answer = await get(path, typeof query === "function" ? query() : query, signal);
       complete = TERMINAL.has(job.state);
       await draw(answer);
     } catch (error) {

@@ -7,6 +7,7 @@ import pytest
 
 from tests.page.browsing import barriers, expect
 from tests.page.test_watching import MOVED
+from tests.worker_by_hand import BIFURCATION
 
 TURNED = """async (angles) => {
   const { intoATurn } = await import("/page/plots/turns.js");
@@ -55,6 +56,48 @@ def test_a_click_on_a_diagram_runs_that_simulation(browsing, url, artifacts):
         page.get_by_role("button", name="Run this simulation").click()
         page.wait_for_function(MOVED, arg=0)
         expect(page.get_by_role("heading", level=1)).to_have_text(re.compile("^clearance = "))
+
+
+TELLING = """async (lists) => {
+  const { telling } = await import("/page/plots/telling.js");
+  return lists.map(telling);
+}"""
+
+
+def test_the_first_observable_that_changes_is_found(browsing, service_url):
+    still = {"unit": "m", "values": [[0.0, 1e-19], [2e-19]]}  # by rounding alone
+    edge = {"unit": "m", "values": [[-5e-4, -5e-4 - 1e-13], [-5e-4]]}
+    rate = {"unit": "m/s", "values": [[-0.14, -0.12], [-0.14]]}
+    turned = {"unit": "rad", "values": [[0.0, 2 * math.pi], [4 * math.pi, -1e-12]]}
+    swung = {"unit": "rad", "values": [[0.1, 0.2]]}
+    lists = [{"x": still, "y": edge, "vy": rate}, {"crank": turned, "rod": swung}, {"y": edge}]
+    with browsing.page(f"{service_url}/") as page:
+        assert page.evaluate(TELLING, lists) == ["vy", "rod", None]
+
+
+def test_an_observable_that_is_chosen_stays_while_the_diagram_grows(
+    browsing, http, service_url, worker, catalogue
+):
+    job_id = worker.submit(**BIFURCATION)
+    observables = http.get(f"/v1/jobs/{job_id}").json()["job"]["observables"]
+    with browsing.page(f"{service_url}/#/job/{job_id}/diagram") as page:
+        for block, done in enumerate((8, 16)):
+            claim = worker.start(job_id, block)
+            worker.compute(claim)
+            name = observables[1 if block else 0]
+            words = f"{name} at the sections over clearance: {done} of 20 values are computed"
+            shown = page.get_by_role("img", name=words)
+            for nth in range(
+                1000
+            ):  # the page looks once a second at most, when it hears of progress
+                reached = {"time": 0.0, "fraction": 0.5 + nth / 2000}
+                catalogue.record_progress(claim.block.id, claim.block.attempt, 60.0, **reached)
+                page.wait_for_timeout(300)
+                if shown.count():
+                    break
+            shown.wait_for()
+            if not block:
+                page.get_by_label("Observable").select_option(observables[1])
 
 
 def test_a_sweep_over_two_parameters_is_a_map(browsing, service_url, finished_sweep, artifacts):

@@ -8,6 +8,7 @@ import { prepared } from "../../mechanism/canvas.js";
 import { onNewColours, palette } from "../../mechanism/palette.js";
 import { drawAxes, extent, letters, scales } from "../../plots/axes.js";
 import { drawCloud } from "../../plots/cloud.js";
+import { telling } from "../../plots/telling.js";
 import { VERDICTS, drawExponents, drawVerdicts } from "../../plots/verdicts.js";
 import { intoATurn } from "../../plots/turns.js";
 import { whenThere } from "../../interface/when_there.js";
@@ -18,10 +19,11 @@ const LEFT = 84;
 const BELOW = 44;
 const EXPONENTS = 84; // height of the exponents
 const BAND = 16;
+const LOOKED_AT = 8; // sections of each value, to find an observable that changes
 
 export async function show(room, context) {
   const diagram = new Diagram(context);
-  await whenThere(room, context, context.job.links.bifurcation, diagram.query(), async (answer) => {
+  await whenThere(room, context, context.job.links.bifurcation, () => diagram.query(), async (answer) => {
     if (!diagram.element.isConnected) fill(room, diagram.element);
     await diagram.take(answer);
   });
@@ -30,13 +32,15 @@ export async function show(room, context) {
 class Diagram {
   constructor({ job, query, signal }) {
     Object.assign(this, { job, signal, observable: query.get("observable") });
+    this.settled = Boolean(this.observable); // which observable is shown
     this.canvas = element("canvas", { class: "canvas-plot", role: "img", onclick: (e) => this.click(e) });
     this.chosen = element("div", { role: "status" });
     this.legend = element("ul", { class: "legend" });
     const observables = job.job.observables ?? [];
-    const select = element("select", { id: "observable", onchange: () => {
-      this.observable = select.value;
-      note({ observable: select.value });
+    this.select = element("select", { id: "observable", onchange: () => {
+      this.observable = this.select.value;
+      this.settled = true;
+      note({ observable: this.observable });
       this.again();
     } }, observables.map((name) =>
       element("option", { value: name, selected: name === this.observable }, name)));
@@ -46,7 +50,7 @@ class Diagram {
     this.unitOfAt = element("span", { class: "unit" });
     this.element = element("section", { class: "panel" },
       element("div", { class: "filters" },
-        element("div", { class: "field" }, element("label", { for: "observable" }, "Observable"), select),
+        element("div", { class: "field" }, element("label", { for: "observable" }, "Observable"), this.select),
         element("div", { class: "field" },
           element("label", { for: "value" }, job.job.parameter),
           element("div", { class: "entry" }, this.at, this.unitOfAt)),
@@ -64,13 +68,16 @@ class Diagram {
     await this.take(await get(this.job.links.bifurcation, this.query(), this.signal));
   }
 
-  /** Takes an answer and those that follow it. */
+  /** Takes an answer and those that follow it, unless another observable has been chosen meanwhile. */
   async take(answer) {
+    const wanted = () => (this.observable ?? answer.observable) === answer.observable;
     const pages = [answer];
-    while (pages.at(-1).next_start !== null) {
-      const next = this.query(pages.at(-1).next_start);
+    while (wanted() && pages.at(-1).next_start !== null) {
+      const next = { ...this.query(pages.at(-1).next_start), observable: answer.observable };
       pages.push(await get(this.job.links.bifurcation, next, this.signal));
     }
+    if (!wanted()) return;
+    if (!this.settled && (await this.findTelling(pages))) return;
     const { parameter } = answer;
     this.parameter = parameter;
     this.unit = answer.values[parameter].unit;
@@ -95,6 +102,21 @@ class Diagram {
       + `${done} of ${this.points.length} values are computed`);
     this.canvas.dataset.done = String(done);
     this.draw();
+  }
+
+  /** Shows the first observable that changes instead of the first of all, once two values are computed. */
+  async findTelling(pages) {
+    if (pages.flatMap(({ status }) => status).filter((one) => one === "done").length < 2) return false;
+    const some = { section_stop: Math.min(LOOKED_AT, this.job.job.record) };
+    const { channels } = await get(this.job.links.poincare, some, this.signal);
+    const { time, ...observed } = channels;
+    const found = telling(observed);
+    if (this.settled || found === null) return false; // one was chosen meanwhile; or all are at rest
+    this.settled = true;
+    if (found === pages[0].observable) return false;
+    this.select.value = this.observable = found;
+    await this.again();
+    return true;
   }
 
   draw() {

@@ -17,6 +17,7 @@ export async function show(room, context) {
   });
   const panel = element("section", { class: "panel" }, plane.element);
   const take = (answer) => {
+    if (!plane.chosen.every((name) => name in answer.channels)) return; // others were chosen meanwhile
     const found = plane.chosen.map((name) => answer.channels[name]);
     const [x, y] = found.map(({ values, unit }) => {
       const numbers = values.flat().map((value) => value ?? NaN);
@@ -25,7 +26,7 @@ export async function show(room, context) {
     const words = x.length === 1 ? "1 section" : `${x.length} sections`;
     plane.show({ x, y, units: found.map(({ unit }) => unit), words, note: answer.note });
   };
-  await whenThere(room, context, job.links.poincare, asked(plane.chosen), (answer) => {
+  await whenThere(room, context, job.links.poincare, () => asked(plane.chosen), (answer) => {
     if (!panel.isConnected) fill(room, panel);
     take(answer);
   });
