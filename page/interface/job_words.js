@@ -41,11 +41,29 @@ function named(varied, declared) {
   return varied.startsWith("/") ? startNumber(varied) : { name: varied, unit: declared[varied]?.unit ?? "1" };
 }
 
-/** Returns, for each of some jobs of one preset, the parameters in which they differ. */
+const OF_ANY = { tolerance: "1", method: "1", duration: "s" }; // what jobs of all mechanisms have, and its unit
+
+/**
+ * Returns, for each of some jobs, the parameters in which they differ if their scene is the same preset,
+ * or has the same name; and in how they are computed.
+ */
 export function differing(jobs, declared) {
-  const all = jobs.map(({ job }) => job.scene?.parameters ?? {});
-  if (new Set(jobs.map(({ job }) => job.scene?.preset)).size > 1) return all.map(() => "");
-  const names = Object.keys(all[0] ?? {}).filter((name) => new Set(all.map((one) => one[name])).size > 1);
-  return all.map((one) => names.map((name) => typeof one[name] === "number"
-    ? `${name} ${withUnit(one[name], declared[name]?.unit ?? "1")}` : `${name} ${one[name]}`).join(", "));
+  const same = new Set(jobs.map(({ job }) => `${job.scene?.preset ?? ""}/${job.scene?.name ?? ""}`)).size < 2;
+  const units = Object.fromEntries(Object.entries(declared).map(([name, { unit }]) => [name, unit]));
+  const all = jobs.map(({ job }) => ({
+    ...(same ? valuesOf(job.scene ?? {}) : {}),
+    ...Object.fromEntries(Object.keys(OF_ANY).map((name) => [name, job[name]])),
+  }));
+  const names = [...new Set(all.flatMap(Object.keys))]
+    .filter((name) => new Set(all.map((one) => one[name])).size > 1);
+  const told = (name, value) => (typeof value === "number"
+    ? withUnit(value, units[name] ?? OF_ANY[name] ?? "1") : value);
+  return all.map((one) => names.filter((name) => one[name] !== undefined && one[name] !== null)
+    .map((name) => `${name} ${told(name, one[name])}`).join(", "));
+}
+
+/** Returns the values of a scene's parameters: those of a mechanism of one's own are its defaults. */
+function valuesOf({ preset: shipped, parameters }) {
+  if (shipped) return parameters ?? {};
+  return Object.fromEntries(Object.entries(parameters ?? {}).map(([name, one]) => [name, typeof one === "object" ? one?.default : one]));
 }
