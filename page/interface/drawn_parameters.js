@@ -32,15 +32,18 @@ export class DrawnParameters {
         const { from, to } = this.proposed(document, chosen);
         return { [a]: from, [b]: to };
       };
-      const number = (place, value) => ({
-        title: `${title}, ${this.titles[place]}`, help: "", required: nth === 1, default: value, empty: "",
-        unit: (all) => (place && all[kind] === OF_LOGARITHM ? "1" : one.units[all[name]]),
+      const shown = (all) => all[name] !== NONE;
+      const place = (all) => `${this.field}/${(all[name] ?? "").replaceAll("~", "~0").replaceAll("/", "~1")}`;
+      const number = (end, value) => ({
+        shown, pointer: (all) => `${place(all)}/${this.members[all[kind]]?.[end]}`,
+        title: `${title}, ${this.titles[end]}`, help: "", required: nth === 1, default: value, empty: "",
+        unit: (all) => (end && all[kind] === OF_LOGARITHM ? "1" : one.units[all[name]]),
       });
       const range = proposes(one.default);
       return {
-        [name]: { ...one, title, help: "What is drawn.", proposes },
+        [name]: { ...one, title, help: "What is drawn.", proposes, pointer: place },
         [kind]: {
-          title: `${title}, distribution`, help: "", unit: "1", choices: this.kinds,
+          shown, title: `${title}, distribution`, help: "", unit: "1", choices: this.kinds,
           default: this.kinds[0],
         },
         [a]: number(0, range[a]),

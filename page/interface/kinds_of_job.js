@@ -16,11 +16,11 @@ import { Problem } from "../requests/service.js";
 
 const SAMPLES = 2000; // of a run whose output step is not given
 
-/** Returns what forms propose of a scene whose parameters have values: a `duration` in s, and `sections`. */
-export async function offers(document, values, signal) {
+/** Returns what forms propose of a scene as its defaults are: a `duration` in s, and `sections`. */
+export async function offers(document, signal) {
   const duration = await proposedDuration(document, signal);
   try {
-    return { duration, sections: await channels(withParameters(document, values), signal) };
+    return { duration, sections: await channels(withParameters(document), signal) };
   } catch (error) {
     if (!(error instanceof Problem) || error.status === 401) throw error;
     return { duration, sections: UNKNOWN };
@@ -41,7 +41,7 @@ export const KINDS = {
   simulate: {
     title: "One run",
     help: "One trajectory from the start, to watch and to measure.",
-    fields: (document, { duration }) => ({
+    fields: (document, { duration, sections }) => ({
       duration: {
         title: "Duration", help: "Simulated time.", unit: "s", minimum: 1e-9,
         default: duration,
@@ -55,12 +55,14 @@ export const KINDS = {
         title: "Settling", help: "What comes before does not count in peaks.", unit: "s",
         minimum: 0, default: 0,
       },
+      ...sectionFields(described.simulate.fields.section, sections),
     }),
-    made: ({ duration, accuracy, output_step: step, settle }) => ({
-      duration, settle, ...accurate(accuracy), ...(step === null ? {} : { output_step: step }),
+    made: ({ duration, accuracy, output_step: step, settle, ...all }) => ({
+      duration, settle, ...accurate(accuracy), ...(step === null ? {} : { output_step: step }), ...sectionMade(all),
     }),
-    given: ({ duration, settle, output_step: step, ...job }) => ({
-      duration, accuracy: accuracyOf(job), settle, output_step: Math.abs(step * SAMPLES - duration) < 1e-9 * duration ? null : step,
+    given: ({ duration, settle, output_step: step, section, ...job }) => ({
+      duration, accuracy: accuracyOf(job), settle, ...sectionGiven(section),
+      output_step: Math.abs(step * SAMPLES - duration) < 1e-9 * duration ? null : step,
     }),
   },
   bifurcation: {
@@ -100,9 +102,10 @@ export const KINDS = {
     title: "Sweep",
     help: "Extremes of forces and motions over one or two parameters.",
     fields: (document, { duration }) => ({
-      ...varied(document, "first", "First parameter", { count: 5 }),
+      ...varied(document, "first", "First parameter", { count: 5, place: ({ first }) => `grid/${first}` }),
       ...varied(document, "second", "Second parameter", {
         count: 5, help: "For a map over two parameters.", before: "second", none: true,
+        place: ({ second }) => `grid/${second}`,
       }),
       duration: {
         title: "Duration", help: "Of every run.", unit: "s", minimum: 1e-9,
@@ -191,9 +194,12 @@ export function fieldsOf(kind, document, offered, given, onchange) {
  * Returns the fields of what varies, and of its values.
  *
  * @param before begins the names of the fields of its values, and their titles; "": they are the only ones
+ * @param place  returns, of the values of all fields, where the range is in the document
  * @param which  see `choice`
  */
-function varied(document, name, title, { count = 48, help = "What is varied.", before = "", ...which } = {}) {
+function varied(document, name, title, {
+  count = 48, help = "What is varied.", before = "", place = () => "values", ...which
+} = {}) {
   const choices = choice(document, which);
   const part = (end) => (before ? `${before}_${end}` : end);
   const titled = (end) => (before ? `${title}, ${end}` : `${end[0].toUpperCase()}${end.slice(1)}`);
@@ -201,16 +207,18 @@ function varied(document, name, title, { count = 48, help = "What is varied.", b
     const { from, to } = proposed(document, chosen);
     return { [part("from")]: from, [part("to")]: to };
   };
+  const shown = (all) => all[name] !== NONE;
   const end = (one) => ({
-    title: titled(one), help: "", unit: (all) => choices.units[all[name]], required: !which.none, empty: "",
+    title: titled(one), help: "", shown, pointer: (all) => `${place(all)}/${one}`, unit: (all) => choices.units[all[name]], required: !which.none, empty: "",
     default: proposes(choices.default)[part(one)],
   });
   return {
-    [name]: { ...choices, title, help, proposes },
+    [name]: { ...choices, title, help, proposes, pointer: place },
     [part("from")]: end("from"),
     [part("to")]: end("to"),
     [part("count")]: {
-      title: titled("values"), help: "", unit: "1", minimum: 1, maximum: 100000, default: count, whole: true,
+      title: titled("values"), help: "", shown, pointer: (all) => `${place(all)}/count`,
+      unit: "1", minimum: 1, maximum: 100000, default: count, whole: true,
     },
   };
 }
@@ -223,7 +231,8 @@ function varied(document, name, title, { count = 48, help = "What is varied.", b
  * @param before    see `varied`
  */
 function axis(document, name, title, { help, required, varied: of }, nth, before = name) {
-  return varied(document, name, title, { count: 24, help, before, none: !required, of, nth });
+  const place = () => (before ? `${name}/values` : "values");
+  return varied(document, name, title, { count: 24, help, before, none: !required, of, nth, place });
 }
 
 /** Returns the range that is proposed for a parameter, within its own, or for a number of the start. */

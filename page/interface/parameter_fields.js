@@ -8,8 +8,9 @@ const SHOWN = 6; // others are folded away
 /**
  * Fields of declared parameters; those of a kind of job, whose place is "", are all shown.
  *
- * A unit may be a function of the values of all fields: that of a range is its parameter's.  So may be
- * whether a field is `shown`; what is hidden is never wrong.
+ * A unit or a help may be a function of the values of all fields: the unit of a range is its parameter's.
+ * So may be the `pointer` to its place in the document, and whether a field is `shown`; what is hidden is
+ * never wrong.
  *
  * @property element   the form's part
  * @property values()  what differs from the defaults; throws where something is wrong
@@ -20,7 +21,7 @@ export class ParameterFields {
     this.fields = Object.entries(parameters).map(([name, parameter]) =>
       new Field(name, parameter, given[name], () => {
         this.propose(name);
-        this.tellUnits();
+        this.tell();
         onchange();
       }, `${place.replaceAll("/", "-")}-${name}`));
     const required = this.fields.filter(({ parameter }) => parameter.required);
@@ -39,23 +40,27 @@ export class ParameterFields {
         element("div", { class: "fields" }, rest.map((one) => one.element)),
       ),
     );
-    this.tellUnits();
+    for (const { name } of this.fields.filter((one) => given[one.name] !== undefined)) this.propose(name, given);
+    this.tell();
   }
 
-  tellUnits() {
+  tell() {
     const all = this.all();
-    for (const field of this.fields) {
-      field.tellUnit(all);
-      field.element.hidden = field.parameter.shown?.(all) === false;
-    }
+    for (const field of this.fields) field.tell(all);
   }
 
-  /** Shows in other fields what the choice in one proposes for them. */
-  propose(name) {
+  /** Shows in other fields what the choice in one proposes for them, but not in those that are given. */
+  propose(name, given = {}) {
     const { parameter, input } = this.fields.find((one) => one.name === name);
     for (const [other, value] of Object.entries(parameter.proposes?.(input.value) ?? {})) {
-      this.fields.find((one) => one.name === other).show(value);
+      if (given[other] === undefined) this.fields.find((one) => one.name === other).show(value);
     }
+  }
+
+  /** Returns what was given, typed or chosen, as it stands in the fields; the rest was proposed. */
+  given() {
+    const own = this.fields.filter(({ isProposed }) => !isProposed);
+    return Object.fromEntries(own.map(({ name, input }) => [name, input.value.trim()]));
   }
 
   get valid() {
@@ -75,11 +80,14 @@ export class ParameterFields {
 
   /** Shows what the service found wrong; returns the errors that belong to no field here. */
   blame(errors) {
+    const all = this.all();
+    const places = this.fields.map((field) => [field, placeOf(field, all)])
+      .sort(([, one], [, other]) => other.length - one.length); // the narrowest first
     return errors.filter(({ pointer, detail }) => {
       const inside = pointer?.startsWith(`${this.place}/`);
-      const within = inside ? pointer.slice(this.place.length + 1) : null;
-      const field = this.fields.find(({ parameter }) => within && parameter.pointer === within)
-        ?? this.fields.find(({ name }) => name === within?.split("/")[0]);
+      const within = inside ? pointer.slice(this.place.length + 1) : "";
+      const [field] = places.find(([, place]) => place && `${within}/`.startsWith(`${place}/`))
+        ?? places.find(([{ name }]) => name === within.split("/")[0]) ?? [];
       field?.complain(detail);
       return !field;
     });
@@ -88,9 +96,10 @@ export class ParameterFields {
 
 class Field {
   constructor(name, parameter, given, onchange, id) {
-    Object.assign(this, { name, parameter });
+    Object.assign(this, { name, parameter, isProposed: given === undefined });
     const shown = given ?? parameter.default;
     const checked = () => {
+      this.isProposed = false;
       this.check();
       onchange();
     };
@@ -114,12 +123,13 @@ class Field {
         });
     this.wrong = element("p", { class: "wrong", id: `${id}-wrong` });
     this.unit = element("span", { class: "unit" });
+    this.help = element("span", {}, typeof parameter.help === "function" ? "" : parameter.help);
     this.element = element(
       "div",
       { class: "field" },
       element("label", { for: id }, parameter.title ?? name),
       element("div", { class: "entry" }, this.input, !parameter.choices && this.unit),
-      element("p", { class: "help", id: `${id}-help` }, parameter.help, " ", range(parameter), orWords(parameter)),
+      element("p", { class: "help", id: `${id}-help` }, this.help, " ", range(parameter), orWords(parameter)),
       this.wrong,
     );
   }
@@ -134,14 +144,18 @@ class Field {
     return value === this.parameter.default ? undefined : value;
   }
 
-  tellUnit(all) {
-    const { unit } = this.parameter;
+  /** Tells what depends on the values of all fields. */
+  tell(all) {
+    const { unit, help, shown } = this.parameter;
+    if (typeof help === "function") this.help.textContent = help(all);
+    this.element.hidden = shown?.(all) === false;
     const written = typeof unit === "function" ? unit(all) : unit;
     this.unit.textContent = written === "1" ? "" : unitText(written);
   }
 
   /** Shows a value that is not typed. */
   show(value) {
+    this.isProposed = true;
     this.input.value = written(value);
     this.check();
   }
@@ -168,6 +182,11 @@ class Field {
     this.wrong.textContent = sentence;
     this.input.setAttribute("aria-invalid", String(sentence !== ""));
   }
+}
+
+/** Returns where in the part of the document a field's value is, if it is not by its name. */
+function placeOf({ parameter: { pointer = "" } }, all) {
+  return typeof pointer === "function" ? pointer(all) : pointer;
 }
 
 function written(value) {

@@ -23,18 +23,24 @@ export function sectionFields({ members }, offered) {
   const suits = offered.sections.filter((one) => members[formOf(one)] || formOf(one) === "crank_angle");
   const { onset = offered.contacts[0] ?? "", channel = "", value, direction = "up" } = Object.assign({}, ...suits);
   const units = Object.fromEntries(offered.channels.map(({ name, unit }) => [name, unit]));
-  const of = (form) => ({ help: "", unit: "1", shown: ({ section }) => section === form });
   const forms = suits.map(formOf);
+  const alone = Object.keys(members).join() === "crank_angle";
+  if (alone && !forms.length) return {}; // nothing turns it, and there is no other form
+  const of = (form) => ({ help: "", unit: "1", shown: ({ section }) => alone || section === form });
   if (members.onset && onset && !forms.includes("onset")) forms.push("onset"); // a parameter may open a joint
   const period = offered.period === null ? "" : `A period is ${withUnit(offered.period, "s")} here.`;
   return {
-    section: {
-      title: "Sections are taken", unit: "1", choices: forms, words: WORDS, default: forms[0],
-      help: `${members.onset ? WHEN_IT_ENDS : ""} ${period}`,
-    },
+    ...(!alone && {
+      section: {
+        title: "Sections are taken", unit: "1", choices: forms, words: WORDS, default: forms[0],
+        help: `${members.onset ? WHEN_IT_ENDS : ""} ${period}`,
+      },
+    }),
     ...(members.crank_angle && {
       section_angle: {
-        ...of("crank_angle"), title: "Angle of the drive", help: "Turned by the first driver since the start.",
+        ...of("crank_angle"), title: alone ? "Poincaré sections at" : "Angle of the drive",
+        help: alone ? `Once a period, when the first driver has turned so far since the start. ${period}`
+          : "Turned by the first driver since the start.",
         unit: "rad", minimum: 0, maximum: LARGEST_ANGLE, default: 0, pointer: "section/crank_angle",
       },
     }),
@@ -51,7 +57,8 @@ export function sectionFields({ members }, offered) {
         pointer: "section/channel",
       },
       section_value: {
-        ...of("channel"), title: "Value that it passes", help: "An angle passes it once a turn.",
+        ...of("channel"), title: "Value that it passes",
+        help: ({ section_channel: passes }) => (units[passes] === "rad" ? "An angle passes it once a turn." : ""),
         unit: (all) => units[all.section_channel] ?? "1", default: value, required: true,
         pointer: "section/value",
       },

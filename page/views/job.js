@@ -42,7 +42,7 @@ export async function show(room, { parts, query, signal }) {
   const name = job.label || sceneName(job.job).replaceAll("-", " ");
   document.title = `${name} · jointplay`;
   const head = new Head(job, name, signal);
-  const content = element("div");
+  const content = element("div", {}, element("p", { class: "quiet" }, "Reading …"));
   fill(
     room,
     head.element,

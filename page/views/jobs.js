@@ -143,7 +143,7 @@ class JobList {
     if (!this.jobs) return; // nothing has come yet
     this.scroll.hidden = !this.jobs.length;
     const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
-    this.rowHeight = (matchMedia("(max-width: 760px)").matches ? 4.8 : 4) * rem;
+    this.rowHeight = (matchMedia("(max-width: 760px)").matches ? 6 : 4) * rem;
     this.height = this.scroll.clientHeight;
     this.draw();
   }

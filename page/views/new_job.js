@@ -9,12 +9,14 @@ import { jobAsText } from "../interface/job_as_text.js";
 import { KINDS, fieldsOf, kindsOfJobs, offers } from "../interface/kinds_of_job.js";
 import { ParameterFields } from "../interface/parameter_fields.js";
 import { withUnit } from "../interface/numbers.js";
-import { go, note } from "../interface/place.js";
+import { go, note, place } from "../interface/place.js";
 import { fields as wrongFields } from "../interface/trouble.js";
 import { onNewColours } from "../mechanism/palette.js";
 import { withDefaults, withParameters } from "../mechanism/parameters.js";
 import { Sketch, calm } from "../mechanism/sketch.js";
-import { get, post } from "../requests/service.js";
+import { get, pause, post } from "../requests/service.js";
+
+const QUIET = 400; // ms without a change before what suits the parameters is asked
 
 export async function show(room, { parts, query, signal }) {
   const [wanted] = parts;
@@ -25,7 +27,7 @@ export async function show(room, { parts, query, signal }) {
   document.title = `${name} · jointplay`;
   const given = numbersOf(query, document_.parameters ?? {});
   const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
-  const [offered] = await Promise.all([offers(document_, given, signal), kindsOfJobs(signal)]);
+  const [offered] = await Promise.all([offers(withDefaults(document_, given), signal), kindsOfJobs(signal)]);
   const form = new JobForm(document_, { wanted, before }, query.get("kind") ?? "simulate", given, offered, signal);
   const turn = element("p", { class: "quiet small", role: "status" });
   const sketch = new Sketch(canvas, { labels: true, onFound: ({ drivers_time: once, repeats }) =>
@@ -87,8 +89,13 @@ function written() {
 class JobForm {
   constructor(document_, { wanted, before }, kind, given, offered, signal) {
     Object.assign(this, { scene: document_, isPreset: Boolean(wanted), before, offered, signal, onchange: () => {} });
+    this.asking = new AbortController();
+    signal.addEventListener("abort", () => this.asking.abort());
     const changed = () => this.changed();
-    this.parameters = new ParameterFields(document_.parameters ?? {}, given, changed);
+    this.parameters = new ParameterFields(document_.parameters ?? {}, given, () => {
+      changed();
+      this.follow().catch(() => {});
+    });
     this.kindRoom = element("div");
     this.label = element("input", { id: "label", maxlength: 200, oninput: changed });
     this.kind = element("select", { id: "kind", onchange: () => this.choose(this.kind.value) },
@@ -98,7 +105,7 @@ class JobForm {
     this.beginning = element("p", { class: "help" });
     this.wrong = element("div", { role: "alert" });
     this.button = element("button", { type: "submit", class: "main" }, "Run");
-    this.estimate = new Estimate(() => this.document(), signal);
+    this.estimate = new Estimate(() => this.document(), signal, (errors) => this.blame(errors));
     this.element = element(
       "form",
       { class: "panel stacked", novalidate: true, onsubmit: (event) => this.submit(event) },
@@ -121,11 +128,41 @@ class JobForm {
   choose(kind, given = {}) {
     this.kind.value = kind;
     this.kindHelp.textContent = KINDS[kind].help;
-    this.own = fieldsOf(kind, this.scene, this.offered, given, () => this.changed());
+    this.own = this.fields(given);
     this.earlier = this.before?.kind === kind ? this.asEarlier() : null;
     fill(this.beginning, this.earlier && "What has no field here is as in the job that is changed.");
     fill(this.kindRoom, this.own.element);
     this.changed();
+  }
+
+  /** Returns the fields of the kind, with what suits the parameters as they are typed. */
+  fields(given) {
+    const scene = withDefaults(this.scene, this.parameters.valid ? this.parameters.values() : {});
+    return fieldsOf(this.kind.value, scene, this.offered, given, () => this.changed());
+  }
+
+  /** Proposes anew what nobody has typed, once the parameters have stood for a while. */
+  async follow() {
+    this.asking.abort();
+    this.asking = new AbortController();
+    const { signal } = this.asking;
+    await pause(QUIET, signal);
+    if (!this.parameters.valid) return;
+    const offered = await offers(withDefaults(this.scene, this.parameters.values()), signal);
+    if (signal.aborted) return;
+    this.offered = offered;
+    if (!this.own.given) return; // a table of what was measured: nothing in it is proposed
+    const before = JSON.stringify(this.own.all());
+    const { id, selectionStart: from, selectionEnd: to } = document.activeElement;
+    const within = this.kindRoom.contains(document.activeElement);
+    this.own = this.fields(this.own.given());
+    fill(this.kindRoom, this.own.element);
+    if (within) {
+      const again = document.getElementById(id);
+      again?.focus();
+      if (typeof from === "number") again?.setSelectionRange(from, to);
+    }
+    if (JSON.stringify(this.own.all()) !== before) this.changed();
   }
 
   changed() {
@@ -134,10 +171,13 @@ class JobForm {
     this.onchange();
   }
 
-  /** Returns what the address notes of the form. */
+  /** Returns what the address notes of the form; null of what it noted before, and of another kind. */
   address() {
     const kind = this.kind.value === "simulate" ? null : this.kind.value;
-    return { kind, ...this.parameters.values(), ...this.own.values() };
+    const noted = [...place().query.keys()].filter((name) => name !== "job");
+    return {
+      ...Object.fromEntries(noted.map((name) => [name, null])), kind, ...this.parameters.values(), ...this.own.values(),
+    };
   }
 
   /** Returns the job's document; throws where a field is wrong. */
@@ -162,6 +202,11 @@ class JobForm {
     return { made, document: without(document, Object.keys(own).filter((name) => !(name in made))) };
   }
 
+  /** Shows beside its field what the service found wrong; returns what belongs to none. */
+  blame(errors) {
+    return this.own.blame(this.parameters.blame(errors));
+  }
+
   async submit(event) {
     event.preventDefault();
     fill(this.wrong);
@@ -170,7 +215,7 @@ class JobForm {
       const job = await post("/v1/jobs", this.document());
       go(["job", job.id]);
     } catch (error) {
-      const left = this.own.blame(this.parameters.blame(error.errors ?? []));
+      const left = this.blame(error.errors ?? []);
       fill(this.wrong, element("p", { class: "notice bad" }, error.message),
         wrongFields({ errors: left, message: error.message }));
       this.element.querySelector("[aria-invalid=true]")?.focus();

@@ -44,10 +44,16 @@ def test_a_diagram_of_a_free_journal_is_taken_at_its_impacts(browsing, url):
         fall = math.sqrt(2.0 * 9.81 * 1e-3)  # m/s, through the clearance
         assert [one[0] for one in found] == pytest.approx(3 * [-fall], rel=1e-6)
         assert [len(one) for one in found] == 3 * [4]
+        # journal.x is zero at all sections, journal.y the clearance
+        expect(page.get_by_label("Observable")).to_have_value("journal.vy")
         page.get_by_role("link", name="Run with changes").click()
         chosen(page, Sections_are_taken="channel")
+        once = page.get_by_text("An angle passes it once a turn.")
+        chosen(page, Channel="journal.theta")
+        expect(once).to_be_visible()
         expect(page.get_by_label("Joint with play", exact=True)).to_be_hidden()
         chosen(page, Channel="bearing.penetration", Sense="down")
+        expect(once).to_have_count(0)
         filled(page, Value_that_it_passes="-7")
         page.get_by_role("button", name="Run", exact=True).click()
         page.get_by_text("it stays between -0.001 and 0.001 m").first.wait_for()
@@ -91,3 +97,15 @@ def test_a_section_is_kept_and_shown(browsing, http, service_url, document, fiel
         now = made_of(http, shown_document(page))["job"]
     joint = "bearing" if document is LEFT else "stop"
     assert now == before["job"] | {"section": {"onset": joint}}
+
+
+def test_a_run_is_given_the_angle_of_its_sections(browsing, service_url):
+    angle = "Poincaré sections at"
+    with browsing.page(f"{service_url}/#/new/slider-crank") as page:
+        filled(page, **{angle: "1.5"})
+        page.get_by_role("button", name="JSON").click()
+        assert shown_document(page)["section"] == {"crank_angle": 1.5}
+        expect(page).to_have_url(re.compile("section_angle=1.5"))
+        page.goto(f"{service_url}/#/new/pendulum")  # nothing turns it
+        page.get_by_label("Duration", exact=True).wait_for()
+        expect(page.get_by_label(angle)).to_have_count(0)

@@ -196,3 +196,53 @@ def test_the_command_line_says_all_of_a_run_or_takes_it_from_a_file(browsing, se
         page.get_by_role("link", name="Run with changes").click()
         expect(page.get_by_label("Settling", exact=True)).to_have_value("0.01")
         expect(page.get_by_label("Output step", exact=True)).to_have_value("0.0001")
+
+
+def test_what_is_proposed_follows_what_is_typed(browsing, service_url):
+    with browsing.page(
+        f"{service_url}/#/new/slider-crank?kind=bifurcation&parameter=speed"
+    ) as page:
+        start = page.get_by_label("From", exact=True)
+        expect(start).to_have_value("260")  # rad/s, a half of the default: not of the clearance
+        page.get_by_label("What to compute").select_option("basins")
+        reach = page.get_by_label("Along, to", exact=True)
+        expect(reach).to_have_value("0.00045")  # nine tenths of the play
+        filled(page, clearance="2e-4")
+        expect(reach).to_have_value("0.00018")
+        filled(page, clearance="5e-4")
+        expect(reach).to_have_value("0.00045")
+        expect(page).to_have_url(re.compile(r"slider-crank\?kind=basins$"))  # as at first
+        page.get_by_label("What to compute").select_option("simulate")
+        duration = page.get_by_label("Duration", exact=True)
+        expect(duration).to_have_value("0.048")  # four turns
+        page.get_by_text("more parameters").click()
+        filled(page, speed="100")
+        expect(duration).to_have_value("0.25")
+        filled(page, Duration="0.1", speed="200")
+        page.get_by_text("A period is 31.42 ms here.").wait_for()
+        expect(duration).to_have_value("0.1")
+
+
+def test_what_the_service_refuses_stands_beside_its_field(browsing, service_url):
+    def wrong(page, label, words):
+        field = page.get_by_label(label, exact=True)
+        expect(field).to_have_attribute("aria-invalid", "true")
+        expect(field.locator("xpath=ancestor::div[@class='field'][1]")).to_contain_text(words)
+
+    address = f"{service_url}/#/new/slider-crank?kind=bifurcation"
+    with browsing.page(address, expected=("422",)) as page:
+        filled(page, To="1")
+        wrong(page, "To", "Value 47 of 'clearance' is 1 m; it lies between 0 and 0.01 m.")
+        filled(page, To="0.001")
+        expect(page.get_by_label("To", exact=True)).to_have_attribute("aria-invalid", "false")
+        page.get_by_label("What to compute").select_option("sweep")
+        page.get_by_label("Second parameter", exact=True).select_option("friction")
+        filled(page, **{"Second parameter, to": "11"})
+        wrong(page, "Second parameter, to", "is 11; it lies between 0 and 10.")
+        page.get_by_label("What to compute").select_option("basins")
+        filled(page, **{"Along, from": "-1"})
+        wrong(page, "Along, from", "An eccentricity of 1 m is beyond reach")
+        page.get_by_label("What to compute").select_option("sensitivity")
+        expect(page.get_by_label("Parameter 2, distribution", exact=True)).to_be_hidden()
+        filled(page, **{"Parameter 1, high or standard deviation": "1e-5"})
+        wrong(page, "Parameter 1, high or standard deviation", "is not above 'low'")
