@@ -215,3 +215,15 @@ def test_a_map_that_grows_faster_than_its_tiles_come_is_never_blank(browsing, ur
         page.get_by_label(MAP).wait_for()
         blank = page.evaluate(BLANK_WHILE_GROWING, [MAP, page.evaluate(GROUND)])
         assert blank == 0
+
+
+def test_a_chart_without_a_point_says_so_and_fills_in(browsing, service_url, worker, catalogue):
+    """Its whole view was replaced: “Cannot read properties of undefined”."""
+    job_id = worker.submit(**CHART)
+    claim = worker.start(job_id)
+    worker.compute(claim, points=1, sections=0)
+    reached = {"time": 0.0, "fraction": 0.1}
+    catalogue.record_progress(claim.block.id, claim.block.attempt, 60.0, **reached)
+    with browsing.page(f"{service_url}/#/job/{job_id}") as page:
+        page.get_by_text("The first points are shown here as soon as they are computed.").wait_for()
+        page.get_by_role("button", name="Cancel").wait_for()

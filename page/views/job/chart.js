@@ -13,6 +13,10 @@ import { get } from "../../requests/service.js";
 export async function show(room, context) {
   const chart = new Chart(context);
   await whenThere(room, context, context.job.links.chart, {}, async (answer) => {
+    if (!answer.quantities.length) { // points are being computed, and none has ended
+      fill(room, element("p", { class: "panel" }, "The first points are shown here as soon as they are computed."));
+      return;
+    }
     if (!chart.element.isConnected) fill(room, chart.element);
     chart.take(answer);
   });
