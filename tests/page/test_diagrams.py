@@ -72,7 +72,8 @@ def test_the_first_observable_that_changes_is_found(browsing, service_url):
     swung = {"unit": "rad", "values": [[0.1, 0.2]]}
     lists = [{"x": still, "y": edge, "vy": rate}, {"crank": turned, "rod": swung}, {"y": edge}]
     with browsing.page(f"{service_url}/") as page:
-        assert page.evaluate(TELLING, lists) == ["vy", "rod", None]
+        found = page.evaluate(TELLING, lists)
+    assert found == ["vy", "rod", None]
 
 
 def test_an_observable_that_is_chosen_stays_while_the_diagram_grows(
@@ -81,6 +82,7 @@ def test_an_observable_that_is_chosen_stays_while_the_diagram_grows(
     job_id = worker.submit(**BIFURCATION)
     observables = http.get(f"/v1/jobs/{job_id}").json()["job"]["observables"]
     with browsing.page(f"{service_url}/#/job/{job_id}/diagram") as page:
+        bar = page.get_by_label("Progress of the job")
         for block, done in enumerate((8, 16)):
             claim = worker.start(job_id, block)
             worker.compute(claim)
@@ -91,8 +93,9 @@ def test_an_observable_that_is_chosen_stays_while_the_diagram_grows(
                 1000
             ):  # the page looks once a second at most, when it hears of progress
                 reached = {"time": 0.0, "fraction": 0.5 + nth / 2000}
+                before = bar.get_attribute("data-fraction")
                 catalogue.record_progress(claim.block.id, claim.block.attempt, 60.0, **reached)
-                page.wait_for_timeout(300)
+                expect(bar).not_to_have_attribute("data-fraction", before)
                 if shown.count():
                     break
             shown.wait_for()
