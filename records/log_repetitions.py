@@ -3,6 +3,7 @@
 import logging
 import time
 from collections import OrderedDict
+from collections.abc import Callable
 from typing import Final
 
 PERIOD: Final = 60.0  # s
@@ -16,15 +17,17 @@ class Repetitions(logging.Filter):
     The next one that is written says how many were left out. What has a traceback is written.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        """`clock` : tells seconds that never go back."""
         super().__init__()
+        self._clock = clock
         self._written: OrderedDict[str, tuple[float, int]] = OrderedDict()
 
     def filter(self, record: logging.LogRecord) -> bool:
         """Return whether a record is to be written."""
         if record.levelno < logging.WARNING or record.exc_info:
             return True
-        text, now = record.getMessage(), time.monotonic()
+        text, now = record.getMessage(), self._clock()
         written, left_out = self._written.get(text, (-PERIOD, 0))
         if now < written + PERIOD:
             self._written[text] = (written, left_out + 1)

@@ -4,7 +4,6 @@ import logging
 
 import pytest
 
-from jointplay.records import log_repetitions
 from jointplay.records.log_repetitions import Repetitions
 
 
@@ -14,11 +13,10 @@ def test_a_warning_is_written_once_a_minute_with_how_many_were_not(
     lines: list[str] = []
     handler = logging.Handler()
     monkeypatch.setattr(handler, "emit", lambda record: lines.append(record.getMessage()))
-    handler.addFilter(Repetitions())
+    now = 1000.0
+    handler.addFilter(Repetitions(lambda: now))
     log = logging.Logger("of this test")
     log.addHandler(handler)
-    now = 1000.0
-    monkeypatch.setattr(log_repetitions.time, "monotonic", lambda: now)
     for _ in range(150):  # seconds
         log.warning("trying again: %s", "the catalogue is damaged")
         log.info("of a request")
