@@ -12,8 +12,8 @@ from jointplay.solver.quantities.scalars import select_positive
 MOVED = 0.01
 """Share of a step's way by which closing loops may move its end."""
 ROUNDED = 1e-15
-"""What a state is rounded by: a share of 1 m or 1 rad, a second in speeds, and of the state itself.
-Until something moves, tolerances are smaller than that."""
+"""Rounding of a state: a share of 1 m or 1 rad, a second in speeds, and of the state itself. Until
+something moves, tolerances are smaller than that."""
 
 
 def source(equations: Equations, layout: Layout, fixed: FixedNodes) -> Source:

@@ -60,9 +60,9 @@ ARGUMENTS: dict[str, dict[str, str]] = {
 """Arguments of a function and their types, by what its tape goes over."""
 
 WRITTEN_OVER = "load volatile"
-"""How slots are loaded that a tape writes, too: mostly some lanes keep what is there. Of that, LLVM
-would make a store into the other lanes alone, which takes AMD's processors with vectors of 256 bits
-so long that a step took a tenth longer. It leaves volatile loads as they are."""
+"""Instruction that loads slots which a tape writes, too: mostly some lanes keep what is there. Of
+that, LLVM would make a store into the other lanes alone, which takes AMD's processors with vectors
+of 256 bits so long that a step took a tenth longer. It leaves volatile loads as they are."""
 
 Symbol = Callable[[str], str]
 """Gives the name by which LLVM knows a function of the module."""
