@@ -49,7 +49,7 @@ def drift(v: Callable[[str], Expression], coordinates: int) -> Expression:
 
 
 def _beyond_rounding(v: Callable[[str], Expression], i: int) -> Expression:
-    """Return by how much state i was moved, 0 where that may be rounding."""
+    """Return by how much state i was moved, 0 where that may be rounding; NaN stays NaN."""
     correction = v(f"correction{i}")
-    beyond = abs(correction) - ROUNDED * (1.0 + abs(v(f"stage{i}")))
-    return select_positive(beyond, correction, 0.0)
+    within = ROUNDED * (1.0 + abs(v(f"stage{i}"))) - abs(correction)
+    return select_positive(within, 0.0, correction)

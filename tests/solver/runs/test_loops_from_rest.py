@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from jointplay.solver.kernels.emit.closing import drift
 from tests.solver.completed_runs import run
 
 CRANK, COUPLER, ROCKER, FRAME = 0.2, 1.1, 0.7, 1.0
@@ -76,3 +77,14 @@ def test_a_four_bar_with_a_bob_in_play_is_moved_from_rest(motion: str) -> None:
     off = np.angle(np.exp(1j * (rocker - expected)))
     assert np.abs(off).max() < 1e-11  # what closes loops leaves the square of an error of 1e-6
     assert math.isfinite(found["bob.theta"][-1])
+
+
+@pytest.mark.parametrize(
+    ("correction", "expected"), [(1e-17, 0.0), (1e-9, 1e-6), (math.nan, math.nan)]
+)
+def test_a_correction_counts_unless_it_is_rounding(correction: float, expected: float) -> None:
+    still = dict.fromkeys(["stage0", "stage1", "correction1"], 0.0)
+    units = dict.fromkeys(["tried", "full", "fastest"], 1.0)
+    weights = {"weight0": 1e6, "weight1": 1e6}
+    numbers: dict[str, Any] = still | units | weights | {"correction0": correction}
+    assert drift(numbers.__getitem__, 1) == pytest.approx(expected, nan_ok=True)
