@@ -1,4 +1,4 @@
-"""The page on operating the service names every setting, with the default it has."""
+"""The page on settings names every one, with the default it has."""
 
 import re
 from pathlib import Path
@@ -7,7 +7,7 @@ import pytest
 
 from jointplay.storage.settings import Settings
 
-PAGE = (Path(__file__).resolve().parents[2] / "docs" / "operating.md").read_text()
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "settings.md").read_text()
 ROWS = dict(re.findall(r"^\| `(JOINTPLAY_\w+)` \| ([^|]+) \|", PAGE, re.MULTILINE))
 
 
