@@ -57,8 +57,8 @@ class AnsweringProcess:
             See there.
         """
         try:
-            with self.queue.place(OWNER.get()) as place:
-                return self._processes[place].answer(question, self.patience, self.start)
+            with self.queue.slot(OWNER.get()) as slot:
+                return self._processes[slot].answer(question, self.patience, self.start)
         except Full:
             raise Busy from None
 

@@ -25,26 +25,31 @@ import jointplay.service.workers.attempts
 import jointplay.service.workers.claims
 import jointplay.service.workers.drops
 import jointplay.service.workers.files
-import jointplay.service.workers.present
+import jointplay.service.workers.listing
 import jointplay.service.zarr.endpoints
 import jointplay.service.zarr.whole
 from jointplay.service import estimates, events, health, kinds, laws, metrics, problems, schemas
 from jointplay.service.access import links, needs, quotas
-from jointplay.service.access.door import Door
+from jointplay.service.access.authentication import Authentication
+from jointplay.service.access.concurrency import ConcurrencyLimit
 from jointplay.service.access.signed import SignedLinks
-from jointplay.service.access.turns import Turns
 from jointplay.service.checking import Checker
 from jointplay.service.compression import Compression
 from jointplay.service.content_policy import ContentPolicy
 from jointplay.service.dependencies import KNOWN_PARAMETERS
 from jointplay.service.description import describe
+from jointplay.service.fair_semaphore import (
+    DRAWN_AT_ONCE,
+    EXPORTED_AT_ONCE,
+    LISTED_AT_ONCE,
+    FairSemaphore,
+)
 from jointplay.service.heads import Heads
 from jointplay.service.jobs.queueing import Queueing
 from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.metrics import registry_of
 from jointplay.service.migration import migrated
 from jointplay.service.pieces import Pieces
-from jointplay.service.places import DRAWN_AT_ONCE, EXPORTED_AT_ONCE, LISTED_AT_ONCE, Places
 from jointplay.service.prober import Prober
 from jointplay.service.problems.handlers import install
 from jointplay.service.problems.kinds import OF_THE_DOOR
@@ -56,7 +61,7 @@ from jointplay.service.scenes.poses import scene_poser
 from jointplay.service.targets import Targets
 from jointplay.service.vital import VitalThreads
 from jointplay.service.windows import WindowProcess
-from jointplay.service.workers.bell import Bell
+from jointplay.service.workers.new_blocks import NewBlocks
 from jointplay.service.workers.uploads import Uploads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore
@@ -93,7 +98,7 @@ _BEHIND_THE_DOOR = (
     (links, _RESULTS),
     (metrics, needs("metrics")),
     (quotas, needs("jobs:read")),
-    (jointplay.service.workers.present, needs("jobs:read")),
+    (jointplay.service.workers.listing, needs("jobs:read")),
     (jointplay.service.workers.claims, _WORKERS),
     (jointplay.service.workers.files, _WORKERS),
     (jointplay.service.workers.drops, _WORKERS),
@@ -158,19 +163,19 @@ async def _running(app: FastAPI, *, patient: bool) -> AsyncIterator[None]:
         require_own_files(settings, catalogue)
     app.state.catalogue = catalogue
     app.state.vital = vital = VitalThreads()
-    app.state.door = Door(catalogue, settings, vital)
+    app.state.authentication = Authentication(catalogue, settings, vital)
     app.state.readiness = Readiness(catalogue, settings, vital)
     app.state.registry = registry_of(catalogue)
     app.state.watcher = Watcher(catalogue)
     app.state.in_flight = {}
-    app.state.bell = bell = Bell()
+    app.state.new_blocks = new_blocks = NewBlocks()
     app.state.uploads = Uploads()
-    app.state.drawing = Places(DRAWN_AT_ONCE)
-    app.state.exporting = Places(EXPORTED_AT_ONCE)
-    app.state.listing = Places(LISTED_AT_ONCE)
+    app.state.drawing = FairSemaphore(DRAWN_AT_ONCE)
+    app.state.exporting = FairSemaphore(EXPORTED_AT_ONCE)
+    app.state.listing = FairSemaphore(LISTED_AT_ONCE)
     app.state.prober = prober = Prober()
     app.state.checker = checker = Checker(settings, catalogue)
-    app.state.queueing = Queueing(settings, catalogue, checker, bell)
+    app.state.queueing = Queueing(settings, catalogue, checker, new_blocks)
     app.state.windows = windows = WindowProcess()
     app.state.looker = looker = scene_looker()
     app.state.poser = poser = scene_poser()
@@ -192,7 +197,7 @@ def _add_middleware(app: FastAPI, settings: Settings) -> None:
     app.add_middleware(Heads, known=known)
     app.add_middleware(SignedLinks)
     app.add_middleware(Pieces)
-    app.add_middleware(Turns, unlocked=unlocked, keys=settings.keys == "required")
+    app.add_middleware(ConcurrencyLimit, unlocked=unlocked, keys=settings.keys == "required")
     app.add_middleware(Targets)
     app.add_middleware(ContentPolicy)
     if settings.log_format == "json":

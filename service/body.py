@@ -12,8 +12,8 @@ from typing import Annotated, Final
 from fastapi import Depends, Request
 from fastapi.concurrency import run_in_threadpool
 
+from jointplay.service.byte_budget import RETRY, ByteBudget
 from jointplay.service.problems import RequestRefused, kinds, unavailable
-from jointplay.service.together import RETRY, Together
 from jointplay.worker.passing import is_full
 
 LARGEST_BODY = 8 * 1024 * 1024  # bytes; a job of 100 000 points, each with three parameters
@@ -30,7 +30,7 @@ PATIENCE_OF_WORD: Final = 5.0
 """Seconds that one of a worker may take: those that hold its block have few turns."""
 SLOWEST: Final = 100_000.0
 """Bytes a second that a longer one must arrive with: 1 Mbit/s."""
-TOGETHER: Final = Together(MOST_TOGETHER, "Many large bodies are arriving; send this one again.")
+BUDGET: Final = ByteBudget(MOST_TOGETHER, "Many large bodies are arriving; send this one again.")
 
 
 async def _bounded(request: Request, largest: int, patience: float) -> bytes:
@@ -71,7 +71,7 @@ async def _arrived(request: Request, largest: int) -> bytes:
             received += len(chunk)
             if received <= largest:
                 if received > SHORT:
-                    TOGETHER.take(request.scope, len(chunk))
+                    BUDGET.take(request.scope, len(chunk))
                     await run_in_threadpool(body.write, chunk)
                 else:
                     body.write(chunk)

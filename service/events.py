@@ -105,7 +105,7 @@ async def show_events(
         if last_event_id and not left:
             return Response(status_code=204)  # which tells a browser not to come back
     SHARES.must_wait(request.scope)
-    is_open = partial(request.app.state.door.still_open_to, caller)
+    is_open = partial(request.app.state.authentication.still_open_to, caller)
     return EventSourceResponse(
         _stream(job, catalogue, watcher, last_event_id, is_open),
         headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},

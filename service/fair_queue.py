@@ -18,33 +18,33 @@ class Full(Exception):
 
 
 class FairQueue:
-    """Gives places to threads: to one of an owner at a time, and to owners in turn."""
+    """Gives slots to threads: to one of an owner at a time, and to owners in turn."""
 
     _lock = threading.Lock()  # of all queues, as they share the room
     _everywhere: Counter[str] = Counter()
 
-    def __init__(self, places: int) -> None:
+    def __init__(self, slots: int) -> None:
         self._changed = threading.Condition(self._lock)
-        self._free = [*range(places)]
+        self._free = [*range(slots)]
         self._waiting: OrderedDict[str, list[object]] = OrderedDict()
         self._served: set[str] = set()
 
     @contextmanager
-    def place(self, owner: str) -> Iterator[int]:
-        """Wait for a place, and yield its number; Full if there is no room to wait."""
+    def slot(self, owner: str) -> Iterator[int]:
+        """Wait for a slot, and yield its number; Full if there is no room to wait."""
         me = object()
         with self._changed:
             self._enter(owner, me)
             self._changed.wait_for(lambda: self._is_next(owner, me))
-            place = self._take(owner)
+            slot = self._take(owner)
         try:
-            yield place
+            yield slot
         finally:
             with self._changed:
-                self._leave(owner, place)
+                self._leave(owner, slot)
 
     def waiting(self) -> int:
-        """Return how many wait for a place."""
+        """Return how many wait for a slot."""
         with self._lock:
             return sum(map(len, self._waiting.values()))
 
@@ -67,14 +67,14 @@ class FairQueue:
         self._waiting[owner].pop(0)
         if not self._waiting[owner]:
             del self._waiting[owner]
-        place: int = min(self._free)
-        self._free.remove(place)
-        self._changed.notify_all()  # another place may be free for the next owner
-        return place
+        slot: int = min(self._free)
+        self._free.remove(slot)
+        self._changed.notify_all()  # another slot may be free for the next owner
+        return slot
 
-    def _leave(self, owner: str, place: int) -> None:
+    def _leave(self, owner: str, slot: int) -> None:
         self._served.remove(owner)
-        self._free.append(place)
+        self._free.append(slot)
         self._everywhere[owner] -= 1
         if not self._everywhere[owner]:
             del self._everywhere[owner]

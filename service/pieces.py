@@ -10,15 +10,15 @@ from starlette.datastructures import Headers
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from jointplay.service.byte_budget import ByteBudget
 from jointplay.service.problems import RequestRefused
 from jointplay.service.problems.handlers import answer
-from jointplay.service.together import Together
 
 LONGEST: Final = 64 * 1024
 """Bytes of a piece: as many wait for a client that takes nothing, beside the answer itself."""
 MOST_TOGETHER: Final = 64 * 1024 * 1024
 """Bytes of all longer answers, and of what others are made from while they are sent."""
-TOGETHER: Final = Together(MOST_TOGETHER, "Many long answers wait for their clients.")
+BUDGET: Final = ByteBudget(MOST_TOGETHER, "Many long answers wait for their clients.")
 
 
 class Pieces:
@@ -42,7 +42,7 @@ class Pieces:
             body = message.get("body", b"")
             if start is not None:
                 try:
-                    TOGETHER.take(scope, len(body) if len(body) > LONGEST else 0)
+                    BUDGET.take(scope, len(body) if len(body) > LONGEST else 0)
                 except RequestRefused as problem:
                     refused = True
                     await (await answer(Request(scope), problem))(scope, receive, send)

@@ -43,7 +43,7 @@ class Caller:
 
 
 async def _caller(request: Request) -> Caller:
-    found: Caller = await request.app.state.door.caller(request)
+    found: Caller = await request.app.state.authentication.caller(request)
     if found.key:
         note(key=found.key)  # its id: nobody learns its secret from a log
     if found.owner:

@@ -73,7 +73,7 @@ class SignedLinks:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass a request on, at its job's address; the door looks at the link itself."""
+        """Pass a request on, at its job's address; authentication checks the link itself."""
         if scope["type"] == "http" and scope["path"].startswith(PREFIX):
             token, slash, behind = scope["path"][len(PREFIX) :].partition("/")
             link = Link.of(token)

@@ -10,11 +10,11 @@ from jointplay.records.job import is_job_id
 from jointplay.service.access import CallerDependency
 from jointplay.service.body import BatchBody
 from jointplay.service.dependencies import CatalogueDependency
+from jointplay.service.fair_semaphore import in_turn
 from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.listing import PageQuery
 from jointplay.service.jobs.queueing import QueueingDependency
 from jointplay.service.jobs.schemas import JobPage, Moment
-from jointplay.service.places import in_turn
 from jointplay.service.problems import RequestRefused, clipped, header, kinds, problems
 from jointplay.storage.catalogue.errors import BatchNotFound
 from jointplay.storage.catalogue.records import Batch, JobState, SubmittedBatch

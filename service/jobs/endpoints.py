@@ -8,13 +8,13 @@ from fastapi.concurrency import run_in_threadpool
 from jointplay.service.access import CallerDependency
 from jointplay.service.body import JobBody
 from jointplay.service.dependencies import CatalogueDependency, JobOfThePath
+from jointplay.service.fair_semaphore import in_turn
 from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.listing import JobQuery
 from jointplay.service.jobs.queueing import QueueingDependency
 from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
 from jointplay.service.jobs.submission import REQUEST_BODY
 from jointplay.service.jobs.waiting import PatienceDependency, WaitQuery
-from jointplay.service.places import in_turn
 from jointplay.service.problems import header, kinds, problems
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])

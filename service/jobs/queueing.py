@@ -14,7 +14,7 @@ from jointplay.service.batches.admission import QueueBatch
 from jointplay.service.checking import Checker, CheckJob, RepeatJob
 from jointplay.service.idempotency import Repeatable, SentKey
 from jointplay.service.problems import RequestRefused, kinds
-from jointplay.service.workers.bell import Bell
+from jointplay.service.workers.new_blocks import NewBlocks
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import (
     Batch,
@@ -34,12 +34,12 @@ class Queueing:
     """Queues what callers submit; the application has one."""
 
     def __init__(
-        self, settings: Settings, catalogue: Catalogue, checker: Checker, bell: Bell
+        self, settings: Settings, catalogue: Catalogue, checker: Checker, new_blocks: NewBlocks
     ) -> None:
         self._settings = settings
         self._catalogue = catalogue
         self._checker = checker
-        self._bell = bell
+        self._new_blocks = new_blocks
 
     def require_room(self) -> None:
         """Refuse new work when the disk is nearly full, so that running jobs can end."""
@@ -134,7 +134,7 @@ class Queueing:
 
     def _wake(self, blocks: int) -> None:
         wake_relay(self._settings.redis_url)
-        self._bell.ring(blocks)
+        self._new_blocks.announce(blocks)
 
 
 async def _where_there_is_room(request: Request) -> Queueing:

@@ -23,7 +23,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 from jointplay.service.content_policy import DEFAULTS
 from jointplay.service.problems import MEDIA_TYPE, ProblemDocument
 from jointplay.service.problems.kinds import NO_REQUEST, UNAVAILABLE, ProblemKind
-from jointplay.service.processes.room import MOST, Room
+from jointplay.service.processes.connection_limit import MOST, ConnectionLimit
 
 HEAD_PATIENCE = 5.0  # s
 READER_PATIENCE = 30.0  # s
@@ -40,7 +40,7 @@ _log = logging.getLogger(__name__)
 class Connection(H11Protocol):
     """One connection, which is closed where it keeps others out."""
 
-    room: Room
+    limit: ConnectionLimit
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
@@ -50,33 +50,33 @@ class Connection(H11Protocol):
 
     @property
     def asked(self) -> bool:
-        """See `Guest`."""
+        """See `LimitedConnection`."""
         return self.cycle is not None
 
     @property
     def unread(self) -> bool:
-        """See `Guest`."""
+        """See `LimitedConnection`."""
         return has_unread(self.transport)
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Let the connection in, or let it wait at the door."""
+        """Let the connection in, or let it wait in the queue."""
         super().connection_made(transport)
         transport.get_extra_info("socket").setsockopt(
             socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT
         )
         self.address = address_of(transport)
         self.flow.pause_reading()
-        self.room.admit(self)
+        self.limit.admit(self)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Give its room to others."""
         super().connection_lost(exc)
-        self.room.leave(self)
+        self.limit.leave(self)
         self._head, self._reader = _cancel(self._head), _cancel(self._reader)
 
     def data_received(self, data: bytes) -> None:
         """Take what was sent: a head must become whole soon."""
-        if self not in self.room:
+        if self not in self.limit:
             return
         super().data_received(data)
         self._look()
@@ -119,34 +119,34 @@ class Connection(H11Protocol):
 
     def end(self) -> None:
         """Close a connection that waits for a request."""
-        self.room.leave(self)
+        self.limit.leave(self)
         if self.flow.write_paused:
             self._cut_off()
         else:  # nothing is unsent; to end TLS in order would take what the client likes
             self.transport.abort()
 
-    def come_in(self) -> None:
-        """See `Guest`."""
+    def begin(self) -> None:
+        """See `LimitedConnection`."""
         self.flow.resume_reading()
         self._await_head()
 
     def refuse(self) -> None:
-        """See `Guest`."""
+        """See `LimitedConnection`."""
         _log.debug("no room for a connection of %s", self.address)
         self.transport.write(REFUSAL)
         self.transport.close()
 
     def _look(self) -> None:
         """Tell a connection with a request from one that waits for its head, or for any."""
-        if self not in self.room:
+        if self not in self.limit:
             return
         cycle: RequestResponseCycle | None = self.cycle
         if cycle is not None and not cycle.response_complete:
             self._head = _cancel(self._head)
-            self.room.work(self)
+            self.limit.work(self)
             self.transport.set_write_buffer_limits()
             return
-        self.room.rest(self)
+        self.limit.rest(self)
         if self.conn.trailing_data[0]:
             self._await_head()
 
@@ -167,9 +167,11 @@ class Connection(H11Protocol):
 
 
 def protocol() -> type[Connection]:
-    """Return the class of connections of one server, with room of its own."""
+    """Return the class of connections of one server, with a limit of its own."""
     files, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
-    return type("RoomedConnection", (Connection,), {"room": Room(min(MOST, files // 2))})
+    return type(
+        "ConnectionOfThisProcess", (Connection,), {"limit": ConnectionLimit(min(MOST, files // 2))}
+    )
 
 
 def address_of(transport: asyncio.Transport) -> str:

@@ -21,7 +21,7 @@ class EncryptedConfig(uvicorn.Config):
         """Load the settings."""
         super().load()
         parts = {"made": self.http_protocol_class, "context": self.ssl}
-        self.http_protocol_class = type("RoomedHandshake", (Handshake,), parts)
+        self.http_protocol_class = type("HandshakeOfThisProcess", (Handshake,), parts)
         self.ssl = None
 
 
@@ -35,15 +35,15 @@ class Handshake(asyncio.Protocol):
 
     def __init__(self, **named: Any) -> None:
         self._connection = self.made(**named)
-        self._room = self.made.room
+        self._limit = self.made.limit
         self._sent = bytearray()
         self._agreeing: asyncio.Task[None] | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Let the connection in, or let it wait at the door."""
+        """Let the connection in, or let it wait in the queue."""
         self._transport, self.address = transport, address_of(transport)
         transport.pause_reading()
-        self._room.admit(self)
+        self._limit.admit(self)
 
     def data_received(self, data: bytes) -> None:
         """Keep what came with the end of the handshake."""
@@ -54,7 +54,7 @@ class Handshake(asyncio.Protocol):
         """Whether the client goes on with the handshake."""
         return has_unread(self._transport)
 
-    def come_in(self) -> None:
+    def begin(self) -> None:
         """Agree on TLS."""
         self._transport.resume_reading()
         self._agreeing = asyncio.create_task(self._agree())
@@ -65,12 +65,12 @@ class Handshake(asyncio.Protocol):
 
     def end(self) -> None:
         """Make room for others."""
-        self._room.leave(self)
+        self._limit.leave(self)
         self._transport.abort()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Make room for others: the client has gone."""
-        self._room.leave(self)
+        self._limit.leave(self)
 
     async def _agree(self) -> None:
         encrypted: asyncio.Transport | None = None
@@ -83,7 +83,7 @@ class Handshake(asyncio.Protocol):
                 ssl_handshake_timeout=connections.HEAD_PATIENCE,
                 ssl_shutdown_timeout=connections.HEAD_PATIENCE,
             )
-        self._room.leave(self)
+        self._limit.leave(self)
         if encrypted is None or encrypted.is_closing():
             return
         encrypted.set_protocol(self._connection)

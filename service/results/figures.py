@@ -9,9 +9,9 @@ from jointplay import figures
 from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES, Form
 from jointplay.service.dependencies import of_the_application
+from jointplay.service.fair_semaphore import FairSemaphore, slot_for
 from jointplay.service.fields import BINARY
 from jointplay.service.jobs.schemas import address
-from jointplay.service.places import Places, place_for
 from jointplay.service.problems import RequestRefused, clipped, kinds, problems
 from jointplay.service.results.damage import refusal_of
 from jointplay.service.results.figure_query import FigureQuery, FigureSelection
@@ -70,14 +70,14 @@ async def draw_figure(
     query: Annotated[FigureQuery, Query()],
     windows: Annotated[WindowProcess, of_the_application("windows")],
     results_of: ResultsOfAParameter,
-    drawing: Annotated[Places, of_the_application("drawing")],
+    drawing: Annotated[FairSemaphore, of_the_application("drawing")],
 ) -> Response:
     """Draw a figure of the job's results, also as it runs."""
     if form not in FORMS:
         sentence = f"Figures are drawn as {IN_WORDS}, not as {clipped(form)!r}."
         raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
     selection = cast("FigureSelection", query)
-    async with place_for(request, drawing):
+    async with slot_for(request, drawing):
         return await run_in_threadpool(_drawn, results, name, form, selection, windows, results_of)
 
 

@@ -9,8 +9,8 @@ from fastapi import Depends, Request, Response
 
 from jointplay.records.table_files import Column, arrow, csv, matlab, npz, parquet
 from jointplay.service.dependencies import of_the_application
+from jointplay.service.fair_semaphore import FairSemaphore, slot_for
 from jointplay.service.fields import BINARY
-from jointplay.service.places import Places, place_for
 from jointplay.service.problems import RequestRefused, clipped, kinds
 
 JSON = "application/json"
@@ -95,14 +95,16 @@ Form = Annotated[str, Depends(_form)]
 
 
 async def _turn(
-    request: Request, form: Form, exporting: Annotated[Places, of_the_application("exporting")]
+    request: Request,
+    form: Form,
+    exporting: Annotated[FairSemaphore, of_the_application("exporting")],
 ) -> AsyncIterator[None]:
     if form == JSON:
         yield
         return
-    async with place_for(request, exporting):
+    async with slot_for(request, exporting):
         yield
 
 
 IN_TURN: Final = Depends(_turn, scope="function")
-"""Has a place while a file is made, and no longer: a client may take it slowly."""
+"""Has a slot while a file is made, and no longer: a client may take it slowly."""

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from pydantic_core import to_json
 from starlette.types import Receive, Scope, Send
 
-from jointplay.service.pieces import LONGEST, TOGETHER
+from jointplay.service.pieces import BUDGET, LONGEST
 
 LEAST: Final = 50_000
 """Values: fewer are one piece anyway."""
@@ -51,7 +51,7 @@ class _Streamed(StreamingResponse):
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Send it; RequestRefused where many others are being sent."""
-        TOGETHER.take(scope, self._held)
+        BUDGET.take(scope, self._held)
         await super().__call__(scope, receive, send)
 
 

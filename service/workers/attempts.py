@@ -7,9 +7,16 @@ from fastapi import APIRouter
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused
 from jointplay.service.vital import VitalDependency
-from jointplay.service.workers.bell import BellDependency
+from jointplay.service.workers.dependencies import (
+    HELD,
+    Attempt,
+    BlockId,
+    HeldBlock,
+    JobOfBlock,
+    document_of,
+)
 from jointplay.service.workers.handed_in import HandedIn
-from jointplay.service.workers.words import HELD, Attempt, BlockId, HeldBlock, JobOfBlock, said
+from jointplay.service.workers.new_blocks import NewBlocksDependency
 from jointplay.storage.catalogue.records import BlockEnd
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.protocol import Answered, Finished
@@ -41,7 +48,7 @@ async def record_progress(
     vital: VitalDependency,
     block: BlockId,
     attempt: Attempt,
-    message: Annotated[protocol.Progress, said(protocol.Progress)],
+    message: Annotated[protocol.Progress, document_of(protocol.Progress)],
 ) -> Answered:
     """Note how far the block is, and hold it longer."""
     known = message.model_dump()
@@ -56,7 +63,7 @@ async def record_checkpoint(
     vital: VitalDependency,
     block: BlockId,
     attempt: Attempt,
-    message: Annotated[protocol.Checkpoint, said(protocol.Checkpoint)],
+    message: Annotated[protocol.Checkpoint, document_of(protocol.Checkpoint)],
 ) -> Answered:
     """Name a restart point, whose files are there; with its progress the block is held longer."""
     point = message.model_dump(exclude={"progress"})
@@ -71,7 +78,7 @@ def note_activity(
     catalogue: CatalogueDependency,
     block: BlockId,
     attempt: Attempt,
-    message: Annotated[protocol.Busy, said(protocol.Busy)],
+    message: Annotated[protocol.Busy, document_of(protocol.Busy)],
 ) -> None:
     """Show what takes long."""
     catalogue.note_activity(block, attempt, message.activity)
@@ -88,7 +95,7 @@ def put_off(
     catalogue: CatalogueDependency,
     block: BlockId,
     attempt: Attempt,
-    message: Annotated[protocol.Activity, said(protocol.Activity)],
+    message: Annotated[protocol.Activity, document_of(protocol.Activity)],
 ) -> None:
     """Take the block back until a fault of the worker has passed."""
     catalogue.put_off(block, attempt, message.activity)
@@ -98,10 +105,10 @@ def put_off(
 def finish(
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
-    bell: BellDependency,
+    new_blocks: NewBlocksDependency,
     held: HeldBlock,
     job: JobOfBlock,
-    message: Annotated[protocol.Finish, said(protocol.Finish)],
+    message: Annotated[protocol.Finish, document_of(protocol.Finish)],
 ) -> Finished:
     """End the block, if its results are there, and, with its last block, the job."""
     HandedIn(catalogue, settings, job, held).require_end(message.outcome, message.steps)
@@ -111,7 +118,7 @@ def finish(
         raise RequestRefused.of_parameter("outcome", f"{error}.") from error
     if settings.most_running:  # its owner may have another block computed
         wake_relay(settings.redis_url)
-        bell.ring(1)
+        new_blocks.announce(1)
     if state.terminal:
         tidy(settings, held)
     return Finished(state=state)

@@ -12,8 +12,14 @@ from jointplay.service.access import CallerDependency
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.vital import VitalDependency
-from jointplay.service.workers.bell import BellDependency
-from jointplay.service.workers.words import Attempt, BlockId, HeldBlock, own_name, said
+from jointplay.service.workers.dependencies import (
+    Attempt,
+    BlockId,
+    HeldBlock,
+    document_of,
+    own_name,
+)
+from jointplay.service.workers.new_blocks import NewBlocksDependency
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Claim, WorkerDevice
 from jointplay.worker.beside import claim_beside
@@ -36,8 +42,8 @@ async def claim_block(
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
     caller: CallerDependency,
-    bell: BellDependency,
-    asked: Annotated[ClaimRequest, said(ClaimRequest)],
+    new_blocks: NewBlocksDependency,
+    asked: Annotated[ClaimRequest, document_of(ClaimRequest)],
 ) -> Claimed | Response:
     """Answer with a block as soon as there is one that the worker's solver may compute.
 
@@ -60,8 +66,8 @@ async def claim_block(
             return Claimed(claim=_shown(claim), customs=Customs.of(settings))
         if time.monotonic() + pause > deadline:
             break
-        rung = await bell.wait(pause)
-        pause = _FIRST_PAUSE if rung else min(1.5 * pause, _LONGEST_PAUSE)
+        announced = await new_blocks.wait(pause)
+        pause = _FIRST_PAUSE if announced else min(1.5 * pause, _LONGEST_PAUSE)
     return Response(status_code=204)
 
 
@@ -70,7 +76,7 @@ def claim_blocks_beside(
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
     held: HeldBlock,
-    asked: Annotated[ClaimBeside, said(ClaimBeside)],
+    asked: Annotated[ClaimBeside, document_of(ClaimBeside)],
 ) -> ClaimedBeside:
     """Answer with blocks that wait of the study of one that is held, for a device."""
     found = claim_beside(catalogue, settings, held, asked.solver, asked.most, elsewhere=True)

@@ -6,14 +6,14 @@ from fastapi import APIRouter, Response
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused
+from jointplay.service.workers.dependencies import HeldBlock, JobOfBlock, document_of
 from jointplay.service.workers.handed_in import HandedIn
 from jointplay.service.workers.uploads import UploadsDependency
-from jointplay.service.workers.words import HeldBlock, JobOfBlock, said
 from jointplay.worker.joined.protocol import Drop, DropAt
 
 router = APIRouter(prefix="/v1/worker/blocks/{block}/{attempt}/drops", include_in_schema=False)
 _SIGNED_FOR: Final = 900.0  # s
-DropMessage = Annotated[Drop, said(Drop)]
+DropMessage = Annotated[Drop, document_of(Drop)]
 
 
 @router.post("", response_model=None)

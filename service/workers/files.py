@@ -10,10 +10,10 @@ from fastapi.responses import StreamingResponse
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds
-from jointplay.service.workers.arriving import LARGEST_FILE, arrived, length_of
+from jointplay.service.workers.dependencies import HeldBlock, JobOfBlock
+from jointplay.service.workers.file_body import LARGEST_FILE, arrived, length_of
 from jointplay.service.workers.handed_in import HandedIn
 from jointplay.service.workers.uploads import UploadsDependency
-from jointplay.service.workers.words import HeldBlock, JobOfBlock
 from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.worker.joined.protocol import File, Files
 from jointplay.worker.passing import is_full

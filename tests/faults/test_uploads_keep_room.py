@@ -11,7 +11,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from jointplay.service.workers import arriving
+from jointplay.service.workers import file_body
 from jointplay.storage.settings import Settings
 from jointplay.worker.joined.protocol import DropAt
 from tests.joined_by_hand import NOT_HELD, REFUSED, SWING, Held, Installation, installation, said
@@ -67,8 +67,8 @@ def test_room_is_kept_for_files_that_are_on_their_way(
 def test_a_file_that_does_not_arrive_is_given_up(
     service: Installation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(arriving, "PATIENCE", 0.2)
-    monkeypatch.setattr(arriving, "SLOWEST", 1e9)
+    monkeypatch.setattr(file_body, "PATIENCE", 0.2)
+    monkeypatch.setattr(file_body, "SLOWEST", 1e9)
     service.submit(SWING)
     with ExitStack() as stack:
         answer = answer_of(begun(stack, service.claim(), "a1/rows/0", MEGABYTE))

@@ -10,7 +10,7 @@ import httpx
 import pytest
 
 from jointplay.service.app import create_app
-from jointplay.service.workers import arriving, handed_in
+from jointplay.service.workers import file_body, handed_in
 from jointplay.storage.attempt_files import LEAST, AttemptFiles
 from jointplay.storage.catalogue import solvers
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -101,11 +101,11 @@ def test_an_attempt_that_lost_its_block_changes_nothing(
 def test_a_file_for_which_there_is_no_room_is_refused(
     http: httpx.Client, address: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(arriving, "LARGEST_FILE", 3)
+    monkeypatch.setattr(file_body, "LARGEST_FILE", 3)
     name = f"{address}/files/block0-a1"
     assert http.put(name, content=b"rows", headers=digest(b"rows")).status_code == 422
     monkeypatch.setattr(Settings, "room", lambda _: 7)  # it is here twice for a moment
-    monkeypatch.setattr(arriving, "LARGEST_FILE", 9)
+    monkeypatch.setattr(file_body, "LARGEST_FILE", 9)
     assert http.put(name, content=b"rows", headers=digest(b"rows")).status_code == 507
 
 

@@ -12,11 +12,11 @@ import pytest
 import uvicorn
 from starlette.types import Receive, Scope, Send
 
-from jointplay.service.access.turns import Turns
-from jointplay.service.pieces import TOGETHER, Pieces
-from jointplay.service.processes import connections, room
+from jointplay.service.access.concurrency import ConcurrencyLimit
+from jointplay.service.pieces import BUDGET, Pieces
+from jointplay.service.processes import connection_limit, connections
+from jointplay.service.processes.connection_limit import ConnectionLimit
 from jointplay.service.processes.connections import Connection, protocol
-from jointplay.service.processes.room import Room
 from tests.service_in_thread import Served, in_thread
 from tests.waiting import until
 
@@ -47,8 +47,8 @@ def application() -> Answering:
 
 @pytest.fixture
 def server(application: Answering) -> Iterator[Served]:
-    turns = Turns(Pieces(application), [], keys=False)
-    configuration = uvicorn.Config(turns, http=protocol(), lifespan="off", log_config=None)
+    limited = ConcurrencyLimit(Pieces(application), [], keys=False)
+    configuration = uvicorn.Config(limited, http=protocol(), lifespan="off", log_config=None)
     with in_thread(configuration, force=True) as served:
         yield served
 
@@ -122,7 +122,7 @@ def test_long_answers_that_nobody_takes_share_a_bound(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(connections, "READER_PATIENCE", 3600.0)
-    monkeypatch.setattr(TOGETHER, "most", 2 * LONG)
+    monkeypatch.setattr(BUDGET, "most", 2 * LONG)
     _, address = server
 
     def status() -> int:
@@ -144,7 +144,7 @@ def test_one_address_cannot_have_all_connections(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     running, address = server
-    monkeypatch.setattr(running.config.http_protocol_class, "room", Room(4))
+    monkeypatch.setattr(running.config.http_protocol_class, "limit", ConnectionLimit(4))
     with ExitStack() as stack:
         for _ in range(3):
             stack.enter_context(with_little_room(address)).sendall(asked(LONG))
@@ -161,7 +161,7 @@ def test_those_of_the_address_that_has_most_make_room(
 ) -> None:
     monkeypatch.setattr(connections, "HEAD_PATIENCE", 3600.0)
     running, address = server
-    monkeypatch.setattr(running.config.http_protocol_class, "room", Room(4))
+    monkeypatch.setattr(running.config.http_protocol_class, "limit", ConnectionLimit(4))
     with ExitStack() as stack:
         few = stack.enter_context(with_little_room(address, "127.0.0.2"))
         many = [stack.enter_context(with_little_room(address)) for _ in range(3)]
@@ -178,7 +178,7 @@ def test_those_that_were_never_asked_make_room_first(
 ) -> None:
     monkeypatch.setattr(connections, "HEAD_PATIENCE", 3600.0)
     running, address = server
-    monkeypatch.setattr(running.config.http_protocol_class, "room", Room(8))
+    monkeypatch.setattr(running.config.http_protocol_class, "limit", ConnectionLimit(8))
 
     def answers(one: socket.socket) -> bool:
         one.sendall(asked(1))
@@ -226,17 +226,17 @@ def at_once(
 def test_of_many_that_come_at_once_none_is_closed_unheard(
     server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(server[0].config.http_protocol_class, "room", Room(8))
+    monkeypatch.setattr(server[0].config.http_protocol_class, "limit", ConnectionLimit(8))
     with at_once(server, [asked(1)] * 9) as ones:
         answers = Counter(one.recv(1000)[9:12] for one in ones)
-    assert answers == {b"200": 8, b"503": 2}  # six have room, and two wait at the door
+    assert answers == {b"200": 8, b"503": 2}  # six have room, and two wait in the queue
 
 
 def test_who_comes_last_of_many_is_heard(
     server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Those before have all sent something that nobody has read yet: halves of heads."""
-    monkeypatch.setattr(server[0].config.http_protocol_class, "room", Room(8))
+    monkeypatch.setattr(server[0].config.http_protocol_class, "limit", ConnectionLimit(8))
     half = b"GET /1 HTTP/1.1\r\nHost: a\r\nX-Half: "
     with at_once(server, [half] * 40 + [asked(1)]) as (_, *halves, last):
         assert last.recv(1000)[9:12] == b"200"
@@ -246,8 +246,8 @@ def test_who_comes_last_of_many_is_heard(
 def test_what_makes_room_is_found_behind_those_that_are_not_read_yet(
     server: tuple[uvicorn.Server, tuple[str, int]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(server[0].config.http_protocol_class, "room", Room(6))
-    monkeypatch.setattr(room, "LOOKED_AT", 1)
+    monkeypatch.setattr(server[0].config.http_protocol_class, "limit", ConnectionLimit(6))
+    monkeypatch.setattr(connection_limit, "LOOKED_AT", 1)
     sent = [asked(1), asked(1), b"", asked(1), asked(1), asked(1)]
     with at_once(server, sent) as ones:
         answers = [one.recv(1000)[9:12] for one in ones]

@@ -14,7 +14,7 @@ def waiting(queue: FairQueue, owner: str, count: int, act: Callable[[], object])
     """Have threads of an owner wait for a place, one after the other, and do something there."""
 
     def ask() -> None:
-        with queue.place(owner):
+        with queue.slot(owner):
             act()
 
     for _ in range(count):
@@ -25,9 +25,9 @@ def waiting(queue: FairQueue, owner: str, count: int, act: Callable[[], object])
 
 def test_an_owner_who_waits_often_is_told_so_and_no_other() -> None:
     queue, served = FairQueue(2), []
-    with queue.place("x"), queue.place("y"):
+    with queue.slot("x"), queue.slot("y"):
         waiting(queue, "ada", OF_ONE, lambda: served.append("ada"))
-        with pytest.raises(Full), queue.place("ada"):
+        with pytest.raises(Full), queue.slot("ada"):
             pass
         waiting(queue, "bob", 1, lambda: served.append("bob"))
     until(lambda: len(served) == OF_ONE + 1)
@@ -35,9 +35,9 @@ def test_an_owner_who_waits_often_is_told_so_and_no_other() -> None:
 
 def test_an_owner_has_one_place_at_a_time() -> None:
     queue = FairQueue(2)
-    with queue.place("ada") as first:
+    with queue.slot("ada") as first:
         waiting(queue, "ada", 1, lambda: None)
-        with queue.place("bob") as second:
+        with queue.slot("bob") as second:
             assert {first, second} == {0, 1}
             assert queue.waiting() == 1
     until(lambda: not queue.waiting())
@@ -45,7 +45,7 @@ def test_an_owner_has_one_place_at_a_time() -> None:
 
 def test_one_place_goes_round() -> None:
     queue, served = FairQueue(1), []
-    with queue.place("x"):
+    with queue.slot("x"):
         waiting(queue, "ada", 3, lambda: served.append("ada"))
         waiting(queue, "bob", 2, lambda: served.append("bob"))
         waiting(queue, "eve", 1, lambda: served.append("eve"))
@@ -57,7 +57,7 @@ def test_owners_leave_threads_of_all_queues_to_others() -> None:
     queues, go = [FairQueue(2) for _ in range(3)], threading.Event()
 
     def ask(queue: FairQueue, owner: str) -> None:
-        with suppress(Full), queue.place(owner):
+        with suppress(Full), queue.slot(owner):
             go.wait()
 
     def taken(owner: str) -> int:

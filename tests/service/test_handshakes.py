@@ -11,9 +11,9 @@ from starlette.responses import Response
 from trustme import CA
 
 from jointplay.service.processes import connections
+from jointplay.service.processes.connection_limit import ConnectionLimit
 from jointplay.service.processes.connections import protocol
 from jointplay.service.processes.handshakes import EncryptedConfig
-from jointplay.service.processes.room import Room
 from tests.service_in_thread import Served, in_thread
 from tests.waiting import until
 
@@ -39,11 +39,11 @@ def served(authority: CA, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> It
     authority.issue_cert("localhost").private_key_and_cert_chain_pem.write_to_path(
         tmp_path / "own.pem"
     )
-    roomed = protocol()
-    monkeypatch.setattr(roomed, "room", Room(4))
+    limited = protocol()
+    monkeypatch.setattr(limited, "limit", ConnectionLimit(4))
     configuration = EncryptedConfig(
         Response("there"),
-        http=roomed,
+        http=limited,
         lifespan="off",
         log_config=None,
         ssl_certfile=tmp_path / "own.pem",
@@ -89,10 +89,10 @@ def test_who_does_not_agree_in_time_is_closed(
 ) -> None:
     server, address = served
     monkeypatch.setattr(connections, "HEAD_PATIENCE", 0.2)
-    room = server.config.http_protocol_class.made.room  # type: ignore[union-attr]
+    limit = server.config.http_protocol_class.made.limit  # type: ignore[union-attr]
     with silent(address) as one:
         assert closed(one)
-    until(lambda: room.held == 0)
+    until(lambda: limit.held == 0)
 
 
 def test_who_answers_no_more_is_closed_at_once_where_others_want_his_place(

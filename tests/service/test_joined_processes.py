@@ -12,7 +12,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from jointplay.service.access import door
+from jointplay.service.access import authentication
 from jointplay.service.app import create_app
 from jointplay.solver.kinds import admit
 from jointplay.solver.version import SOLVER_VERSION
@@ -60,7 +60,7 @@ def test_a_block_for_which_there_is_no_room_is_put_off(
 def test_a_key_revoked_in_mid_block_ends_the_worker_with_a_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr(door, "_REMEMBERED", 0.0)
+    monkeypatch.setattr(authentication, "_REMEMBERED", 0.0)
     settings = Settings(data=tmp_path, keys="required")
     draining = threading.Event()
     with serving(create_app(settings)) as url, closing(Catalogue(settings.catalogue_url)) as books:

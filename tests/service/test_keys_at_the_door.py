@@ -14,7 +14,7 @@ import xarray
 
 from jointplay.client import Client, ClientError
 from jointplay.service import events
-from jointplay.service.access import door
+from jointplay.service.access import authentication
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.keys import Key
 from tests.postgresql_server import running_server
@@ -114,7 +114,7 @@ def test_equal_jobs_and_equal_idempotency_keys_of_two_owners_are_two(guarded: Gu
 
 
 def test_a_revoked_key_opens_nothing(guarded: Guarded, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(door, "_REMEMBERED", 0.0)
+    monkeypatch.setattr(authentication, "_REMEMBERED", 0.0)
     with guarded.as_("ada") as http:
         assert http.get("/v1/jobs").status_code == 200
         used = [key for key in guarded.catalogue.all_keys() if key.last_used is not None]
@@ -127,7 +127,7 @@ def test_a_revoked_key_opens_nothing(guarded: Guarded, monkeypatch: pytest.Monke
 def test_a_key_that_is_not_there_is_looked_up_once_in_a_while(
     guarded: Guarded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(door, "_UNKNOWN", 1000.0)
+    monkeypatch.setattr(authentication, "_UNKNOWN", 1000.0)
     text, key = guarded.catalogue.make_key("eve", ["jobs:read"], "", None)
     strange = f"jp_{int(key.id, 16) ^ 1:08x}_{'A' * 43}"
     looked_up, plain = [], Catalogue.key
@@ -147,7 +147,7 @@ def test_a_key_that_is_not_there_is_looked_up_once_in_a_while(
 def test_a_stream_ends_when_its_key_is_revoked(
     guarded: Guarded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(door, "_REMEMBERED", 0.0)
+    monkeypatch.setattr(authentication, "_REMEMBERED", 0.0)
     monkeypatch.setattr(events, "_QUIET", 0.1)
     with guarded.as_("ada") as http:
         waiting = http.post("/v1/jobs", json=SWING | {"duration": 3.0}).json()["id"]

@@ -10,7 +10,7 @@ from fastapi.responses import StreamingResponse
 
 from jointplay.records.channel import Channel
 from jointplay.service.owners import UNTIL_ANSWERED
-from jointplay.service.pieces import TOGETHER
+from jointplay.service.pieces import BUDGET
 from jointplay.service.results import schemas
 from jointplay.service.results.streaming import LEAST, Parts, as_json
 from jointplay.service.studies import schemas as studies
@@ -53,16 +53,16 @@ def test_a_short_answer_goes_whole(http, finished_job):
 
 @pytest.mark.parametrize("result", ["history?points=400", "impacts"])
 def test_what_long_answers_are_made_from_shares_a_bound(http, long_job, result, monkeypatch):
-    until(lambda: TOGETHER.held == 0)
-    monkeypatch.setattr(TOGETHER, "most", 1)
+    until(lambda: BUDGET.held == 0)
+    monkeypatch.setattr(BUDGET, "most", 1)
     with ExitStack() as another:
-        TOGETHER.take({UNTIL_ANSWERED: another}, 1)
+        BUDGET.take({UNTIL_ANSWERED: another}, 1)
         refused = http.get(f"/v1/jobs/{long_job}/{result}")
         assert refused.status_code == 503
         assert refused.headers["Retry-After"]
-        until(lambda: TOGETHER.held == 1)
+        until(lambda: BUDGET.held == 1)
     assert http.get(f"/v1/jobs/{long_job}/{result}").status_code == 200
-    until(lambda: TOGETHER.held == 0)
+    until(lambda: BUDGET.held == 0)
 
 
 def rows_of(lengths):

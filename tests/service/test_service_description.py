@@ -10,11 +10,11 @@ import httpx
 import pytest
 
 from jointplay.records.strict_json import DEEPEST
-from jointplay.service import body, fair_queue, owners, pieces, places
-from jointplay.service.access import turns
+from jointplay.service import body, fair_queue, fair_semaphore, owners, pieces
+from jointplay.service.access import concurrency
 from jointplay.service.app import create_app
 from jointplay.service.body import LARGEST_BATCH, LARGEST_BODY
-from jointplay.service.processes import connections, room
+from jointplay.service.processes import connection_limit, connections
 from jointplay.service.results.queries import MOST_VALUES
 from jointplay.solver.kinds import KINDS
 from jointplay.solver.kinds.limits import (
@@ -173,18 +173,19 @@ def test_the_documentation_gives_the_bounds_of_what_is_done_at_once():
     documentation = (Path(__file__).parents[2] / "docs" / "http.md").read_text()
     _, _, told = documentation.partition("| what | at most at once | beyond it |\n|---|---|---|\n")
     table, _, others = told.partition("\n\n")
-    of_address = int(room.SHARE * room.MOST)
+    of_address = int(connection_limit.SHARE * connection_limit.MOST)
     assert [row.split(" | ")[1] for row in table.splitlines()] == [
-        f"{room.MOST}, or half as many as the process may have open files",
+        f"{connection_limit.MOST}, or half as many as the process may have open files",
         f"three quarters of these: {of_address}",
-        f"{turns.MOST}; of these {turns.OF_HEALTH} only for health and readiness, "
-        f"{turns.OF_WORKERS} more only for these and for workers with a block",
-        f"{turns.WITHOUT_KEY}; where keys are required {turns.BESIDE_KEYS}",
+        f"{concurrency.MOST}; of these {concurrency.OF_HEALTH} only for health and readiness, "
+        f"{concurrency.OF_WORKERS} more only for these and for workers with a block",
+        f"{concurrency.WITHOUT_KEY}; where keys are required {concurrency.BESIDE_KEYS}",
         f"{owners.OF_ONE}, and as many of workers with a block",
         f"{owners.WAITING} (where no key is asked for: of all callers together)",
         f"{body.MOST_TOGETHER // 2**20} MiB together",
         f"{pieces.MOST_TOGETHER // 2**20} MiB together",
-        f"{places.DRAWN_AT_ONCE}; {places.EXPORTED_AT_ONCE}; {places.LISTED_AT_ONCE}",
+        f"{fair_semaphore.DRAWN_AT_ONCE}; {fair_semaphore.EXPORTED_AT_ONCE};"
+        f" {fair_semaphore.LISTED_AT_ONCE}",
         f"{fair_queue.OF_ONE} of a kind; of all kinds together no more than are left of the"
         f" {fair_queue.MOST_EVERYWHERE} of all owners",
     ]

@@ -8,7 +8,7 @@ import httpx
 import pytest
 import xarray
 
-from jointplay.service.access import door
+from jointplay.service.access import authentication
 from jointplay.service.access.signed import Link
 from jointplay.storage.catalogue.keys import Key
 from tests.service.guarded import Guarded
@@ -39,7 +39,7 @@ def test_a_signed_link_opens_the_arrays_of_its_job_to_stock_clients(guarded: Gua
 def test_a_link_lasts_for_its_time_and_as_long_as_its_key(
     guarded: Guarded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(door, "_REMEMBERED", 0.0)
+    monkeypatch.setattr(authentication, "_REMEMBERED", 0.0)
     text = guarded.key("ada")
     key = guarded.catalogue.key(text.split("_")[1])
     now = int(guarded.catalogue.clock())

@@ -10,7 +10,13 @@ from typing import Literal
 import pytest
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from jointplay.service.access.turns import BESIDE_KEYS, MOST, OF_HEALTH, WITHOUT_KEY, Turns
+from jointplay.service.access.concurrency import (
+    BESIDE_KEYS,
+    MOST,
+    OF_HEALTH,
+    WITHOUT_KEY,
+    ConcurrencyLimit,
+)
 from jointplay.service.app import create_app
 from jointplay.service.problems import handlers, repeated
 from jointplay.storage.settings import Settings
@@ -95,7 +101,7 @@ def test_most_turns_are_for_those_with_a_key_where_one_is_required() -> None:
 
 def test_health_is_told_however_many_workers_are_answered() -> None:
     async def asked() -> tuple[list[int], list[int]]:
-        async with clients_of(Turns(answers_at_once, [], keys=False)) as clients:
+        async with clients_of(ConcurrencyLimit(answers_at_once, [], keys=False)) as clients:
             held = await clients.statuses(MOST, PROGRESS)
             return held, await clients.statuses(OF_HEALTH, "/healthz")
 
@@ -106,7 +112,7 @@ def test_health_is_told_however_many_workers_are_answered() -> None:
 
 def test_workers_hold_their_blocks_however_many_others_are_answered() -> None:
     async def asked() -> tuple[list[int], int]:
-        async with clients_of(Turns(answers_at_once, [], keys=False)) as clients:
+        async with clients_of(ConcurrencyLimit(answers_at_once, [], keys=False)) as clients:
             held = await clients.statuses(MOST, "/v1/jobs", {b"authorization": b"Bearer a"})
             return held, await clients.ask(PROGRESS)
 
@@ -122,7 +128,7 @@ def test_many_refusals_are_one_warning_that_counts_them(
     monkeypatch.setattr(repeated, "_PERIOD", 3600.0)
 
     async def asked() -> None:
-        async with clients_of(Turns(answers_at_once, [], keys=True)) as clients:
+        async with clients_of(ConcurrencyLimit(answers_at_once, [], keys=True)) as clients:
             await clients.statuses(BESIDE_KEYS + 50, "/v1/shared/a-secret/zarr")
             monkeypatch.setattr(repeated, "_PERIOD", 0.0)
             await clients.ask("/v1/scenes")

@@ -11,8 +11,8 @@ import pytest
 from fastapi import FastAPI
 
 from jointplay.records.table_files import csv
+from jointplay.service.fair_semaphore import EXPORTED_AT_ONCE, LISTED_AT_ONCE
 from jointplay.service.owners import OF_ONE, UNTIL_ANSWERED, Shares
-from jointplay.service.places import EXPORTED_AT_ONCE, LISTED_AT_ONCE
 from jointplay.service.problems import RequestRefused
 from jointplay.service.workers import attempts
 from jointplay.storage.catalogue.records import JobPage

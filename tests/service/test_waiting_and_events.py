@@ -11,7 +11,7 @@ import pytest
 
 from jointplay.records.job import JobError
 from jointplay.service import events
-from jointplay.service.access import Caller, door
+from jointplay.service.access import Caller, authentication
 from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.vital import VitalThreads
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -123,7 +123,7 @@ def test_who_waits_goes_on_where_the_database_failed_for_a_while(tmp_path):
 
 def test_a_stream_goes_on_once_the_catalogue_is_back(tmp_path, monkeypatch):
     """Its key was looked up while the file was away, and the stream broke off."""
-    monkeypatch.setattr(door, "_REMEMBERED", 0.0)
+    monkeypatch.setattr(authentication, "_REMEMBERED", 0.0)
     monkeypatch.setattr(events, "_QUIET", 0.05)
     settings = Settings(data=tmp_path, keys="required")
     catalogue = Catalogue(settings.catalogue_url)
@@ -133,7 +133,7 @@ def test_a_stream_goes_on_once_the_catalogue_is_back(tmp_path, monkeypatch):
     file, away = tmp_path / "catalogue.sqlite", tmp_path / "away"
 
     async def streamed():
-        opens = door.Door(catalogue, settings, VitalThreads()).still_open_to
+        opens = authentication.Authentication(catalogue, settings, VitalThreads()).still_open_to
         still = partial(opens, Caller("ada", frozenset({"jobs:read"}), key))
         stream = events._stream(job, catalogue, Watcher(catalogue), 0, still)
         heard = b""

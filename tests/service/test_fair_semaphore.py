@@ -1,4 +1,4 @@
-"""Places for what keeps a thread for long."""
+"""FairSemaphore for what keeps a thread for long."""
 
 import asyncio
 import threading
@@ -11,7 +11,7 @@ from fastapi import Request
 from starlette.requests import ClientDisconnect
 
 from jointplay import figures
-from jointplay.service.places import DRAWN_AT_ONCE, Places, place_for
+from jointplay.service.fair_semaphore import DRAWN_AT_ONCE, FairSemaphore, slot_for
 
 
 def test_many_figures_of_one_leave_threads_for_others(
@@ -40,22 +40,22 @@ def test_many_figures_of_one_leave_threads_for_others(
         assert {one.result().status_code for one in asked} == {200}
 
 
-def test_owners_have_their_places_in_turn_and_who_leaves_has_none() -> None:
+def test_owners_have_slots_in_turn_and_who_leaves_has_none() -> None:
     async def happened() -> list[str]:
-        places, order = Places(1), []
+        slots, order = FairSemaphore(1), []
 
         async def work(owner: str) -> None:
-            async with places.place(owner):
+            async with slots.slot(owner):
                 order.append(owner)
                 await asyncio.sleep(0)
 
-        async with places.place("first"):
+        async with slots.slot("first"):
             some = [asyncio.create_task(work(name)) for name in ("a1", "a1", "a1", "b", "c", "b")]
             await asyncio.sleep(0)
             some[4].cancel()  # c
             await asyncio.sleep(0)
         await asyncio.gather(*some, return_exceptions=True)
-        async with asyncio.timeout(5.0), places.place("last"):
+        async with asyncio.timeout(5.0), slots.slot("last"):
             order.append("last")
         return order
 
@@ -64,18 +64,18 @@ def test_owners_have_their_places_in_turn_and_who_leaves_has_none() -> None:
 
 def test_a_place_that_is_given_to_one_who_goes_is_given_on() -> None:
     async def happened() -> None:
-        places = Places(1)
+        slots = FairSemaphore(1)
 
         async def work() -> None:
-            async with places.place("a"):
+            async with slots.slot("a"):
                 pass
 
-        async with places.place("first"):
+        async with slots.slot("first"):
             waits = asyncio.create_task(work())
             await asyncio.sleep(0)
         waits.cancel()  # its turn has come, and it has not gone on yet
         await asyncio.gather(waits, return_exceptions=True)
-        async with asyncio.timeout(5.0), places.place("last"):
+        async with asyncio.timeout(5.0), slots.slot("last"):
             pass
 
     asyncio.run(happened())
@@ -86,11 +86,11 @@ def test_nothing_is_made_for_who_has_left_meanwhile() -> None:
         return {"type": "http.disconnect"}
 
     async def happened() -> None:
-        places, asked = Places(1), Request({"type": "http"}, gone)
+        slots, asked = FairSemaphore(1), Request({"type": "http"}, gone)
         with pytest.raises(ClientDisconnect):
-            async with place_for(asked, places):
+            async with slot_for(asked, slots):
                 pytest.fail("it was made")
-        async with asyncio.timeout(5.0), places.place("last"):
+        async with asyncio.timeout(5.0), slots.slot("last"):
             pass
 
     asyncio.run(happened())

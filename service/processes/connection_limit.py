@@ -1,10 +1,10 @@
-"""Room for connections, bounded: none is held for nothing, and one address cannot have all.
+"""The limit of connections: none is held for nothing, and one address cannot have all.
 
 A connection that waits for a request makes room for a new one: one of the address that has most,
 and of those that were never asked anything, unless more of the others wait.
 
-Of many that come at once none was read yet, and any may have sent a request: a new one waits at the
-door until they were read. Then one that has sent no whole head makes room.
+Of many that come at once none was read yet, and any may have sent a request: a new one waits in
+a queue until they were read. Then one that has sent no whole head makes room.
 """
 
 import asyncio
@@ -16,8 +16,8 @@ MOST: Final = 1024
 """Connections at once, if the system allows twice as many open files."""
 SHARE: Final = 0.75
 """Part of them that one address may have."""
-AT_DOOR: Final = 0.25
-"""Connections that may wait at the door besides, as a part of those that have room."""
+QUEUED: Final = 0.25
+"""Connections that may wait in a queue besides, as a part of those that have room."""
 LOOKS: Final = 5
 """Times that one of them looks for room; all others are read in between."""
 LOOKED_AT: Final = 64
@@ -25,7 +25,7 @@ LOOKED_AT: Final = 64
 _BETWEEN_LOOKS = 0.05  # s
 
 
-class Guest(Protocol):
+class LimitedConnection(Protocol):
     """A connection, of which nothing is read before it has room."""
 
     address: str
@@ -41,47 +41,47 @@ class Guest(Protocol):
     def end(self) -> None:
         """Leave, and close the connection: it waits for a request."""
 
-    def come_in(self) -> None:
+    def begin(self) -> None:
         """Begin: there is room."""
 
     def refuse(self) -> None:
         """Tell the client that there is no room, and close the connection."""
 
 
-class Room:
-    """Room for connections: who has how many, and which of them wait for a request."""
+class ConnectionLimit:
+    """Connections at once: who has how many, and which of them wait for a request."""
 
     def __init__(self, most: int) -> None:
         self.most, self.of_one = most, max(1, int(SHARE * most))
-        self._inside: set[Guest] = set()
+        self._inside: set[LimitedConnection] = set()
         self._held: Counter[str] = Counter()
-        self._idle: dict[tuple[str, bool], OrderedDict[Guest, None]] = {}
+        self._idle: dict[tuple[str, bool], OrderedDict[LimitedConnection, None]] = {}
         """Those that wait, the longest first, by address and whether they were asked before."""
-        self._door: dict[Guest, asyncio.TimerHandle] = {}
+        self._queue: dict[LimitedConnection, asyncio.TimerHandle] = {}
 
     @property
     def held(self) -> int:
         """Connections that have room."""
         return len(self._inside)
 
-    def __contains__(self, connection: Guest) -> bool:
+    def __contains__(self, connection: LimitedConnection) -> bool:
         """Whether a connection has room."""
         return connection in self._inside
 
-    def admit(self, connection: Guest) -> None:
+    def admit(self, connection: LimitedConnection) -> None:
         """Let a connection in, as soon as there is room, or refuse it.
 
-        Others make room, if need be, that are idle; at the door one that waits longest does.
+        Others make room, if need be, that are idle; in the queue the one that waits longest does.
         """
         if self._enters(connection):
             return
-        if len(self._door) >= max(1, int(AT_DOOR * self.most)):
-            longest = next(iter(self._door))
+        if len(self._queue) >= max(1, int(QUEUED * self.most)):
+            longest = next(iter(self._queue))
             self.leave(longest)
             longest.refuse()
         self._look_later(connection, LOOKS)
 
-    def _enters(self, connection: Guest) -> bool:
+    def _enters(self, connection: LimitedConnection) -> bool:
         address = connection.address
         crowded = self._held[address] >= self.of_one
         if crowded or self.held >= self.most:
@@ -92,26 +92,26 @@ class Room:
         self._inside.add(connection)
         self._held[address] += 1
         self.rest(connection)
-        connection.come_in()
+        connection.begin()
         return True
 
-    def _look_later(self, connection: Guest, looks: int) -> None:
-        self._door[connection] = asyncio.get_running_loop().call_later(
+    def _look_later(self, connection: LimitedConnection, looks: int) -> None:
+        self._queue[connection] = asyncio.get_running_loop().call_later(
             _BETWEEN_LOOKS, self._look, connection, looks
         )
 
-    def _look(self, connection: Guest, looks: int) -> None:
+    def _look(self, connection: LimitedConnection, looks: int) -> None:
         if self._enters(connection):
-            del self._door[connection]
+            del self._queue[connection]
         elif looks > 1:
             self._look_later(connection, looks - 1)
         else:
             self.leave(connection)
             connection.refuse()
 
-    def leave(self, connection: Guest) -> None:
+    def leave(self, connection: LimitedConnection) -> None:
         """Forget a connection, wherever it is."""
-        timer = self._door.pop(connection, None)
+        timer = self._queue.pop(connection, None)
         if timer is not None:
             timer.cancel()
         if connection not in self:
@@ -122,13 +122,13 @@ class Room:
         if not self._held[connection.address]:
             del self._held[connection.address]
 
-    def rest(self, connection: Guest) -> None:
+    def rest(self, connection: LimitedConnection) -> None:
         """Note that a connection waits for a request."""
         self.work(connection)
         whose = connection.address, connection.asked
         self._idle.setdefault(whose, OrderedDict())[connection] = None
 
-    def work(self, connection: Guest) -> None:
+    def work(self, connection: LimitedConnection) -> None:
         """Note that a connection has a request, or is gone."""
         for asked in (False, True):
             idle = self._idle.get((connection.address, asked), OrderedDict())
@@ -140,13 +140,13 @@ class Room:
         """Return the address with most connections, of those that have an idle one."""
         return max((one for one, _ in self._idle), key=lambda one: self._held[one], default="")
 
-    def _longest_idle(self, address: str) -> Guest | None:
+    def _longest_idle(self, address: str) -> LimitedConnection | None:
         """Return one of an address that has waited long; those that wait no more go to the end."""
-        none: OrderedDict[Guest, None] = OrderedDict()
+        none: OrderedDict[LimitedConnection, None] = OrderedDict()
         new, others = (self._idle.get((address, asked), none) for asked in (False, True))
         idle = new if len(new) >= len(others) else others
-        for guest in [*islice(idle, LOOKED_AT)]:
-            if not guest.unread:
-                return guest
-            idle.move_to_end(guest)
+        for one in [*islice(idle, LOOKED_AT)]:
+            if not one.unread:
+                return one
+            idle.move_to_end(one)
         return None

@@ -33,7 +33,7 @@ RETRY: Final = 5
 _HEALTH: Final = re.compile(r"/(healthz|readyz)")
 
 
-class Turns:
+class ConcurrencyLimit:
     """Refuses requests beyond the bound with 503.
 
     Parameters
@@ -69,7 +69,7 @@ class Turns:
             self._running[has_key] -= 1
 
     def _shows_key(self, scope: Scope) -> bool:
-        """Whether a request has a key, at an address whose door looks at it first of all."""
+        """Whether a request has a key, at an address where it is looked at first of all."""
         return (
             any(name == b"authorization" for name, _ in scope["headers"])
             and scope["path"].startswith("/v1/")

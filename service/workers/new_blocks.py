@@ -1,4 +1,4 @@
-"""The bell of one API: workers that wait for a block hear of new ones at once."""
+"""New blocks of one API: workers that wait for a block hear of them at once."""
 
 import asyncio
 from collections import deque
@@ -7,7 +7,7 @@ from typing import Annotated
 from jointplay.service.dependencies import of_the_application
 
 
-class Bell:
+class NewBlocks:
     """Wakes as many of those who wait as there are new blocks, who waited longest first.
 
     Nothing depends on it: what other APIs accepted is found by looking now and then.
@@ -18,17 +18,17 @@ class Bell:
         self._waiting: deque[asyncio.Future[None]] = deque()
 
     async def wait(self, seconds: float) -> bool:
-        """Wait until it rings, at most for some seconds. Returns whether it did."""
-        rung = self._loop.create_future()
-        self._waiting.append(rung)
+        """Wait for a block, at most for some seconds. Returns whether one was announced."""
+        announced = self._loop.create_future()
+        self._waiting.append(announced)
         try:
-            await asyncio.wait([rung], timeout=seconds)
+            await asyncio.wait([announced], timeout=seconds)
         finally:
-            if not rung.done():
-                self._waiting.remove(rung)
-        return rung.done()
+            if not announced.done():
+                self._waiting.remove(announced)
+        return announced.done()
 
-    def ring(self, blocks: int) -> None:
+    def announce(self, blocks: int) -> None:
         """Tell of new blocks; from any thread."""
         self._loop.call_soon_threadsafe(self._wake, blocks)
 
@@ -37,4 +37,4 @@ class Bell:
             self._waiting.popleft().set_result(None)
 
 
-BellDependency = Annotated[Bell, of_the_application("bell")]
+NewBlocksDependency = Annotated[NewBlocks, of_the_application("new_blocks")]

@@ -1,4 +1,4 @@
-"""Documents of workers, read strictly; and the block that a path names."""
+"""Dependencies of endpoints for workers: the document that one sends, the block of the path."""
 
 from typing import Annotated, Any, TypeVar
 
@@ -15,13 +15,13 @@ from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block, Job
 from jointplay.worker.joined.protocol import Document
 
-Said = TypeVar("Said", bound=Document)
+Sent = TypeVar("Sent", bound=Document)
 
 
-def said(kind: type[Said]) -> Any:
+def document_of(kind: type[Sent]) -> Any:
     """Return the dependency on a body that is a document of a kind."""
 
-    async def read(body: WordBody) -> Said:
+    async def read(body: WordBody) -> Sent:
         try:
             return kind.model_validate_json(body)
         except ValidationError as error:

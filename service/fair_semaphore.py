@@ -1,4 +1,4 @@
-"""Places for what keeps a thread for long: owners wait for them in turn, and without a thread."""
+"""Slots for what keeps a thread for long: owners wait for them in turn, and without a thread."""
 
 import asyncio
 from collections import OrderedDict, deque
@@ -20,16 +20,16 @@ LISTED_AT_ONCE: Final = 4
 """Pages of jobs, whose documents may be megabytes."""
 
 
-class Places:
-    """Gives so many places, to owners in turn; used by one event loop."""
+class FairSemaphore:
+    """Gives so many slots, to owners in turn; used by one event loop."""
 
     def __init__(self, most: int) -> None:
         self._free = most
         self._waiting: OrderedDict[str, deque[asyncio.Future[None]]] = OrderedDict()
 
     @asynccontextmanager
-    async def place(self, owner: str) -> AsyncIterator[None]:
-        """Wait for a place, and hold it while the block runs."""
+    async def slot(self, owner: str) -> AsyncIterator[None]:
+        """Wait for a slot, and hold it while the block runs."""
         if self._free:
             self._free -= 1
         else:
@@ -45,12 +45,12 @@ class Places:
         try:
             await turn
         except asyncio.CancelledError:
-            if not turn.cancelled():  # the place was given at the same moment
+            if not turn.cancelled():  # the slot was given at the same moment
                 self._leave()
             raise
 
     def _leave(self) -> None:
-        """Give the place to the next owner, to the one of his that waits longest."""
+        """Give the slot to the next owner, to the request that waited longest."""
         while self._waiting:
             owner, turns = self._waiting.popitem(last=False)
             turn = turns.popleft()
@@ -63,24 +63,24 @@ class Places:
 
 
 @asynccontextmanager
-async def place_for(request: Request, places: Places) -> AsyncIterator[None]:
-    """Hold a place for who asks while the block runs; ClientDisconnect: nobody waits any more."""
-    async with places.place(OWNER.get()):
+async def slot_for(request: Request, slots: FairSemaphore) -> AsyncIterator[None]:
+    """Hold a slot for the caller while the block runs; ClientDisconnect: nobody waits any more."""
+    async with slots.slot(OWNER.get()):
         if await request.is_disconnected():
             raise ClientDisconnect
         yield
 
 
 def in_turn(of: str) -> Any:
-    """Return the dependency on a place, of those that the application has under a name.
+    """Return the dependency on a slot, of those that the application has under a name.
 
     It is held until the answer was made, and no longer: a client may take it slowly.
     """
 
     async def held(
-        request: Request, places: Annotated[Places, of_the_application(of)]
+        request: Request, slots: Annotated[FairSemaphore, of_the_application(of)]
     ) -> AsyncIterator[None]:
-        async with place_for(request, places):
+        async with slot_for(request, slots):
             yield
 
     return Depends(held, scope="function")

@@ -12,7 +12,7 @@ RETRY: Final = 5
 """Seconds after which a client that found no room may ask again."""
 
 
-class Together:
+class ByteBudget:
     """Room for bytes that requests have until they are answered.
 
     No owner has more of it than is left: one who takes what he can leaves half to others.

@@ -1,4 +1,4 @@
-"""The door of the service: which requests it opens to, as whose."""
+"""Authentication of requests: whether each is let in, and whose it is."""
 
 import logging
 import time
@@ -31,7 +31,7 @@ _OF_WORKERS: Final = "/v1/worker/"
 _log = logging.getLogger(__name__)
 
 
-class Door:
+class Authentication:
     """Looks at the key of every request, if the service asks for one."""
 
     def __init__(self, catalogue: Catalogue, settings: Settings, vital: VitalThreads) -> None:
