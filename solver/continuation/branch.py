@@ -255,7 +255,7 @@ def _lost(orbit: Orbit, why: NoOrbit) -> str:
         remedy = "a softer contact"
     else:
         cause, remedy = why.reason, "a smaller tolerance or a smaller 'largest_step'"
-        if orbit.curve.sections.rubs:
+        if orbit.curve.sections.has_friction:
             remedy = f"a wider ramp of friction, {remedy}"
     at = ", ".join(f"{one:.9g}" for one in orbit.values)
     return f"lost at {at}, because {cause}{_long(orbit)}; try {remedy}"

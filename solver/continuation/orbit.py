@@ -174,7 +174,7 @@ class Orbit:
     @property
     def phases(self) -> tuple[int, ...]:
         """Number of times that each slip sticks and slides, in turn; none if a run failed."""
-        if not self.curve.sections.rubs or self.looser.passage.failure:
+        if not self.curve.sections.has_friction or self.looser.passage.failure:
             return ()
         return self.looser.passage.phases
 

@@ -19,7 +19,7 @@ from jointplay.solver.continuation.plan import COUNTED, ContinuationStudy, Reach
 from jointplay.solver.continuation.section_map import SectionMap
 from jointplay.solver.continuation.section_runs import Answers
 from jointplay.solver.continuation.settled import NoStart
-from jointplay.solver.continuation.slips import rubbings
+from jointplay.solver.continuation.slips import friction_slips
 from jointplay.solver.continuation.special_curve import starts_of_curves
 from jointplay.solver.continuation.switching import beside_branch_point
 from jointplay.solver.continuation.table import document_of, row_of
@@ -280,7 +280,7 @@ def section_map(
         width,
         looked=looked,
         recall=recall,
-        rubs=bool(rubbings(scene)),
+        has_friction=bool(friction_slips(scene)),
         crossing=section and Crossing(crossing_event(kernel, section), float(study.period[0])),
         angles=tuple(k for k, one in enumerate(kernel.coordinates) if one.endswith(".theta")),
     )

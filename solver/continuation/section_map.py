@@ -35,7 +35,7 @@ class SectionMap(SectionRuns):
     _: KW_ONLY
     second_width: float = 1.0
     """Scale of the second parameter."""
-    rubs: bool = False
+    has_friction: bool = False
     """Whether there are slips whose phases may change along a branch."""
     angles: tuple[int, ...] = ()
     """States that are back after a whole turn."""

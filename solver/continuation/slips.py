@@ -24,7 +24,7 @@ FEWEST_ROWS = 3
 """Rows of a run by which its phases are told, at least."""
 
 
-class Rubbing(NamedTuple):
+class FrictionSlip(NamedTuple):
     """A slip that friction follows, and the ramp in which that turns over."""
 
     name: str
@@ -36,17 +36,17 @@ class Rubbing(NamedTuple):
     """Index of the pair; none: of a force element."""
 
 
-def rubbings(scene: Scene) -> tuple[Rubbing, ...]:
+def friction_slips(scene: Scene) -> tuple[FrictionSlip, ...]:
     """Return the slips of a scene: of pairs with friction, and forces that oppose a rate."""
-    found = list[Rubbing]()
+    found = list[FrictionSlip]()
     for index, (name, pair) in enumerate(contact_pairs(scene).items()):
         law = pair.clearance.friction
         if law is not None and not law.is_off and np.isfinite(law.full_slip_speed):
             width = float(law.full_slip_speed)
-            found.append(Rubbing(name, -width, width, index))
+            found.append(FrictionSlip(name, -width, width, index))
     for name, element in scene.forces.items():
         if ramp := _ramp(element):
-            found.append(Rubbing(name, *ramp, None))
+            found.append(FrictionSlip(name, *ramp, None))
     return tuple(found)
 
 
@@ -67,9 +67,9 @@ class Slips:
 
     def __init__(self, bundle: Bundle, scene: Scene) -> None:
         """Begin with none."""
-        self._bundle, self._scene, self._rubbed = bundle, scene, rubbings(scene)
-        names = [f"{one.name}.slip_velocity" for one in self._rubbed if one.pair is not None]
-        if len(names) < len(self._rubbed):
+        self._bundle, self._scene, self._slips = bundle, scene, friction_slips(scene)
+        names = [f"{one.name}.slip_velocity" for one in self._slips if one.pair is not None]
+        if len(names) < len(self._slips):
             names += [f"{body}.{one}" for body in scene.bodies for one in MOTION]
         self._names = names
         self._columns = np.array([bundle.kernel.rows.index(one) for one in names], np.int64)
@@ -80,7 +80,7 @@ class Slips:
     def collect(self) -> None:
         """Take what the bundle has handed out in its last call."""
         rows, at = self._bundle.rows(SAMPLES, 0), self._bundle.kernel.row
-        if len(rows) and self._rubbed:
+        if len(rows) and self._slips:
             self._values.append(self._bundle.observe(0, rows, self._columns))
             self._touching.append(rows[:, at.mode : at.impact_rate] > 0.0)
         contacts = self._bundle.impacts(0)
@@ -92,10 +92,10 @@ class Slips:
         Of a run that failed before it had three rows all are 0.
         """
         if sum(map(len, self._values)) < FEWEST_ROWS:
-            return [0] * (2 * len(self._rubbed))
+            return [0] * (2 * len(self._slips))
         values = dict(zip(self._names, np.concatenate(self._values).T, strict=True))
         touching, found = np.concatenate(self._touching), list[int]()
-        for one in self._rubbed:
+        for one in self._slips:
             if one.pair is None:
                 slip = _argument(self._scene, one.name, values)
                 found += phases(slip, one.low, one.high)

@@ -15,7 +15,7 @@ import numpy as np
 from pydantic import AfterValidator
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.joints.contact import Contact, Meeting, Touch, surfaces
+from jointplay.solver.joints.contact import Contact, ContactGeometry, ContactState, surfaces
 from jointplay.solver.joints.drawing import ANGLES, Curve
 from jointplay.solver.joints.holding import Distance, Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint, Table
@@ -95,7 +95,7 @@ class CamJoint(Joint):
         """Return how far the follower is from its profile; `between` : its point from the cam's."""
 
     @abstractmethod
-    def meeting(self, between: Ends, found: Lift, lash: Scalar) -> Meeting:
+    def contact_geometry(self, between: Ends, found: Lift, lash: Scalar) -> ContactGeometry:
         """Return where both surfaces are nearest."""
 
     @abstractmethod
@@ -109,12 +109,12 @@ class CamJoint(Joint):
         """Yield: the follower is where the profile has it."""
         yield held.apart(self.lift(held.ends).distance)
 
-    def contact(self, name: str, part: str, between: Ends, touch: Touch) -> Contact:
+    def contact(self, name: str, part: str, between: Ends, state: ContactState) -> Contact:
         """Evaluate the contact of the follower with its cam."""
         clearance = self.clearance
         assert clearance is not None  # noqa: S101  (narrows the type)
-        met = self.meeting(between, self.lift(between), clearance.lash)
-        return surfaces(name, self.points, between, met, clearance, touch)
+        geometry = self.contact_geometry(between, self.lift(between), clearance.lash)
+        return surfaces(name, self.points, between, geometry, clearance, state)
 
     def ideal_values(self, between: Ends, force: Pair) -> tuple[Scalar, ...]:
         """Return the force on an ideal follower, N, along its normal out of the cam; < 0: pulls."""
@@ -133,9 +133,9 @@ class CamJoint(Joint):
         gap, still = scaled((c, s), profile), (0.0, 0.0)
         frames = ((1.0, 0.0), (cosine, sine))
         between = Ends(gap, still, still, frames, (0.0, turned))
-        met = self.meeting(between, self.lift(between), 0.0)
+        geometry = self.contact_geometry(between, self.lift(between), 0.0)
         lash = self.slack.play if self.slack else 0.0
-        inside = plus(met.arm, scaled(met.normal, lash))
+        inside = plus(geometry.arm, scaled(geometry.normal, lash))
         return Curve(0, np.stack(plus(gap, inside), axis=1), filled=True)
 
     @property

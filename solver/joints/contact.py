@@ -34,10 +34,10 @@ class Interaction:
     moment_on_second: Scalar = 0.0
 
 
-class Rubbing(NamedTuple):
+class Friction(NamedTuple):
     """Friction of a contact pair at its slip; SI units."""
 
-    friction: Scalar
+    force: Scalar
     inner: Mapping[str, Scalar]
     inner_rates: Sequence[Scalar]
     slip: Scalar = 0.0
@@ -71,7 +71,7 @@ class Contact:
     inner: Mapping[str, Scalar]
     """Inner states of the friction law, by name."""
     inner_rates: Sequence[Scalar]
-    rubbing_slip: Scalar
+    friction_slip: Scalar
     """Slip that the friction follows, m/s; 0 where there is none."""
     film_loss: Scalar | None = None
     """Power lost in the oil between journal and bearing, W, if there is any."""
@@ -84,24 +84,24 @@ class Contact:
     @property
     def friction_loss(self) -> Scalar:
         """Power lost to friction, and in oil, W."""
-        rubbed = -(self.friction_force * self.slip_velocity)
-        return rubbed if self.film_loss is None else rubbed + self.film_loss
+        loss = -(self.friction_force * self.slip_velocity)
+        return loss if self.film_loss is None else loss + self.film_loss
 
 
-def rub(
+def friction_at(
     law: FrictionLaw | None, normal_force: Scalar, slip: Scalar, inner: Sequence[Scalar]
-) -> Rubbing:
+) -> Friction:
     """Evaluate a friction law, if there is one; the normal force in N, slip in m/s."""
     if law is None or law.is_off:
-        return Rubbing(0.0, {}, ())
-    friction = law.friction_force(normal_force, slip, inner)
+        return Friction(0.0, {}, ())
+    force = law.friction_force(normal_force, slip, inner)
     rates = law.inner_rates(normal_force, slip, inner)
     named = {state.name: value for state, value in zip(law.inner_states, inner, strict=True)}
-    return Rubbing(friction, named, rates, slip)
+    return Friction(force, named, rates, slip)
 
 
-class Touch(NamedTuple):
-    """State of a contact pair: what its laws remember."""
+class ContactState(NamedTuple):
+    """What the laws of a contact pair remember."""
 
     mode: Scalar
     """1 in contact, 0 apart, where there is no force whatever the penetration."""
@@ -139,7 +139,7 @@ class HasPlay(Protocol):
         """Distance of centred bodies from touching, m."""
 
 
-class Meeting(NamedTuple):
+class ContactGeometry(NamedTuple):
     """Surfaces of a joint's bodies where they are nearest, world components."""
 
     normal: Pair
@@ -157,39 +157,39 @@ def surfaces(
     name: str,
     points: tuple[str, str],
     between: Ends,
-    met: Meeting,
+    geometry: ContactGeometry,
     clearance: HasPlay,
-    touch: Touch,
+    state: ContactState,
     enclosure: Literal["wall", "none"] = "none",
 ) -> Contact:
     """Evaluate the contact of two surfaces.
 
     `name` : of the joint, `points` its points. `between` : the second against the first.
     """
-    r, n = met.arm, met.normal
+    r, n = geometry.arm, geometry.normal
     d, t = plus(between.gap, r), left(n)
     # of the second body's material there against the first's
     velocity = plus(
         between.rate,
         plus(scaled(left(r), between.spins[1]), scaled(left(d), -between.spins[0])),
     )
-    penetration = met.centred - clearance.play
-    rate, slip = -dot(met.push, velocity), dot(t, velocity)
-    depth = select_positive(touch.mode, penetration, 0.0)
-    normal_force = clearance.contact.normal_force(STRAIGHT, depth, rate, touch.impact_rate)
-    rubbing = rub(clearance.friction, normal_force, slip, touch.inner)
-    force = plus(scaled(met.push, normal_force), scaled(t, rubbing.friction))
+    penetration = geometry.centred - clearance.play
+    rate, slip = -dot(geometry.push, velocity), dot(t, velocity)
+    depth = select_positive(state.mode, penetration, 0.0)
+    normal_force = clearance.contact.normal_force(STRAIGHT, depth, rate, state.impact_rate)
+    friction = friction_at(clearance.friction, normal_force, slip, state.inner)
+    force = plus(scaled(geometry.push, normal_force), scaled(t, friction.force))
     return Contact(
         name,
         enclosure,
-        (met.centred, 0.0),
+        (geometry.centred, 0.0),
         (rate, 0.0),
         penetration,
         rate,
         n,
         normal_force,
         clearance.contact.elastic_energy(STRAIGHT, depth),
-        rubbing.friction,
+        friction.force,
         slip,
         Interaction(
             *points,
@@ -197,7 +197,7 @@ def surfaces(
             moment_on_first=-cross(d, force),
             moment_on_second=cross(r, force),
         ),
-        rubbing.inner,
-        rubbing.inner_rates,
-        rubbing.slip,
+        friction.inner,
+        friction.inner_rates,
+        friction.slip,
     )

@@ -15,7 +15,7 @@ import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.joints.cam import CAPTION, CamJoint, Lift
-from jointplay.solver.joints.contact import Meeting
+from jointplay.solver.joints.contact import ContactGeometry
 from jointplay.solver.joints.drawing import ANGLES, Curve, Drawing
 from jointplay.solver.joints.holding import Distance
 from jointplay.solver.joints.starts import GuideStart
@@ -69,7 +69,7 @@ class FlatFollower(CamJoint):
         )
         return Lift(distance, p)
 
-    def meeting(self, between: Ends, found: Lift, lash: Scalar) -> Meeting:
+    def contact_geometry(self, between: Ends, found: Lift, lash: Scalar) -> ContactGeometry:
         """Return where the surface touches the face.
 
         The surface's support function is the profile's less the lash, with the same slope.
@@ -77,7 +77,7 @@ class FlatFollower(CamJoint):
         u, p = self._face(between), found.profile
         touching = plus(scaled(u, p.value - lash), scaled(left(u), p.slope))
         arm = plus(touching, scaled(between.gap, -1.0))
-        return Meeting(scaled(u, -1.0), u, arm, -found.distance.value)
+        return ContactGeometry(scaled(u, -1.0), u, arm, -found.distance.value)
 
     def starts_in_wall(self, start: GuideStart) -> Flags | bool:
         """Return whether the cam's centre would be behind the face; see `Joint.starts_in_wall`.

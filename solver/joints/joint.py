@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from jointplay.records.arrays import Flags
-from jointplay.solver.joints.contact import Contact, Touch
+from jointplay.solver.joints.contact import Contact, ContactState
 from jointplay.solver.joints.drawing import Curve, Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.starts import GuideStart, JournalStart
@@ -137,7 +137,7 @@ class Joint(Strict):
     def rows(self, held: Holding[Row], motion: Derivatives | None) -> Iterator[Row]:
         """Yield the constraints of the joint without play; `motion` is that of its driver."""
 
-    def contact(self, name: str, part: str, between: Ends, touch: Touch) -> Contact:
+    def contact(self, name: str, part: str, between: Ends, state: ContactState) -> Contact:
         """Evaluate one of its contact pairs.
 
         `name` : of the joint. `between` : its second point against its first.

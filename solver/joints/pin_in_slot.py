@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from jointplay.records.arrays import Flags
-from jointplay.solver.joints.contact import Contact, Touch
+from jointplay.solver.joints.contact import Contact, ContactState
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint
@@ -84,13 +84,13 @@ class PinInSlot(Joint):
         """Direction of the axis, in the slot's."""
         return self.axis
 
-    def contact(self, name: str, part: str, between: Ends, touch: Touch) -> Contact:
+    def contact(self, name: str, part: str, between: Ends, state: ContactState) -> Contact:
         """Evaluate the contact at a wall."""
         clearance = self.clearance
         assert clearance is not None  # noqa: S101  (narrows the type)
         normal, reach = wall_normal(self.axis, WALLS[part], between), clearance.pin_radius
         wall = Wall(normal, scaled(normal, reach), reach)
-        return at_wall(name, self.points, between, wall, clearance, touch)
+        return at_wall(name, self.points, between, wall, clearance, state)
 
     @property
     def size(self) -> float:

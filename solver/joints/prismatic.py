@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from jointplay.records.arrays import Flags
-from jointplay.solver.joints.contact import Contact, Touch
+from jointplay.solver.joints.contact import Contact, ContactState
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Freedom, Joint
@@ -114,7 +114,7 @@ class Prismatic(Joint):
         """Direction of the axis, in the guide's."""
         return self.axis
 
-    def contact(self, name: str, part: str, between: Ends, touch: Touch) -> Contact:
+    def contact(self, name: str, part: str, between: Ends, state: ContactState) -> Contact:
         """Evaluate the contact of a corner."""
         clearance = self.clearance
         assert clearance is not None  # noqa: S101  (narrows the type)
@@ -123,7 +123,7 @@ class Prismatic(Joint):
             self._corner(clearance, part, between.turned[1]),
             0.5 * clearance.height,
         )
-        return at_wall(name, self.points, between, wall, clearance, touch)
+        return at_wall(name, self.points, between, wall, clearance, state)
 
     @property
     def size(self) -> float:

@@ -14,7 +14,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from jointplay.records.arrays import Flags
-from jointplay.solver.joints.contact import Contact, Interaction, Touch, rub
+from jointplay.solver.joints.contact import Contact, ContactState, Interaction, friction_at
 from jointplay.solver.joints.drawing import Drawing
 from jointplay.solver.joints.holding import Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Freedom, Joint
@@ -111,7 +111,7 @@ class Revolute(Joint):
         """Return whether the journal's centre is no farther from the bearing's, m."""
         return math.hypot(parts["x"], parts["y"]) <= play
 
-    def contact(self, name: str, part: str, between: Ends, touch: Touch) -> Contact:
+    def contact(self, name: str, part: str, between: Ends, state: ContactState) -> Contact:
         """Evaluate the journal in its bearing: its centre against the bearing's."""
         clearance = self.clearance
         assert clearance is not None  # noqa: S101  (narrows the type)
@@ -128,21 +128,20 @@ class Revolute(Joint):
         spinning = journal_radius * spins[1] - bearing_radius * spins[0]
         slip = orbiting + spinning
 
-        depth = select_positive(touch.mode, penetration, 0.0)
+        depth = select_positive(state.mode, penetration, 0.0)
         law = clearance.contact
-        normal_force = law.normal_force(clearance, depth, penetration_rate, touch.impact_rate)
+        normal_force = law.normal_force(clearance, depth, penetration_rate, state.impact_rate)
         stored = law.elastic_energy(clearance, depth)
         seen = slip
         if clearance.friction is not None and not clearance.friction.slips_with_material:
             # eqs (5)-(7) literally: r^N = r^M + R n, so the points move with R dn/dt and the spins
             # of the bodies do not count; t . dn/dt is the orbiting velocity over the eccentricity
             seen = orbiting - clearance.radial_clearance * orbiting * inverse
-        rubbing = rub(clearance.friction, normal_force, seen, touch.inner)
-        friction = rubbing.friction
+        friction = friction_at(clearance.friction, normal_force, seen, state.inner)
         # eqs (13)-(17), on the journal: -(F_n n) + F_t t
-        fx = -(normal_force * nx) - friction * ny
-        fy = friction * nx - normal_force * ny
-        on_bearing, on_journal = -(bearing_radius * friction), journal_radius * friction
+        fx = -(normal_force * nx) - friction.force * ny
+        fy = friction.force * nx - normal_force * ny
+        on_bearing, on_journal = -(bearing_radius * friction.force), journal_radius * friction.force
         acting = Interaction(self.bearing, self.journal, (fx, fy), on_bearing, on_journal)
         film = law.film(clearance, between.gap, between.rate, spins)
         return Contact(
@@ -155,12 +154,12 @@ class Revolute(Joint):
             (nx, ny),
             normal_force,
             stored,
-            friction,
+            friction.force,
             slip,
             acting if film is None else _with_film(acting, film),
-            rubbing.inner,
-            rubbing.inner_rates,
-            rubbing.slip,
+            friction.inner,
+            friction.inner_rates,
+            friction.slip,
             None if film is None else film.loss,
         )
 

@@ -11,7 +11,7 @@ from typing import ClassVar, Literal
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.joints.cam import CAPTION, CENTRED, CamJoint, Lift
-from jointplay.solver.joints.contact import Meeting
+from jointplay.solver.joints.contact import ContactGeometry
 from jointplay.solver.joints.drawing import Curve, Drawing, circle
 from jointplay.solver.joints.holding import Distance
 from jointplay.solver.joints.starts import GuideStart
@@ -58,7 +58,7 @@ class RollerFollower(CamJoint):
         )
         return Lift(found, p)
 
-    def meeting(self, between: Ends, found: Lift, lash: Scalar) -> Meeting:
+    def contact_geometry(self, between: Ends, found: Lift, lash: Scalar) -> ContactGeometry:
         """Return where the cam is nearest to the roller's centre.
 
         With L the distance along the radius and c the cosine of the angle between radius and
@@ -73,7 +73,7 @@ class RollerFollower(CamJoint):
         around = scaled((-y, x), lift.value * bent * apart)
         push = plus(scaled(lift.along, cosine), around)
         n = scaled(push, -1.0 / sqrt(dot(push, push)))
-        return Meeting(n, push, scaled(n, self.roller_radius), -(lift.value * cosine))
+        return ContactGeometry(n, push, scaled(n, self.roller_radius), -(lift.value * cosine))
 
     def starts_in_wall(self, start: GuideStart) -> Flags | bool:
         """Return whether the roller's centre is in the cam; see `Joint.starts_in_wall`."""

@@ -9,7 +9,13 @@ Source: Flores, Leine and Glocker 2010, Multibody System Dynamics 23:165 (gaps o
 from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
-from jointplay.solver.joints.contact import Contact, HasPlay, Meeting, Touch, surfaces
+from jointplay.solver.joints.contact import (
+    Contact,
+    ContactGeometry,
+    ContactState,
+    HasPlay,
+    surfaces,
+)
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.quantities.frames import WORLD, Pair, dot, left, plus, scaled, turned, unit
 from jointplay.solver.quantities.scalars import Scalar
@@ -59,11 +65,11 @@ def at_wall(
     between: Ends,
     wall: Wall,
     clearance: HasPlay,
-    touch: Touch,
+    state: ContactState,
 ) -> Contact:
     """Evaluate the contact of a point at a wall; see `surfaces`."""
     normal, arm, reach = wall
     centred = dot(normal, plus(between.gap, arm)) - reach
     enclosure: Literal["wall", "none"] = "wall" if points[0].split(".")[0] == WORLD else "none"
-    meeting = Meeting(normal, scaled(normal, -1.0), arm, centred)
-    return surfaces(name, points, between, meeting, clearance, touch, enclosure)
+    geometry = ContactGeometry(normal, scaled(normal, -1.0), arm, centred)
+    return surfaces(name, points, between, geometry, clearance, state, enclosure)

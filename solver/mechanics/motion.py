@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Any
 
 from jointplay.solver.joints import Joint
-from jointplay.solver.joints.contact import Contact, Interaction, Touch
+from jointplay.solver.joints.contact import Contact, ContactState, Interaction
 from jointplay.solver.laws.force import Effect
 from jointplay.solver.mechanics.courses import EndsOf, acting_between
 from jointplay.solver.quantities.frames import Pair
@@ -129,8 +129,10 @@ def forces_between(
         joint = numbers.joints[name]
         between = ends(*joint.points)
         for pair in pairs_of(name, joint):
-            touch = Touch(modes[pair.name], impact_rates[pair.name], inner.get(pair.name, ()))
-            forces.contacts[pair.name] = joint.contact(name, pair.part, between, touch)
+            state = ContactState(
+                modes[pair.name], impact_rates[pair.name], inner.get(pair.name, ())
+            )
+            forces.contacts[pair.name] = joint.contact(name, pair.part, between, state)
     for name, element in numbers.forces.items():
         between = acting_between(numbers, name, ends, clocks)
         effect = element.effect(between)

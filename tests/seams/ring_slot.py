@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar, Literal
 
-from jointplay.solver.joints.contact import Contact, Meeting, Touch, surfaces
+from jointplay.solver.joints.contact import Contact, ContactGeometry, ContactState, surfaces
 from jointplay.solver.joints.drawing import Curve, Drawing, circle
 from jointplay.solver.joints.holding import Distance, Holding, Row
 from jointplay.solver.joints.joint import AnyClearance, Joint
@@ -54,14 +54,14 @@ class RingSlot(Joint):
     def rows(self, held: Holding[Row], _motion: Derivatives | None) -> Iterator[Row]:
         yield held.apart(self._distance(held.ends))
 
-    def contact(self, name: str, part: str, between: Ends, touch: Touch) -> Contact:
+    def contact(self, name: str, part: str, between: Ends, state: ContactState) -> Contact:
         clearance, side = self.clearance, SIDES[part]
         assert clearance is not None
         found = self._distance(between)
         n = scaled(found.along, side)
         arm = scaled(n, clearance.pin_radius)
-        met = Meeting(n, scaled(n, -1.0), arm, side * found.value)
-        return surfaces(name, self.points, between, met, clearance, touch)
+        geometry = ContactGeometry(n, scaled(n, -1.0), arm, side * found.value)
+        return surfaces(name, self.points, between, geometry, clearance, state)
 
     def curves(self) -> Iterator[Curve]:
         yield Curve(0, circle(self.radius))

@@ -108,7 +108,7 @@ def trace(scene: Scene, tree: Tree, formulation: str, tracer: Tracer | None = No
         accelerations = (accelerations[0] + refused, *accelerations[1:])
     inner_rates = tuple(lift(rate) for found in contacts for rate in found.inner_rates)
     derivative = _along_motion(tracer, accelerations)
-    slips = [lift(found.rubbing_slip) for found in contacts]
+    slips = [lift(found.friction_slip) for found in contacts]
     return Equations(
         tracer,
         coordinates,

@@ -71,7 +71,7 @@ def rows_of(
     kernel: Any = SimpleNamespace(states=size - pairs, pairs=range(pairs))  # all that is asked of
     width = abs(end - begin)
     ones = np.ones(size)
-    parts: Any = {"formula": formula, "impacts": impacts, "rubs": "phases" in others}
+    parts: Any = {"formula": formula, "impacts": impacts, "has_friction": "phases" in others}
     map_ = KnownMap(kernel, lambda _value: None, 1, 1e-13, ones, width, **parts, **others)  # type: ignore[arg-type,return-value]
     curve = Curve(map_, Scales(np.append(ones, width), np.append(ones / size, 1.0)))
     orbit = first_orbit(curve, Section(begin, np.array(start, np.float64)))

@@ -128,14 +128,14 @@ def test_impacts_begin_and_end_where_their_number_changes() -> None:
         assert abs(row.orbit.value - at) <= row.bound < 1e-8
 
 
-@pytest.mark.parametrize("rubs", [True, False])
-def test_a_branch_that_is_lost_says_what_to_try(rubs: bool) -> None:
+@pytest.mark.parametrize("has_friction", [True, False])
+def test_a_branch_that_is_lost_says_what_to_try(has_friction: bool) -> None:
     def ends(state: Floats, a: float) -> list[float]:
         return [a * float(state[0]) if a < 0.5 else math.nan]
 
-    told = {"phases": lambda _state, _a: (0, 1)} if rubs else {}
+    told = {"phases": lambda _state, _a: (0, 1)} if has_friction else {}
     *_, last = rows_of(ends, [0.0], (0.1, 0.9), **told)
-    friction = "a wider ramp of friction, " if rubs else ""
+    friction = "a wider ramp of friction, " if has_friction else ""
     assert last.label == "MX"
     assert last.note.endswith(f"; try {friction}a smaller tolerance or a smaller 'largest_step'")
 

@@ -98,7 +98,7 @@ def test_a_lasting_contact_tells_how_near_it_is_to_opening() -> None:
 
 def test_the_slip_of_a_lasting_contact_tells_its_phases() -> None:
     map_ = replace(section_map(studied()), tells=True)
-    assert map_.rubs
+    assert map_.has_friction
     (passage,) = map_.passages([Section(178.0, np.array(SECTION))])
     # the journal turns against its bearing one way, 178 rad/s at least less what the rod swings
     assert passage.phases == (0, 1)
