@@ -44,6 +44,35 @@ def test_tests_have_their_processes_and_seconds(tmp_path: Path) -> None:
     assert here.seconds >= 0.1
 
 
+ORPHAN = f"""
+import subprocess, sys
+import tests.times
+
+CHILD = "import subprocess, sys; subprocess.Popen([sys.executable, '-c', sys.argv[1]]); input()"
+parent = subprocess.Popen([sys.executable, "-c", CHILD, {BUSY!r} + "; input()"], stdin=-1)
+
+def test_works():
+    before = tests.times.processor()
+    while tests.times.processor() < before + 0.3:
+        pass
+
+def test_leaves_it():
+    parent.kill()
+    parent.wait()
+"""
+
+
+def test_what_an_orphan_took_is_taken_from_no_test(tmp_path: Path) -> None:
+    """It is no longer among our processes, and its parent has not waited for it."""
+    (tmp_path / "test_orphan.py").write_text(ORPHAN)
+    times = tmp_path / "times.json"
+    command = [sys.executable, "-m", "pytest", "-p", "tests.times", "--times", str(times)]
+    subprocess.run([*command, str(tmp_path)], check=True, cwd=ROOT, capture_output=True)
+    works, leaves = (Spent(**one).processor for one in json.loads(times.read_text()).values())
+    assert works >= 0.3
+    assert leaves >= 0.0
+
+
 def test_a_process_that_lives_on_counts_for_the_test_that_makes_it_work() -> None:
     before = processor()
     with subprocess.Popen([sys.executable, "-c", BUSY + "; input()"], stdin=subprocess.PIPE) as one:

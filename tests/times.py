@@ -59,6 +59,7 @@ class Times:
         self._path = path
         self._spent: dict[str, Spent] = {}
         self._tests = self._processes = 0
+        self._processor = self._lost = 0.0
         sys.addaudithook(self._hear)
 
     def _hear(self, event: str, _: object) -> None:
@@ -67,7 +68,11 @@ class Times:
     def _until_now(self) -> Spent:
         cache = sys.modules.get("jointplay.solver.kernels.cache")  # not for those who need none
         compiling = 0.0 if cache is None else cache.SPENT.seconds
-        return Spent(processor(), time.monotonic(), compiling, self._processes, self._tests)
+        now = processor()
+        self._lost += max(0.0, self._processor - now)  # by processes whose parent did not wait
+        self._processor = now
+        spent = now + self._lost
+        return Spent(spent, time.monotonic(), compiling, self._processes, self._tests)
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
