@@ -10,7 +10,7 @@ from jointplay.storage.catalogue.records import WorkerDevice
 from jointplay.worker.local.devices import FIRST, PROCESSOR
 
 if TYPE_CHECKING:
-    from jointplay.solver.runs.device_trial import Trial
+    from jointplay.solver.runs.device_trial import DeviceTrial
     from jointplay.solver.scene.document import Scene
 
 TRIED = "slider-crank"
@@ -68,7 +68,7 @@ def _tried(name: str, processes: int) -> OwnDevice:
     return of_trial(name, trial, BLOCK * device.processors, processes)
 
 
-def of_trial(name: str, trial: "Trial", lanes: int, processes: int = 1) -> OwnDevice:
+def of_trial(name: str, trial: "DeviceTrial", lanes: int, processes: int = 1) -> OwnDevice:
     """Return a device that was tried, and has so many lanes; InvalidInput if it has other bits."""
     if not trial.same_bits:
         detail = f"{name!r}, {trial.name}, has other bits than this processor."

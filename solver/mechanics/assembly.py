@@ -29,7 +29,7 @@ from jointplay.solver.mechanics.start.pose import (
 from jointplay.solver.mechanics.start.rates import start_rates
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.latest import once_per_scene
+from jointplay.solver.scene.once_per_scene import once_per_scene
 
 ASSEMBLED = CLOSED
 NEARBY, NEARBY_SEED, ASIDE = 3, 7, 0.05

@@ -22,7 +22,7 @@ HIGHEST_RATIO = 4
 
 
 @dataclass(frozen=True)
-class Trial:
+class DeviceTrial:
     """A device that was tried."""
 
     name: str
@@ -40,7 +40,7 @@ class Trial:
         return self.same_bits and self.ratio <= HIGHEST_RATIO
 
 
-def try_device(device: Device, scenes: Sequence[Scene], lanes: int | None = None) -> Trial:
+def try_device(device: Device, scenes: Sequence[Scene], lanes: int | None = None) -> DeviceTrial:
     """Run a mechanism on a device and here; some seconds, and the time that compiling takes.
 
     Parameters
@@ -74,7 +74,7 @@ def try_device(device: Device, scenes: Sequence[Scene], lanes: int | None = None
         revolutions, steps = (_made(there) - before) / seconds
     finally:
         there.release()
-    return Trial(device.name, device.ratio, same, float(revolutions), float(steps))
+    return DeviceTrial(device.name, device.ratio, same, float(revolutions), float(steps))
 
 
 def _same(here: Bundle, there: DeviceBundle) -> bool:

@@ -13,7 +13,7 @@ from jointplay.solver.quantities.scalars import Scalar, greatest, sqrt
 from jointplay.solver.scene.clocks import timed, turns
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
-from jointplay.solver.scene.latest import once_per_scene
+from jointplay.solver.scene.once_per_scene import once_per_scene
 
 LARGEST_RATIO = 1000
 """Speeds whose ratio needs larger whole numbers than this count as incommensurate."""

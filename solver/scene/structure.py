@@ -5,7 +5,7 @@ from functools import wraps
 from typing import TypeVar
 
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.latest import once_per_scene
+from jointplay.solver.scene.once_per_scene import once_per_scene
 from jointplay.solver.scene.references import inner_states
 
 MOST_KEPT = 256

@@ -3,11 +3,11 @@
 import pytest
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.runs.device_trial import Trial
+from jointplay.solver.runs.device_trial import DeviceTrial
 from jointplay.storage.catalogue.records import WorkerDevice
 from jointplay.worker.own_device import of_trial, tried_device
 
-TRIAL = Trial("a card " + "x" * 64, 2, same_bits=True, revolutions=6e5, steps=9e8)
+TRIAL = DeviceTrial("a card " + "x" * 64, 2, same_bits=True, revolutions=6e5, steps=9e8)
 
 
 def test_a_device_is_told_with_the_rate_of_its_trial() -> None:
@@ -21,7 +21,7 @@ def test_processes_that_share_a_device_tell_of_their_parts() -> None:
 
 
 def test_a_device_with_other_bits_is_none() -> None:
-    other = Trial("a card", 2, same_bits=False, revolutions=6e5, steps=9e8)
+    other = DeviceTrial("a card", 2, same_bits=False, revolutions=6e5, steps=9e8)
     with pytest.raises(InvalidInput, match="'cuda:0', a card, has other bits"):
         of_trial("cuda:0", other, 33792)
 

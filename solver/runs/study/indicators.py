@@ -19,7 +19,7 @@ from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strong
 from jointplay.solver.nonlinear.verdict import Verdict, decide
 from jointplay.solver.nonlinear.whole_turns import unwound
 from jointplay.solver.nonlinear.zero_one import zero_one_test
-from jointplay.solver.runs.study.going_round import principal_plane, rotation_of, uncut
+from jointplay.solver.runs.study.rotating_sections import principal_plane, rotation_of, uncut
 
 RECURS = 1e-3
 """Sections closer than this share are the same: of what counts as one in a state, or of its range

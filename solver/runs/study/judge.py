@@ -14,7 +14,6 @@ from jointplay.solver.nonlinear.whole_turns import unwound
 from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.runs.study.cycles import cycle_of
 from jointplay.solver.runs.study.finer import go_on_finer, go_on_for, go_on_longer
-from jointplay.solver.runs.study.grounds import limits
 from jointplay.solver.runs.study.indicators import (
     MOST_SECTIONS,
     Sections,
@@ -25,6 +24,7 @@ from jointplay.solver.runs.study.indicators import (
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.problem import scales_of
+from jointplay.solver.runs.study.verdict_limits import limits
 
 
 def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:

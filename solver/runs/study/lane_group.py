@@ -12,13 +12,13 @@ from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes
 from jointplay.solver.kernels.loop.runs import RUNNING, Status
-from jointplay.solver.runs.study.gathered import Gathered
 from jointplay.solver.runs.study.held_starts import end_of_start
 from jointplay.solver.runs.study.judge import judged, looks_again, looks_longer
 from jointplay.solver.runs.study.neighbour import neighbours_start
 from jointplay.solver.runs.study.part_computed import part_computed
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_extremes import lanes_that_keep_steps
+from jointplay.solver.runs.study.point_news import PointNews
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.problem import begin_point, problem_of, ready
 from jointplay.solver.runs.study.record import Recording
@@ -57,7 +57,7 @@ class LaneGroup:
         self._blocks = np.full(len(self.lanes), FREE)
         """(lanes,) block that the point of each is of."""
         self._ready: dict[int, tuple[ReadyLanes, int]] = {}
-        self._gathered: defaultdict[int, Gathered] = defaultdict(Gathered)
+        self._news: defaultdict[int, PointNews] = defaultdict(PointNews)
         """By block, since it was last collected."""
 
     @property
@@ -108,7 +108,7 @@ class LaneGroup:
                 return run
             waiting.remove(run)
             waiting += self._next_of_chain(run, None)
-            self._gathered[block].ended.append(end)
+            self._news[block].ended.append(end)
         return None
 
     def _load(self, lane: int, run: PointRun, waiting: list[PointRun]) -> None:
@@ -141,19 +141,19 @@ class LaneGroup:
         for lane in self.runs_of(block):
             self.bundle.stop(lane)
             self.lanes[lane], self._blocks[lane] = None, FREE
-        self._gathered.pop(block, None)
+        self._news.pop(block, None)
 
-    def collect(self) -> Mapping[int, Gathered]:
+    def collect(self) -> Mapping[int, PointNews]:
         """Take what lanes have handed out, and free those whose points are over.
 
         Returns what is new, by block.
         """
-        gathered, self._gathered = self._gathered, defaultdict(Gathered)
+        news, self._news = self._news, defaultdict(PointNews)
         for lane in np.flatnonzero(self._has_news()).tolist():
             run = self.lanes[lane]
             if run is not None:
-                self._take(lane, run, gathered[int(self._blocks[lane])])
-        return gathered
+                self._take(lane, run, news[int(self._blocks[lane])])
+        return news
 
     def _has_news(self) -> Flags:
         """Return (lanes,) of which there is something to take: few, of the many of a device."""
@@ -163,21 +163,21 @@ class LaneGroup:
         found: Flags = (runs["status"] != RUNNING) | (counts > 0)
         return found
 
-    def _take(self, lane: int, run: PointRun, gathered: Gathered) -> None:
+    def _take(self, lane: int, run: PointRun, news: PointNews) -> None:
         """Take what a lane has handed out, and free it if its point is over."""
         status = self.bundle.lane(lane).status
         if run.ended is None:
-            gathered.rows += self.recording.take(lane, run)
+            news.rows += self.recording.take(lane, run)
         else:
             run.finer.append(self.bundle.growth(lane))
-        if status == RUNNING or self._goes_on(lane, run, status, gathered.following):
+        if status == RUNNING or self._goes_on(lane, run, status, news.following):
             return
         end = judged(self.study, self.bundle.kernel, run)
         again = from_next_start(self.study, self.bundle.kernel, run, end)
         if again is None:
-            gathered.ended.append(of_all_starts(self.study, run, end))
+            news.ended.append(of_all_starts(self.study, run, end))
         else:
-            gathered.following.append(again)
+            news.following.append(again)
         self.lanes[lane], self._blocks[lane] = None, FREE
 
     def _goes_on(self, lane: int, run: PointRun, status: Status, following: list[PointRun]) -> bool:

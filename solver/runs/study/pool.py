@@ -84,9 +84,9 @@ class Pool:
         spent = time.perf_counter() - begun
         self._budget.adapt(group.bundle.attempts - before, spent)
         self.launched += spent
-        gathered = group.collect()
+        news = group.collect()
         found = [
-            (run, run.take(points, gathered[run.block]))
+            (run, run.take(points, news[run.block]))
             for run, points in zip(self.runs, started, strict=True)
         ]
         self.runs = [run for run in self.runs if not run.over]

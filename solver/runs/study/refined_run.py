@@ -16,8 +16,8 @@ from jointplay.records.checkpoint import decode, encode, packed
 from jointplay.records.coarse_to_fine import coarse_points, order_of
 from jointplay.records.inherited import INHERITED
 from jointplay.records.point import PointEnd
+from jointplay.solver.runs.study.cell_similarity import CellSimilarity
 from jointplay.solver.runs.study.cells import Cells, decided
-from jointplay.solver.runs.study.likeness import Likeness
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.restart_point import end_of_facts, facts_of_end
@@ -45,7 +45,7 @@ class RefinedRun(StudyRun):
             own = self._order[first : first + count]
             self._origins = _origins(own, study.shape, 1 << study.refine)
             self._point_at = _points_at(study)
-        self._likeness = Likeness(study)
+        self._similarity = CellSimilarity(study)
         self._cells = self._decided()
         """Decisions so far; they change when all of the missing points are known."""
         super().__init__(study, block, checkpoint)
@@ -98,7 +98,7 @@ class RefinedRun(StudyRun):
             self.study.shape,
             self.study.refine,
             self._known.__contains__,
-            lambda corners: self._likeness.differ(
+            lambda corners: self._similarity.differ(
                 [[self._known[place] for place in cell] for cell in corners.tolist()]
             ),
         )

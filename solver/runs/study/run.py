@@ -8,9 +8,9 @@ the lanes of this one are done.
 from collections.abc import Iterator, Sequence
 
 from jointplay.records.point import PointEnd, StudySlice
-from jointplay.solver.runs.study.gathered import Gathered
 from jointplay.solver.runs.study.lane_group import LaneGroup
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.point_news import PointNews
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.pool import Pool
 from jointplay.solver.runs.study.restart_point import read, written
@@ -81,7 +81,7 @@ class StudyRun:
             ((_, piece),) = self._alone.advance()
             yield piece
 
-    def take(self, started: Sequence[int], found: Gathered) -> StudySlice:
+    def take(self, started: Sequence[int], found: PointNews) -> StudySlice:
         """Take what lanes have given of its points. Returns what is new of the block."""
         begun = self._begun(started)
         self.waiting += found.following

@@ -7,7 +7,7 @@ import pytest
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.latest import once_per_scene
+from jointplay.solver.scene.once_per_scene import once_per_scene
 
 
 def test_a_scene_is_looked_at_once_by_each_thread_until_another_comes():

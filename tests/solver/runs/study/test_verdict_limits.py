@@ -1,4 +1,4 @@
-"""Grounds of verdicts: what indicators could not tell, and a contact that never ends."""
+"""Limits of verdicts: what indicators could not tell, and a contact that never ends."""
 
 import math
 from typing import Any

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jointplay.records.point import PointEnd
-from jointplay.solver.runs.study.likeness import Likeness
+from jointplay.solver.runs.study.cell_similarity import CellSimilarity
 
 PERIODIC = {"verdict": 1.0, "period": 1.0, "lyapunov": -1.0, "lyapunov_error": 1e-9}
 CHAOTIC = {"verdict": 3.0, "period": 0.0, "lyapunov": 2.0, "lyapunov_error": 0.1}
@@ -19,8 +19,8 @@ def end(indicators, code="", **statistics):
 def differ(one, other, record=10, cycles=False):
     states = {"scales": {"x": 1e-3, "phi": 0.1}, "angles": ["phi"]} if cycles else None
     study = SimpleNamespace(record=record, attributes=lambda: {"states": states})
-    (found,) = Likeness(study).differ([[one, one, other, one]])
-    assert Likeness(study).differ([[other, one, one, one]]) == [found]
+    (found,) = CellSimilarity(study).differ([[one, one, other, one]])
+    assert CellSimilarity(study).differ([[other, one, one, one]]) == [found]
     return bool(found)
 
 

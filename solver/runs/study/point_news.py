@@ -7,7 +7,7 @@ from jointplay.solver.runs.study.point_run import PointRun
 
 
 @dataclass
-class Gathered:
+class PointNews:
     """Sections, and points that ended."""
 
     rows: list[SectionRows] = field(default_factory=list)

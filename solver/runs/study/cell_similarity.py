@@ -17,7 +17,7 @@ APART = 3.0
 """Standard errors by which exponents differ."""
 
 
-class Likeness:
+class CellSimilarity:
     """Compares points of a study: by their label, and beyond that by what tells motions apart.
 
     The label is the verdict, the period, the impacts in it, and how many attractors there are; of a

@@ -1,4 +1,4 @@
-"""Grounds of a point's verdict beside the indicators' own: what they cannot tell, and whose it is.
+"""Limits of a point's verdict: what the indicators cannot tell, and which number it depends on.
 
 An indicator says nothing where it has too few sections, or where its number is infinite.
 """
