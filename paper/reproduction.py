@@ -22,13 +22,13 @@ from jointplay.storage.results.metadata import FILE
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, execute
 from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.local.attempts import next_attempt
+from jointplay.worker.local.block_attempts import BlockAttempt, block_attempts
 from jointplay.worker.local.computing import Report
 from jointplay.worker.local.folder import RUNNING
 from jointplay.worker.local.interruption import interruption
-from jointplay.worker.local.keeping import Keeping
+from jointplay.worker.local.restart_points import RestartPoints
 from jointplay.worker.local.study import compute_block, open_store
-from jointplay.worker.local.tries import next_try
-from jointplay.worker.local.tries_at_blocks import Try, tries_in
 
 RUNS = "runs"
 PAGE = "report.html"
@@ -106,11 +106,11 @@ def _compute(
         study = admitted
         run = replace(run, job=study.job)
         open_store(running, layout_of_study(study))
-        tries = tries_in(running)
+        attempts = block_attempts(running)
         seals.append(Call(_seal, (run, running, target)))
         for block, (_, count) in enumerate(study.blocks):
             weight = run.weight * count / study.points
-            arguments = (run, block, running, tries.get(block, Try()))
+            arguments = (run, block, running, attempts.get(block, BlockAttempt()))
             calls.append(Call(_block, arguments, weight, note=run.name))
     pool.make(
         calls,
@@ -147,14 +147,14 @@ def _prepare(run: Run, advance: Advance) -> None:
 
 def _simulate(run: Run, running: Path, target: StoredObject, advance: Advance) -> None:
     admission = cast("Admission", admit(run.job))
-    keeping = Keeping(lambda done: advance(done.fraction), Answer.leave)
-    folder, restart = next_try(running)
-    outcome = execute(admission, folder, target, report=keeping, resume_from=restart)
+    restart_points = RestartPoints(lambda done: advance(done.fraction), Answer.leave)
+    folder, restart = next_attempt(running)
+    outcome = execute(admission, folder, target, report=restart_points, resume_from=restart)
     if outcome.error is not None:
         raise RunFailed(f"{run.name}: {outcome.error.detail}")
 
 
-def _block(run: Run, block: int, running: Path, begin: Try, advance: Advance) -> None:
+def _block(run: Run, block: int, running: Path, begin: BlockAttempt, advance: Advance) -> None:
     study = cast("Study", parse(run.job))
     compute_block(study, block, running, begin, lambda done: advance(done.fraction))
 

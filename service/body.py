@@ -14,7 +14,7 @@ from fastapi.concurrency import run_in_threadpool
 
 from jointplay.service.byte_budget import RETRY, ByteBudget
 from jointplay.service.problems import RequestRefused, kinds, unavailable
-from jointplay.worker.passing import is_full
+from jointplay.worker.transient_faults import is_full
 
 LARGEST_BODY = 8 * 1024 * 1024  # bytes; a job of 100 000 points, each with three parameters
 LARGEST_BATCH = 32 * 1024 * 1024  # 10 000 jobs of 3 kilobytes

@@ -19,8 +19,8 @@ from jointplay.storage.settings import Settings
 from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.holding import Holding, Refused
 from jointplay.worker.lease import Lease
-from jointplay.worker.passing import PASSING, waits_for
 from jointplay.worker.removal import tidy, withdraw
+from jointplay.worker.transient_faults import TRANSIENT, waits_for
 from jointplay.worker.work import Work, work_of
 
 Answered = TypeVar("Answered")
@@ -97,7 +97,7 @@ class BlockRun:
             with self._lease:
                 try:
                     outcome = self._compute()
-                except PASSING as fault:
+                except TRANSIENT as fault:
                     _log.warning("block %s is put off: %s", self._block.id, fault)
                     self._insist(self._catalogue.put_off, waits_for(fault))
                     self._draining.wait(ASK_AGAIN)  # the next block would meet the same fault
@@ -152,7 +152,7 @@ class BlockRun:
                 outcome = self._work.execute(self._report, self._lease.advanced)
             self._require_places()
             return outcome
-        except (Fenced, Refused, *PASSING):
+        except (Fenced, Refused, *TRANSIENT):
             raise
         except InvalidInput as error:
             # admitted when it was submitted: this solver is stricter than that one
@@ -198,7 +198,7 @@ class BlockRun:
                 verdict = self._lease.verdict()
             else:
                 return Answer.go_on
-        except PASSING as fault:
+        except TRANSIENT as fault:
             _log.warning("block %s goes on without a word: %s", self._block.id, fault)
             self._next_record = self._next_look = time.monotonic() + ASK_AGAIN
             return Answer.go_on
@@ -216,7 +216,7 @@ class BlockRun:
         self._next_look = now + _LOOK
         try:
             return None if self._lease.verdict() is Verdict.go_on else Answer.cancel
-        except PASSING as fault:
+        except TRANSIENT as fault:
             _log.warning("block %s goes on without a word: %s", self._block.id, fault)
             self._next_look = now + ASK_AGAIN
             return None

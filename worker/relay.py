@@ -20,7 +20,7 @@ from jointplay.storage.installation import OtherFiles, require_own_files
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import KEY_PREFIX, RUN_BLOCK, make_app
 from jointplay.worker.measuring import measure_results
-from jointplay.worker.presence import has_ended, own_name
+from jointplay.worker.process_name import has_ended, own_name
 from jointplay.worker.removal import clear_up, remove_expired
 from jointplay.worker.wake_up import WakeUpListener, connection
 

@@ -10,7 +10,7 @@ from jointplay.storage.catalogue.errors import CatalogueError, JobNotFound, Unav
 from jointplay.storage.catalogue.records import Block
 from jointplay.storage.settings import Settings
 from jointplay.worker.holding import Holding
-from jointplay.worker.passing import PASSING
+from jointplay.worker.transient_faults import TRANSIENT
 
 if TYPE_CHECKING:
     from jointplay.storage.reconciliation.finding import Finding
@@ -39,7 +39,7 @@ def _remove(catalogue: Catalogue, settings: Settings, job: str) -> None:
         settings.place.remove(settings.results_prefix(job))
         settings.running_files(job).clear()  # of a job that ended without results
         catalogue.mark_removed([job])
-    except PASSING as error:
+    except TRANSIENT as error:
         _log.warning("the results of job %s cannot be removed: %s", job, error)
         return
     _log.info("removed the results of job %s", job)
@@ -75,7 +75,7 @@ def clear_up(catalogue: Catalogue, settings: Settings) -> int:
 
             for finding in of_running_jobs(settings, catalogue, settings.lease):
                 removed += _removed(finding)
-    except PASSING as fault:
+    except TRANSIENT as fault:
         _log.warning("what jobs left stays for now: %s", fault)
     return removed
 
@@ -86,7 +86,7 @@ def _removed(finding: "Finding") -> bool:
         return False
     try:
         finding.mend()
-    except PASSING as fault:
+    except TRANSIENT as fault:
         _log.warning("%s stays for now: %s", finding.subject, fault)
         return False
     _log.info("removed %s, which was left", finding.subject)

@@ -38,7 +38,7 @@ def _spent() -> dict[str, float]:
     return {**_counted, COMPILING: SPENT.seconds + SPENT.elsewhere}
 
 
-class Telling:
+class SpentReport:
     """Tells the catalogue, or a service, what this process has spent since this was made."""
 
     def __init__(self) -> None:

@@ -24,11 +24,11 @@ from jointplay.worker.app import RUN_BLOCK, app
 from jointplay.worker.local.devices import Lanes, opener
 from jointplay.worker.own_device import OwnDevice, tried_device
 from jointplay.worker.own_solver import own_solver
-from jointplay.worker.presence import own_name
+from jointplay.worker.process_name import own_name
 from jointplay.worker.scratch.computing import (
     compute,  # before the fork: all children share numba and the solver
 )
-from jointplay.worker.spent import Telling
+from jointplay.worker.spent import SpentReport
 from jointplay.worker.wake_up import wake_relay
 
 _log = logging.getLogger(__name__)
@@ -150,12 +150,12 @@ def _listen_for_drain(**_: Any) -> None:
 def _be_present() -> None:
     """Tell the catalogue now and then that there is a worker with this solver, and its device."""
     settings, catalogue = _platform()
-    telling = Telling()
+    spent_report = SpentReport()
     while True:
         try:
             told = None if _device is None else _device.told
             catalogue.note_worker(own_name(), own_solver(), told)
-            telling.tell(catalogue, own_name())
+            spent_report.tell(catalogue, own_name())
         except Unavailable as fault:
             _log.debug("not known to be there: %s", fault)
         time.sleep(settings.heartbeat)

@@ -14,7 +14,7 @@ import jointplay
 from benchmarks.device.charts import chart
 from benchmarks.device.opened import opened
 from jointplay.solver.kinds import Study, admit
-from jointplay.worker.local import keeping
+from jointplay.worker.local import restart_points
 from jointplay.worker.local.computing import compute
 from jointplay.worker.local.folder import STORE
 
@@ -58,7 +58,7 @@ def report(there: bool) -> None:
 
 def main() -> None:
     """Compute the chart into a folder that is given, with restart points between all launches."""
-    keeping.PERIOD = keeping._MOST_OVERHEAD = 0
+    restart_points.PERIOD = restart_points._MOST_OVERHEAD = 0
     found = opened()
     study = job(found.there)
     compute(study, Path(sys.argv[1]), None, lambda *_: None, found.lanes)

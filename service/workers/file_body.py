@@ -13,7 +13,7 @@ from fastapi import Request
 
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.uploads import Kept
-from jointplay.worker.passing import is_full
+from jointplay.worker.transient_faults import is_full
 
 LARGEST_FILE: Final = 2**34
 PATIENCE: Final = 30.0

@@ -16,7 +16,7 @@ from jointplay.service.workers.handed_in import HandedIn
 from jointplay.service.workers.uploads import UploadsDependency
 from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.worker.joined.protocol import File, Files
-from jointplay.worker.passing import is_full
+from jointplay.worker.transient_faults import is_full
 
 router = APIRouter(prefix="/v1/worker/blocks/{block}/{attempt}/files", include_in_schema=False)
 Name = Annotated[str, Path(max_length=300)]

@@ -101,7 +101,7 @@ def friction_at(
 
 
 class ContactState(NamedTuple):
-    """What the laws of a contact pair remember."""
+    """Memory of the laws of a contact pair."""
 
     mode: Scalar
     """1 in contact, 0 apart, where there is no force whatever the penetration."""

@@ -15,7 +15,7 @@ from jointplay.storage.settings import Settings
 from jointplay.worker import relay as relay_module
 from jointplay.worker import tasks
 from jointplay.worker.own_solver import own_solver
-from jointplay.worker.presence import own_name
+from jointplay.worker.process_name import own_name
 from jointplay.worker.relay import Relay
 from jointplay.worker.wake_up import CHANNEL, WakeUpListener, WakeUpPublisher
 from tests.waiting import until

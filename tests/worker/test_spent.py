@@ -13,7 +13,7 @@ from jointplay.storage.catalogue.counters import COMPILING, PUBLISHED, PUBLISHIN
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute
-from jointplay.worker.spent import Telling
+from jointplay.worker.spent import SpentReport
 
 JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.1}
 
@@ -35,8 +35,8 @@ class Away(Catalogue):
 
 def test_what_was_spent_is_told_once(tmp_path: Path, catalogue: Catalogue) -> None:
     before = SPENT.seconds + SPENT.elsewhere
-    telling = Telling()
-    telling.tell(catalogue, "worker")
+    spent_report = SpentReport()
+    spent_report.tell(catalogue, "worker")
     assert catalogue.census().totals == {}
     settings = Settings(data=tmp_path)
     admission = cast("Admission", admit(JOB))
@@ -44,12 +44,12 @@ def test_what_was_spent_is_told_once(tmp_path: Path, catalogue: Catalogue) -> No
     execute(admission, tmp_path / "a1", target, report=lambda _: "continue")
     away = Away(f"sqlite:///{tmp_path / 'catalogue.sqlite'}")
     with pytest.raises(Unavailable):
-        telling.tell(away, "worker")
+        spent_report.tell(away, "worker")
     away.close()
-    telling.tell(catalogue, "worker")
+    spent_report.tell(catalogue, "worker")
     told = catalogue.census().totals
     assert told[PUBLISHED] == 1
     assert told[PUBLISHING] > 0
     assert told.get(COMPILING, 0.0) == SPENT.seconds + SPENT.elsewhere - before
-    telling.tell(catalogue, "worker")
+    spent_report.tell(catalogue, "worker")
     assert catalogue.census().totals == told

@@ -17,9 +17,9 @@ from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.files import FilesOfService
 from jointplay.worker.joined.protocol import Activity, Customs
 from jointplay.worker.own_solver import own_solver
-from jointplay.worker.passing import waits_for
 from jointplay.worker.scratch.attempt import SentAttempt
 from jointplay.worker.scratch.files import Scratch
+from jointplay.worker.transient_faults import waits_for
 
 _log = logging.getLogger(__name__)
 

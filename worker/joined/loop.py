@@ -16,8 +16,8 @@ from jointplay.worker.joined.protocol import ClaimRequest, Device
 from jointplay.worker.local.devices import Lanes, opener
 from jointplay.worker.own_device import OwnDevice
 from jointplay.worker.own_solver import own_solver
-from jointplay.worker.presence import own_name
-from jointplay.worker.spent import Telling
+from jointplay.worker.process_name import own_name
+from jointplay.worker.spent import SpentReport
 
 _WAIT: Final = 5.0  # s, for a block, until it is looked whether to go on
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.5, _WAIT
@@ -50,17 +50,17 @@ def work(
         wait=_WAIT if idle is None else min(_WAIT, idle),
     )
     bucket = BucketOfService(connection)
-    telling = Telling()
+    spent_report = SpentReport()
     last = time.monotonic()
     pause = _FIRST_PAUSE
     blocks = 0
     while not draining.is_set() and (idle is None or time.monotonic() - last <= idle):
         try:
-            spent = telling.untold()
+            spent = spent_report.untold()
             told = None if device is None else Device(**vars(device.told))
             asked = request.model_copy(update={"spent": spent, "device": told})
             claimed = connection.claim(asked)
-            telling.told(spent)
+            spent_report.told(spent)
             if claimed is not None:
                 source = JoinedBlocks(connection, bucket, claimed.customs, draining)
                 lanes = None if device is None else opener(device.name)

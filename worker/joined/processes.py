@@ -18,7 +18,7 @@ from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.loop import work
 from jointplay.worker.local.devices import PROCESSOR
 from jointplay.worker.own_device import OwnDevice, tried_device
-from jointplay.worker.presence import has_ended, own_name
+from jointplay.worker.process_name import has_ended, own_name
 
 _SIGNALS: Final = (signal.SIGTERM, signal.SIGINT)
 _LONGEST_SENTENCE: Final = 1000

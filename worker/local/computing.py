@@ -13,7 +13,7 @@ from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
 from jointplay.worker.local.folder import OUTCOME_FILE, STORE, holding, write_job
 from jointplay.worker.local.interruption import interruption
-from jointplay.worker.passing import is_full
+from jointplay.worker.transient_faults import is_full
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Admission, Study
@@ -118,17 +118,17 @@ def _simulation(
 ) -> "Outcome":
     reached.report(0.0, "preparing the kernel")
     from jointplay.worker.execute import Answer, Progress, execute
-    from jointplay.worker.local.keeping import Keeping
-    from jointplay.worker.local.tries import next_try
+    from jointplay.worker.local.attempts import next_attempt
+    from jointplay.worker.local.restart_points import RestartPoints
 
     def go_on(done: Progress) -> bool:
         reached.time = done.time
         reached.report(done.fraction, f"t = {done.time:.4g} s")
         return not asked_to_end()
 
-    folder, restart = next_try(running)
-    keeping = Keeping(go_on, Answer.cancel)
-    return execute(admission, folder, target, report=keeping, resume_from=restart)
+    folder, restart = next_attempt(running)
+    restart_points = RestartPoints(go_on, Answer.cancel)
+    return execute(admission, folder, target, report=restart_points, resume_from=restart)
 
 
 def _clear(folder: Path) -> None:

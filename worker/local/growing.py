@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 def growing_store(folder: Path) -> Path | None:
     """Return the folder of the growing store in a run's folder; None if there is none."""
-    from jointplay.worker.local.tries import newest_try
+    from jointplay.worker.local.attempts import newest_attempt
 
     study = folder / RUNNING / STUDY
     if study.is_dir():
         return study
-    found = newest_try(folder / RUNNING)
+    found = newest_attempt(folder / RUNNING)
     return None if found is None else found.folder
 
 
@@ -27,12 +27,12 @@ def growing_results(folder: Path) -> "ResultReader | StudyReader":
     from jointplay.storage.errors import NotAStore
     from jointplay.storage.results.reader import ResultReader
     from jointplay.storage.studies.reader import StudyReader
-    from jointplay.worker.local.tries import newest_try
+    from jointplay.worker.local.attempts import newest_attempt
 
     study = folder / RUNNING / STUDY
     if study.is_dir():
         return StudyReader(study)
-    found = newest_try(folder / RUNNING)
+    found = newest_attempt(folder / RUNNING)
     if found is None:
         raise NotAStore(f"{folder} holds no results")
     return ResultReader(found.folder, found.samples)

@@ -16,10 +16,10 @@ from jointplay.solver.runs.study.run import StudyRun
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.layouts import layout_of_study
+from jointplay.worker.local.block_attempts import BlockAttempt
 from jointplay.worker.local.devices import Lanes
-from jointplay.worker.local.keeping import Keeping
+from jointplay.worker.local.restart_points import RestartPoints
 from jointplay.worker.local.study_of import study_of
-from jointplay.worker.local.tries_at_blocks import Try
 from jointplay.worker.study_block import begin_block
 
 LAUNCH = 0.3
@@ -29,7 +29,7 @@ LAUNCH = 0.3
 def compute_pooled(
     study: Study,
     folder: Path,
-    tries: Mapping[int, Try],
+    attempts: Mapping[int, BlockAttempt],
     device: Lanes,
     go_on: Callable[[Progress], bool],
 ) -> Outcome:
@@ -41,8 +41,8 @@ def compute_pooled(
         As admitted.
     folder
         Of the store.
-    tries
-        Next try at each of the blocks, by its index.
+    attempts
+        Next attempt at each of the blocks, by its index.
     device
         What opens the device.
     go_on
@@ -54,14 +54,14 @@ def compute_pooled(
         "left" where it was not to go on, or "failed" because the device did: restart points are
         kept.
     """
-    blocks, waiting = _Blocks(study, folder, tries), deque(tries)
-    keeping, pool = Keeping(go_on, Answer.leave), Pool(study, device(study), LAUNCH)
+    blocks, waiting = _Blocks(study, folder, attempts), deque(attempts)
+    restart_points, pool = RestartPoints(go_on, Answer.leave), Pool(study, device(study), LAUNCH)
     try:
         while waiting or pool.runs:
             while waiting and pool.room > 0:
                 for run in blocks.begin(waiting.popleft()):
                     pool.add(run)
-            if keeping(blocks.progress()) is Answer.leave:
+            if restart_points(blocks.progress()) is Answer.leave:
                 return Outcome("left", 0.0, blocks.progress().fraction)
             if pool.runs:
                 for run, piece in pool.advance():
@@ -74,14 +74,14 @@ def compute_pooled(
 
 
 def calls_of_parts(
-    study: Study, folder: Path, tries: Mapping[int, Try], count: int, device: Lanes
+    study: Study, folder: Path, attempts: Mapping[int, BlockAttempt], count: int, device: Lanes
 ) -> list[Call]:
     """Return a call for each of so many processes: every `count`-th block, by lanes of its own.
 
     The device has the launches of one after the other; the others prepare and judge points.
     """
     job = json.dumps(study.job)
-    parts = [{index: tries[index] for index in [*tries][k::count]} for k in range(count)]
+    parts = [{index: attempts[index] for index in [*attempts][k::count]} for k in range(count)]
     sizes = [sum(study.blocks[index][1] for index in part) for part in parts]
     return [
         Call(_compute_part, (job, str(folder), part, device), size, size)
@@ -90,22 +90,22 @@ def calls_of_parts(
 
 
 def _compute_part(
-    job: str, folder: str, tries: Mapping[int, Try], device: Lanes, advance: Advance
+    job: str, folder: str, attempts: Mapping[int, BlockAttempt], device: Lanes, advance: Advance
 ) -> Outcome:
     def go_on(done: Progress) -> bool:
         return advance(done.fraction, done.watermark)
 
-    return compute_pooled(study_of(job), Path(folder), tries, device, go_on)
+    return compute_pooled(study_of(job), Path(folder), attempts, device, go_on)
 
 
 class _Blocks:
     """The stores of blocks, and what computes those that are under way."""
 
-    def __init__(self, study: Study, folder: Path, tries: Mapping[int, Try]) -> None:
-        self._study, self._folder, self._tries = study, folder, tries
+    def __init__(self, study: Study, folder: Path, attempts: Mapping[int, BlockAttempt]) -> None:
+        self._study, self._folder, self._attempts = study, folder, attempts
         self._layout = layout_of_study(study)
         self._under_way: dict[int, tuple[StudyRun, StudyBlock]] = {}
-        self._fractions = dict.fromkeys(tries, 0.0)
+        self._fractions = dict.fromkeys(attempts, 0.0)
         self._ended = 0
         """Points of blocks that are done."""
 
@@ -114,7 +114,7 @@ class _Blocks:
         if StudyBlock.done(self._folder, self._layout, index):
             self._end(index)
             return
-        number, name = self._tries[index]
+        number, name = self._attempts[index]
         restart = None if name is None else (name, 0.0)
         block, carried, _ = begin_block(self._layout, index, self._folder, number, restart)
         run = computation_of(self._study, index, carried)

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from jointplay.solver.runs.processes import Advance, Call, Interrupted, cores, processes
+from jointplay.worker.local.block_attempts import BlockAttempt, block_attempts
 from jointplay.worker.local.study_of import study_of
-from jointplay.worker.local.tries_at_blocks import Try, tries_in
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Study
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 Report = Callable[[float, str], None]
 STORE = "study"
-"""Folder of the growing store, which all tries fill together."""
+"""Folder of the growing store, which all attempts fill together."""
 _BEGINNING = 2.0
 """Seconds that other processes take to begin."""
 _LOOK = 0.2
@@ -129,10 +129,10 @@ class _Rest:
         return seconds > _LOOK and seconds * (1.0 - fraction) > _BEGINNING * done
 
 
-def _tries(study: "Study", folder: Path) -> dict[int, Try]:
-    """Return the next try at each block."""
-    begun = tries_in(folder)
-    return {index: begun.get(index, Try()) for index in range(len(study.blocks))}
+def _attempts(study: "Study", folder: Path) -> dict[int, BlockAttempt]:
+    """Return the next attempt at each block."""
+    begun = block_attempts(folder)
+    return {index: begun.get(index, BlockAttempt()) for index in range(len(study.blocks))}
 
 
 def open_store(folder: Path, layout: "StudyLayout") -> None:
@@ -159,7 +159,7 @@ def _here(
     """
     from jointplay.worker.execute import Progress
 
-    tries = _tries(study, folder)
+    attempts = _attempts(study, folder)
     ends: list[Outcome] = []
     for index, (first, count) in enumerate(study.blocks):
 
@@ -169,7 +169,7 @@ def _here(
             report(fraction, f"{ended} of {study.points} points")
             return not leaves(fraction)
 
-        ends.append(compute_block(study, index, folder, tries[index], go_on))
+        ends.append(compute_block(study, index, folder, attempts[index], go_on))
         if ends[-1].state != "succeeded":
             break
     return ends
@@ -190,19 +190,19 @@ def _on_device(
 
     from jointplay.worker.local.pooled import compute_pooled
 
-    return compute_pooled(study, folder, _tries(study, folder), device, go_on)
+    return compute_pooled(study, folder, _attempts(study, folder), device, go_on)
 
 
 def _calls(study: "Study", folder: Path, count: int, device: "Lanes | None") -> list[Call]:
     """Return calls that compute a block each, or, for a device, a part for each process."""
-    tries = _tries(study, folder)
+    attempts = _attempts(study, folder)
     if device is not None:
         from jointplay.worker.local.pooled import calls_of_parts
 
-        return calls_of_parts(study, folder, tries, count, device)
+        return calls_of_parts(study, folder, attempts, count, device)
     job = json.dumps(study.job)
     return [
-        Call(_block, (job, str(folder), index, tries[index]), points, points)
+        Call(_block, (job, str(folder), index, attempts[index]), points, points)
         for index, (_, points) in enumerate(study.blocks)
     ]
 
@@ -227,7 +227,7 @@ def _spread(
             return []
 
 
-def _block(job: str, folder: str, index: int, begin: Try, advance: Advance) -> "Outcome":
+def _block(job: str, folder: str, index: int, begin: BlockAttempt, advance: Advance) -> "Outcome":
     """Compute one block in a process of the pool and return how it ended."""
     return compute_block(
         study_of(job),
@@ -242,16 +242,16 @@ def compute_block(
     study: "Study",
     index: int,
     folder: Path,
-    begin: Try,
+    begin: BlockAttempt,
     go_on: "Callable[[Progress], bool]",
 ) -> "Outcome":
     """Compute one block, with restart points, and return how it ended; "left" can go on."""
     from jointplay.worker.execute import Answer
-    from jointplay.worker.local.keeping import Keeping
+    from jointplay.worker.local.restart_points import RestartPoints
     from jointplay.worker.study_block import run_block
 
     restart = None if begin.resume_from is None else (begin.resume_from, 0.0)
-    keeping = Keeping(go_on, Answer.leave)
+    restart_points = RestartPoints(go_on, Answer.leave)
     return run_block(
-        study, index, folder, report=keeping, attempt=begin.number, resume_from=restart
+        study, index, folder, report=restart_points, attempt=begin.number, resume_from=restart
     )

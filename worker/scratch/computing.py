@@ -14,10 +14,10 @@ from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.installation import require_places
 from jointplay.storage.settings import Settings
 from jointplay.worker.block_run import ASK_AGAIN, BlockRun
-from jointplay.worker.passing import PASSING, waits_for
 from jointplay.worker.removal import withdraw
 from jointplay.worker.scratch.attempt import SentAttempt
 from jointplay.worker.scratch.files import Scratch
+from jointplay.worker.transient_faults import TRANSIENT, waits_for
 
 _log = logging.getLogger(__name__)
 
@@ -52,7 +52,7 @@ def _compute_in(
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)
             return
-        except PASSING as fault:
+        except TRANSIENT as fault:
             _log.warning("block %s is put off: %s", block.id, fault)
             _put_off(catalogue, claim, waits_for(fault))
             draining.wait(ASK_AGAIN)
@@ -68,5 +68,5 @@ def _put_off(catalogue: Catalogue, claim: Claim, activity: str) -> None:
     """Give a block back that was not begun; if that cannot be, its lease will end."""
     try:
         catalogue.put_off(claim.block.id, claim.block.attempt, activity)
-    except PASSING as fault:
+    except TRANSIENT as fault:
         _log.warning("block %s is not given back: %s", claim.block.id, fault)

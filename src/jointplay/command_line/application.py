@@ -11,7 +11,7 @@ import typer
 
 from jointplay.command_line import key, scene
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.worker.passing import is_full
+from jointplay.worker.transient_faults import is_full
 
 COMMANDS: Final = (
     "run",

@@ -24,7 +24,7 @@ from jointplay.worker.local.devices import opener
 from jointplay.worker.local.folder import STORE
 from jointplay.worker.own_blocks import OwnBlocks
 from jointplay.worker.own_device import OwnDevice
-from jointplay.worker.spent import Telling
+from jointplay.worker.spent import SpentReport
 from tests.solver.kernels.device.driver_by_host import DriverByHost
 from tests.stores import files_of
 from tests.waiting import until
@@ -108,9 +108,9 @@ def test_blocks_are_computed_together_beside_those_of_others(
 ) -> None:
     run(catalogue, settings, f"{study}-1")
     driver = DriverByHost()
-    telling = Telling()
+    spent_report = SpentReport()
     compute(catalogue, settings, study, driver)
-    assert telling.untold()[ON_DEVICES] == len(CLEARANCES) - admit(dict(JOB)).blocks[1][1]
+    assert spent_report.untold()[ON_DEVICES] == len(CLEARANCES) - admit(dict(JOB)).blocks[1][1]
     *blocks, seal = catalogue.blocks(study)
     assert {block.state for block in blocks} == {BlockState.done}
     assert {block.attempt for block in blocks} == {1}

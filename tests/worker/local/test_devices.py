@@ -19,7 +19,7 @@ from jointplay.solver.runs.study.device_lanes import device_lanes
 from jointplay.solver.runs.study.lane_group import Make
 from jointplay.solver.runs.study.required_study import required_study
 from jointplay.worker.execute import Outcome
-from jointplay.worker.local import computing, keeping
+from jointplay.worker.local import computing, restart_points
 from jointplay.worker.local.devices import lanes_of
 from tests.solver.kernels.device.driver_by_host import DriverByHost
 
@@ -99,8 +99,8 @@ def test_processes_that_share_a_device_compute_the_same_bytes(whole: Path, tmp_p
 @pytest.fixture
 def kept_often(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have restart points made between all launches."""
-    monkeypatch.setattr(keeping, "PERIOD", 0.0)
-    monkeypatch.setattr(keeping, "_MOST_OVERHEAD", 0.0)
+    monkeypatch.setattr(restart_points, "PERIOD", 0.0)
+    monkeypatch.setattr(restart_points, "_MOST_OVERHEAD", 0.0)
 
 
 def under_way(folder: Path) -> Iterator[Path]:

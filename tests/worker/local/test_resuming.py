@@ -20,7 +20,7 @@ from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit, parse
 from jointplay.storage import durable
 from jointplay.storage.results.comparison import compared_arrays, differing_attributes
-from jointplay.worker.local import computing, keeping, study
+from jointplay.worker.local import computing, restart_points, study
 from jointplay.worker.local.folder import holding
 from tests.waiting import descendants, is_alive, until
 
@@ -137,8 +137,9 @@ def test_a_killed_run_goes_on_from_its_last_restart_point(job, processes, whole,
     folder = tmp_path / "OUT"
     program = (
         "import json, sys, jointplay\n"
-        "from jointplay.worker.local import keeping, study\n"
-        "keeping.PERIOD = keeping._MOST_OVERHEAD = study._LOOK = study._BEGINNING = 0\n"
+        "from jointplay.worker.local import restart_points, study\n"
+        "restart_points.PERIOD = restart_points._MOST_OVERHEAD = 0\n"
+        "study._LOOK = study._BEGINNING = 0\n"
         "job, folder, processes = sys.argv[1:]\n"
         "jointplay.run(json.loads(job), output=folder, processes=json.loads(processes))\n"
     )
@@ -164,8 +165,8 @@ def test_a_full_disk_ends_a_run_which_goes_on_once_there_is_room(whole, tmp_path
             raise OSError(errno.ENOSPC, "No space left on device")
         return whole_draft(path, pieces, **options)
 
-    monkeypatch.setattr(keeping, "PERIOD", 0.0)
-    monkeypatch.setattr(keeping, "_MOST_OVERHEAD", 0)
+    monkeypatch.setattr(restart_points, "PERIOD", 0.0)
+    monkeypatch.setattr(restart_points, "_MOST_OVERHEAD", 0)
     with monkeypatch.context() as full:
         full.setattr(durable, "draft", filling)
         with pytest.raises((JobFailed, JobCancelled)):

@@ -11,7 +11,7 @@ _MOST_OVERHEAD = 20
 """Restart points are made so rarely that computing takes this many times as long as they do."""
 
 
-class Keeping:
+class RestartPoints:
     """Answer to the reports of one simulation, or of one block of a study.
 
     Parameters

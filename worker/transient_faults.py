@@ -1,4 +1,4 @@
-"""Faults of the platform that may pass: a full disk, a catalogue that does not answer.
+"""Transient faults of the platform: a full disk, a catalogue that does not answer.
 
 They never end a job: its block is given back, and tried again from its last restart point.
 """
@@ -8,7 +8,7 @@ from typing import Final
 
 from jointplay.storage.catalogue.errors import Unavailable
 
-PASSING: Final = (OSError, Unavailable)
+TRANSIENT: Final = (OSError, Unavailable)
 _FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 

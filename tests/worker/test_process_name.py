@@ -8,9 +8,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from jointplay.worker.presence import has_ended, own_name
+from jointplay.worker.process_name import has_ended, own_name
 
-NAMED = "from jointplay.worker.presence import own_name; print(own_name(), flush=True); input()"
+NAMED = "from jointplay.worker.process_name import own_name; print(own_name(), flush=True); input()"
 
 
 @pytest.fixture
