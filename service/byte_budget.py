@@ -15,7 +15,7 @@ RETRY: Final = 5
 class ByteBudget:
     """Room for bytes that requests have until they are answered.
 
-    No owner has more of it than is left: one who takes what he can leaves half to others.
+    No owner has more of it than is left: one who takes all that is to be had leaves half to others.
 
     Parameters
     ----------

@@ -14,7 +14,7 @@ owner has more of them than are left: the first half of them, the next one a qua
 
 
 class Full(Exception):
-    """An owner has as many in a queue as he may, or all have."""
+    """An owner has as many in a queue as one may have, or all owners together."""
 
 
 class FairQueue:

@@ -35,7 +35,7 @@ class Shares:
         self._waiting: Counter[str] = Counter()
 
     def enter(self, scope: Scope, owner: str) -> None:
-        """Count an owner's request until it is answered; refuse it with 429 if he has too many."""
+        """Count an owner's request until it is answered; 429 if there are too many."""
         asked = self._vital if VITAL.fullmatch(scope["path"]) else self._asked
         if asked[owner] >= OF_ONE:
             raise _refusal(f"{owner} has {OF_ONE} requests at once.")

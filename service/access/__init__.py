@@ -30,7 +30,7 @@ class Caller:
 
     @property
     def sees_all(self) -> bool:
-        """Whether the jobs of all owners are his to see."""
+        """Whether the caller sees the jobs of all owners."""
         return "admin" in self.scopes
 
     def may(self, scope: str) -> bool:
@@ -38,7 +38,7 @@ class Caller:
         return self.sees_all or scope in self.scopes
 
     def sees(self, owner: str) -> bool:
-        """Whether what belongs to an owner is his to see."""
+        """Whether the caller sees what belongs to an owner."""
         return self.sees_all or owner == self.owner
 
 

@@ -27,7 +27,7 @@ WITHOUT_KEY: Final = 208
 """Requests without a key at once where none is required: 200 workers that wait, and some."""
 BESIDE_KEYS: Final = 64
 """Requests without a key at once where one is required. Who sends one that is wrong is refused
-before anything is read of his body, and holds nothing."""
+before anything is read of the body, and holds nothing."""
 RETRY: Final = 5
 """Seconds after which a refused client may ask again."""
 _HEALTH: Final = re.compile(r"/(healthz|readyz)")

@@ -1,4 +1,4 @@
-"""``/v1/usage``: what the owner of a key has, and what he may have."""
+"""``/v1/usage``: what the owner of a key has, and may have at most."""
 
 from fastapi import APIRouter
 from pydantic import BaseModel, Field

@@ -148,7 +148,7 @@ class Catalogue:
         KeyReused
             The key was used before with another fingerprint.
         QuotaExceeded
-            Its owner has as much as he may have.
+            Its owner has as much as one may have.
         """
         answer = self._submissions.done(submission.Request(new, key, reuse, quota))
         if isinstance(answer, CatalogueError):
@@ -188,7 +188,7 @@ class Catalogue:
         KeyReused
             The key was used before with another fingerprint.
         QuotaExceeded
-            Its owner would have more than he may have.
+            Its owner would have more than one may have.
         """
         if not 1 <= len(jobs) <= batches.LARGEST_BATCH:
             raise ValueError(f"a batch has 1 to {batches.LARGEST_BATCH} jobs, not {len(jobs)}")

@@ -79,7 +79,7 @@ class KeyReused(CatalogueError):
 
 
 class QuotaExceeded(CatalogueError):
-    """An owner would have more than he may have of what the sentence names."""
+    """An owner would have more than one may have of what the sentence names."""
 
 
 class TooManyWorkers(CatalogueError):

@@ -207,8 +207,8 @@ share = Table(
     metadata,
     Column("queue", String(32), nullable=False),
     Column("owner", String(64), nullable=False),
-    Column("began", Float(53), nullable=False),  # where his last block was claimed
-    Column("next", Float(53), nullable=False),  # where his next one will be
+    Column("began", Float(53), nullable=False),  # where their last block was claimed
+    Column("next", Float(53), nullable=False),  # where their next one will be
     Column("cost", Float(53), nullable=False, server_default="1"),  # of a block, lately
     PrimaryKeyConstraint("queue", "owner"),
 )

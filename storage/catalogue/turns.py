@@ -1,10 +1,10 @@
 """Whose turn it is: owners with work waiting get equal shares of the workers' time.
 
 Start-time fair queueing (Goyal, Vin & Cheng, IEEE/ACM Trans. Networking 5, 1997) of work whose cost
-is known afterwards (Mace et al., 2DFQ, SIGCOMM 2016): a claim charges its owner what his blocks
+is known afterwards (Mace et al., 2DFQ, SIGCOMM 2016): a claim charges its owner what their blocks
 have cost lately, and once the attempt has ended the relay corrects that to the seconds that it
 took. The owner who has been charged least comes first. Whoever had nothing waiting begins where the
-others are, which is where the owner of the last claim was: he has saved up nothing.
+others are, which is where the owner of the last claim was: nothing was saved up.
 
 What a worker had begun comes before all else. A job that came alone, for which somebody may be
 waiting, comes before studies and batches, unless its owner has been charged `HEAD_START` more than
@@ -28,8 +28,8 @@ from jointplay.storage.catalogue.records import (
 HEAD_START: Final = 60.0
 """Seconds of workers that jobs which came alone may be ahead of studies and batches of others."""
 MOST_BEHIND: Final = 600.0
-"""Seconds that an owner may be behind: while what he has waiting fits no worker's solver he saves
-up no more than that."""
+"""Seconds that an owner may be behind: while what is waiting fits no worker's solver, no more
+than that is saved up."""
 ACCOUNT: Final = FRESH_QUEUE
 """Name under which shares are kept, of all queues together."""
 _share = tables.share
@@ -38,7 +38,7 @@ _PART: Final = 0.25
 _AT_ONCE: Final = 1000
 """Attempts that are settled in one unit."""
 _TIME = f"coalesce((SELECT max(began) FROM share WHERE queue = '{ACCOUNT}'), 0)"  # noqa: S608 - our own names
-# Nothing is written, and nobody waited for, where he has work waiting or is not behind.
+# Nothing is written, and nobody waited for, where the owner has work waiting or is not behind.
 _ARRIVE = text(
     "INSERT INTO share (queue, owner, began, next)"  # noqa: S608 - our own names
     f" SELECT '{ACCOUNT}', CAST(:owner AS varchar), 0, {_TIME}"
@@ -49,7 +49,7 @@ _ARRIVE = text(
     " SET next = CASE WHEN share.next < excluded.next THEN excluded.next ELSE share.next END"
 )
 _SEEDS = " UNION ALL ".join(f"SELECT CAST('{queue}' AS varchar) AS queue" for queue in QUEUES)
-_WAITING = text(  # one look at the index for each owner, however many blocks he has
+_WAITING = text(  # one look at the index for each owner, however many blocks it has
     f"""
     WITH RECURSIVE waiting(queue, owner) AS (
       SELECT queue, (SELECT min(outbox.owner) FROM outbox WHERE outbox.queue = seeds.queue)

@@ -12,7 +12,7 @@ from jointplay.command_line.output import tell
 
 def new(
     owner: Annotated[
-        str, typer.Option(metavar="NAME", help="Whose it is; one sees his own jobs only.")
+        str, typer.Option(metavar="NAME", help="Whose it is; an owner sees only their own jobs.")
     ],
     scopes: Annotated[
         list[str] | None,
