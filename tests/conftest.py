@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import settings
 
-from tests import dear
+from tests import expensive
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -13,8 +13,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(tryfirst=True)  # before tests are chosen by their marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Leave dear tests to the long ones."""
-    dear.mark(items)
+    """Leave expensive tests to the long ones."""
+    expensive.mark(items)
 
 
 # the machine that tests run on may be busy: a slow example is no failure

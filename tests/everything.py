@@ -6,7 +6,7 @@ Run as ``python -m tests.everything [--long] [STEP ...]``; without a step, all o
 ``--long`` these are the tests that take longer, and no checks of the code. A third of the tests
 wait (for leases, restarts, shutdowns) while the others compute. Processor seconds are those of the
 processes that ended before the step did. Those of each file of tests are in build/test-times.json;
-the dearest files are printed.
+the most expensive files are printed.
 """
 
 import json
@@ -23,7 +23,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import Event
 
-from tests.times import dearest
+from tests.times import most_expensive
 
 ROOT = Path(__file__).resolve().parent.parent
 GROUPS = (
@@ -154,7 +154,7 @@ def _report(run: Sequence[Step], seconds: float, times: Path) -> None:
             files |= json.loads(step.times.read_text())
     if files:
         times.write_text(json.dumps(files, indent=1))
-        print(f"\n{dearest(files)}")
+        print(f"\n{most_expensive(files)}")
     print("\nstep                              seconds  of processor")
     for step in run:
         outcome = "FAILED" if step.failed else "ok"

@@ -7,7 +7,7 @@ import time
 from dataclasses import asdict
 from pathlib import Path
 
-from tests.times import Spent, dearest, processor
+from tests.times import Spent, most_expensive, processor
 
 ROOT = Path(__file__).parents[1]
 BUSY = "import time; [None for _ in iter(lambda: time.process_time() < 0.5, False)]"
@@ -53,7 +53,7 @@ parent = subprocess.Popen([sys.executable, "-c", CHILD, {BUSY!r} + "; input()"],
 
 def test_works():
     before = tests.times.processor()
-    while tests.times.processor() < before + 0.3:
+    while tests.times.processor() < before + 0.5:
         pass
 
 def test_leaves_it():
@@ -69,7 +69,7 @@ def test_what_an_orphan_took_is_taken_from_no_test(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "pytest", "-p", "tests.times", "--times", str(times)]
     subprocess.run([*command, str(tmp_path)], check=True, cwd=ROOT, capture_output=True)
     works, leaves = (Spent(**one).processor for one in json.loads(times.read_text()).values())
-    assert works >= 0.3
+    assert works >= 0.5 - 0.02  # clocks of 10 ms
     assert leaves >= 0.0
 
 
@@ -81,10 +81,10 @@ def test_a_process_that_lives_on_counts_for_the_test_that_makes_it_work() -> Non
         assert one.poll() is None
 
 
-def test_the_dearest_come_first_and_all_are_added() -> None:
+def test_the_most_expensive_come_first_and_all_are_added() -> None:
     names = {2: "test_2.py::a", 10: "test_30.py::a", 20: "test_30.py::b", 4: "test_4.py::a[::]"}
     tests = {name: asdict(Spent(i, 2 * i, 0.0, 1, 1)) for i, name in names.items()}
-    head, first, second, total = dearest(tests, 2).splitlines()
+    head, first, second, total = most_expensive(tests, 2).splitlines()
     assert head.split()[-1] == "file"
     assert first.split() == ["30.0", "60.0", "0.0", "2", "2", "test_30.py"]
     assert second.split()[-1] == "test_4.py"

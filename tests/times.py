@@ -100,7 +100,7 @@ def pytest_configure(config: pytest.Config) -> None:
         config.pluginmanager.register(Times(path))
 
 
-def dearest(tests: Mapping[str, Mapping[str, float]], count: int = 25) -> str:
+def most_expensive(tests: Mapping[str, Mapping[str, float]], count: int = 25) -> str:
     """Return a table of the files that take most of the processor, and of all together."""
     files: dict[str, Spent] = {}
     for name, one in tests.items():

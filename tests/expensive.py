@@ -1,10 +1,10 @@
 """Tests that take long on the processor: a seeded share of them in `make test`, all in `test-long`.
 
-    python -m tests.dear          draws anew, from build/test-times.json and with the next seed
+    python -m tests.expensive          draws anew, from build/test-times.json and with the next seed
 
-What each took is in `dear.json`, which is committed: the same tests are left out on every machine.
-A test that is not in it is run. Those of `ALWAYS` are what the project promises first, and are run,
-whatever they take.
+What each took is in `expensive.json`, which is committed: the same tests are left out on every
+machine. A test that is not in it is run. Those of `ALWAYS` are what the project promises first, and
+are run, whatever they take.
 """
 
 import json
@@ -17,25 +17,25 @@ from typing import Any
 
 import pytest
 
-TABLE = Path(__file__).with_name("dear.json")
+TABLE = Path(__file__).with_name("expensive.json")
 TIMES = Path(__file__).parents[1] / "build" / "test-times.json"
 LEAST = 1.0
-"""Seconds of processor from which on a test is dear."""
+"""Seconds of processor from which on a test is expensive."""
 SHARE = 0.06
-"""Share of the seconds of a folder's dear tests that is spent on some of them, at least on one."""
+"""Share of the seconds of a folder's expensive tests in which some are run, at least one."""
 ALWAYS = ("tests/test_readme.py", "tests/command_line/test_demo.py")
 
 
 def draw(times: Mapping[str, Mapping[str, float]], seed: int) -> dict[str, Any]:
-    """Return the seed, and the seconds of the dear tests that are left out, by their names."""
-    dear: dict[str, dict[str, float]] = {}
+    """Return the seed, and the seconds of the expensive tests that are left out, by their names."""
+    expensive: dict[str, dict[str, float]] = {}
     for name, spent in sorted(times.items()):
         file = name.partition("::")[0]
         if spent["processor"] >= LEAST and file not in ALWAYS:
             folder = "/".join(file.split("/")[:2])
-            dear.setdefault(folder, {})[name] = round(spent["processor"], 1)
+            expensive.setdefault(folder, {})[name] = round(spent["processor"], 1)
     draws, left_out = random.Random(seed), {}
-    for tests in dear.values():
+    for tests in expensive.values():
         kept = _kept(tests, draws)
         left_out |= {name: seconds for name, seconds in tests.items() if name not in kept}
     return {"seed": seed, "left_out": left_out}
@@ -52,7 +52,7 @@ def _kept(tests: Mapping[str, float], draws: random.Random) -> set[str]:
 
 
 def mark(items: list[pytest.Item]) -> None:
-    """Mark the dear tests that `make test` leaves out as long."""
+    """Mark the expensive tests that `make test` leaves out as long."""
     left_out = json.loads(TABLE.read_text())["left_out"] if TABLE.exists() else {}
     for item in items:
         if item.nodeid in left_out:
