@@ -171,7 +171,7 @@ def path(source: Source, joint: str, names: tuple[str, ...], selection: Selectio
         return time, {name: values[name] for name in names}
     smooth = _quiet(source, joint, time)
     for position, rate in zip(positions, rates, strict=True):
-        smooth &= _tame(time, values[position], values[rate])
+        smooth &= _near_chord(time, values[position], values[rate])
     fraction = np.arange(pieces) / pieces
     dense: dict[str, Floats] = {}
     for position, rate in zip(positions, rates, strict=True):
@@ -196,7 +196,7 @@ def _quiet(source: Source, joint: str, time: Floats) -> Flags:
     return quiet
 
 
-def _tame(time: Floats, position: Floats, rate: Floats) -> Flags:
+def _near_chord(time: Floats, position: Floats, rate: Floats) -> Flags:
     """Tell of each interval whether its arc stays near its chord."""
     middle, _ = _hermite(time, position, rate, np.array([0.25, 0.75]))
     chord = position[:-1, None] + np.diff(position)[:, None] * np.array([0.25, 0.75])

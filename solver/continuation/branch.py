@@ -31,7 +31,7 @@ ASTRAY = 0.5
 """Share of the step by which the corrector may move the predicted orbit."""
 SHAKEN = 0.01
 """Error of the multipliers, in the largest, that tells of grazing: there the map has a corner."""
-VAGUE = 0.1
+UNDETERMINED = 0.1
 """The same beyond which an orbit without contacts is refused."""
 CORNER = 1e-4
 """Length along the branch before and behind grazing where a hard stop's map may be a corner."""
@@ -159,7 +159,7 @@ def _step(
     """Return the next piece, what lies in it, and the step to try behind it."""
     while True:
         piece = _piece(curve, orbit, tangent, step, reach)
-        if isinstance(piece, Piece) and _vague(piece.last):
+        if isinstance(piece, Piece) and _is_undetermined(piece.last):
             piece = NoOrbit("its multipliers are lost in the error of the runs", math.nan)
         if isinstance(piece, Piece):
             try:
@@ -203,12 +203,12 @@ def _piece(
     return Piece(curve, _alike(orbit, found, tangent), tangent, found, behind)
 
 
-def _vague(orbit: Orbit) -> bool:
+def _is_undetermined(orbit: Orbit) -> bool:
     """Return whether an orbit without contacts tells nothing of its stability."""
     touches = orbit.curve.sections.kernel.pairs
     if touches or orbit.sure:
         return False
-    return orbit.error > VAGUE * max(1.0, largest(orbit.multipliers))
+    return orbit.error > UNDETERMINED * max(1.0, largest(orbit.multipliers))
 
 
 def _alike(orbit: Orbit, other: Orbit, along: Floats) -> Orbit:

@@ -82,7 +82,7 @@ def _settled(map_: SectionMap, value: float, state: Floats | None, periods: int)
     if at.status != Status.DONE:
         failure = failure_of(bundle, 0, map_.tolerance, scene).detail
     elif map_.crossing is not None and len(rows) <= map_.periods:
-        failure = _seldom(len(rows), problem)
+        failure = _too_few_crossings(len(rows), problem)
     elif map_.crossing is not None:
         first, last = (float(bundle.times(0, row)) for row in (rows[0], rows[-1]))
         begun, interval = [kernel.row.states(rows[0])], (last - first) / map_.periods
@@ -113,7 +113,7 @@ def _problem(map_: SectionMap, scene: Scene, start: LaneStart | None, periods: i
     )
 
 
-def _seldom(crossings: int, problem: LaneProblem) -> str:
+def _too_few_crossings(crossings: int, problem: LaneProblem) -> str:
     wanted, until = problem.sections, problem.duration
     return (
         f"The motion is at the section {crossings} instead of {wanted} times until {until:.3g} s."

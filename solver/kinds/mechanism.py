@@ -16,7 +16,7 @@ from jointplay.solver.kinds.redundant import (
     redundant_while_held,
 )
 from jointplay.solver.mechanics.assembly import Assembly, assemble, directionless, undecided
-from jointplay.solver.mechanics.misfit import opening
+from jointplay.solver.mechanics.open_joint import open_joint
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.channels import channels, recording
@@ -142,7 +142,7 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
         )
     if not is_closed:
         raise InvalidInput(_open(scene))
-    problems = [*_without_direction(scene, assembly), *_adrift(scene, tree)]
+    problems = [*_without_direction(scene, assembly), *_unheld_bodies(scene, tree)]
     if problems:
         raise InvalidInput(problems)
     if (assembly.redundant_with_play or assembly.redundant) and not only_held:
@@ -190,7 +190,7 @@ def _of_undecided(name: str, scene: Scene) -> Problem:
     )
 
 
-def _adrift(scene: Scene, tree: Tree) -> Iterator[Problem]:
+def _unheld_bodies(scene: Scene, tree: Tree) -> Iterator[Problem]:
     """Yield the bodies that nothing holds."""
     pairs = [(force.first, force.second) for force in scene.forces.values()]
     between = [name for name in (*tree.closing, *tree.play) if name in scene.joints]
@@ -229,9 +229,9 @@ def _without_freedom(scene: Scene) -> Iterator[Problem]:
 def _left_open(scene: Scene) -> str:
     if len(scene.bodies) > MOST_BODIES:
         return f"{assemble(scene).residual:.3g} (m or rad) remain after Newton's iteration"
-    wide = opening(scene)
+    left = open_joint(scene)
     return (
-        f"{wide.size:.3g} {wide.unit} remain open at joint '{wide.joint}', where the others are"
+        f"{left.size:.3g} {left.unit} remain open at joint '{left.joint}', where the others are"
         " closed"
     )
 

@@ -23,7 +23,7 @@ LOADS = ("normal_force", "penetration")
 
 def shared_channels(checked: PlacedPoints) -> tuple[Channel, ...]:
     """Return the channels that every point offers: an ideal joint has no eccentricity."""
-    offered = [channels(scene) for scene in checked.firsts.values()]
+    offered = [channels(scene) for scene in checked.first_scenes.values()]
     shared = set.intersection(*({channel.name for channel in each} for each in offered))
     return tuple(channel for channel in offered[0] if channel.name in shared)
 
@@ -54,7 +54,7 @@ def coordinate_channels(checked: PlacedPoints) -> list[str]:
 
     Where points differ in their coordinates, those of the structure with most of them.
     """
-    scene = max(checked.firsts.values(), key=lambda one: len(spanning_tree(one).coordinates))
+    scene = max(checked.first_scenes.values(), key=lambda one: len(spanning_tree(one).coordinates))
     names = [name for both in coordinates_with_rates(scene) for name in both]
     pairs = spanning_tree(scene).pairs
     return names + [f"{pair}.{name}" for pair in pairs for name in ECCENTRICITY]
@@ -75,7 +75,7 @@ def peak_channels(checked: PlacedPoints) -> list[str]:
     """Return the declared outputs, and the loads of each contact pair."""
     return [output.name for output in checked.declared.outputs] + [
         f"{pair}.{name}"
-        for scene in checked.firsts.values()
+        for scene in checked.first_scenes.values()
         for pair in spanning_tree(scene).pairs
         for name in LOADS
     ]
@@ -98,8 +98,10 @@ def _explained(
 ) -> Problem:
     """Say of a channel that only some points offer which points lack it."""
     pattern = patterns[int(problem.pointer.removeprefix(f"{pointer}/"))]
-    lacking = [point for point, scene in checked.firsts.items() if not _offers(scene, pattern)]
-    if len(lacking) == len(checked.firsts):
+    lacking = [
+        point for point, scene in checked.first_scenes.items() if not _offers(scene, pattern)
+    ]
+    if len(lacking) == len(checked.first_scenes):
         return problem
     return Problem(
         problem.pointer,

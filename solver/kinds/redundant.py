@@ -12,7 +12,7 @@ from jointplay.solver.mechanics.assembly import (
     poses_nearby,
     shortest_link,
 )
-from jointplay.solver.mechanics.misfit import fighting_drivers
+from jointplay.solver.mechanics.conflicting_drivers import conflicting_drivers
 from jointplay.solver.mechanics.redundancy import SelfStress, self_stresses
 from jointplay.solver.runs.ideal.agreement import drivers_agree
 from jointplay.solver.runs.ideal.turn import turn
@@ -120,9 +120,9 @@ def _in_words(names: Iterable[str], last: str = "and") -> str:
 
 def check_drivers(scene: Scene) -> None:
     """Refuse (InvalidInput) drivers that prescribe one motion twice."""
-    fighting = fighting_drivers(scene)
-    if fighting:
-        names = " and ".join(f"'{name}'" for name in fighting)
+    conflicting = conflicting_drivers(scene)
+    if conflicting:
+        names = " and ".join(f"'{name}'" for name in conflicting)
         count = len(scene.drivers)
         drop = f"one of the {count} drivers" if count > 1 else "the driver"
         raise InvalidInput.at(

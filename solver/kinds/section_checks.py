@@ -62,7 +62,7 @@ def _onset(section: OnsetSection, checked: PlacedPoints) -> list[Problem]:
     pairs = {pair.name for name, joint in joints.items() for pair in pairs_of(name, joint)}
     if section.onset not in pairs | set(joints):
         return [Problem("/section/onset", unknown("joint", section.onset, joints))]
-    for point, scene in checked.firsts.items():
+    for point, scene in checked.first_scenes.items():
         here = spanning_tree(scene).pairs
         if section.onset in here:
             continue
@@ -200,9 +200,9 @@ def _sample(checked: PlacedPoints) -> list[int]:
 
     None where it moves freely, for then everything is in reach.
     """
-    if any(assemble(scene).freedom for scene in checked.firsts.values()):
+    if any(assemble(scene).freedom for scene in checked.first_scenes.values()):
         return []
-    chosen = list(checked.firsts)
+    chosen = list(checked.first_scenes)
     if checked.scenes.leaves:
         chosen.append(checked.points.count - 1)
     return sorted(set(chosen))[:4]

@@ -54,7 +54,7 @@ class PlacedPoints:
         return distinct(list(structure_columns(self.scenes)), self.points.count)
 
     @cached_property
-    def firsts(self) -> dict[int, Scene]:
+    def first_scenes(self) -> dict[int, Scene]:
         """The first point of each structure, in the order of their numbers, and its scene."""
         points = np.unique(self.structure, return_index=True)[1].tolist()
         return {point: self.scenes.scene(point) for point in points}
@@ -70,7 +70,7 @@ class PlacedPoints:
 
     def pairs(self) -> set[str]:
         """Return the contact pairs that any point has."""
-        return {name for scene in self.firsts.values() for name in contact_pairs(scene)}
+        return {name for scene in self.first_scenes.values() for name in contact_pairs(scene)}
 
 
 def place_points(job: MechanismJob, points: Points) -> PlacedPoints:

@@ -19,7 +19,11 @@ from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strong
 from jointplay.solver.nonlinear.verdict import Verdict, decide
 from jointplay.solver.nonlinear.whole_turns import unwound
 from jointplay.solver.nonlinear.zero_one import zero_one_test
-from jointplay.solver.runs.study.rotating_sections import principal_plane, rotation_of, uncut
+from jointplay.solver.runs.study.rotating_sections import (
+    principal_plane,
+    rotation_of,
+    with_unit_vectors,
+)
 
 RECURS = 1e-3
 """Sections closer than this share are the same: of what counts as one in a state, or of its range
@@ -80,7 +84,7 @@ def indicators_of(
     if "zero_one" in chosen:
         zero_one = UNKNOWN
         if len(states):
-            whole = uncut(states, sections.scales, sections.angles)
+            whole = with_unit_vectors(states, sections.scales, sections.angles)
             zero_one = zero_one_test(whole, resolution=RECURS)
         found |= {"zero_one": zero_one.value, "zero_one_error": zero_one.error}
     if "recurrence" in chosen:

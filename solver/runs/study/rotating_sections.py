@@ -27,7 +27,7 @@ def rotation_of(states: Floats, scales: Floats, angles: Flags, coordinates: int)
     return found
 
 
-def uncut(states: Floats, scales: Floats, angles: Flags) -> Floats:
+def with_unit_vectors(states: Floats, scales: Floats, angles: Flags) -> Floats:
     """Return the states, with cosine and sine for an angle that goes round.
 
     Wherever its circle is cut the angle jumps, and a smooth motion looks irregular.

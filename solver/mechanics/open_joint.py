@@ -1,4 +1,4 @@
-"""Misfits that keep a mechanism from assembly: a joint that stays open, drivers that fight."""
+"""The joint that stays open, where a mechanism cannot be put together."""
 
 from typing import NamedTuple
 
@@ -7,8 +7,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import shortest_link
-from jointplay.solver.mechanics.closing import arrays, rank
-from jointplay.solver.mechanics.constraints_at_start import constraints_at_start
+from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.start.drawing import drawn_places
 from jointplay.solver.mechanics.start.guess import first_angles, first_clocks, first_pose
 from jointplay.solver.mechanics.tree import spanning_tree
@@ -20,7 +19,7 @@ HEAVY = 1e3
 MOST_EVALUATIONS = 100
 
 
-class Opening(NamedTuple):
+class OpenJoint(NamedTuple):
     """A joint that does not close, and by how much, in `unit` (m or rad)."""
 
     joint: str
@@ -28,7 +27,7 @@ class Opening(NamedTuple):
     unit: str
 
 
-def opening(scene: Scene) -> Opening:
+def open_joint(scene: Scene) -> OpenJoint:
     """Return which joint stays open most, and how far, where all joints of the tree are closed.
 
     The joints that may open are those that close loops, and those with play. The pose is that of
@@ -60,27 +59,6 @@ def opening(scene: Scene) -> Opening:
     widest = int(np.argmax(left / units))
     joint = rows[widest].joint
     if rows[widest].part == "angle":
-        return Opening(joint, float(left[widest]), "rad")
+        return OpenJoint(joint, float(left[widest]), "rad")
     along = [i for i, row in enumerate(rows) if row.joint == joint and row.part != "angle"]
-    return Opening(joint, float(np.linalg.norm(left[along])), "m")
-
-
-def fighting_drivers(scene: Scene) -> list[str]:
-    """Return the drivers whose motion the joints and the other drivers prescribe already.
-
-    None where the joints alone are redundant: then they may be to blame.
-    """
-    ideal, rows, jacobian, _ = constraints_at_start(scene)
-    driving = {(name, "angle"): name for name in ideal.turned.values()}
-    for joint, name in ideal.drivers.items():
-        driving[joint, scene.joints[joint].driven_part or ""] = name
-    drivers = [driving.get((row.joint, row.part), "") for row in rows]
-    joints = jacobian[[not driver for driver in drivers]]
-    if rank(joints) < len(joints):
-        return []
-    every = rank(jacobian)
-    return [
-        driver
-        for k, driver in enumerate(drivers)
-        if driver and rank(np.delete(jacobian, k, axis=0)) == every
-    ]
+    return OpenJoint(joint, float(np.linalg.norm(left[along])), "m")
