@@ -126,8 +126,11 @@ def test_what_is_no_number_of_the_start_is_refused(along, pointer, words):
 
 def test_an_axis_has_a_parameter_or_a_number_of_the_start():
     both = {"parameter": "speed", "start": PLACE, "values": [1.0, 2.0]}
-    assert problems(chart() | {"along": both})
-    assert problems(chart() | {"along": {"values": [1.0]}})
+    ((pointer, detail),) = problems(chart() | {"along": both})
+    assert pointer == "/along/parameter"
+    assert "does not go with the others" in detail
+    ((pointer, detail),) = problems(chart() | {"along": {"values": [1.0]}})
+    assert (pointer, "is required" in detail) == ("/along/parameter", True)
 
 
 def test_a_place_that_begins_like_another_has_its_own_number():

@@ -42,4 +42,5 @@ def test_a_value_of_what_varies_is_refused_where_it_is_submitted_alone(study):
 def test_a_second_parameter_of_a_branch_begins_at_the_value_of_the_scene():
     second = {"parameter": "amplitude", "values": {"from": 4e-3, "to": 6e-3, "count": 4}}
     scene = {"preset": "impact-oscillator", "parameters": {"amplitude": 4.5e-3}}
-    assert admit(STUDIES["a branch"] | {"scene": scene, "second": second})
+    admitted = admit(STUDIES["a branch"] | {"scene": scene, "second": second})
+    assert admitted.second.start == 4.5e-3
