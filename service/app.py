@@ -17,8 +17,8 @@ import jointplay.service.results.endpoints
 import jointplay.service.results.figures
 import jointplay.service.results.spectra
 import jointplay.service.scenes.channels
+import jointplay.service.scenes.checks
 import jointplay.service.scenes.endpoints
-import jointplay.service.scenes.looks
 import jointplay.service.scenes.poses
 import jointplay.service.studies.endpoints
 import jointplay.service.workers.attempts
@@ -56,7 +56,7 @@ from jointplay.service.problems.kinds import OF_THE_DOOR
 from jointplay.service.readiness import Readiness
 from jointplay.service.request_log import RequestLog
 from jointplay.service.results.damage import answer_damage
-from jointplay.service.scenes.looks import scene_looker
+from jointplay.service.scenes.checks import scene_checker
 from jointplay.service.scenes.poses import scene_poser
 from jointplay.service.targets import Targets
 from jointplay.service.vital import VitalThreads
@@ -84,7 +84,7 @@ _BEHIND_THE_DOOR = (
     (events, _JOBS),
     (estimates, needs("jobs:write")),
     (jointplay.service.batches.endpoints, _JOBS),
-    (jointplay.service.scenes.looks, needs("jobs:write")),
+    (jointplay.service.scenes.checks, needs("jobs:write")),
     (jointplay.service.scenes.poses, needs("jobs:read")),
     (jointplay.service.scenes.channels, needs("jobs:read")),
     (jointplay.service.charts.endpoints, _RESULTS),
@@ -177,12 +177,12 @@ async def _running(app: FastAPI, *, patient: bool) -> AsyncIterator[None]:
     app.state.checker = checker = Checker(settings, catalogue)
     app.state.queueing = Queueing(settings, catalogue, checker, new_blocks)
     app.state.windows = windows = WindowProcess()
-    app.state.looker = looker = scene_looker()
+    app.state.scene_checker = scenes = scene_checker()
     app.state.poser = poser = scene_poser()
     try:
         yield
     finally:
-        for process in (prober, checker, windows, looker, poser):
+        for process in (prober, checker, windows, scenes, poser):
             process.close()
         migrating.cancel()
         catalogue.close()

@@ -17,7 +17,7 @@ from jointplay.client import AsyncClient, Client, NotAllowed, Overloaded, Unreac
 from jointplay.client.asynchronous.network import AwaitedNetwork
 from jointplay.client.network import BlockingNetwork
 from jointplay.service import prober, windows
-from jointplay.service.scenes import looks
+from jointplay.service.scenes import checks
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
 
@@ -193,7 +193,7 @@ def test_a_service_that_stays_silent_is_said_to_be(connect):
 
 
 def test_clients_wait_longer_than_the_service_may_take():
-    patience = max(windows._PATIENCE, prober._PATIENCE, looks._PATIENCE)
+    patience = max(windows._PATIENCE, prober._PATIENCE, checks._PATIENCE)
     for made in (Client, AsyncClient):
         assert signature(made).parameters["timeout"].default > patience
 

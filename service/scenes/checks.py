@@ -128,12 +128,12 @@ class SceneFindings(BaseModel):
     problems: list[ErrorDetail]
 
 
-def scene_looker() -> SceneProcess:
+def scene_checker() -> SceneProcess:
     """Return the process that checks and draws scenes."""
     return SceneProcess("jointplay.service.scenes", _PATIENCE)
 
 
-Looker = Annotated[SceneProcess, of_the_application("looker")]
+SceneChecker = Annotated[SceneProcess, of_the_application("scene_checker")]
 DrawingQuery = create_model("DrawingQuery", __config__={"extra": "forbid"}, **PAGE_FIELDS)
 
 
@@ -142,12 +142,12 @@ DrawingQuery = create_model("DrawingQuery", __config__={"extra": "forbid"}, **PA
     openapi_extra={"requestBody": _BODY},
     responses=_REFUSALS,
 )
-def check_scene(body: JobBody, looker: Looker) -> SceneFindings:
+def check_scene(body: JobBody, checker: SceneChecker) -> SceneFindings:
     """Tell whether a scene can be put together and move: freedom, redundancy, assemblies.
 
     A scene that cannot be read is refused; one that cannot be run is answered with `problems`.
     """
-    found = looker.ask(body, None, {})
+    found = checker.ask(body, None, {})
     shown = [{"pointer": clipped(place), "detail": text} for place, text in found["problems"]]
     return SceneFindings.model_validate(found | {"problems": shown})
 
@@ -160,7 +160,7 @@ def check_scene(body: JobBody, looker: Looker) -> SceneFindings:
 )
 def draw_scene(
     body: JobBody,
-    looker: Looker,
+    checker: SceneChecker,
     form: Annotated[str, Path(description="File type: png, svg, pdf or eps.")],
     query: Annotated[DrawingQuery, Query()],
 ) -> Response:
@@ -169,4 +169,4 @@ def draw_scene(
         sentence = f"Scenes are drawn as {IN_WORDS}, not as {clipped(form)!r}."
         raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
     page = {name: getattr(query, name) for name in OPTIONS}
-    return Response(looker.ask(body, form, page), media_type=MEDIA_TYPES[form])
+    return Response(checker.ask(body, form, page), media_type=MEDIA_TYPES[form])
