@@ -8,7 +8,7 @@ from contextvars import ContextVar
 from datetime import UTC, datetime
 from typing import Any, Literal
 
-from jointplay.records.log_repetitions import Repetitions
+from jointplay.records.log_repetitions import OncePerPeriod
 
 LogFormat = Literal["text", "json"]
 _TEXT = "%(asctime)s %(levelname)s %(message)s"
@@ -21,7 +21,7 @@ def begin(log_format: LogFormat, level: int = logging.INFO) -> None:
     Of warnings that repeat one is written a minute.
     """
     handler = logging.StreamHandler()
-    handler.addFilter(Repetitions())
+    handler.addFilter(OncePerPeriod())
     handler.setFormatter(JsonLines() if log_format == "json" else logging.Formatter(_TEXT))
     logging.basicConfig(level=level, handlers=[handler])
     logging.captureWarnings(True)

@@ -1,6 +1,7 @@
-"""Warnings of which a fault that lasts makes one a second: one a minute of each, with a count."""
+"""Repetitions in logs: of each text one line in a while, with a count of those left out."""
 
 import logging
+import math
 import time
 from collections import OrderedDict
 from collections.abc import Callable
@@ -8,34 +9,48 @@ from typing import Final
 
 PERIOD: Final = 60.0  # s
 _MOST: Final = 256
-"""Texts that are known; of more, the one that came first is forgotten."""
+"""Texts that are known; of more, the one that was written first is forgotten."""
 
 
-class Repetitions(logging.Filter):
+class Repetitions:
+    """Counts texts that come again within a period, s, of when they were written."""
+
+    def __init__(self, period: float, clock: Callable[[], float] = time.monotonic) -> None:
+        """`clock` : tells seconds that never go back."""
+        self.period = period
+        self._clock = clock
+        self._written: OrderedDict[str, tuple[float, int]] = OrderedDict()
+
+    def left_out(self, text: str) -> int | None:
+        """Return how often a text was left out since it was written; None: leave it out again."""
+        now = self._clock()
+        written, left_out = self._written.get(text, (-math.inf, 0))
+        if now < written + self.period:
+            self._written[text] = (written, left_out + 1)
+            return None
+        self._written[text] = (now, 0)
+        self._written.move_to_end(text)
+        if len(self._written) > _MOST:
+            self._written.popitem(last=False)
+        return left_out
+
+
+class OncePerPeriod(logging.Filter):
     """Leaves out warnings of a text that was written less than `PERIOD` ago.
 
     The next one that is written says how many were left out. What has a traceback is written.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        """`clock` : tells seconds that never go back."""
         super().__init__()
-        self._clock = clock
-        self._written: OrderedDict[str, tuple[float, int]] = OrderedDict()
+        self._repetitions = Repetitions(PERIOD, clock)
 
     def filter(self, record: logging.LogRecord) -> bool:
         """Return whether a record is to be written."""
         if record.levelno < logging.WARNING or record.exc_info:
             return True
-        text, now = record.getMessage(), self._clock()
-        written, left_out = self._written.get(text, (-PERIOD, 0))
-        if now < written + PERIOD:
-            self._written[text] = (written, left_out + 1)
-            return False
-        self._written[text] = (now, 0)
-        self._written.move_to_end(text)
-        if len(self._written) > _MOST:
-            self._written.popitem(last=False)
+        text = record.getMessage()
+        left_out = self._repetitions.left_out(text)
         if left_out:
             record.msg, record.args = f"{text} (and {left_out} times since it was written)", ()
-        return True
+        return left_out is not None

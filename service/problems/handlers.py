@@ -11,6 +11,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.routing import compile_path
 
+from jointplay.records.log_repetitions import Repetitions
 from jointplay.service.access.signed import PREFIX
 from jointplay.service.problems import (
     MEDIA_TYPE,
@@ -23,10 +24,10 @@ from jointplay.service.problems import (
 )
 from jointplay.service.problems.parameters import sentence
 from jointplay.service.problems.refusals import refusal
-from jointplay.service.problems.repeated import Repeated
 
 _log = logging.getLogger(__name__)
-_REPEATED = Repeated()
+_REPETITIONS = Repetitions(1.0)
+"""Of refusals, of which an attack makes thousands a second."""
 _compiled = cache(compile_path)
 _BY_STATUS = {404: kinds.NOT_FOUND, 405: kinds.METHOD_NOT_ALLOWED}
 
@@ -73,7 +74,7 @@ def _tell(request: Request, refused: RequestRefused, error: Exception) -> None:
     if refused.kind is kinds.INTERNAL:
         _log.error("%s failed", asked, exc_info=error)
         return
-    left_out = _REPEATED.count(refused.detail)
+    left_out = _REPETITIONS.left_out(refused.detail)
     if left_out is not None:
         told = f" ({left_out} others before it)" if left_out else ""
         status = refused.kind.status

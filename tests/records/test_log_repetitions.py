@@ -4,7 +4,7 @@ import logging
 
 import pytest
 
-from jointplay.records.log_repetitions import Repetitions
+from jointplay.records.log_repetitions import OncePerPeriod
 
 
 def test_a_warning_is_written_once_a_minute_with_how_many_were_not(
@@ -14,7 +14,7 @@ def test_a_warning_is_written_once_a_minute_with_how_many_were_not(
     handler = logging.Handler()
     monkeypatch.setattr(handler, "emit", lambda record: lines.append(record.getMessage()))
     now = 1000.0
-    handler.addFilter(Repetitions(lambda: now))
+    handler.addFilter(OncePerPeriod(lambda: now))
     log = logging.Logger("of this test")
     log.addHandler(handler)
     for _ in range(150):  # seconds

@@ -10,6 +10,7 @@ from typing import Literal
 import pytest
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from jointplay.records.log_repetitions import Repetitions
 from jointplay.service.access.concurrency import (
     BESIDE_KEYS,
     MOST,
@@ -18,7 +19,7 @@ from jointplay.service.access.concurrency import (
     ConcurrencyLimit,
 )
 from jointplay.service.app import create_app
-from jointplay.service.problems import handlers, repeated
+from jointplay.service.problems import handlers
 from jointplay.storage.settings import Settings
 
 PROGRESS = "/v1/worker/blocks/b/1/progress"
@@ -124,13 +125,13 @@ def test_workers_hold_their_blocks_however_many_others_are_answered() -> None:
 def test_many_refusals_are_one_warning_that_counts_them(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr(handlers, "_REPEATED", repeated.Repeated())
-    monkeypatch.setattr(repeated, "_PERIOD", 3600.0)
+    repetitions = Repetitions(3600.0)
+    monkeypatch.setattr(handlers, "_REPETITIONS", repetitions)
 
     async def asked() -> None:
         async with clients_of(ConcurrencyLimit(answers_at_once, [], keys=True)) as clients:
             await clients.statuses(BESIDE_KEYS + 50, "/v1/shared/a-secret/zarr")
-            monkeypatch.setattr(repeated, "_PERIOD", 0.0)
+            repetitions.period = 0.0
             await clients.ask("/v1/scenes")
 
     asyncio.run(asked())
