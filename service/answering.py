@@ -2,13 +2,15 @@
 
 import subprocess
 import sys
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from typing import Any
 
 from jointplay.service.fair_queue import FairQueue, Full
 from jointplay.service.owners import OWNER
+from jointplay.service.problems import unavailable
 
 _AT_ONCE = 2
 """Processes: the second one is started where another owner asks while the first one is busy."""
@@ -26,6 +28,19 @@ class TooSlow(Exception):
 
 class NoAnswer(Exception):
     """The process ended instead of answering, and did so again."""
+
+
+@contextmanager
+def refusing(busy: str, too_slow: Exception, no_answer: str) -> Iterator[None]:
+    """Raise, instead of the above, what clients are told: two sentences of a 503, and an error."""
+    try:
+        yield
+    except Busy:
+        raise unavailable(busy, 2) from None
+    except TooSlow:
+        raise too_slow from None
+    except NoAnswer:
+        raise unavailable(no_answer, 5) from None
 
 
 class AnsweringProcess:

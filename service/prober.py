@@ -3,7 +3,7 @@
 from typing import Any
 
 from jointplay.records.failure import InvalidInput, Problem
-from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
+from jointplay.service.answering import AnsweringProcess, refusing
 from jointplay.service.problems import unavailable
 
 _PATIENCE = 90.0  # s; compiling the kernel of a new mechanism takes some 20 of them
@@ -25,18 +25,16 @@ class Prober:
         RequestRefused
             503: too many are waiting, or the process does not answer.
         """
-        try:
+        too_slow = (
+            f"No estimate was made within {_PATIENCE:g} s, most often because the equations take"
+            " longer to compile; it is made fast once a job of this scene has run."
+        )
+        with refusing(
+            "Many estimates are being made; ask again in a moment.",
+            unavailable(too_slow, 30),
+            "The beginning of the job could not be computed.",
+        ):
             answer = self._process.answer({"job": job, "on_devices": on_devices})
-        except Busy:
-            raise unavailable("Many estimates are being made; ask again in a moment.", 2) from None
-        except TooSlow:
-            sentence = (
-                f"No estimate was made within {_PATIENCE:g} s, most often because the equations"
-                " take longer to compile; it is made fast once a job of this scene has run."
-            )
-            raise unavailable(sentence, 30) from None
-        except NoAnswer:
-            raise unavailable("The beginning of the job could not be computed.", 5) from None
         if "refused" in answer:
             raise InvalidInput([Problem("", str(answer["refused"]))])
         return dict(answer)

@@ -1,6 +1,6 @@
 """The process that computes windows of trajectories, kept warm: `jointplay.worker.windows`."""
 
-from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
+from jointplay.service.answering import AnsweringProcess, refusing
 from jointplay.service.problems import unavailable
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.question import Answer, Question
@@ -24,16 +24,11 @@ class WindowProcess:
         self._process.close()
 
     def _answer(self, question: Question) -> Answer:
-        try:
+        with refusing(
+            "Many windows are being computed; ask again in a moment.",
+            unavailable("The window took too long to compute; a shorter one is faster.", 30),
+            "The window could not be computed.",
+        ):
             found = self._process.answer(question)
-        except Busy:
-            raise unavailable(
-                "Many windows are being computed; ask again in a moment.", 2
-            ) from None
-        except TooSlow:
-            sentence = "The window took too long to compute; a shorter one is faster."
-            raise unavailable(sentence, 30) from None
-        except NoAnswer:
-            raise unavailable("The window could not be computed.", 5) from None
         assert isinstance(found, Answer)  # noqa: S101  (the process is our own)
         return found

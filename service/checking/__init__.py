@@ -11,10 +11,10 @@ from typing import Any, TypeVar, cast
 
 from jointplay.records.failure import LimitExceeded
 from jointplay.records.strict_json import parse
-from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
+from jointplay.service.answering import AnsweringProcess, refusing
 from jointplay.service.idempotency import SentKey
 from jointplay.service.jobs.submission import checked, repeated
-from jointplay.service.problems import RequestRefused, unavailable
+from jointplay.service.problems import RequestRefused
 from jointplay.solver.kernels.trace.length import SURELY_SHORT
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -92,16 +92,13 @@ class Checker:
             if not _takes_much(document):
                 return what(document, self._settings, self._catalogue)
         process = self._jobs if isinstance(what, CheckJob | RepeatJob) else self._others
-        try:
+        too_slow = f"Checking this takes more than {process.patience:g} s; send a smaller one."
+        with refusing(
+            "Many large documents are being checked; send it again in a moment.",
+            LimitExceeded.at("", too_slow),
+            "The document could not be checked.",
+        ):
             answer = process.answer((what, body, self._settings))
-        except Busy:
-            sentence = "Many large documents are being checked; send it again in a moment."
-            raise unavailable(sentence, 2) from None
-        except TooSlow:
-            sentence = f"Checking this takes more than {process.patience:g} s; send a smaller one."
-            raise LimitExceeded.at("", sentence) from None
-        except NoAnswer:
-            raise unavailable("The document could not be checked.", 5) from None
         if isinstance(answer, RequestRefused):
             raise answer
         return cast("Answer", answer)

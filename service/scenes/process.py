@@ -2,9 +2,8 @@
 
 from typing import Any
 
-from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
+from jointplay.service.answering import AnsweringProcess, refusing
 from jointplay.service.problems import RequestRefused, kinds
-from jointplay.service.problems import unavailable as put_off
 
 
 class SceneProcess:
@@ -23,16 +22,14 @@ class SceneProcess:
 
     def ask(self, *question: object) -> Any:
         """Return the answer to a question; RequestRefused if there is none."""
-        try:
+        patience = self._process.patience
+        too_slow = f"Looking at this scene takes more than {patience:g} s; use fewer bodies."
+        with refusing(
+            "Many scenes are being looked at; ask again in a moment.",
+            RequestRefused(kinds.LIMIT_EXCEEDED, too_slow),
+            "The scene could not be looked at.",
+        ):
             answer = self._process.answer(question)
-        except Busy:
-            raise put_off("Many scenes are being looked at; ask again in a moment.", 2) from None
-        except TooSlow:
-            patience = self._process.patience
-            sentence = f"Looking at this scene takes more than {patience:g} s; use fewer bodies."
-            raise RequestRefused(kinds.LIMIT_EXCEEDED, sentence) from None
-        except NoAnswer:
-            raise put_off("The scene could not be looked at.", 5) from None
         if isinstance(answer, RequestRefused):
             raise answer
         return answer
