@@ -3,13 +3,14 @@
 import logging
 import math
 import time
-from collections import OrderedDict
 from collections.abc import Callable
 from typing import Final
 
+from jointplay.records.bounded_dict import BoundedDict
+
 PERIOD: Final = 60.0  # s
 _MOST: Final = 256
-"""Texts that are known; of more, the one that was written first is forgotten."""
+"""Texts that are known."""
 
 
 class Repetitions:
@@ -19,7 +20,7 @@ class Repetitions:
         """`clock` : tells seconds that never go back."""
         self.period = period
         self._clock = clock
-        self._written: OrderedDict[str, tuple[float, int]] = OrderedDict()
+        self._written: BoundedDict[str, tuple[float, int]] = BoundedDict(_MOST)
 
     def left_out(self, text: str) -> int | None:
         """Return how often a text was left out since it was written; None: leave it out again."""
@@ -29,9 +30,6 @@ class Repetitions:
             self._written[text] = (written, left_out + 1)
             return None
         self._written[text] = (now, 0)
-        self._written.move_to_end(text)
-        if len(self._written) > _MOST:
-            self._written.popitem(last=False)
         return left_out
 
 

@@ -2,11 +2,11 @@
 
 import logging
 import time
-from collections import OrderedDict
-from typing import Final, TypeVar
+from typing import Final
 
 from fastapi import Request
 
+from jointplay.records.bounded_dict import BoundedDict
 from jointplay.service.access import Caller
 from jointplay.service.access.hosts import require_own_host
 from jointplay.service.access.rates import Rates
@@ -24,7 +24,6 @@ _UNKNOWN: Final = 2.0
 """Seconds for which a key that is not there stays unknown; a new one has an id of its own."""
 _MOST: Final = 1024
 _USE_PERIOD: Final = 60.0  # s; how exactly the last use of a key is known
-_Kept = TypeVar("_Kept")
 _BEARER: Final = "bearer "
 _OF_WORKERS: Final = "/v1/worker/"
 """Begins the paths at which workers claim and hold blocks, as often as computing needs it."""
@@ -39,8 +38,8 @@ class Authentication:
         self._asks = settings.keys == "required"
         self._hosts = settings.host_names
         self._rates = Rates(settings.rate, settings.redis_url)
-        self._known: OrderedDict[str, tuple[Key, float]] = OrderedDict()
-        self._unknown: OrderedDict[str, float] = OrderedDict()
+        self._known: BoundedDict[str, tuple[Key, float]] = BoundedDict(_MOST)
+        self._unknown: BoundedDict[str, float] = BoundedDict(_MOST)
 
     async def caller(self, request: Request) -> Caller:
         """Return who asks, or refuse.
@@ -102,9 +101,9 @@ class Authentication:
             key = await self._vital.run(self._looked_up, name)
         except KeyNotFound:
             self._known.pop(name, None)
-            _remember(self._unknown, name, now + _UNKNOWN)
+            self._unknown[name] = now + _UNKNOWN
             return None
-        _remember(self._known, name, (key, now + _REMEMBERED))
+        self._known[name] = key, now + _REMEMBERED
         return key
 
     def _looked_up(self, name: str) -> Key:
@@ -115,11 +114,3 @@ class Authentication:
             except Unavailable as fault:
                 _log.debug("the use of key %s is not noted: %s", name, fault)
         return key
-
-
-def _remember(kept: OrderedDict[str, _Kept], name: str, what: _Kept) -> None:
-    """Keep something of a name; what was kept longest goes where there is no room."""
-    kept[name] = what
-    kept.move_to_end(name)
-    if len(kept) > _MOST:
-        kept.popitem(last=False)

@@ -1,12 +1,13 @@
 """Room for files that workers send, kept for them before they are on their way."""
 
 import time
-from collections import Counter, OrderedDict
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Lock
 from typing import Annotated, Final
 
+from jointplay.records.bounded_dict import BoundedDict
 from jointplay.service.dependencies import of_the_application
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.storage.catalogue.records import Block
@@ -20,6 +21,8 @@ _REMEMBERED: Final = 4096
 _SMALL: Final = 2**20
 """Bytes that a file has at least which is put elsewhere; of smaller ones not many are offered."""
 _Attempt = tuple[str, int]
+_Offers = dict[str, tuple[float, int]]
+"""Until when each file was offered a place, and its bytes, by its digest."""
 
 
 class Kept:
@@ -43,8 +46,8 @@ class Uploads:
         """Held by threads while they look at what is stored."""
         self._kept: set[Kept] = set()
         self._arriving: Counter[_Attempt] = Counter()
-        self._sent: OrderedDict[_Attempt, int] = OrderedDict()
-        self._offered: OrderedDict[_Attempt, dict[str, tuple[float, int]]] = OrderedDict()
+        self._sent: BoundedDict[_Attempt, int] = BoundedDict(_REMEMBERED)
+        self._offered: BoundedDict[_Attempt, _Offers] = BoundedDict(_REMEMBERED)
 
     @contextmanager
     def room(self, settings: Settings, size: int) -> Iterator[Kept]:
@@ -96,16 +99,14 @@ class Uploads:
             with self._counting:
                 self._count(attempt, stored)
         with self._turn:
-            sent = self._sent[attempt] = self._sent.pop(attempt, 0)
+            sent = self._sent.get(attempt, 0)
             if sent + size > most:
                 raise CorruptStore(
                     f"the attempt has {sent} bytes here, and with {size} more than the {most} that"
                     " its job may need"
                 )
-            self._sent[attempt] += size
+            self._sent[attempt] = sent + size
             self._arriving[attempt] += size
-            if len(self._sent) > _REMEMBERED:
-                self._sent.popitem(last=False)
         try:
             yield
         finally:
@@ -134,12 +135,10 @@ class Uploads:
         """
         now, attempt = time.monotonic(), (held.id, held.attempt)
         with self._turn:
-            known = self._offered.pop(attempt, {})
+            known = self._offered.get(attempt, {})
             offers = {one: about for one, about in known.items() if about[0] > now}
             offers[digest] = now + seconds, max(size, _SMALL)
             self._offered[attempt] = offers
-            if len(self._offered) > _REMEMBERED:
-                self._offered.popitem(last=False)
             asked = sum(of_one for _, of_one in offers.values())
         if asked > most:
             raise CorruptStore(

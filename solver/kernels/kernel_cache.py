@@ -1,5 +1,6 @@
 """Kernels that a process keeps, each ready to run, with the loop around it."""
 
+from jointplay.records.bounded_dict import BoundedDict
 from jointplay.solver.integrators import AUTO, METHODS
 from jointplay.solver.kernels import compile_loop
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
@@ -9,9 +10,9 @@ from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.mechanics.view import form
 from jointplay.solver.scene.document import Scene
 
-_kernels: dict[tuple[str, Tree, str, str, int], Kernel] = {}
 MOST_KEPT = 16
 """Kernels that a process keeps for the next job: tracing the equations takes 20 ms and more."""
+_kernels: BoundedDict[tuple[str, Tree, str, str, int], Kernel] = BoundedDict(MOST_KEPT)
 
 
 def ready_kernel(
@@ -34,8 +35,6 @@ def ready_kernel(
     if key in _kernels:
         return _kernels[key]
     aside = compile_loop.begin(compile_loop.RUNS)
-    while len(_kernels) >= MOST_KEPT:
-        _kernels.pop(next(iter(_kernels)))
     kernel = _kernels[key] = compile_kernel(scene, tree, formulation, METHODS[method], lanes)
     if aside is not None:
         attend(aside)

@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.records.bounded_dict import BoundedDict
 from jointplay.solver.linear_algebra.orthogonal import Decomposition
 from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
@@ -160,7 +161,7 @@ class _Found:
     """With joints with play as far open as what is given needs, where it needs that."""
 
 
-_found: dict[str, _Found] = {}
+_found: BoundedDict[str, _Found] = BoundedDict(MOST_KEPT)
 
 
 @once_per_scene
@@ -188,8 +189,6 @@ def _found_of(scene: Scene) -> _Found:
     geometry = _geometry(scene)
     found = _found.get(geometry)
     if found is None:
-        while len(_found) >= MOST_KEPT:
-            _found.pop(next(iter(_found)), None)
         found = _found[geometry] = _assembled(scene)
     return found
 

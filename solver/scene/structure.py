@@ -4,6 +4,7 @@ from collections.abc import Callable, Hashable
 from functools import wraps
 from typing import TypeVar
 
+from jointplay.records.bounded_dict import BoundedDict
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.once_per_scene import once_per_scene
 from jointplay.solver.scene.references import inner_states
@@ -18,15 +19,13 @@ def per_structure(function: Callable[[Scene], Found]) -> Callable[[Scene], Found
 
     It may depend on names, references, which joints have play, and outputs; on no other number.
     """
-    known: dict[Hashable, Found] = {}
+    known: BoundedDict[Hashable, Found] = BoundedDict(MOST_KEPT)
 
     @wraps(function)
     def remembered(scene: Scene) -> Found:
         key = _structure(scene)
         found = known.get(key)
         if found is None:
-            while len(known) >= MOST_KEPT:
-                known.pop(next(iter(known)), None)
             found = known[key] = function(scene)
         return found
 

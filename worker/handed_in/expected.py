@@ -1,8 +1,8 @@
 """Results that a job must have, known from its document alone."""
 
-from collections import OrderedDict
 from typing import Final, NamedTuple
 
+from jointplay.records.bounded_dict import BoundedDict
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import Admission, parse
 from jointplay.solver.version import SOLVER_VERSION
@@ -32,7 +32,7 @@ class Expected(NamedTuple):
     """Bytes that one attempt may have here: it sends its rows, and then all of them sealed."""
 
 
-_known: OrderedDict[tuple[str, str], Expected] = OrderedDict()
+_known: BoundedDict[tuple[str, str], Expected] = BoundedDict(_KEPT)
 
 
 def expected_of(job: Job) -> Expected:
@@ -41,8 +41,6 @@ def expected_of(job: Job) -> Expected:
     found = _known.get(name)
     if found is None:
         found = _known[name] = _expected(job)
-        if len(_known) > _KEPT:
-            _known.popitem(last=False)
     return found
 
 

@@ -1,5 +1,6 @@
 """Length of equations in traced statements, known before they are compiled."""
 
+from jointplay.records.bounded_dict import BoundedDict
 from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kernels.trace.equations import needed_again, trace
 from jointplay.solver.kernels.trace.reachable import reachable
@@ -10,9 +11,9 @@ from jointplay.solver.scene.document import Scene
 
 SURELY_SHORT = 7
 """Bodies up to which no scene comes near the limit: tracing it would only cost time."""
-_lengths: dict[tuple[str, Tree, str], int | LimitExceeded] = {}
 _MOST_KEPT = 64
 """Lengths that a process keeps: jobs of a batch differ in numbers, seldom in form."""
+_lengths: BoundedDict[tuple[str, Tree, str], int | LimitExceeded] = BoundedDict(_MOST_KEPT)
 
 
 def check_length(scene: Scene, tree: Tree, formulation: str) -> None:
@@ -25,8 +26,6 @@ def statements(scene: Scene, tree: Tree, formulation: str) -> int:
     """Return how many statements slopes and channels take; raises what `check_length` does."""
     key = (form(scene), tree, formulation)
     if key not in _lengths:
-        while len(_lengths) >= _MOST_KEPT:
-            _lengths.pop(next(iter(_lengths)))
         try:
             _lengths[key] = _counted(scene, tree, formulation)
         except LimitExceeded as error:
