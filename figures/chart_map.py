@@ -8,7 +8,7 @@ import numpy as np
 from jointplay.figures import colours, page
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import scale
-from jointplay.records.arrays import Flags, Floats
+from jointplay.records.arrays import Floats
 from jointplay.records.attractors import attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.extremes import extreme, extremes
@@ -23,7 +23,7 @@ from jointplay.records.motion import (
     motions,
     name_of,
 )
-from jointplay.records.point import PointStatus
+from jointplay.records.point import has_ended
 from jointplay.records.pyramid import averaged, filled_in, in_majority
 from jointplay.records.study import StudySource
 
@@ -59,7 +59,7 @@ class ChartMap:
         axes.set_facecolor(colours.UNKNOWN)
         edges = _edges(across, stride), _edges(up, stride)
         known = np.zeros(shape, np.bool_)
-        known[places] = _has_ended(source)
+        known[places] = has_ended(source.status)
         if name in LABELS:
             table = np.full(shape, WAITING, np.uint8)
             table[places] = self._labelled.labels
@@ -91,7 +91,7 @@ def offered(source: StudySource) -> list[str]:
 
 def _waiting(source: StudySource) -> str:
     """Return how many points of a chart have not ended, as a sentence; empty: none."""
-    ended = int(_has_ended(source).sum())
+    ended = int(has_ended(source.status).sum())
     if ended == source.points:
         return ""
     return (
@@ -104,15 +104,11 @@ def _inherited(source: StudySource) -> str:
     count = inheriting(source)
     if not count:
         return ""
-    share = count / _has_ended(source).sum()
+    share = count / has_ended(source.status).sum()
     return (
         f"{share:.1%} of the points were not computed: the corners of their cell are alike, and"
         " they have the results of one of them."
     )
-
-
-def _has_ended(source: StudySource) -> Flags:
-    return np.isin(source.status, (PointStatus.done, PointStatus.failed))
 
 
 @dataclass(frozen=True)

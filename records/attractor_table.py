@@ -16,7 +16,7 @@ from jointplay.records.basin_boundary import boundary_dimension
 from jointplay.records.coarse_to_fine import order_of, over_axes
 from jointplay.records.cycles import MEAN, SPREAD
 from jointplay.records.motion import WAITING
-from jointplay.records.point import PointStatus
+from jointplay.records.point import has_ended
 from jointplay.records.share_error import share_error
 from jointplay.records.strict_json import finite
 from jointplay.records.study import StudySource
@@ -34,7 +34,7 @@ def attractor_table(source: StudySource) -> dict[str, Any]:
     return {
         "complete": source.complete,
         "points": source.points,
-        "ended": int(np.isin(source.status, (PointStatus.done, PointStatus.failed)).sum()),
+        "ended": int(has_ended(source.status).sum()),
         "along": None if over is None else over.document(source),
         "attractors": [
             {

@@ -3,9 +3,12 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
-from jointplay.records.arrays import Floats
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.arrays import Flags, Floats
 
 
 class PointStatus(IntEnum):
@@ -15,6 +18,14 @@ class PointStatus(IntEnum):
     running = 1
     done = 2
     failed = 3
+
+
+ENDED: Final = (PointStatus.done, PointStatus.failed)
+
+
+def has_ended(status: NDArray[np.uint8]) -> Flags:
+    """Return whether each point has ended, by its status."""
+    return np.isin(status, ENDED)
 
 
 class Failure(NamedTuple):

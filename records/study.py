@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
 from jointplay.records.peak import PeakColumns
-from jointplay.records.point import Failure, PointStatus
+from jointplay.records.point import Failure, has_ended
 from jointplay.records.run import Floats
 
 
@@ -176,7 +176,7 @@ class StudyDataset:
     @property
     def complete(self) -> bool:
         """Every point has ended."""
-        return bool(np.isin(self.status, (PointStatus.done, PointStatus.failed)).all())
+        return bool(has_ended(self.status).all())
 
     @property
     def counts(self) -> NDArray[np.int64]:

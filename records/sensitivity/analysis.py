@@ -9,7 +9,7 @@ import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.channel import Channel
-from jointplay.records.point import PointStatus
+from jointplay.records.point import PointStatus, has_ended
 from jointplay.records.sensitivity import DESIGNS, Design
 from jointplay.records.sensitivity.outputs import output, outputs
 from jointplay.records.sensitivity.quantiles import quantiles
@@ -132,7 +132,7 @@ def sensitivity(source: StudySource, question: Question) -> dict[str, Any]:
     parameters = len(source.parameters)
     shape = (-1, design.width(parameters))
     found = output(source, name).reshape(shape)
-    ended = np.isin(source.status, (PointStatus.done, PointStatus.failed)).reshape(shape)
+    ended = has_ended(source.status).reshape(shape)
     done = (source.status == PointStatus.done).reshape(shape)
     used = (done & np.isfinite(found)).all(axis=1)
     lost = (ended & ~(done & np.isfinite(found))).any(axis=1)

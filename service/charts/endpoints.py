@@ -11,7 +11,7 @@ from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import TILE
 from jointplay.records.inherited import inheriting
 from jointplay.records.motion import LABELS
-from jointplay.records.point import PointStatus
+from jointplay.records.point import PointStatus, has_ended
 from jointplay.service.charts import colouring, grids, schemas
 from jointplay.service.fields import BINARY
 from jointplay.service.problems import RequestRefused, kinds, problems
@@ -80,7 +80,7 @@ class TileQuery(BaseModel):
 @router.get("/chart", response_model=schemas.Chart)
 def show_chart(study: StudyOfThePath) -> Response:
     """Return axes and quantities of a chart, also while it is computed."""
-    count, of = int(grids.has_ended(study).sum()), axes(study)
+    count, of = int(has_ended(study.status).sum()), axes(study)
     return as_json(
         schemas.Chart.model_construct(
             complete=study.complete,
@@ -149,7 +149,7 @@ def show_values(results: ResultsOfThePath, query: Annotated[RectangleQuery, Quer
         raise RequestRefused.of_parameter(
             "every", sentence, kinds.RESPONSE_TOO_LARGE, remedy="Choose larger cells."
         )
-    count = int(grids.has_ended(study).sum())
+    count = int(has_ended(study.status).sum())
     grid = grids.GRIDS.of(results, count, query.quantity, query.every)
     part = grid.values[y.start : y.stop, x.start : x.stop]
     return as_json(
@@ -212,7 +212,7 @@ def _state(results: ResultsOfThePath, quantity: str, asked: int | None) -> int:
         return asked
     study = results.study()
     _known(study, quantity)
-    ended = int(grids.has_ended(study).sum())
+    ended = int(has_ended(study.status).sum())
     if asked is not None and asked > ended:
         sentence = f"Of the chart {ended} points have ended, and not {asked}."
         raise RequestRefused.of_parameter("ended", sentence)

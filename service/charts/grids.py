@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records import pyramid
-from jointplay.records.arrays import Flags
 from jointplay.records.attractors import Attractors, attractors_of, colour_of_attractor
 from jointplay.records.channel import Channel
 from jointplay.records.coarse_to_fine import over_axes
@@ -27,7 +26,7 @@ from jointplay.records.motion import (
     motions,
     name_of,
 )
-from jointplay.records.point import PointStatus
+from jointplay.records.point import has_ended
 from jointplay.records.point_numbers import OUTPUTS
 from jointplay.service.results.stores import ResultsOfJob
 from jointplay.storage.studies.reader import StudyReader
@@ -88,11 +87,6 @@ def column(store: StudyReader, name: str) -> NDArray[Any]:
     return {**store.statistics, **store.indicators}[name]
 
 
-def has_ended(store: StudyReader) -> Flags:
-    """Return (points,) which points have."""
-    return np.isin(store.status, (PointStatus.done, PointStatus.failed))
-
-
 class Grid(NamedTuple):
     """A quantity over (y, x), and how many points had ended when it was read."""
 
@@ -139,7 +133,7 @@ class Grids:
                 self._keep((job, count, name, 1), fine)
             return Grid(fine.ended, _coarse(fine.values, stride))
         store = results.study()
-        order, ended = store.layout.order, has_ended(store)
+        order, ended = store.layout.order, has_ended(store.status)
         values = over_axes(column(store, name), order, store.shape)
         known = over_axes(ended, order, store.shape)
         if not known.all():

@@ -12,7 +12,15 @@ from typing import Self
 import numpy as np
 
 from jointplay.records.names import TIME
-from jointplay.records.point import Failure, PointEnd, PointStatus, SectionRows, StudySlice
+from jointplay.records.point import (
+    ENDED,
+    Failure,
+    PointEnd,
+    PointStatus,
+    SectionRows,
+    StudySlice,
+    has_ended,
+)
 from jointplay.records.run import Floats
 from jointplay.storage.errors import InvalidAppend, LostObject, ResultsError
 from jointplay.storage.packed import Running
@@ -20,7 +28,7 @@ from jointplay.storage.packed.running import PARTS
 from jointplay.storage.results import shards
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import StudyLayout
-from jointplay.storage.studies.part import ENDED, Part
+from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.points import INDICATORS, STATISTICS
 
 
@@ -197,7 +205,7 @@ class StudyBlock:
         if begin < 0 or end > self._count:
             return
         members = slice(begin, end)
-        going = ~np.isin(self._part.status[members], ENDED)
+        going = ~has_ended(self._part.status[members])
         counts = self._part.counts[members][going]
         passed = int(counts.min()) // sections if going.any() else self._layout.record
         full = sorted(key for key in self._part.open if key[0] == row and key[1] < passed)

@@ -9,19 +9,17 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, Final, Self
 
-import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records import checkpoint
 from jointplay.records.checkpoint import packed
-from jointplay.records.point import Failure, PointStatus
+from jointplay.records.point import Failure, has_ended
 from jointplay.records.run import Floats
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.packed.running import PARTS, Running
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.points import Points, ordered, unknown
 
-ENDED: Final = (PointStatus.done, PointStatus.failed)
 _KIND: Final = "part of a study"
 
 
@@ -46,7 +44,7 @@ class Part(Points):
     @property
     def ended(self) -> int:
         """Points that have ended."""
-        return int(np.isin(self.status, ENDED).sum())
+        return int(has_ended(self.status).sum())
 
     @property
     def nbytes(self) -> int:

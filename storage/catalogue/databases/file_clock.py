@@ -6,7 +6,9 @@ import threading
 import time
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
+
+from jointplay.storage.catalogue.databases.steady_clock import steady_seconds
 
 _PERIOD: Final = 1.0
 """Seconds after which clocks are compared again."""
@@ -30,7 +32,7 @@ class FileClock:
 
     def now(self) -> float:
         """Return epoch seconds."""
-        own, steady = time.time(), _steady()
+        own, steady = time.time(), steady_seconds()
         with self._lock:
             shown = own - steady
             set_since = self._shown is not None and abs(shown - self._shown) > _APART
@@ -51,9 +53,3 @@ class FileClock:
         with tempfile.TemporaryFile(dir=self._folder) as file:
             os.utime(file.fileno())
             return os.fstat(file.fileno()).st_mtime
-
-
-def _steady() -> float:
-    """Return seconds that also pass while the machine sleeps, where it can tell."""
-    clock: Any = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
-    return time.clock_gettime(clock)

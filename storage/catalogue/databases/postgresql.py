@@ -5,16 +5,16 @@ Readers see one moment (REPEATABLE READ), writers what others committed before e
 each other all the same is told to begin anew, as is everybody whose connection was lost.
 """
 
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
-from typing import Any, Final
+from typing import Final
 
 from sqlalchemy import URL, Connection, create_engine
 from sqlalchemy.exc import DBAPIError, InterfaceError, OperationalError
 from sqlalchemy.exc import TimeoutError as PoolTimeout
 
+from jointplay.storage.catalogue.databases.steady_clock import steady_seconds
 from jointplay.storage.catalogue.errors import BUSY, SILENT, Broken, Interrupted, Unavailable
 
 _CONNECTIONS: Final = 5
@@ -110,16 +110,16 @@ class PostgreSQL:
         if self._ahead is None:
             with self.reading():
                 pass
-        return _steady() + (self._ahead or 0.0)
+        return steady_seconds() + (self._ahead or 0.0)
 
     def _compare_clocks(self, connection: Connection) -> None:
-        began = _steady()
+        began = steady_seconds()
         if self._ahead is not None and began - self._compared < _CLOCK_PERIOD:
             return
         self._compared = began  # other threads need not
         asked = "SELECT extract(epoch FROM clock_timestamp())::float8"
         told: float = connection.exec_driver_sql(asked).scalar_one()
-        uncertain = (_steady() - began) / 2.0
+        uncertain = (steady_seconds() - began) / 2.0
         ahead = told - (began + uncertain)
         if self._ahead is None or abs(ahead - self._ahead) > uncertain:
             self._ahead = ahead  # else time would go to and fro with the network
@@ -166,9 +166,3 @@ def _from_the_pool() -> Iterator[None]:
         yield
     except PoolTimeout as error:
         raise Unavailable(BUSY) from error
-
-
-def _steady() -> float:
-    """Return seconds that also pass while the machine sleeps, where it can tell."""
-    clock: Any = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
-    return time.clock_gettime(clock)
