@@ -27,7 +27,7 @@ from jointplay.service.problems.refusals import refusal
 
 _log = logging.getLogger(__name__)
 _REPETITIONS = Repetitions(1.0)
-"""Of refusals, of which an attack makes thousands a second."""
+"""Refusals: an attack makes thousands a second."""
 _compiled = cache(compile_path)
 _BY_STATUS = {404: kinds.NOT_FOUND, 405: kinds.METHOD_NOT_ALLOWED}
 
