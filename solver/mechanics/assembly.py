@@ -15,11 +15,11 @@ from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, rank
 from jointplay.solver.mechanics.start.closings import alike, closings
+from jointplay.solver.mechanics.start.demands import CLOSED, Demands
 from jointplay.solver.mechanics.start.drawing import drawn_places
 from jointplay.solver.mechanics.start.given import Taken, distance, taken
 from jointplay.solver.mechanics.start.guess import first_angles, first_clocks, first_pose
 from jointplay.solver.mechanics.start.opening import opened, opened_but_for_one, within_play
-from jointplay.solver.mechanics.start.places import CLOSED, Places
 from jointplay.solver.mechanics.start.pose import (
     FAR,
     hold,
@@ -125,7 +125,7 @@ def directionless(scene: Scene, pose: Floats) -> list[str]:
 def undecided(scene: Scene) -> list[str]:
     """Return the joints that hold points apart which begin in one place, and may go to any side.
 
-    Those of bodies that `start.points` places are not among them.
+    Those of bodies that `start.points` demands are not among them.
     """
     placed = {point.split(".")[0] for point in scene.start.points}
     pairs = {
@@ -135,7 +135,7 @@ def undecided(scene: Scene) -> list[str]:
     }
     if not pairs:
         return []
-    return _in_one_place(scene, _guess(Places.of(scene, shortest_link(scene))), pairs)
+    return _in_one_place(scene, _guess(Demands.of(scene, shortest_link(scene))), pairs)
 
 
 def _in_one_place(scene: Scene, pose: Floats, pairs: Mapping[str, tuple[str, str]]) -> list[str]:
@@ -154,7 +154,7 @@ def _in_one_place(scene: Scene, pose: Floats, pairs: Mapping[str, tuple[str, str
 class _Found:
     """Assemblies of one geometry, whatever its clearances are."""
 
-    places: Places
+    demands: Demands
     closed: Assembly
     """With joints with play closed."""
     opened: Assembly | None
@@ -172,12 +172,12 @@ def assemble(scene: Scene) -> Assembly:
     the points of most studies, share what was found for the first.
     """
     found = _found_of(scene)
-    if found.opened is not None and within_play(found.places, scene, found.opened.pose):
+    if found.opened is not None and within_play(found.demands, scene, found.opened.pose):
         return found.opened
-    if not found.closed.misfits or not found.places.slack(found.closed.pose):
+    if not found.closed.misfits or not found.demands.slack(found.closed.pose):
         return found.closed
-    pose = opened_but_for_one(found.places, scene, found.closed.pose)
-    return found.closed if pose is None else _assembly(found.places, found.places.loose, pose)
+    pose = opened_but_for_one(found.demands, scene, found.closed.pose)
+    return found.closed if pose is None else _assembly(found.demands, found.demands.loose, pose)
 
 
 def assemble_closed(scene: Scene) -> Assembly:
@@ -202,7 +202,7 @@ def start_of(scene: Scene, one: Scene) -> tuple[Floats, Floats]:
     play = {"joints": {"__all__": {"clearance"}}}
     scene.model_dump_json(include=GEOMETRY, exclude=play | {"drivers": {"__all__": {"speed"}}})
     pose = assemble(one).pose
-    rates, given = start_rates(Places.of(scene, shortest_link(scene)), pose)
+    rates, given = start_rates(Demands.of(scene, shortest_link(scene)), pose)
     if given:
         raise ValueError("rates are given")
     return pose, rates
@@ -217,51 +217,51 @@ def _geometry(scene: Scene) -> str:
 
 
 def _assembled(scene: Scene) -> _Found:
-    places = Places.of(scene, shortest_link(scene))
-    guess = _guess(places)
+    demands = Demands.of(scene, shortest_link(scene))
+    guess = _guess(demands)
     pose = guess.copy()
-    close(places.closed, pose, places.driven, places.scale)
-    pose = in_given_turns(places, pose)
-    if places.is_closed(places.closed, pose) and places.keeps(places.given, pose):
-        return _Found(places, _assembly(places, places.closed, pose), None)
-    found = opened(places, guess, places.given)
+    close(demands.closed, pose, demands.driven, demands.scale)
+    pose = in_given_turns(demands, pose)
+    if demands.is_closed(demands.closed, pose) and demands.keeps(demands.given, pose):
+        return _Found(demands, _assembly(demands, demands.closed, pose), None)
+    found = opened(demands, guess, demands.given)
     return _Found(
-        places,
-        _assembly(places, places.closed, _nearer(places, pose)),
-        None if found is None else _assembly(places, places.loose, found),
+        demands,
+        _assembly(demands, demands.closed, _nearer(demands, pose)),
+        None if found is None else _assembly(demands, demands.loose, found),
     )
 
 
-def _guess(places: Places) -> Floats:
-    angles = first_angles(places.scene)
-    return first_pose(places.closed, angles, places.driven, drawn_places(places.scene, angles))
+def _guess(demands: Demands) -> Floats:
+    angles = first_angles(demands.scene)
+    return first_pose(demands.closed, angles, demands.driven, drawn_places(demands.scene, angles))
 
 
-def _nearer(places: Places, pose: Floats) -> Floats:
+def _nearer(demands: Demands, pose: Floats) -> Floats:
     """Return the closed pose that is to be taken where the one first found does not keep all."""
-    still, poses = np.zeros_like(pose), [pose] if places.is_closed(places.closed, pose) else []
-    if not poses or distance(places.given, pose, still) > FAR * places.length:
-        poses += [in_given_turns(places, closing) for closing in closings(places)]
+    still, poses = np.zeros_like(pose), [pose] if demands.is_closed(demands.closed, pose) else []
+    if not poses or distance(demands.given, pose, still) > FAR * demands.length:
+        poses += [in_given_turns(demands, closing) for closing in closings(demands)]
     if not poses:
         return pose
-    found = nearest(places, poses)
-    _, jacobian = places.constraints(places.closed, found)
-    if rank(jacobian * places.scale) < len(pose):
-        return hold(places, found)
-    return pose if alike(pose, found, places.scale) else found
+    found = nearest(demands, poses)
+    _, jacobian = demands.constraints(demands.closed, found)
+    if rank(jacobian * demands.scale) < len(pose):
+        return hold(demands, found)
+    return pose if alike(pose, found, demands.scale) else found
 
 
-def _assembly(places: Places, held: AbsoluteMechanism, pose: Floats) -> Assembly:
+def _assembly(demands: Demands, held: AbsoluteMechanism, pose: Floats) -> Assembly:
     """Return what a pose comes to, in which the joints of a mechanism are held."""
-    pose = unwound(places, held, pose)
+    pose = unwound(demands, held, pose)
     count, still = len(pose), np.zeros_like(pose)
-    residual = places.constraints(held, pose).value
-    constraints, jacobian = places.constraints(places.closed, pose)
-    velocity, rates = start_rates(places, pose)
-    loose = AbsoluteMechanism(places.scene, places.closed.numbers, close_play=False)
-    loose_rows = loose.rows(pose.tolist(), velocity.tolist(), places.driven)
+    residual = demands.constraints(held, pose).value
+    constraints, jacobian = demands.constraints(demands.closed, pose)
+    velocity, rates = start_rates(demands, pose)
+    loose = AbsoluteMechanism(demands.scene, demands.closed.numbers, close_play=False)
+    loose_rows = loose.rows(pose.tolist(), velocity.tolist(), demands.driven)
     _, open_jacobian = arrays(loose_rows, count)
-    found, loose_rank = rank(jacobian * places.scale), rank(open_jacobian * places.scale)
+    found, loose_rank = rank(jacobian * demands.scale), rank(open_jacobian * demands.scale)
     pose.flags.writeable = velocity.flags.writeable = False
     return Assembly(
         pose=pose,
@@ -273,8 +273,8 @@ def _assembly(places: Places, held: AbsoluteMechanism, pose: Floats) -> Assembly
         freedom_with_play=count - loose_rank,
         redundant_with_play=len(open_jacobian) - loose_rank,
         rate=max((abs(float(row.rate)) for row in loose_rows), default=0.0),
-        given=(*taken(places.given, pose, still), *taken(rates, pose, velocity)),
-        told=TOLD * min(1.0, places.length),
+        given=(*taken(demands.given, pose, still), *taken(rates, pose, velocity)),
+        told=TOLD * min(1.0, demands.length),
     )
 
 

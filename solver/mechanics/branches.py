@@ -9,7 +9,7 @@ from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
 from jointplay.solver.mechanics.closing import arrays, rank
 from jointplay.solver.mechanics.start.closings import alike, closings, tried
-from jointplay.solver.mechanics.start.places import Places
+from jointplay.solver.mechanics.start.demands import Demands
 from jointplay.solver.scene.document import Scene
 
 
@@ -29,13 +29,13 @@ class Branches(NamedTuple):
 def branches(scene: Scene) -> Branches:
     """Seek the assemblies of a scene; there may be more than are found."""
     length = shortest_link(scene)
-    places, start = Places.of(scene, length), assemble(scene).pose
-    bodies, scale = places.closed.bodies, places.scale
+    demands, start = Demands.of(scene, length), assemble(scene).pose
+    bodies, scale = demands.closed.bodies, demands.scale
     names = [f"{body}.{axis}" for body in bodies for axis in ("x", "y", "theta")]
     poses, held = [], np.zeros(len(start), np.bool_)
     if assemble(scene).residual <= ASSEMBLED * length:
-        poses, held = [start], _held(places.closed, start, places.driven, scale)
-    for pose in closings(places, start, held):
+        poses, held = [start], _held(demands.closed, start, demands.driven, scale)
+    for pose in closings(demands, start, held):
         if not any(alike(pose, other, scale) for other in poses):
             poses.append(pose)
     found = [
@@ -47,7 +47,7 @@ def branches(scene: Scene) -> Branches:
         for p in poses
     ]
     kept = [name for name, is_held in zip(names, held, strict=True) if is_held]
-    return Branches(found, tried(places), kept, centres)
+    return Branches(found, tried(demands), kept, centres)
 
 
 def _held(ideal: AbsoluteMechanism, pose: Floats, driven: dict[str, float], scale: Floats) -> Flags:

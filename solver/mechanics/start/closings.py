@@ -7,8 +7,8 @@ import numpy as np
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.joints.joint import Joint
 from jointplay.solver.mechanics.closing import NEAR, close, close_many
+from jointplay.solver.mechanics.start.demands import Demands
 from jointplay.solver.mechanics.start.guess import first_angles, first_pose
-from jointplay.solver.mechanics.start.places import Places
 
 DRAWN, SEED = 24, 11
 """Sets of start angles that are tried, and how they are drawn: the same each time."""
@@ -21,67 +21,67 @@ ALIKE = 1e-6
 """Distance of poses, in rad and lengths of the shortest link, below which they are one."""
 
 
-def tried(places: Places) -> int:
+def tried(demands: Demands) -> int:
     """Return how many sets of start angles are tried; none of a mechanism with many bodies."""
-    return DRAWN if len(places.closed.bodies) <= MOST_BODIES else 0
+    return DRAWN if len(demands.closed.bodies) <= MOST_BODIES else 0
 
 
 def closings(
-    places: Places, start: Floats | None = None, held: Flags | None = None
+    demands: Demands, start: Floats | None = None, held: Flags | None = None
 ) -> Iterator[Floats]:
     """Yield closed poses, each once; coordinates that are `held` are those of a start."""
-    bodies, found = places.closed.bodies, list[Floats]()
-    draws = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (tried(places), len(bodies)))
+    bodies, found = demands.closed.bodies, list[Floats]()
+    draws = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (tried(demands), len(bodies)))
     if not len(draws):
         return
-    kept = np.zeros(len(places.scale), np.bool_) if held is None else held
-    poses = np.array([_drawn(places, deviates) for deviates in draws])
+    kept = np.zeros(len(demands.scale), np.bool_) if held is None else held
+    poses = np.array([_drawn(demands, deviates) for deviates in draws])
     if start is not None:
         poses[:, kept] = start[kept]
-    close_many(places.closed, poses, places.driven, places.scale, kept, MOST_ITERATIONS)
+    close_many(demands.closed, poses, demands.driven, demands.scale, kept, MOST_ITERATIONS)
 
     def fresh(pose: Floats) -> bool:
         """Tell whether a pose closes, and as no other does."""
-        close(places.closed, pose, places.driven, places.scale, kept, MOST_ITERATIONS)
-        known = any(alike(pose, other, places.scale) for other in found)
-        return not known and places.is_closed(places.closed, pose)
+        close(demands.closed, pose, demands.driven, demands.scale, kept, MOST_ITERATIONS)
+        known = any(alike(pose, other, demands.scale) for other in found)
+        return not known and demands.is_closed(demands.closed, pose)
 
     for pose in poses:
-        if any(alike(pose, other, places.scale, NEAR) for other in found):
+        if any(alike(pose, other, demands.scale, NEAR) for other in found):
             continue
         if fresh(pose):
             found.append(pose)
             yield pose
-    for joint in _facing(places):
+    for joint in _facing(demands):
         for pose in tuple(found)[:MOST_FACING]:
-            other = _across(places, joint, pose, kept)
+            other = _across(demands, joint, pose, kept)
             if fresh(other):
                 found.append(other)
                 yield other
 
 
-def _facing(places: Places) -> list[Joint]:
+def _facing(demands: Demands) -> list[Joint]:
     """Return the joints that hold a body apart from another, on one side of it or the other."""
-    bodies = places.closed.bodies
-    joints = places.scene.joints.values()
+    bodies = demands.closed.bodies
+    joints = demands.scene.joints.values()
     return [one for one in joints if one.needs_direction and one.bodies[1] in bodies]
 
 
-def _across(places: Places, joint: Joint, pose: Floats, kept: Flags) -> Floats:
+def _across(demands: Demands, joint: Joint, pose: Floats, kept: Flags) -> Floats:
     """Return a pose with a joint's second body moved to the other side of the first.
 
     Drawn angles do not bring a roller that slides to the other side of its cam.
     """
-    moved, first = pose.copy(), 3 * places.closed.bodies.index(joint.bodies[1])
-    gap = places.closed.ends(joint.points, pose, np.zeros_like(pose)).gap
+    moved, first = pose.copy(), 3 * demands.closed.bodies.index(joint.bodies[1])
+    gap = demands.closed.ends(joint.points, pose, np.zeros_like(pose)).gap
     moved[first : first + 2] -= 2.0 * np.array(gap)
     return np.where(kept, pose, moved)
 
 
-def _drawn(places: Places, deviates: Floats) -> Floats:
+def _drawn(demands: Demands, deviates: Floats) -> Floats:
     """Return a pose with drawn angles, joints as near as they come."""
-    chosen = dict(zip(places.closed.bodies, deviates.tolist(), strict=True))
-    return first_pose(places.closed, first_angles(places.scene, chosen), places.driven)
+    chosen = dict(zip(demands.closed.bodies, deviates.tolist(), strict=True))
+    return first_pose(demands.closed, first_angles(demands.scene, chosen), demands.driven)
 
 
 def alike(pose: Floats, other: Floats, scale: Floats, within: float = ALIKE) -> bool:

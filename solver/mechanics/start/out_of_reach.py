@@ -8,9 +8,9 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.closing import LARGEST_TURN, close
+from jointplay.solver.mechanics.start.demands import Demands
 from jointplay.solver.mechanics.start.given import distance
 from jointplay.solver.mechanics.start.levels import step_of
-from jointplay.solver.mechanics.start.places import Places
 
 HALVINGS = 40
 """Times that a step is halved at most, until it brings what is given nearer."""
@@ -21,31 +21,31 @@ CLOSING = 20
 """Iterations after which a pose that has not closed is too far away."""
 
 
-def as_near_as_it_gets(places: Places, pose: Floats, iterations: int) -> Floats:
+def as_near_as_it_gets(demands: Demands, pose: Floats, iterations: int) -> Floats:
     """Return the closed pose, (3 bodies,), to which steps from a closed one lead.
 
     Each is closed again before it is judged, and halved until it brings what is given nearer. The
     next one is at most twice as long.
     """
     still, reach = np.zeros_like(pose), LARGEST_TURN
-    least = distance(places.given, pose, still)
+    least = distance(demands.given, pose, still)
     for _ in range(iterations):
         step = step_of(
-            [places.constraints(places.closed, pose), places.wanted(places.given, pose)],
-            places.scale,
+            [demands.constraints(demands.closed, pose), demands.wanted(demands.given, pose)],
+            demands.scale,
         )
-        size = float(np.abs(step / places.scale).max())
+        size = float(np.abs(step / demands.scale).max())
         if size < SMALL:
             break
         step *= min(1.0, reach / size)
         for _ in range(HALVINGS):
             moved = pose + step
-            close(places.closed, moved, places.driven, places.scale, iterations=CLOSING)
-            apart = distance(places.given, moved, still)
-            if apart < least and places.is_closed(places.closed, moved):
+            close(demands.closed, moved, demands.driven, demands.scale, iterations=CLOSING)
+            apart = distance(demands.given, moved, still)
+            if apart < least and demands.is_closed(demands.closed, moved):
                 break
             step = 0.5 * step
         else:
             break
-        pose, least, reach = moved, apart, 2.0 * float(np.abs(step / places.scale).max())
+        pose, least, reach = moved, apart, 2.0 * float(np.abs(step / demands.scale).max())
     return pose

@@ -21,7 +21,7 @@ KEPT = 1e-10
 
 
 @dataclass(frozen=True)
-class Places:
+class Demands:
     """Demands on a pose: constraints, and what is given."""
 
     scene: Scene
@@ -38,7 +38,7 @@ class Places:
     """(3 bodies,) that length, and a radian."""
 
     @classmethod
-    def of(cls, scene: Scene, length: float) -> "Places":
+    def of(cls, scene: Scene, length: float) -> "Demands":
         """Return what a scene asks; length : of the shortest link, m."""
         numbers = view(scene)
         told = [*scene.start.joints, *scene.start.guides]
@@ -52,6 +52,13 @@ class Places:
             length,
             np.tile([length, length, 1.0], len(closed.bodies)),
         )
+
+    @property
+    def free_angles(self) -> list[int]:
+        """Columns of the angles of bodies of which neither an angle nor a point is given."""
+        start = self.scene.start
+        named = {*start.angles, *(name.split(".")[0] for name in start.points)}
+        return [3 * i + 2 for i, body in enumerate(self.closed.bodies) if body not in named]
 
     def constraints(self, mechanism: AbsoluteMechanism, pose: Floats) -> Rows:
         """Return the rows of a mechanism's joints and drivers."""
