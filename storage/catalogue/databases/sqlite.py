@@ -141,7 +141,8 @@ class SQLite:
             raise Unavailable(SILENT) from error
         if self._opened is not None and not os.path.samestat(self._opened, found):
             raise Unavailable("is another file than the one that was opened")
-        if not os.access(self._index, os.W_OK) and os.access(self._index, os.F_OK):
+        # that it is there is asked first: another thread may make it between both questions
+        if os.access(self._index, os.F_OK) and not os.access(self._index, os.W_OK):
             raise Unavailable(SILENT)
 
     def now(self) -> float:

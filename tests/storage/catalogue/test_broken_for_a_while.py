@@ -34,6 +34,24 @@ def test_while_a_table_is_gone_as_during_a_restoration_units_are_refused(
     catalogue.note_worker("worker", Solver("1", "x86_64"))
 
 
+def test_an_index_that_another_thread_makes_meanwhile_refuses_nobody(
+    new_file: Callable[[], str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    url = new_file()
+    index, asked = Path(f"{url.removeprefix('sqlite:///')}-shm"), os.access
+
+    def made_meanwhile(path: str, mode: int) -> bool:
+        answer = asked(path, mode)
+        if path == str(index):
+            index.touch()
+        return answer
+
+    with closing(Catalogue(url)) as catalogue:
+        index.unlink(missing_ok=True)
+        monkeypatch.setattr(os, "access", made_meanwhile)
+        assert catalogue.submit(NEW).job.id
+
+
 @pytest.mark.parametrize("size", [0, 8192])
 def test_a_file_that_lost_its_pages_is_broken(new_file: Callable[[], str], size: int) -> None:
     url = new_file()
