@@ -199,11 +199,12 @@ class DynamicRun:
         return self.bundle.lane(LANE).running
 
     def _slice(self) -> Slice:
-        samples, sample_time = self._observe(SAMPLES)
-        self.followers.look(self.bundle, LANE, sample_time)
+        samples, _ = self._observe(SAMPLES)
         sections, section_time = self._observe(SECTIONS)
         first_sample, first_section = self.samples_done, self.sections_done
         self.samples_done += len(samples)
+        sample_time = np.arange(first_sample, self.samples_done) * self.admission.job["output_step"]
+        self.followers.look(self.bundle, LANE, sample_time)
         self.sections_done += len(sections)
         reached = self.bundle.lane(LANE).time
         duration = self.admission.job["duration"]

@@ -10,6 +10,7 @@ from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.watched import CompilationEnded
 from jointplay.solver.kinds import Admission, parse
 from jointplay.solver.runs.dense_output.exact_motion import ExactMotion
+from jointplay.solver.runs.dense_output.moments import moments_of
 from jointplay.solver.runs.dense_output.replay import Replay
 from jointplay.solver.runs.dense_output.stretches import spread, stretches, widest
 from jointplay.worker.windows.question import Answer, Question
@@ -51,8 +52,9 @@ def _of_steps(pieces: list[tuple[Replay, Floats]], question: Question) -> Floats
     if question.times is not None:
         begins = [float(replay.begins(rows[:1])[0]) for replay, rows in pieces]
         asked = spread(question.times, begins)
+        admission = _admitted(_Document(question.job))
         found = [
-            replay.channels(question.names, rows, np.column_stack([times, np.ones(len(times))]))
+            replay.channels(question.names, rows, moments_of(admission, times))
             for (replay, rows), times in zip(pieces, asked, strict=True)
         ]
         return np.concatenate(found)

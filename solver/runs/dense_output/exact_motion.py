@@ -8,6 +8,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.quantities.corners import least_miss, misses, surpass_at_corners
 from jointplay.solver.runs.admission import Admission
+from jointplay.solver.runs.dense_output.moments import moments_of
 from jointplay.solver.runs.ideal.run import IdealRun
 
 INSTANTS_A_PERIOD = 2000
@@ -21,22 +22,18 @@ class ExactMotion:
     """The motion of a job whose drivers leave no freedom."""
 
     def __init__(self, admission: Admission) -> None:
+        self._admission = admission
         self._run = IdealRun(admission)
 
     def channels(self, names: Sequence[str], times: Floats) -> Floats:
-        """Return channels (m, names) at times (m,), s.
+        """Return channels (m, names) at times (m,), s: at those of samples their bits.
 
         Raises
         ------
         SimulationFailed
             The mechanism cannot be followed so far.
         """
-        columns = [self._run.names.index(name) for name in names]
-        pieces = [
-            self._run.channels(times[i : i + AT_ONCE])[:, columns]
-            for i in range(0, len(times), AT_ONCE)
-        ]
-        return np.concatenate([*pieces, np.empty((0, len(names)))])
+        return self._at(names, times, *moments_of(self._admission, times).T)
 
     def extremes(self, names: Sequence[str], edges: Floats) -> Floats:
         """Return extremes (bins, names, 4) between edges: lowest, its time, highest, its time.
@@ -45,12 +42,12 @@ class ExactMotion:
         not describe a channel, it is evaluated at more.
         """
         times = self._instants(edges[:-1, None], edges[1:, None])
-        values = self.channels(names, times.ravel()).reshape(*times.shape, len(names))
+        values = self._between(names, times.ravel()).reshape(*times.shape, len(names))
         found = np.empty((len(times), len(names), 4))
         for sense, column in ((-1.0, 0), (1.0, 2)):
             best = _best(values, times, sense)
             surpass_at_corners(
-                lambda when: self.channels(names, when),
+                lambda when: self._between(names, when),
                 range(len(names)),
                 (times, values),
                 best,
@@ -58,6 +55,20 @@ class ExactMotion:
             )
             found[:, :, column], found[:, :, column + 1] = best
         return found
+
+    def _between(self, names: Sequence[str], times: Floats) -> Floats:
+        """Return the same wherever samples are."""
+        return self._at(names, times, times, np.ones(len(times)))
+
+    def _at(self, names: Sequence[str], times: Floats, count: Floats, step: Floats) -> Floats:
+        """Return channels (m, names) at count * step (m,), s, which are rounded to `times`."""
+        columns = [self._run.names.index(name) for name in names]
+        local = self._run.motion.local(count, step)
+        pieces = [
+            self._run.channels(times[i : i + AT_ONCE], local[i : i + AT_ONCE])[:, columns]
+            for i in range(0, len(times), AT_ONCE)
+        ]
+        return np.concatenate([*pieces, np.empty((0, len(names)))])
 
     def _instants(self, first: Floats, last: Floats) -> Floats:
         """Return (bins, n) instants, s, from first to last (bins, 1).
