@@ -14,6 +14,7 @@ from jointplay.solver.linear_algebra.orthogonal import Decomposition
 from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, rank
+from jointplay.solver.mechanics.start.centred import centred
 from jointplay.solver.mechanics.start.closings import alike, closings
 from jointplay.solver.mechanics.start.demands import CLOSED, Demands
 from jointplay.solver.mechanics.start.drawing import drawn_places
@@ -253,7 +254,7 @@ def _nearer(demands: Demands, pose: Floats) -> Floats:
 
 def _assembly(demands: Demands, held: AbsoluteMechanism, pose: Floats) -> Assembly:
     """Return what a pose comes to, in which the joints of a mechanism are held."""
-    pose = unwound(demands, held, pose)
+    pose = centred(demands, held, unwound(demands, held, pose))
     count, still = len(pose), np.zeros_like(pose)
     residual = demands.constraints(held, pose).value
     constraints, jacobian = demands.constraints(demands.closed, pose)
