@@ -14,10 +14,11 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.solver.joints.cam import CAPTION, CamJoint, Lift
+from jointplay.solver.joints.cam import CAPTION, FOLLOWER, CamJoint, Lift
 from jointplay.solver.joints.contact import ContactGeometry
 from jointplay.solver.joints.drawing import ANGLES, Curve, Drawing
 from jointplay.solver.joints.holding import Distance
+from jointplay.solver.joints.joint import MOMENT, Table
 from jointplay.solver.joints.starts import GuideStart
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
@@ -40,9 +41,15 @@ class FlatFollower(CamJoint):
     """
 
     drawing: ClassVar[Drawing] = Drawing(picture="surface", caption=CAPTION)
+    ideal_channels: ClassVar[Table] = (*FOLLOWER, *MOMENT)
     rules: ClassVar[tuple[Rule, ...]] = (no_length("normal"),)
     type: Literal["flat-follower"]
     normal: Direction
+
+    @property
+    def has_moment(self) -> bool:
+        """True: the cam pushes beside its point."""
+        return True
 
     @property
     def facing(self) -> Sequence[Scalar]:
@@ -68,6 +75,11 @@ class FlatFollower(CamJoint):
             bias - p.curvature * (turning * turning),
         )
         return Lift(distance, p)
+
+    def ideal_values(self, between: Ends, force: Pair) -> tuple[Scalar, ...]:
+        """Return the force along the normal, N, and its moment about the follower's point, N m."""
+        (pushed,) = super().ideal_values(between, force)
+        return pushed, pushed * self.lift(between).distance.on_second
 
     def contact_geometry(self, between: Ends, found: Lift, lash: Scalar) -> ContactGeometry:
         """Return where the surface touches the face.

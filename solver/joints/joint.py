@@ -26,6 +26,14 @@ DRIVEN: Mapping[str, str] = {"turn": "angle", "slide": "along"}
 """Part of a joint's constraint that prescribes its motion, by the freedom that it takes away."""
 Table = tuple[tuple[str, str, str], ...]
 """Quantity, unit and meaning of channels."""
+MOMENT: Table = (
+    (
+        "moment",
+        "N m",
+        "moment on the joint's second body (slider, part, follower, journal) about its point",
+    ),
+)
+"""Channel of joints that hold an angle, or act beside their second point."""
 
 
 class AnyClearance(Strict):
@@ -117,6 +125,11 @@ class Joint(Strict):
         """Names of its first and second body."""
         first, second = (point.split(".")[0] for point in self.points)
         return first, second
+
+    @property
+    def has_moment(self) -> bool:
+        """Whether it acts with a moment about its second point that no other channel tells."""
+        return self.holds_angle
 
     @property
     def heading(self) -> Sequence[Scalar] | None:

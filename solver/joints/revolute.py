@@ -102,6 +102,11 @@ class Revolute(Joint):
         )
 
     @property
+    def has_moment(self) -> bool:
+        """Whether oil resists that the journal turns."""
+        return self.clearance is not None and self.clearance.contact.is_film
+
+    @property
     def loosened(self) -> Mapping[str, float]:
         """Largest violation of each part of its constraint within its play, m."""
         play = 0.0 if self.clearance is None else self.clearance.radial_clearance

@@ -52,10 +52,13 @@ class Forces:
         return found
 
     def held(self, joints: Mapping[str, Joint]) -> dict[str, Scalar]:
-        """Return the moment on the second body of each guide with play, about its point, N m."""
+        """Return the moment on the second body of joints with play that have one to tell, N m.
+
+        About the second point: of guides, flat faces on cams, and journals in oil.
+        """
         found: dict[str, Scalar] = {}
         for acting in self.contacts.values():
-            if joints[acting.joint].holds_angle:
+            if joints[acting.joint].has_moment:
                 moment = acting.interaction.moment_on_second
                 found[acting.joint] = found.get(acting.joint, 0.0) + moment
         return found
@@ -89,7 +92,8 @@ class Motion:
 
     `accelerations` : one per coordinate of the formulation, in the order of its state.
     `joint_force` : force on a joint's second body (journal, slider, part), N, world components.
-    `held_moment` : moment on it, about its point, of joints that hold an angle, N m.
+    `held_moment` : moment on it, about its point, of joints that hold an angle, or with play have
+    one to tell, N m.
     `driver_effort` : torque (N m) or force (N) of each driver along its motion; `driver_speed`.
     """
 

@@ -4,11 +4,12 @@ from collections.abc import Sequence
 
 from jointplay.solver.joints import Joint
 from jointplay.solver.joints.contact import Contact
+from jointplay.solver.joints.joint import MOMENT
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.motion import BodyMotion, Motion
 from jointplay.solver.quantities.frames import WORLD, minus
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
-from jointplay.solver.scene.channels import BODY, HELD, JOINT, PLAY, POINT, WALL
+from jointplay.solver.scene.channels import BODY, JOINT, PLAY, POINT, WALL
 from jointplay.solver.scene.document import Scene
 
 
@@ -20,7 +21,7 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     for name, force in motion.joint_force.items():
         values |= _named(name, JOINT, force)
     for name, moment in motion.held_moment.items():
-        values |= _named(name, HELD, (moment,))
+        values |= _named(name, MOMENT, (moment,))
     values |= _ideal_values(numbers, motion)
     for name, found in motion.contacts.items():
         values |= _contact_values(name, found)

@@ -7,7 +7,7 @@ from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.joints import Joint
-from jointplay.solver.joints.joint import Table
+from jointplay.solver.joints.joint import MOMENT, Table
 from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Output, Scene
 from jointplay.solver.scene.pairs import pairs_of
@@ -38,7 +38,6 @@ POINT = (
 """Channels of points that are recorded."""
 LONGEST_RECORDED = 61
 """Characters of a recorded point's reference: names of channels have 64 at most."""
-HELD = (("moment", "N m", "moment on the joint's second body (slider, part) about its point"),)
 PLAY = (
     ("eccentricity_x", "m", "journal centre less bearing centre, x"),
     ("eccentricity_y", "m", "journal centre less bearing centre, y"),
@@ -105,8 +104,8 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
 def _tables(joint: Joint) -> Iterator[Table]:
     """Yield the tables of a joint's own channels."""
     yield JOINT
-    if joint.holds_angle:
-        yield HELD
+    if joint.holds_angle or (joint.has_play and joint.has_moment):
+        yield MOMENT
     if joint.ideal_channels and not joint.has_play:
         yield joint.ideal_channels
 

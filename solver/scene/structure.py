@@ -17,7 +17,8 @@ Found = TypeVar("Found")
 def per_structure(function: Callable[[Scene], Found]) -> Callable[[Scene], Found]:
     """Have a function look at one scene of each structure; what it returns is shared.
 
-    It may depend on names, references, which joints have play, and outputs; on no other number.
+    It may depend on names, references, which joints have play or oil, and outputs; on no other
+    number.
     """
     known: BoundedDict[Hashable, Found] = BoundedDict(MOST_KEPT)
 
@@ -37,7 +38,7 @@ def _structure(scene: Scene) -> Hashable:
     """Return what scenes of one structure have in common, to look things up by."""
     return (
         tuple(scene.bodies),
-        tuple((name, j.type, j.ends, j.has_play) for name, j in scene.joints.items()),
+        tuple((name, j.type, j.ends, j.has_play, j.has_moment) for name, j in scene.joints.items()),
         tuple(
             (name, tuple(s.name for s in states)) for name, states in inner_states(scene).items()
         ),

@@ -50,7 +50,7 @@ def test_the_reference_has_what_the_client_can_do(site: Path) -> None:
 
 def test_the_page_on_channels_names_every_quantity() -> None:
     page = (ROOT / "docs" / "channels.md").read_text()
-    names = ("BODY", "JOINT", "HELD", "PLAY", "WALL", "ENERGY")
+    names = ("BODY", "JOINT", "MOMENT", "PLAY", "WALL", "ENERGY")
     tables = [Gear.channels, *(getattr(channels, name) for name in names)]
     tables += [joint.ideal_channels for joint in JOINTS.values()]
     quantities = {name for table in tables for name, _, _ in table}

@@ -20,6 +20,8 @@ class ContactLaw(Strict):
     law: str
     rules: ClassVar[tuple[Rule, ...]] = ()
     """Rules that the parameters must keep."""
+    is_film: ClassVar[bool] = False
+    """Whether oil acts between journal and bearing, touching or apart."""
 
     @abstractmethod
     def normal_force(self, fit: Fit, depth: Scalar, rate: Scalar, impact_rate: Scalar) -> Scalar:

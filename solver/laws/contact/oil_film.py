@@ -2,7 +2,7 @@
 
 import math
 from abc import abstractmethod
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from jointplay.solver.laws.contact.film import Film, Pair
 from jointplay.solver.laws.contact.stiffness_and_dissipation import StiffnessAndDissipation
@@ -44,6 +44,7 @@ class OilFilm(StiffnessAndDissipation):
     2006, Mech. Mach. Theory 41:247.
     """
 
+    is_film: ClassVar[bool] = True
     viscosity: Annotated[float, quantity("Pa s", gt=0.0, le=1e6, description="μ")]
     boundary_layer: Annotated[
         float,
