@@ -5,9 +5,9 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import arrays
+from jointplay.solver.mechanics.start.demands import KEPT, Demands
 from jointplay.solver.mechanics.start.given import Rows
 from jointplay.solver.mechanics.start.levels import step_of
-from jointplay.solver.mechanics.start.demands import KEPT, Demands
 
 
 def centred(demands: Demands, held: AbsoluteMechanism, pose: Floats) -> Floats:
