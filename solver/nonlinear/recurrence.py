@@ -29,9 +29,10 @@ def recurrence_period(
     longest : longest period looked for.
 
     A constant section has period 1. A chaotic band narrower than the tolerance has the period of
-    its bands: the tolerance is part of the statement. There is none while points of a shorter
-    period still come closer to one another: behind a doubling, the halves of a period of two differ
-    ever less, and more slowly than the tolerance tells.
+    its bands: the tolerance is part of the statement. There is none while points may still come as
+    far as a tenth of the distance between those of a shorter period (see `still_to_come`): of a
+    swing that dies out with half the frequency, two sections differ ever less, and more slowly than
+    the tolerance tells. Nor is there while that distance grows.
 
     Raises
     ------
@@ -48,25 +49,50 @@ def recurrence_period(
     scaled = points / scale
     for period in range(1, longest_in(len(points), longest) + 1):
         if largest_extent(scaled, period) <= tolerance:
-            return 0 if _still_close_in(scaled, period) else period
+            return period if _apart_for_good(scaled, period) else 0
     return 0
 
 
-SHRINKS = 0.9
-"""Distance of points of a shorter period at the end of a section, over that at its beginning, below
-which they still come closer; in the mean of a period."""
+SLOWEST = 0.99
+"""Largest q, of changes over a third of a record: more is indistinguishable from noise."""
+KEPT = 0.1
+"""Largest share of a distance that points may still move for the distance to stay. Points on both
+sides of one that they converge to, at any rate, still have half of it to go; where a multiplier is
+-1 distances die out like the root of time, and a sixth of them seems to be left."""
 
 
-def _still_close_in(points: Floats, period: int) -> bool:
-    """Return whether points that a part of the period lies between still come closer."""
+def still_to_come(points: Floats, period: int) -> float:
+    """Return how far (n, d) points a period apart will still move, if they converge geometrically.
+
+    The change over the last third of the record is q times that over the third before: q/(1 - q) of
+    it are left. Periods too long for three thirds count as converging at the slowest.
+    """
+    turn = period * max(len(points) // (3 * period), 1)
+    last = points[len(points) - period :]
+    if len(points) < 2 * turn + period:
+        before = last - points[len(points) - turn - period : len(points) - turn]
+        return float(np.abs(before).max()) * SLOWEST / (1.0 - SLOWEST)
+    middle = points[len(points) - period - turn : len(points) - turn]
+    first = points[len(points) - period - 2 * turn : len(points) - 2 * turn]
+    change, earlier = float(np.abs(last - middle).max()), float(np.abs(middle - first).max())
+    if change == 0.0:
+        return 0.0
+    ratio = min(change / earlier, SLOWEST) if earlier > 0.0 else SLOWEST
+    return change * ratio / (1.0 - ratio)
+
+
+def _apart_for_good(points: Floats, period: int) -> bool:
+    """Return whether points that a part of the period lies between stay apart."""
     parts = [k for k in range(2, period + 1) if period % k == 0 and _is_prime(k)]
+    if not parts:
+        return True
+    coming = still_to_come(points, period)
+    last = points[len(points) - period :]
     for shorter in (period // part for part in parts):
-        distances = np.abs(points[shorter:] - points[:-shorter]).max(axis=1)
-        if len(distances) < 2 * period:
-            continue
-        if distances[-period:].mean() < SHRINKS * distances[:period].mean():
-            return True
-    return False
+        before = points[len(points) - period - shorter : len(points) - shorter]
+        if coming > KEPT * float(np.abs(last - before).max()):
+            return False
+    return True
 
 
 def _is_prime(number: int) -> bool:

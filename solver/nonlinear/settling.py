@@ -11,7 +11,12 @@ import numpy as np
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.nonlinear.batch_means import standard_error
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT
-from jointplay.solver.nonlinear.recurrence import LONGEST, largest_extent, recurrence_period
+from jointplay.solver.nonlinear.recurrence import (
+    LONGEST,
+    largest_extent,
+    recurrence_period,
+    still_to_come,
+)
 from jointplay.solver.nonlinear.whole_turns import unwound
 
 SETTLINGS = {"unsettled": 0, "recurrence": 1, "statistics": 2}
@@ -25,8 +30,6 @@ FIRST_COMPARISON = 128
 """Sections before statistics are compared for the first time …"""
 GROWTH = 4.0 / 3.0
 """… and the factor to each next time: few comparisons, so that few agree by chance."""
-SLOWEST = 0.99
-"""Largest q, of changes over a third of the look back: more is indistinguishable from noise."""
 BLUR = 0.5
 """Sampling error over spread above which a window is too short to have statistics: a drift, one
 flank of a slow beat, or the amplitude of a motion that dies out looks like that."""
@@ -141,7 +144,7 @@ class Settling:
         period = recurrence_period(recent, np.ones(len(self.scale)), self.tolerance)
         if period == 0:
             return ""
-        coming = _still_to_come(recent, period)
+        coming = still_to_come(recent, period)
         if coming > self.tolerance:
             self._last_look = f"period {period}, but it still has {coming:.2g} of the scale to go"
             return ""
@@ -161,26 +164,6 @@ class Settling:
             self._last_look = changing
             return ""
         return f"means and spreads of the last three times {length} sections agree"
-
-
-def _still_to_come(recent: Floats, period: int) -> float:
-    """Return how far points a period apart will still move, if they converge geometrically.
-
-    The change over the last third of the record is q times that over the third before: q/(1 - q) of
-    it are left. Periods too long for three thirds count as converging slowest.
-    """
-    turn = period * max(len(recent) // (3 * period), 1)
-    last = recent[len(recent) - period :]
-    if len(recent) < 2 * turn + period:
-        before = last - recent[len(recent) - turn - period : len(recent) - turn]
-        return float(np.abs(before).max()) * SLOWEST / (1.0 - SLOWEST)
-    middle = recent[len(recent) - period - turn : len(recent) - turn]
-    first = recent[len(recent) - period - 2 * turn : len(recent) - 2 * turn]
-    change, earlier = float(np.abs(last - middle).max()), float(np.abs(middle - first).max())
-    if change == 0.0:
-        return 0.0
-    ratio = min(change / earlier, SLOWEST) if earlier > 0.0 else SLOWEST
-    return change * ratio / (1.0 - ratio)
 
 
 def _change_between(windows: Sequence[Floats], tolerance: float) -> str:

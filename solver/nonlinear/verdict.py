@@ -128,8 +128,12 @@ def decide(
         return _recurrent(lyapunov, zero_one, period, exponent)
     if lyapunov is None:
         seen = "" if zero_one is None else f" (K is {zero_one})"
-        recurs = "" if period is None else "nothing recurs, and "
-        return _undecided(f"{recurs}without an exponent nothing is certain{seen}")
+        if period is None:
+            return _undecided(f"without an exponent nothing is certain{seen}")
+        return _undecided(
+            f"no short period is seen{seen}: the motion may not have settled, or have a longer"
+            f" period or none; {LONGER}, {MORE}, or add the indicator 'lyapunov'"
+        )
     if lyapunov.exceeds(0.0):
         return _diverging(lyapunov, zero_one, finer)
     if lyapunov.falls_below(0.0):

@@ -115,7 +115,7 @@ def test_it_is_the_smallest_period_wherever_it_lies_and_whatever_the_unit(
     cycle: list[int], turns: int, seed: int, shift: float, unit: float
 ) -> None:
     exact = np.array(cycle * turns, np.float64)[:, None]
-    noise = np.random.default_rng(seed).uniform(-0.2, 0.2, exact.shape)
+    noise = np.random.default_rng(seed).uniform(-4e-4, 4e-4, exact.shape)
     smallest = next(p for p in range(1, len(cycle) + 1) if (exact[p:] == exact[:-p]).all())
     section = unit * (exact + noise + shift)
     assert recurrence_period(section, np.array([unit]), 0.5) == smallest
@@ -129,6 +129,55 @@ def test_a_period_whose_halves_still_come_closer_is_none() -> None:
     assert recurrence_period(section, np.ones(1), 5e-3) == 0
     settled = (0.01 * (-1.0) ** number)[:, None]
     assert recurrence_period(settled, np.ones(1), 5e-3) == 2
+
+
+def dying_swing(frequency: float, decay: float, count: int) -> np.ndarray:
+    """Return sections (count, 2) of a swing that dies out, of so many turns a section."""
+    number = np.arange(count)
+    turn = 2.0 * math.pi * frequency * number
+    return 3e-3 * np.exp(-decay * number)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+
+
+@pytest.mark.parametrize("decay", [3e-2, 1e-2, 3e-3])
+@pytest.mark.parametrize(
+    ("frequency", "count"),
+    [(1 / 2, 4), (1 / 2, 6), (1 / 2, 50), (1 / 4, 8), (1 / 4, 13), (1 / 3, 9)],
+)
+def test_a_swing_that_dies_out_has_no_period_however_slowly(
+    frequency: float, count: int, decay: float
+) -> None:
+    """It ends with period one. Two turns were too few to see that; slow ones looked steady."""
+    section = dying_swing(frequency, decay, count)
+    assert largest_extent(section, round(1 / frequency)) <= 3e-3
+    assert recurrence_period(section, np.ones(2), 1e-3) == 0
+    assert recurrence_period(dying_swing(frequency, 0.0, count), np.ones(2), 1e-3) > 1
+
+
+def test_a_swing_that_turns_slowly_beside_half_the_frequency_has_no_period_of_two() -> None:
+    """Its axis turns while it dies out: the distance of two sections even grows for a while."""
+    for phase in np.linspace(0.0, math.pi, 7):
+        number = np.arange(12)
+        turn = math.pi * 1.005 * number + phase
+        along = np.column_stack([np.cos(turn), 0.2 * np.sin(turn)])
+        section = 2e-3 * np.exp(-0.005 * number)[:, None] * along
+        assert recurrence_period(section, np.ones(2), 1e-3) in (0, 1)
+
+
+def test_a_distance_that_grows_has_not_settled() -> None:
+    """An unstable motion of period one is left for one of period two, or for chaos."""
+    section = (1e-2 * (-1.004) ** np.arange(12))[:, None]
+    assert largest_extent(section, 2) <= 1e-3
+    assert recurrence_period(section, ONE, 1e-3) == 0
+
+
+@pytest.mark.parametrize("beyond", [1e-4, 2e-3, 1e-2])
+def test_doublings_of_a_map_are_told_from_what_precedes_them(beyond: float) -> None:
+    """The logistic map doubles at 3; distances before and behind die out, to nothing or not."""
+    for count in (4, 8, 12, 50):
+        before = logistic(3.0 - beyond).orbit(count, round(3.0 / beyond))
+        assert recurrence_period(before, ONE, 1e-3) in (0, 1)
+        behind = logistic(3.0 + beyond).orbit(count, round(10.0 / beyond))
+        assert recurrence_period(behind, ONE, 1e-3) == 2
 
 
 def test_a_period_of_four_that_is_one_of_two_is_none() -> None:
