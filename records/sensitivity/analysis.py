@@ -1,5 +1,6 @@
 """One output of a design asked about: measures, quantiles and a limit, each with its interval."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from statistics import NormalDist
@@ -146,10 +147,10 @@ def sensitivity(source: StudySource, question: Question) -> dict[str, Any]:
         "unit": known[name].unit,
         "long_name": known[name].long_name,
         "outputs": list(known),
-        "rows": _rows(used, lost, int((ended & ~done).sum()), design.width(parameters)),
+        "rows": (rows := _rows(used, lost, int((ended & ~done).sum()), design.width(parameters))),
         "confidence": question.confidence,
         "resamples": resamples_of(int(used.sum())),
-        **_answers(analysis, known[name]),
+        **_answers(analysis, known[name], rows),
     }
 
 
@@ -163,13 +164,13 @@ def _rows(used: Flags, lost: Flags, failed: int, width: int) -> dict[str, int]:
     }
 
 
-def _answers(analysis: Analysis, about: Channel) -> dict[str, Any]:
+def _answers(analysis: Analysis, about: Channel, rows: Mapping[str, int]) -> dict[str, Any]:
     question, sample = analysis.question, analysis.sample
     enough = len(sample) >= FEWEST_ROWS and sample.size > 0
     (measures, spread), failure = analysis.spreads(), analysis.failure()
     described = analysis.design.measures
     return {
-        "note": _note(analysis),
+        "note": _note(analysis, rows),
         "mean": float(sample.mean()) if enough else None,
         "standard_deviation": float(sample.std()) if enough else None,
         "measures": {
@@ -191,15 +192,29 @@ def _answers(analysis: Analysis, about: Channel) -> dict[str, Any]:
     }
 
 
-def _note(analysis: Analysis) -> str:
-    """Return why there is less than was asked for; mostly empty."""
+def _note(analysis: Analysis, rows: Mapping[str, int]) -> str:
+    """Return why there is less than was asked for, or what it is not of; mostly empty."""
+    lost, ended = rows["left_out"], rows["used"] + rows["left_out"]
     if len(analysis.outputs) < FEWEST_ROWS:
-        return f"Less than {FEWEST_ROWS} rows are whole: nothing can be said yet."
+        if rows["waiting"]:
+            return f"Less than {FEWEST_ROWS} rows are whole: nothing can be said yet."
+        return (
+            f"Only {rows['used']} of {ended} rows are whole, in the others a point failed or lacks"
+            f" the output: of less than {FEWEST_ROWS} nothing can be said."
+        )
+    parts, there = [], ""
+    if lost:
+        there = " there"
+        parts.append(
+            f"In {lost} of {ended} rows a point failed or lacks the output: all numbers are of the"
+            " others, not of the whole distributions."
+        )
     if not analysis.varies:
-        return "The output is the same at all points: no parameter matters to it."
-    if analysis.question.limit is not None and not analysis.sample.size:
-        return "The design is no sample of the distributions: it gives no probabilities."
-    return ""
+        counted = "all points that count" if lost else "all points"
+        parts.append(f"The output is the same at {counted}: no parameter matters to it{there}.")
+    elif analysis.question.limit is not None and not analysis.sample.size:
+        parts.append("The design is no sample of the distributions: it gives no probabilities.")
+    return " ".join(parts)
 
 
 def _columns(estimate: Estimate) -> dict[str, list[float | None]]:

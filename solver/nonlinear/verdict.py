@@ -127,13 +127,7 @@ def decide(
     if period:
         return _recurrent(lyapunov, zero_one, period, exponent)
     if lyapunov is None:
-        seen = "" if zero_one is None else f" (K is {zero_one})"
-        if period is None:
-            return _undecided(f"without an exponent nothing is certain{seen}")
-        return _undecided(
-            f"no short period is seen{seen}: the motion may not have settled, or have a longer"
-            f" period or none; {LONGER}, {MORE}, or add the indicator 'lyapunov'"
-        )
+        return _without_exponent(zero_one, period)
     if lyapunov.exceeds(0.0):
         return _diverging(lyapunov, zero_one, finer)
     if lyapunov.falls_below(0.0):
@@ -172,6 +166,16 @@ def _recurrent(
     near = "close to a bifurcation, known too poorly to tell it from zero, or along the motion"
     near += " of a scene that nothing drives, where it is zero"
     return Verdict(PERIODIC, period, f"{recurs}; {exponent}, {near}")
+
+
+def _without_exponent(zero_one: Estimate | None, period: int | None) -> Verdict:
+    seen = "" if zero_one is None else f" (K is {zero_one})"
+    if period is None:
+        return _undecided(f"without an exponent nothing is certain{seen}")
+    return _undecided(
+        f"no short period is seen{seen}: the motion may not have settled, or have a longer"
+        f" period or none; {LONGER}, {MORE}, or add the indicator 'lyapunov'"
+    )
 
 
 def _diverging(lyapunov: Estimate, zero_one: Estimate | None, finer: Estimate | None) -> Verdict:

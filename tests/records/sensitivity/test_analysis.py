@@ -212,7 +212,34 @@ def test_too_few_rows_say_nothing():
     found = sensitivity(study_of(ishigami, 4, 3, failed=(3,)), Question(limit=1.0))
     assert found["measures"] == {}
     assert found["mean"] is found["quantiles"] is None
-    assert "Less than 4 rows" in found["note"]
+    assert found["complete"]
+    assert found["note"] == (
+        "Only 3 of 4 rows are whole, in the others a point failed or lacks the output:"
+        " of less than 4 nothing can be said."
+    )
+
+
+def test_rows_that_wait_may_say_something_later():
+    waiting = tuple(range(10, 40))
+    found = sensitivity(study_of(ishigami, 8, 3, failed=(3,), waiting=waiting), MAXIMUM)
+    assert found["note"] == "Less than 4 rows are whole: nothing can be said yet."
+
+
+def test_what_is_said_of_rows_without_failures_is_said_to_be_of_them():
+    """Where the largest outputs are not there, each number is of another distribution."""
+    shares = study_of(ishigami, 64, 3).values
+    high = tuple(np.flatnonzero(ishigami(shares) > 10.0).tolist())
+    whole = sensitivity(study_of(ishigami, 64, 3), Question(limit=10.0))
+    found = sensitivity(study_of(ishigami, 64, 3, failed=high), Question(limit=10.0))
+    assert whole["note"] == ""
+    assert whole["failure"]["probability"] > 0.05
+    assert found["failure"]["probability"] == 0.0
+    lost = found["rows"]["left_out"]
+    assert found["note"].startswith(f"In {lost} of 64 rows a point failed")
+    constant = sensitivity(study_of(ishigami, 64, 3, failed=(1,)), Question("rod.x.mean"))
+    assert constant["note"].endswith(
+        "the same at all points that count: no parameter matters to it there."
+    )
 
 
 def test_a_design_that_is_no_sample_gives_no_probability():
