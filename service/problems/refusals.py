@@ -13,6 +13,7 @@ from jointplay.service.problems import (
     RequestRefused,
     clipped,
     kinds,
+    unavailable,
 )
 from jointplay.storage.catalogue.errors import (
     BatchNotFinished,
@@ -21,6 +22,7 @@ from jointplay.storage.catalogue.errors import (
     JobNotFinished,
     KeyReused,
     QuotaExceeded,
+    RetriedMeanwhile,
     TooManyWorkers,
     Unavailable,
 )
@@ -90,6 +92,11 @@ def _(error: KeyReused) -> RequestRefused:
 @refusal.register
 def _(error: QuotaExceeded) -> RequestRefused:
     return RequestRefused(kinds.QUOTA_EXCEEDED, f"{error}.")
+
+
+@refusal.register
+def _(error: RetriedMeanwhile) -> RequestRefused:
+    return unavailable(f"A{str(error)[1:]}.", 1)
 
 
 @refusal.register

@@ -25,6 +25,7 @@ from jointplay.storage.catalogue.records import (
     SubmissionKey,
     SubmittedBatch,
 )
+from jointplay.storage.catalogue.retries import require_unretried
 from jointplay.storage.catalogue.submission import (
     drop_blocks,
     insert_jobs,
@@ -61,6 +62,7 @@ def submit_batch(
     while some := [
         (row_of(name, new, unit.now, batch_id), new) for name, new in islice(members, _AT_A_TIME)
     ]:
+        require_unretried(unit, [new.retry_of for _, new in some if new.retry_of])
         insert_jobs(unit, some)
     if key is not None:
         remember_batch(unit, key, batch_id)

@@ -189,6 +189,8 @@ class Catalogue:
             The key was used before with another fingerprint.
         QuotaExceeded
             Its owner would have more than one may have.
+        RetriedMeanwhile
+            A job that one of them repeats was retried before.
         """
         if not 1 <= len(jobs) <= batches.LARGEST_BATCH:
             raise ValueError(f"a batch has 1 to {batches.LARGEST_BATCH} jobs, not {len(jobs)}")

@@ -82,6 +82,13 @@ class QuotaExceeded(CatalogueError):
     """An owner would have more than one may have of what the sentence names."""
 
 
+class RetriedMeanwhile(CatalogueError):
+    """A retry of a job was queued by another request after it was looked at."""
+
+    def __init__(self, job: str) -> None:
+        super().__init__(f"a retry of job {job} was queued meanwhile; ask again")
+
+
 class TooManyWorkers(CatalogueError):
     """A key has as many workers already as one may have."""
 

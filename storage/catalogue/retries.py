@@ -11,6 +11,7 @@ from sqlalchemy import exists, or_, select
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.errors import RetriedMeanwhile
 from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.catalogue.rows import record_event
 
@@ -40,14 +41,27 @@ def unsuccessful(unit: Unit, batch_id: str) -> tuple[Unsuccessful, ...]:
     return tuple(Unsuccessful(retried=bool(row.pop(_RETRIED)), job=Job(**row)) for row in found)
 
 
+def require_unretried(unit: Unit, jobs: Sequence[str]) -> None:
+    """Have others wait who retry some jobs; RetriedMeanwhile if one of these was retried."""
+    if not jobs:
+        return
+    _lock(unit, jobs)
+    noted = select(_event.c.job).where(_event.c.job.in_(jobs), _event.c.type == _RETRIED).limit(1)
+    for job in unit.execute(noted).scalars():
+        raise RetriedMeanwhile(job)
+
+
+def _lock(unit: Unit, jobs: Sequence[str]) -> None:
+    if unit.shared:  # in the order that all others have
+        locked = select(_job.c.id).where(_job.c.id.in_(jobs)).order_by(_job.c.id)
+        unit.execute(locked.with_for_update(key_share=True)).all()
+
+
 def tell(unit: Unit, retries: Sequence[tuple[str, str]]) -> None:
     """Record with jobs, the first of each pair, which new jobs repeat them."""
     if not retries:
         return
-    if unit.shared:  # in the order that all others have
-        old = _job.c.id.in_([old for old, _ in retries])
-        locked = select(_job.c.id).where(old).order_by(_job.c.id)
-        unit.execute(locked.with_for_update(key_share=True)).all()
+    _lock(unit, [old for old, _ in retries])
     for repeated, new in retries:
         record_event(unit, repeated, _RETRIED, {"job": new})
 

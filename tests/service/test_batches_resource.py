@@ -9,6 +9,7 @@ from jointplay.records.job import JobError
 from jointplay.service.batches import admission
 from jointplay.service.batches.admission import MOST_JOBS
 from jointplay.service.body import LARGEST_BATCH
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState
 from tests.worker_by_hand import BIFURCATION
 
@@ -175,6 +176,28 @@ def test_a_retry_of_a_batch_is_a_batch_of_what_failed_or_was_cancelled(http, wor
     assert one == more["job_ids"][0], "which has computed the same"
     assert one != other
     assert f'"job":"{other}"' in http.get(f"/v1/jobs/{more['job_ids'][2]}/events").text
+
+
+def test_a_retry_that_another_one_overtakes_is_asked_for_again(http, worker, monkeypatch):
+    batch = submitted(http, [PENDULUM | {"duration": 0.3 + 0.1 * k} for k in range(2)])
+    first, second = batch["job_ids"]
+    http.post(f"/v1/jobs/{first}/cancel").raise_for_status()
+    look, overtaken = Catalogue.unsuccessful, []
+
+    def overtaking(catalogue, name):
+        found = look(catalogue, name)
+        if not overtaken:
+            overtaken.append(name)
+            http.post(f"/v1/jobs/{second}/cancel").raise_for_status()
+            overtaken.append(http.post(batch["links"]["retry"]).json())
+        return found
+
+    monkeypatch.setattr(Catalogue, "unsuccessful", overtaking)
+    answer = http.post(batch["links"]["retry"])
+    assert (answer.status_code, answer.headers["Retry-After"]) == (503, "1")
+    assert f"A retry of job {first} was queued meanwhile" in answer.json()["detail"]
+    assert http.post(batch["links"]["retry"]).json() == overtaken[1]
+    assert overtaken[1]["jobs"] == 2
 
 
 def test_a_retry_of_a_job_is_one_job_however_often_it_is_asked_for(http, worker):

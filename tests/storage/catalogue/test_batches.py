@@ -8,7 +8,12 @@ from stepped_clock import Clock
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.errors import BatchNotFinished, BatchNotFound, KeyReused
+from jointplay.storage.catalogue.errors import (
+    BatchNotFinished,
+    BatchNotFound,
+    KeyReused,
+    RetriedMeanwhile,
+)
 from jointplay.storage.catalogue.records import (
     BlockEnd,
     BlockState,
@@ -224,10 +229,31 @@ def test_a_retry_is_told_in_the_events_of_both_jobs(catalogue: Catalogue) -> Non
     assert (last.type, last.data) == ("retried", {"job": alone})
     (first,) = catalogue.events(alone)
     assert (first.type, first.data) == ("queued", {"retry_of": failed})
-    together = catalogue.submit_batch([replace(NEW, retry_of=one) for one in (failed, cancelled)])
+    once_more = catalogue.submit(replace(NEW, retry_of=failed), reuse=False).job.id
     assert [event.data["job"] for event in catalogue.events(failed) if event.type == "retried"] == [
         alone,
-        together.jobs[0],
+        once_more,
     ]
-    assert catalogue.events(cancelled)[-1].data == {"job": together.jobs[1]}
+    together = catalogue.submit_batch([replace(NEW, retry_of=cancelled)])
+    assert catalogue.events(cancelled)[-1].data == {"job": together.jobs[0]}
     assert catalogue.get(failed).state is JobState.failed
+
+
+def test_two_retries_of_a_batch_at_once_repeat_no_job_twice(catalogue: Catalogue) -> None:
+    """Between what the first one saw and what it queues another job fails, and both are retried."""
+    batch = catalogue.submit_batch([NEW, replace(NEW, digest="e" * 64)]).batch.id
+    first, second = (job.id for job in catalogue.jobs(batch=batch, oldest_first=True).jobs)
+    catalogue.request_cancel(first)
+    seen = [job.id for job, retried in catalogue.unsuccessful(batch) if not retried]
+    assert seen == [first]
+    catalogue.request_cancel(second)
+    both = [replace(NEW, retry_of=job) for job in (first, second)]
+    catalogue.submit_batch(both, key=SubmissionKey("both", ""))
+    with pytest.raises(RetriedMeanwhile, match=first):
+        catalogue.submit_batch([replace(NEW, retry_of=first)], key=SubmissionKey("one", ""))
+    assert catalogue.submitted_batch(SubmissionKey("one", "")) is None
+    assert len(catalogue.page_of_batches()[0]) == 2
+    told = [event.data for event in catalogue.events(first) if event.type == "retried"]
+    assert len(told) == 1
+    again = catalogue.submit_batch(both, key=SubmissionKey("both", ""))
+    assert not again.created
