@@ -1,10 +1,11 @@
 """Assembly: the pose and velocity at the start, degrees of freedom, redundant constraints."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any, Final
+from types import MappingProxyType
+from typing import Any, Final, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, rank
 from jointplay.solver.mechanics.start.centred import centred
-from jointplay.solver.mechanics.start.closings import alike, closings
+from jointplay.solver.mechanics.start.closings import alike
 from jointplay.solver.mechanics.start.demands import CLOSED, Demands
 from jointplay.solver.mechanics.start.drawing import drawn_places
 from jointplay.solver.mechanics.start.given import Taken, distance, taken
@@ -29,6 +30,7 @@ from jointplay.solver.mechanics.start.pose import (
     unwound,
 )
 from jointplay.solver.mechanics.start.rates import start_rates
+from jointplay.solver.mechanics.start.shared_closings import shared_closings
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.once_per_scene import once_per_scene
@@ -44,8 +46,17 @@ GEOMETRY: Final[Any] = {
     "drivers": True,
     "start": True,
 }
+RATES: Final[Any] = {
+    "angular_velocities": True,
+    "velocities": True,
+    "joints": {"__all__": {"rate"}},
+    "guides": {"__all__": {"rate", "tilt_rate"}},
+}
+"""What a pose does not depend on."""
 TOLD = 1e-6
 """Share of the shortest link, or of 1 m, up to which a difference is not told, m or m/s."""
+NOTHING: Mapping[str, Any] = MappingProxyType({})
+Kept = TypeVar("Kept")
 MOST_KEPT = 512
 """Assemblies that are kept; studies of one geometry need one."""
 
@@ -162,7 +173,15 @@ class _Found:
     """With joints with play as far open as what is given needs, where it needs that."""
 
 
+class _Poses(NamedTuple):
+    """Poses of a scene, whatever its rates are, as `_Found` has their assemblies."""
+
+    closed: Floats
+    opened: Floats | None
+
+
 _found: BoundedDict[str, _Found] = BoundedDict(MOST_KEPT)
+_poses: BoundedDict[str, _Poses] = BoundedDict(MOST_KEPT)
 
 
 @once_per_scene
@@ -187,10 +206,14 @@ def assemble_closed(scene: Scene) -> Assembly:
 
 
 def _found_of(scene: Scene) -> _Found:
-    geometry = _geometry(scene)
-    found = _found.get(geometry)
+    return _once(_found, _geometry(scene), lambda: _assembled(scene))
+
+
+def _once(kept: BoundedDict[str, Kept], key: str, find: Callable[[], Kept]) -> Kept:
+    """Return what is kept under a key, or is found now."""
+    found = kept.get(key)
     if found is None:
-        found = _found[geometry] = _assembled(scene)
+        found = kept[key] = find()
     return found
 
 
@@ -209,9 +232,13 @@ def start_of(scene: Scene, one: Scene) -> tuple[Floats, Floats]:
     return pose, rates
 
 
-def _geometry(scene: Scene) -> str:
-    """Return, as text, what an assembly depends on: no mass, no clearance, no law of contact."""
-    found = scene.model_dump_json(include=GEOMETRY, exclude={"joints": {"__all__": {"clearance"}}})
+def _geometry(scene: Scene, without: Mapping[str, Any] = NOTHING) -> str:
+    """Return, as text, what an assembly depends on: no mass, no clearance, no law of contact.
+
+    without : parts of the start that are left out.
+    """
+    exclude: Any = {"joints": {"__all__": {"clearance"}}, "start": without}
+    found = scene.model_dump_json(include=GEOMETRY, exclude=exclude)
     play = "".join(str(int(joint.has_play)) for joint in scene.joints.values())
     turns = [element.turns_counted() for element in scene.forces.values()]
     return f"{found} {play} {shortest_link(scene)!r} {turns}"
@@ -219,18 +246,23 @@ def _geometry(scene: Scene) -> str:
 
 def _assembled(scene: Scene) -> _Found:
     demands = Demands.of(scene, shortest_link(scene))
+    poses = _once(_poses, _geometry(scene, RATES), lambda: _posed(demands))
+    return _Found(
+        demands,
+        _assembly(demands, demands.closed, poses.closed.copy()),
+        None if poses.opened is None else _assembly(demands, demands.loose, poses.opened.copy()),
+    )
+
+
+def _posed(demands: Demands) -> _Poses:
     guess = _guess(demands)
     pose = guess.copy()
     close(demands.closed, pose, demands.driven, demands.scale)
     pose = in_given_turns(demands, pose)
     if demands.is_closed(demands.closed, pose) and demands.keeps(demands.given, pose):
-        return _Found(demands, _assembly(demands, demands.closed, pose), None)
-    found = opened(demands, guess, demands.given)
-    return _Found(
-        demands,
-        _assembly(demands, demands.closed, _nearer(demands, pose)),
-        None if found is None else _assembly(demands, demands.loose, found),
-    )
+        return _Poses(pose, None)
+    opening = opened(demands, guess, demands.given)
+    return _Poses(_nearer(demands, pose), opening)
 
 
 def _guess(demands: Demands) -> Floats:
@@ -242,7 +274,7 @@ def _nearer(demands: Demands, pose: Floats) -> Floats:
     """Return the closed pose that is to be taken where the one first found does not keep all."""
     still, poses = np.zeros_like(pose), [pose] if demands.is_closed(demands.closed, pose) else []
     if not poses or distance(demands.given, pose, still) > FAR * demands.length:
-        poses += [in_given_turns(demands, closing) for closing in closings(demands)]
+        poses += [in_given_turns(demands, closing) for closing in shared_closings(demands)]
     if not poses:
         return pose
     found = nearest(demands, poses)
