@@ -81,6 +81,20 @@ def still_to_come(points: Floats, period: int) -> float:
     return change * ratio / (1.0 - ratio)
 
 
+CREEPS = 0.75
+"""Share of its way that what moves in one sense is away from where it began; noise comes back."""
+
+
+def creep_to_come(points: Floats, period: int) -> float:
+    """Return what is `still_to_come` of (n, d) points in those columns that move in one sense."""
+    turns = len(points) // period
+    whole = points[len(points) - turns * period :].reshape(turns, period, -1)
+    gone = np.abs(whole[-1] - whole[0])
+    way = np.abs(np.diff(whole, axis=0)).sum(axis=0)
+    creeping = ((gone >= CREEPS * way) & (gone > 0.0)).any(axis=0)
+    return still_to_come(points[:, creeping], period) if creeping.any() else 0.0
+
+
 def _apart_for_good(points: Floats, period: int) -> bool:
     """Return whether points that a part of the period lies between stay apart."""
     parts = [k for k in range(2, period + 1) if period % k == 0 and _is_prime(k)]

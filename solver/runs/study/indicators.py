@@ -14,7 +14,7 @@ from jointplay.solver.nonlinear.lyapunov import (
     exponent_from_growth,
     in_smaller_steps,
 )
-from jointplay.solver.nonlinear.recurrence import recurrence_period
+from jointplay.solver.nonlinear.recurrence import creep_to_come, recurrence_period
 from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
 from jointplay.solver.nonlinear.verdict import Verdict, decide
 from jointplay.solver.nonlinear.whole_turns import unwound
@@ -58,6 +58,8 @@ def indicators_of(
     finer_growth: Floats,
     period: float,
     settled: int,
+    *,
+    compared: bool = False,
 ) -> tuple[dict[str, float], Verdict]:
     """Return the chosen indicators, each with its error, and the verdict that they allow.
 
@@ -66,7 +68,8 @@ def indicators_of(
     chosen : of ``lyapunov``, ``zero_one``, ``recurrence``, ``rotation``, ``spectrum``. log_growth :
     (periods,) logarithm of the tangent vector's growth in each period of the record. finer_growth :
     the same behind the record, in far smaller steps. period : s. settled : periods of the vector
-    before the record.
+    before the record. compared : whether cycles are compared with those of other points: then one
+    that still creeps does not recur, for it would be another attractor than that it comes to.
     """
     by_period = len(sections.states) == len(log_growth)
     states = unwound(sections.states[:MOST_SECTIONS], sections.angles) / sections.scales
@@ -74,8 +77,7 @@ def indicators_of(
     lyapunov = finer = zero_one = rotation = None
     recurrence: int | None = None
     if "recurrence" in chosen and len(states) >= FEWEST_FOR_RECURRENCE:
-        widths = np.maximum(np.ptp(states, axis=0), 1.0)
-        recurrence = recurrence_period(states, widths, RECURS)
+        recurrence = _recurrence(states, compared=compared)
     if "lyapunov" in chosen:
         turns = recurrence if recurrence and by_period else 1
         lyapunov, finer = exponents(log_growth, finer_growth, period, settled, turns)
@@ -104,6 +106,15 @@ def indicators_of(
         found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
     verdict = decide(lyapunov, zero_one, recurrence, rotation, finer)
     return found | {"verdict": float(verdict.code)}, verdict
+
+
+def _recurrence(states: Floats, *, compared: bool) -> int:
+    """Return the period by recurrence, 0: there is none; see `indicators_of`."""
+    widths = np.maximum(np.ptp(states, axis=0), 1.0)
+    period = recurrence_period(states, widths, RECURS)
+    if compared and period and creep_to_come(states / widths, period) > RECURS:
+        return 0
+    return period
 
 
 def exponents(

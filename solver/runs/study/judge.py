@@ -85,11 +85,14 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     moments = np.concatenate([np.zeros(0), *run.moments])
     apart = float(np.diff(moments).mean()) if len(moments) > 1 else period
     sections = Sections(states, scales, angles, len(kernel.coordinates), apart)
-    found, verdict = indicators_of(study.indicators, sections, *growths, period, run.settled)
+    compared = study.compares_cycles or study.starts > 1
+    found, verdict = indicators_of(
+        study.indicators, sections, *growths, period, run.settled, compared=compared
+    )
     if run.rest:
         states, verdict = np.stack(run.rest), RESTS
         found["verdict"] = float(verdict.code)
-    if study.compares_cycles or study.starts > 1:
+    if compared:
         turned = unwound(states, angles)
         cycle = cycle_of(kernel.coordinates, turned, scales, angles, verdict.period)
         run.ended = replace(run.ended, statistics={**run.ended.statistics, **cycle})

@@ -7,7 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from jointplay.solver.nonlinear.recurrence import largest_extent, recurrence_period
+from jointplay.solver.nonlinear.recurrence import (
+    creep_to_come,
+    largest_extent,
+    recurrence_period,
+)
 from tests.solver.nonlinear.textbook import (
     HENON,
     circle,
@@ -186,3 +190,21 @@ def test_a_period_of_four_that_is_one_of_two_is_none() -> None:
     assert recurrence_period(quarters[:, None], np.ones(1), 1e-2) == 4
     closer = np.where(number % 4 >= 2, 0.02 * (0.99**number - 1.0), 0.0)
     assert recurrence_period((quarters + closer)[:, None], np.ones(1), 1.5e-2) == 0
+
+
+@pytest.mark.parametrize(("factor", "period", "count"), [(0.98, 1, 8), (0.9, 1, 50), (0.99, 3, 12)])
+def test_what_creeps_still_has_to_go_what_it_has_to_go(
+    factor: float, period: int, count: int
+) -> None:
+    left = 0.3 * factor ** np.arange(count)
+    section = np.arange(count) % period + left
+    found = creep_to_come(section[:, None], period)
+    assert found == pytest.approx(left[count - period], rel=1e-9)
+
+
+def test_noise_does_not_creep() -> None:
+    noise = np.random.default_rng(2).uniform(-1.0, 1.0, (48, 3))
+    assert creep_to_come(noise, 1) == creep_to_come(noise, 2) == 0.0
+    assert creep_to_come(np.ones((8, 2)), 1) == 0.0
+    drift = np.column_stack([noise[:, 0], 0.9 ** np.arange(48.0)])
+    assert creep_to_come(drift, 1) == pytest.approx(0.9**47)
