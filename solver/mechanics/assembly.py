@@ -52,7 +52,7 @@ RATES: Final[Any] = {
     "joints": {"__all__": {"rate"}},
     "guides": {"__all__": {"rate", "tilt_rate"}},
 }
-"""What a pose does not depend on."""
+"""Parts of a start on which a pose does not depend."""
 TOLD = 1e-6
 """Share of the shortest link, or of 1 m, up to which a difference is not told, m or m/s."""
 NOTHING: Mapping[str, Any] = MappingProxyType({})
