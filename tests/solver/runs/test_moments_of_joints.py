@@ -133,7 +133,7 @@ def test_oil_turns_a_journal_as_its_moment_says(law: str) -> None:
 
 
 def test_a_journal_without_oil_has_no_moment_after_one_with_it() -> None:
-    """What is known of a mechanism is kept by its structure: that of the first one was taken."""
+    """Facts of a mechanism are kept by its structure: those of the first one were taken."""
     document = oiled("short-bearing-film")
     assert "pin.moment" in names(document)
     document["joints"]["pin"]["clearance"]["contact"] = CONTACT
