@@ -107,9 +107,14 @@ class Reel:
     def _tell(self, time: float) -> None:
         """Write the time above the mechanism, and how slow the film is."""
         rate = self._instants.rate
-        slow = f", {1.0 / rate:.3g} times slower" if 0.0 < rate < _REAL_TIME else ""
+        slow = f", {slowness(rate)} times slower" if 0.0 < rate < _REAL_TIME else ""
         last = scale("s", self._instants.times)
         page.corner_text(self._axes, f"t = {time / last.factor:.4g} {last.unit}{slow}")
+
+
+def slowness(rate: float) -> str:
+    """Return how many times slower than real time a film is, in three digits, such as ``1000``."""
+    return f"{float(f'{1.0 / rate:.3g}'):.12g}"
 
 
 def _poses(source: Source, times: Floats) -> list[Pose]:

@@ -7,6 +7,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 _QUIET = 5.0  # s between two plain lines: a log stays readable
+_BEGINNING = 0.25
+"""Of what is done, the share that says nothing about the pace of the rest."""
+_FURTHER = 1.1
+"""How many times as much must be done as before, to tell a pace since then; or this much more:"""
+_ENOUGH = 0.02
+"""Fraction of the whole that tells a pace, also with all that came before it."""
 
 
 @contextmanager
@@ -94,15 +100,14 @@ class Pace:
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
-        self._first: tuple[float, float] | None = None  # time, fraction
+        self._seen: list[tuple[float, float]] = []  # time, fraction: those that can count
         self._last: tuple[float, int] | None = None  # time, steps
         self._rate: float | None = None
 
     def saw(self, fraction: float, steps: int | None = None) -> None:
         """Take the present fraction, 0 to 1, and the accepted steps so far."""
         now = self._clock()
-        if self._first is None or fraction <= self._first[1]:
-            self._first = now, fraction  # it has not begun, or began anew
+        self._mark(now, fraction)
         if steps is None:
             return
         if self._last is not None and steps > self._last[1] and now > self._last[0]:
@@ -110,11 +115,28 @@ class Pace:
         if self._last is None or steps != self._last[1]:
             self._last = now, steps
 
+    def _mark(self, now: float, fraction: float) -> None:
+        seen = self._seen
+        if not seen or fraction <= seen[0][1]:
+            seen[:] = [(now, fraction)]  # it has not begun, or began anew
+        elif fraction >= _FURTHER * seen[-1][1]:
+            seen.append((now, fraction))
+        while len(seen) > 2 and seen[1][1] < _BEGINNING * fraction:
+            del seen[0]
+
     def seconds_left(self, fraction: float) -> float | None:
-        """Return the time left at the average pace so far, s; none while that is unknown."""
-        if self._first is None or fraction <= self._first[1]:
+        """Return the time left at the pace since a quarter of what is done, s.
+
+        What came before is the beginning: kernels are prepared, other processes begin. None while
+        little more than that is known.
+        """
+        before = max(fraction / _FURTHER, fraction - _ENOUGH)
+        marks = [mark for mark in self._seen if mark[1] <= before < fraction]
+        settled = [mark for mark in marks if mark[1] >= _BEGINNING * fraction]
+        if not marks or (not settled and fraction < _ENOUGH):
             return None
-        return (1.0 - fraction) * (self._clock() - self._first[0]) / (fraction - self._first[1])
+        time_then, done = (settled or marks)[0]
+        return (1.0 - fraction) * (self._clock() - time_then) / (fraction - done)
 
     @property
     def steps_per_second(self) -> float | None:

@@ -1,6 +1,7 @@
 """``jointplay scene``: look at mechanisms before they are run."""
 
 import json
+import os
 
 import pytest
 
@@ -30,6 +31,18 @@ def test_a_shown_document_can_be_checked_with_parameters_set(jointplay, tmp_path
     ended = jointplay("scene", "check", file, "--set", "clearence=1e-4")
     assert ended.code == 2
     assert "clearence" in ended.line()
+
+
+@pytest.mark.parametrize("name", ["slider-crank", "four-bar"])
+def test_a_scene_may_come_through_a_pipe(jointplay, name):
+    """It was no file: ``There is no file /dev/stdin.``"""
+    reader, writer = os.pipe()
+    os.write(writer, jointplay("scene", "show", name, "--json").out.encode())
+    os.close(writer)
+    ended = jointplay("scene", "check", f"/dev/fd/{reader}")
+    os.close(reader)
+    assert ended.code == 0
+    assert ended.out.splitlines()[0].split() == ["scene", name]
 
 
 def test_assemblies_are_told_apart_by_where_bodies_are(jointplay, tmp_path):

@@ -54,6 +54,21 @@ def test_a_frame_alone_is_a_figure(motion):
     assert f"gap ×{GAP * 0.01 / CLEARANCES['left']:.2g}" in inset.get_title("left")
 
 
+@pytest.mark.parametrize(
+    ("rate", "words"),
+    [(1e-3, ", 1000 times slower"), (3e-4, ", 3330 times slower"), (0.4, ", 2.5 times slower")],
+)
+def test_the_slowness_of_a_film_is_written_out(motion, tmp_path, monkeypatch, rate, words):
+    written = []  # it was ``1e+03 times slower``
+    monkeypatch.setattr(
+        "jointplay.figures.animation.reel.page.corner_text", lambda _, text: written.append(text)
+    )
+    chosen = replace(CHOSEN, stop=START + 2.0 * rate)
+    figures.film(motion, tmp_path / "a.gif", chosen, pace=Pace(rate=rate, frames_per_second=2))
+    assert all(text.endswith(words) for text in written)
+    assert written
+
+
 def centre_of(axes):
     (dot,) = (line for line in axes.lines if line.get_marker() == "o")
     return float(dot.get_xdata()[0]), float(dot.get_ydata()[0])

@@ -1,11 +1,11 @@
 """A calibration's document from what was typed: a file, or a scene and options."""
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.job_document import is_scene_file, job_document
+from jointplay.command_line.typed_file import is_read
 
 _STATISTICS = ("maximum", "minimum", "range", "maximum_time", "minimum_time")
 
@@ -29,7 +29,7 @@ def calibration_document(
     are left as they are.
     """
     free = dict(map(_fit, fits))
-    whole = Path(source).is_file() and not is_scene_file(source)
+    whole = is_read(source) and not is_scene_file(source)
     given = job_document(source, settings=settings, options={})
     if whole:
         document = given.get("calibration", given)

@@ -7,6 +7,7 @@ from typing import Any
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.job_options import fields_of, once
+from jointplay.command_line.typed_file import is_read, text_of
 
 JOB_FILE = "job.json"  # of a run's folder; worker.local.folder names it, too
 
@@ -73,7 +74,7 @@ def _read(path: Path) -> dict[str, Any]:
     from jointplay.records.strict_json import MalformedJson, parse
 
     try:
-        document = parse(path.read_bytes())
+        document = parse(text_of(str(path)))
     except MalformedJson:
         if path.suffix in (".yaml", ".yml"):
             raise Stopped(f"{path}: jobs and scenes are read as JSON, not as YAML.") from None
@@ -86,13 +87,13 @@ def _read(path: Path) -> dict[str, Any]:
 def is_scene_file(source: str) -> bool:
     """Tell whether ``source`` is the file of a scene, and not of a job or a preset."""
     path = Path(source)
-    return path.is_file() and "bodies" in _read(path)
+    return is_read(source) and "bodies" in _read(path)
 
 
 def _job_of(source: str) -> tuple[dict[str, Any], bool]:
     """Return the job, and whether it was given whole and not made of a scene."""
     path = Path(source)
-    if path.is_file():
+    if is_read(source):
         document = _read(path)
         if "bodies" in document:
             return {"kind": "simulate", "scene": document}, False
