@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, NoReturn
 
 DEEPEST = 64  # a scene document nests 6 levels; nothing legitimate comes near
 MOST_FLAWS = 20  # enough to correct a document by, few enough to read
-_INTEGER_DIGITS = 18  # up to here an integer surely fits 64 bits
+INTEGER_DIGITS = 18  # up to here an integer surely fits 64 bits
 _LONGEST_SHOWN = 60
 _SOUND = (int, float, NoneType)  # nothing can be wrong with these: lists of a million are common
 
@@ -117,7 +117,7 @@ def _float(text: str) -> object:
 
 
 def _integer(text: str) -> object:
-    return int(text) if len(text) <= _INTEGER_DIGITS else _float(text)
+    return int(text) if len(text) <= INTEGER_DIGITS else _float(text)
 
 
 def _constant(text: str) -> object:

@@ -16,6 +16,7 @@ from jointplay.storage.running_files import RunningFiles
 from jointplay.storage.running_files.folder import InFolder
 from jointplay.storage.running_files.objects import InPlace
 from jointplay.storage.settings_files import named_files, with_password
+from jointplay.storage.sqlite_address import sqlite_address
 
 RUNNING: Final = "running"
 """Folder of jobs that run, or beginning of their keys."""
@@ -183,7 +184,7 @@ class Settings(BaseSettings):
     @classmethod
     def _catalogue_beside_the_data(cls, values: dict[str, object]) -> dict[str, object]:
         data = Path(str(values.get("data") or cls.model_fields["data"].default)).absolute()
-        url = values.get("catalogue_url") or f"sqlite:///{data / 'catalogue.sqlite'}"
+        url = values.get("catalogue_url") or sqlite_address(data / "catalogue.sqlite")
         results = values.get("results_url") or f"file:{data / 'results'}"
         if password := values.get("catalogue_password"):
             url = with_password(str(url), str(password))

@@ -13,6 +13,7 @@ from jointplay.storage.catalogue.records import QUEUES
 from jointplay.storage.reconciliation import Finding
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import KEY_PREFIX
+from jointplay.worker.socket_url import socket_url
 from jointplay.worker.wake_up import connection
 
 WHERE = "broker"
@@ -23,7 +24,7 @@ def stray_messages(settings: Settings, catalogue: Catalogue) -> Iterator[Finding
     own = settings.data / "broker" / "redis.sock"
     if settings.redis_url is None and not own.exists():
         return
-    redis = connection(settings.redis_url or f"unix://{own}")
+    redis = connection(settings.redis_url or socket_url(own))
     try:
         for queue in QUEUES:
             yield from _in_queue(redis, f"{KEY_PREFIX}{queue}", catalogue)

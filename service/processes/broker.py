@@ -11,6 +11,7 @@ from redis import Redis
 from redis.exceptions import RedisError
 
 from jointplay.service.processes.child import Child, StartFailed
+from jointplay.worker.socket_url import socket_url
 
 _LONGEST_SOCKET_PATH = 100  # bytes; the kernel's limit is 107 on Linux and 103 on macOS
 _START_PATIENCE = 15.0  # seconds
@@ -74,7 +75,7 @@ class Broker:
         folder.chmod(0o700)
         self._folder = folder
         self._socket = socket_path(folder)
-        self.url = f"unix://{self._socket}"
+        self.url = socket_url(self._socket)
         options = {
             "port": "0",
             "unixsocket": str(self._socket),

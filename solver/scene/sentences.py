@@ -9,6 +9,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from jointplay.records.failure import Problem
+from jointplay.records.strict_json import INTEGER_DIGITS
 from jointplay.records.suggestions import did_you_mean, instead
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.scene import start_numbers
@@ -154,6 +155,8 @@ def _meant_number(item: ErrorDetails) -> str:
     """Return the end of a sentence on a wrong number: how a whole one is written."""
     given = item["input"]
     is_whole = isinstance(given, float) and given.is_integer()
+    if is_whole and abs(given) >= 10.0**INTEGER_DIGITS:
+        return f", of at most {INTEGER_DIGITS} digits."
     return f", written without a point or an exponent: {given:.0f}." if is_whole else "."
 
 

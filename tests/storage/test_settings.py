@@ -8,8 +8,10 @@ from pydantic_settings import SettingsError
 from redis.connection import parse_url
 from sqlalchemy import make_url
 
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from jointplay.storage.settings_files import mistyped_variables
+from jointplay.storage.sqlite_address import sqlite_file
 from jointplay.worker.app import broker_url
 
 
@@ -23,6 +25,19 @@ def test_everything_is_beside_the_data(monkeypatch: pytest.MonkeyPatch, tmp_path
     assert settings.results_url == f"file:{tmp_path}/results"
     assert settings.sealed_run(job, 2).key == f"2R/{job}-a2.zarr.zip"
     assert settings.running_run(job, 2).folder == tmp_path / "running" / "2R" / job / "a2"
+
+
+@pytest.mark.parametrize("name", ["a%20b", "a?b", "a#b", "a%zz", "dä ta", "a+b&c=d;e@f:g"])
+def test_a_data_folder_of_any_name_has_its_catalogue_in_it(tmp_path: Path, name: str) -> None:
+    """A part of the name that means something in addresses put the catalogue beside the folder."""
+    folder = tmp_path / name
+    folder.mkdir()
+    catalogue = Catalogue(Settings(data=folder).catalogue_url)
+    catalogue.migrate()
+    catalogue.close()
+    assert (folder / "catalogue.sqlite").is_file()
+    assert sqlite_file(Settings(data=folder).catalogue_url) == folder / "catalogue.sqlite"
+    assert [one.name for one in tmp_path.iterdir()] == [name]
 
 
 def test_running_jobs_are_those_of_whose_files_there_are_some(tmp_path: Path) -> None:

@@ -3,10 +3,12 @@ import stat
 from pathlib import Path
 
 import pytest
+from kombu import Connection
 from redis import Redis
 
 from jointplay.service.processes import StartFailed
 from jointplay.service.processes.broker import Broker, answers, server_binary, socket_path
+from jointplay.worker.app import broker_url
 
 
 def test_it_needs_no_disk_and_refuses_to_drop_any_message(broker: Broker) -> None:
@@ -35,6 +37,18 @@ def test_it_begins_empty_and_leaves_nothing(tmp_path: Path) -> None:
         broker.stop()
         assert list((tmp_path / "broker").iterdir()) == []
         assert not answers(broker.url)
+
+
+@pytest.mark.parametrize("name", ["a%20b", "a#b", "a?b", "dä ta", "a@b:c"])
+def test_its_folder_may_have_any_name(tmp_path: Path, name: str) -> None:
+    """A service in a folder with a # in its name gave up: its broker did not answer in 15 s."""
+    folder = tmp_path / name / "broker"
+    broker = Broker(folder, tmp_path / "broker.log")
+    broker.start()
+    assert (folder / "redis.sock").is_socket()
+    with Connection(broker_url(broker.url)) as celerys:
+        celerys.ensure_connection(max_retries=1, timeout=10)
+    broker.stop()
 
 
 def test_a_long_path_gets_a_short_socket(tmp_path: Path) -> None:

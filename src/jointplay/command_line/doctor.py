@@ -123,13 +123,14 @@ def _examination(folder: Path, look: "Look") -> "Iterator[Iterable[Finding]]":
     from jointplay.service.processes.supervisor import settings_of
     from jointplay.storage.catalogue.catalogue import Catalogue
     from jointplay.storage.reconciliation import findings
+    from jointplay.storage.sqlite_address import sqlite_file
 
     settings = settings_of(folder)
     # the queue reads the settings when it is loaded: by now they are known to be sound
     from jointplay.worker.stray_messages import stray_messages
 
-    database = settings.catalogue_url.partition("sqlite:///")[2]
-    if database and not Path(database).exists():
+    database = sqlite_file(settings.catalogue_url)
+    if database is not None and not database.exists():
         line = f"{folder} holds neither a service's data nor the results of a run."
         raise Stopped(line)
     catalogue = Catalogue(settings.catalogue_url)

@@ -14,6 +14,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError
 from jointplay.storage.catalogue.databases.postgresql import PostgreSQL
 from jointplay.storage.catalogue.databases.sqlite import SQLite
 from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.sqlite_address import sqlite_file
 
 
 class Database(Protocol):
@@ -70,4 +71,6 @@ def database_at(url: str, patience: float) -> Database:
     if name not in DATABASES:
         known = ", ".join(f"{one}://" for one in DATABASES)
         raise ValueError(f"the catalogue cannot be in {name!r}; addresses begin with {known}")
+    if file := sqlite_file(url):
+        parsed = parsed.set(database=str(file))  # SQLAlchemy 2.0 and 2.1 differ in what they decode
     return DATABASES[name](parsed, patience)

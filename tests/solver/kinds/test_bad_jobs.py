@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from jointplay.records.failure import InvalidInput
+from jointplay.records.strict_json import parse
 from jointplay.solver.kinds import admit
 from tests.solver.kinds.refusals import Refused, assert_refused, at, both, changed, without
 
@@ -39,6 +40,11 @@ BAD_JOBS: dict[str, Refused] = {
     "duration infinite": (at("/duration", math.inf), "/duration", "finite"),
     "duration zero": (at("/duration", 0.0), "/duration", "at least"),
     "duration negative": (at("/duration", -1.0), "/duration", "at least"),
+    "more digits than a whole number may have": (
+        at("/steps_limit", parse(b"9223372036854775807")),  # it said to write ...808
+        "/steps_limit",
+        "a whole number of B, of at most 18 digits.",
+    ),
     "duration a word": (at("/duration", "2"), "/duration", "number"),
     "duration true": (at("/duration", True), "/duration", "number"),
     "step zero": (at("/output_step", 0.0), "/output_step", "at least"),
