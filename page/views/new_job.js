@@ -28,7 +28,8 @@ export async function show(room, { parts, query, signal }) {
   const given = numbersOf(query, document_.parameters ?? {});
   const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
   const [offered] = await Promise.all([offers(withDefaults(document_, given), signal), kindsOfJobs(signal)]);
-  const form = new JobForm(document_, { wanted, before }, query.get("kind") ?? "simulate", given, offered, signal);
+  const beginning = { kind: query.get("kind") ?? "simulate", label: query.get("label") ?? "", given };
+  const form = new JobForm(document_, { wanted, before }, beginning, offered, signal);
   const turn = element("p", { class: "quiet small", role: "status" });
   const sketch = new Sketch(canvas, { labels: true, onFound: ({ drivers_time: once, repeats }) =>
     fill(turn, once !== null && repeats && `Its drivers come round every ${withUnit(once, "s")}.`) }, signal);
@@ -87,7 +88,7 @@ function written() {
 }
 
 class JobForm {
-  constructor(document_, { wanted, before }, kind, given, offered, signal) {
+  constructor(document_, { wanted, before }, { kind, label, given }, offered, signal) {
     Object.assign(this, { scene: document_, isPreset: Boolean(wanted), before, offered, signal, onchange: () => {} });
     this.asking = new AbortController();
     signal.addEventListener("abort", () => this.asking.abort());
@@ -97,7 +98,7 @@ class JobForm {
       this.follow().catch(() => {});
     });
     this.kindRoom = element("div");
-    this.label = element("input", { id: "label", maxlength: 200, oninput: changed });
+    this.label = element("input", { id: "label", maxlength: 200, value: label, oninput: changed });
     this.kind = element("select", { id: "kind", onchange: () => this.choose(this.kind.value) },
       Object.entries(KINDS).map(([name, { title }]) =>
         element("option", { value: name, selected: name === kind }, title)));
@@ -176,7 +177,8 @@ class JobForm {
     const kind = this.kind.value === "simulate" ? null : this.kind.value;
     const noted = [...place().query.keys()].filter((name) => name !== "job");
     return {
-      ...Object.fromEntries(noted.map((name) => [name, null])), kind, ...this.parameters.values(), ...this.own.values(),
+      ...Object.fromEntries(noted.map((name) => [name, null])), kind, label: this.label.value.trim(),
+      ...this.parameters.values(), ...this.own.values(),
     };
   }
 

@@ -182,7 +182,8 @@ def show_impacts(reader: ReaderOfThePath, window: Annotated[Window, Query()]) ->
     rows = rows[inside(rows["onset"], *window.checked())]
     names = rows.dtype.names or ()
     if len(rows):
-        check_size(len(rows), len(names), "impacts", float(np.ptp(rows["onset"])))
+        seconds = float(np.ptp(rows["onset"]))
+        check_size(len(rows), len(names), "impacts", seconds, of_channels=False)
 
     def shown(some: NDArray[Any]) -> list[schemas.Impact]:
         found = [dict(zip(names, row, strict=True)) for row in some.tolist()]

@@ -91,7 +91,9 @@ def unknown_channels(error: NoSuchChannel, parameter: str = "channels") -> Reque
     return RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors)
 
 
-def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
+def check_size(
+    rows: int, columns: int, what: str, seconds: float, *, of_channels: bool = True
+) -> None:
     """Refuse an answer of more than `MOST_VALUES` values, and say how to narrow the question.
 
     Parameters
@@ -102,13 +104,17 @@ def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
         Name of the rows, in the plural.
     seconds
         Length of the window, s.
+    of_channels
+        Whether the columns can be chosen.
     """
     if rows * columns <= MOST_VALUES:
         return
     rows_allowed = MOST_VALUES // columns
+    numbers = f"{columns - 1} channels and the time" if of_channels else f"{columns} values each"
+    fewer = "fewer channels with `channels`, or for " if of_channels else ""
     sentence = (
-        f"{rows} {what} of {columns - 1} channels and the time are {rows * columns} values; one "
-        f"answer carries at most {MOST_VALUES}. Ask for fewer channels with `channels`, or for "
+        f"{rows} {what} of {numbers} are {rows * columns} values; one "
+        f"answer carries at most {MOST_VALUES}. Ask for {fewer}"
         f"windows of {rows_allowed} {what} (about {seconds * rows_allowed / rows:.3g} s) with "
         "`start` and `stop`."
     )

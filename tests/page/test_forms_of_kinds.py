@@ -71,6 +71,24 @@ def test_kinds_without_a_form_of_their_own_have_one(browsing, service_url):
         }
 
 
+def test_a_label_is_still_there_when_one_comes_back(browsing, service_url):
+    """It was the only field that was lost."""
+    with browsing.page(f"{service_url}/#/new/slider-crank", expected=("422", "404")) as page:
+        page.get_by_label("Duration", exact=True).fill("0.01")
+        label = page.get_by_label("Label", exact=True)
+        for typed in ("12", "0.3 mm & Öl?"):
+            label.fill(typed)
+            page.get_by_role("button", name="Run", exact=True).click()
+            page.get_by_role("heading", name=typed).wait_for()
+            page.get_by_role("button", name="Cancel").click()
+            page.go_back()
+            expect(label).to_have_value(typed)
+            expect(page.get_by_label("Duration", exact=True)).to_have_value("0.01")
+        label.fill("")
+        page.reload()
+        expect(label).to_have_value("")
+
+
 def filled(page, **texts):
     """Type texts into fields, by their labels with _ for a blank."""
     for label, text in texts.items():

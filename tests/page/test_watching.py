@@ -3,6 +3,7 @@
 import csv
 import re
 import time
+from urllib.parse import parse_qs, urlsplit
 
 import httpx
 import pytest
@@ -127,6 +128,30 @@ def test_what_is_shown_is_saved_as_csv(browsing, url, press):
     impacts = httpx.get(f"{url}/v1/jobs/{press}/impacts", trust_env=False).json()["impacts"]
     expected = [(one["joint"], one["impulse"]) for one in impacts]
     assert [(joint, float(impulse)) for joint, *_, impulse in rows] == expected
+
+
+def test_of_contacts_that_are_too_many_the_first_are_shown(browsing, url, press):
+    """Their table, and the marks of where contacts begin, were not there, without a word."""
+    address = f"{url}/v1/jobs/{press}/impacts"
+    onsets = [one["onset"] for one in httpx.get(address, trust_env=False).json()["impacts"]]
+    most = 5
+    assert len(onsets) > most
+
+    def narrow(route):
+        stop = float(parse_qs(urlsplit(route.request.url).query).get("stop", ["inf"])[0])
+        if sum(onset <= stop for onset in onsets) <= most:
+            return route.continue_()
+        problem = {"type": "/problems/response-too-large", "title": "Too large", "status": 422}
+        return route.fulfill(status=422, json=problem)
+
+    with browsing.page(f"{url}/", expected=("422",)) as page:
+        page.route("**/impacts*", narrow)
+        page.goto(f"{url}/#/job/{press}/numbers")
+        page.get_by_role("heading", name=f"The first {most} contacts, until ").wait_for()
+        _, *rows = saved(page, "Save contacts as CSV")
+        assert [float(row[1]) for row in rows] == sorted(onsets)[:most]
+        page.get_by_role("link", name="Watch").click()
+        page.get_by_text("a contact begins").wait_for()
 
 
 def test_of_a_run_that_settles_each_tab_says_what_its_extremes_are_of(browsing, url):

@@ -177,6 +177,16 @@ def test_an_answer_too_large_is_refused_with_what_would_be_small_enough(http, wo
     get(http, f"/v1/jobs/{job}/history", channels="slider7.*")
 
 
+def test_contacts_that_are_too_many_are_asked_for_in_windows(http, finished_job, monkeypatch):
+    """The refusal advised fewer `channels`, which contacts have not."""
+    monkeypatch.setattr("jointplay.service.results.queries.MOST_VALUES", 5)
+    problem = get(http, f"/v1/jobs/{finished_job}/impacts", 422)
+    assert problem["type"] == "/problems/response-too-large"
+    assert "channels" not in problem["detail"]
+    assert "6 values each" in problem["detail"]
+    assert "with `start` and `stop`" in problem["detail"]
+
+
 def test_peaks_are_signed_and_have_times_and_units(http, finished_job):
     peaks = get(http, f"/v1/jobs/{finished_job}/peaks")["peaks"]
     assert len(peaks) == 96

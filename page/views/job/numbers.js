@@ -5,6 +5,7 @@ import { element, fill } from "../../interface/element.js";
 import { notRounding, short, withUnit } from "../../interface/numbers.js";
 import { table } from "../../interface/table.js";
 import { whenThere } from "../../interface/when_there.js";
+import { contacts } from "../../requests/contacts.js";
 import { get } from "../../requests/service.js";
 
 const MOST_IMPACTS = 200;
@@ -16,8 +17,11 @@ const COLUMNS = { // of contacts, as the command line names them
 export async function show(room, context) {
   const { job, signal } = context;
   await whenThere(room, context, job.links.peaks, {}, async ({ peaks }) => {
-    const ask = (path) => get(path, {}, signal).catch(() => null);
-    const [statistics, impacts] = await Promise.all([ask(job.links.statistics), ask(job.links.impacts)]);
+    const none = () => null;
+    const [statistics, found] = await Promise.all([
+      get(job.links.statistics, {}, signal).catch(none),
+      contacts(job.links.impacts, job.job.duration, signal).catch(none),
+    ]);
     fill(
       room,
       element("div", { class: "split" },
@@ -27,10 +31,14 @@ export async function show(room, context) {
         element("div", { class: "stacked" },
           statistics && element("section", { class: "panel" }, element("h2", {}, "The computation"),
             ledger(statistics)),
-          impacts && element("section", { class: "panel" },
-            element("h2", {}, `${impacts.impacts.length} contacts`), impactTable(impacts.impacts)))),
+          found && element("section", { class: "panel" },
+            element("h2", {}, headOf(found)), impactTable(found.impacts)))),
     );
   });
+}
+
+function headOf({ impacts: { length }, until }) {
+  return until === null ? `${length} contacts` : `The first ${length} contacts, until ${withUnit(until, "s", 6)}`;
 }
 
 function peakTable(peaks) {

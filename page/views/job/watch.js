@@ -15,6 +15,7 @@ import { player, watchable } from "../../mechanism/player.js";
 import { calm } from "../../mechanism/sketch.js";
 import { Stage } from "../../mechanism/stage.js";
 import { turn } from "../../mechanism/turn.js";
+import { contacts } from "../../requests/contacts.js";
 import { TERMINAL } from "../../requests/following.js";
 import { get } from "../../requests/service.js";
 import { PhasePortrait, Spectrum } from "./window.js";
@@ -127,11 +128,14 @@ class Watch {
 
   /** What is drawn besides, as far as it is there: peaks and impacts. */
   async facts() {
-    const { links } = this.job;
-    const ask = (path) => (path ? get(path, {}, this.signal).catch(() => null) : null);
-    const [peaks, impacts] = await Promise.all([ask(links.peaks), ask(links.impacts)]);
+    const { links, job } = this.job;
+    const none = () => null;
+    const [peaks, found] = await Promise.all([
+      links.peaks && get(links.peaks, {}, this.signal).catch(none),
+      links.impacts && contacts(links.impacts, job.duration, this.signal).catch(none),
+    ]);
     this.insets.peaks = peaks?.peaks ?? {};
-    this.impacts = (impacts?.impacts ?? []).map(({ onset }) => onset).sort((a, b) => a - b);
+    this.impacts = (found?.impacts ?? []).map(({ onset }) => onset).sort((a, b) => a - b);
     this.history?.mark({ onsets: this.impacts });
     if (this.marks) this.explain(this.history.certificate);
     this.clock.tell();
