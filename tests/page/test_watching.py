@@ -55,6 +55,18 @@ def test_a_job_can_be_read_at_every_width(browsing, url, press, artifacts, width
         assert barriers(page) == []
 
 
+def test_long_names_of_channels_do_not_widen_a_narrow_page(browsing, url):
+    """Of a slider with play the page was 398 px wide in a window of 360."""
+    scene = {"preset": "slider-crank", "parameters": {"clearance_guide": 1e-4}}
+    job = submitted(url, {"kind": "simulate", "scene": scene, "duration": 0.001})
+    channels = ",".join(f"guide.corner_{n}.normal_force" for n in (1, 2, 3, 4))
+    address = f"{url}/#/job/{job}?channels={channels}"
+    with browsing.page(address, width=360, still=True) as page:
+        page.wait_for_function(MOVED, arg=0)
+        page.locator(".uplot").nth(3).wait_for()
+        assert barriers(page) == []
+
+
 def test_time_is_where_the_address_says_and_impacts_lead_on(browsing, url, press):
     with browsing.page(f"{url}/#/job/{press}?t=0.03", still=True) as page:
         page.wait_for_function(MOVED, arg=0)
