@@ -16,8 +16,11 @@ const RATE = 30; // poses a second while a point is dragged
 const MARGIN = 46; // px around the mechanism
 
 export class FreeMotion {
-  /** @param shown called with what the service answers of each scene that is shown */
-  constructor(shown, signal) {
+  /**
+   * @param shown called with what the service answers of each scene that is shown
+   * @param begun called with the scene, the pose in which it shall start, and the one in which it does
+   */
+  constructor(shown, begun, signal) {
     Object.assign(this, { shown, signal, scene: null });
     this.canvas = element("canvas", { role: "img", "aria-label": "The mechanism as the text describes it" });
     this.slider = element("input", {
@@ -28,13 +31,18 @@ export class FreeMotion {
     this.until = element("input", {
       id: "until", inputmode: "decimal", onchange: () => this.forget(),
     });
+    this.here = element("button", {
+      type: "button", disabled: true, title: "Write this pose into the text as its start",
+      onclick: () => begun(this.scene, this.pose, this.found.poses[0]),
+    }, "Start here");
     this.said = element("p", { class: "quiet small", role: "status" });
     this.element = element("div", { class: "stacked" },
       element("div", { class: "stage" }, this.canvas),
       element("div", { class: "buttons small moving" },
         element("label", { for: "sweep" }, "Drivers at t ="), this.now,
         element("label", { for: "until" }, "of"), this.until, "s",
-        element("button", { type: "button", onclick: () => this.begin() }, "To the start")),
+        element("button", { type: "button", onclick: () => this.begin() }, "To the start"),
+        this.here),
       this.slider,
       this.said);
     this.scenes = new Newest((scene) => this.take(scene));
@@ -46,6 +54,7 @@ export class FreeMotion {
 
   /** Shows the scene of a document as soon as the service has put it together. */
   show(document) {
+    this.here.disabled = true; // the pose that is drawn is not yet of this scene
     let scene;
     try {
       scene = withParameters(document);
@@ -111,6 +120,7 @@ export class FreeMotion {
   put(pose, time) {
     if (time !== null) this.pulls.drop();
     this.pose = pose;
+    this.here.disabled = pose === this.found.poses[0];
     fill(this.now, time === null ? "–" : short(time, 4));
     this.draw();
   }

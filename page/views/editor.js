@@ -5,6 +5,7 @@ import { fieldList } from "../editor/field_list.js";
 import { sceneFiles } from "../editor/files.js";
 import { FreeMotion } from "../editor/free_motion.js";
 import { SceneSchema } from "../editor/schema.js";
+import { startedIn } from "../editor/start_here.js";
 import { FIRST_SCENE } from "../editor/first_scene.js";
 import { keep, kept } from "../editor/kept.js";
 import { TextEditor } from "../editor/text.js";
@@ -72,7 +73,7 @@ function notesOf({ given, turn, overshoots, replaced, hints }) {
 class Editing {
   constructor(room, schema, scenes, text, signal) {
     Object.assign(this, { signal, first: text, document: {}, checking: new AbortController() });
-    this.motion = new FreeMotion((found) => this.posed(found), signal);
+    this.motion = new FreeMotion((found) => this.posed(found), (...poses) => this.startIn(...poses), signal);
     this.messages = element("ul", { class: "messages", "aria-live": "polite", "aria-label": "What is wrong" });
     this.facts = element("p", { class: "quiet", role: "status" });
     this.notes = element("ul", { class: "quiet", "aria-label": "What a run does otherwise" });
@@ -108,6 +109,15 @@ class Editing {
     addEventListener("resize", () => this.motion.draw(), { signal });
     if (this.text.text === text) this.changed(text);
     else this.text.text = text; // what was written before is one undo away
+  }
+
+  /** Writes a pose into the text as the start of its scene; the earlier text is one undo away. */
+  startIn(scene, pose, before) {
+    try {
+      this.text.text = pretty(startedIn(documentIn(this.text.text), scene, pose, before));
+    } catch (error) {
+      this.tell(error.places ?? [{ pointer: "", detail: error.message }]);
+    }
   }
 
   async begin(name) {

@@ -210,3 +210,44 @@ def misfit(document: dict[str, Any], pose: dict[str, list[float]]) -> float:
     q = flat({body: pose[body] for body in scene.bodies})
     residual, _ = arrays(mechanism.rows(q, [0.0] * len(q), first_clocks(scene)), len(q))
     return float(abs(residual).max())
+
+
+def dragged_to(page: Any, document: dict[str, Any], body: str, at: list[float]) -> dict[str, Any]:
+    """Drag a point of a scene that is shown; return the pose that is drawn when all is answered."""
+    before = drawn(page)
+    box = page.locator(CANVAS).bounding_box()
+    x, y = pixel_of(page, document, before, body, at)
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    page.mouse.down()
+    for step in range(1, 21):
+        page.mouse.move(box["x"] + x - step, box["y"] + y + step)
+    page.mouse.up()
+    page.wait_for_function(f"pose => !({DRAWN})(pose)", arg=before)
+    expect(page.locator(CANVAS)).to_have_attribute("aria-busy", "false")
+    return drawn(page)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "toggle", "slider without a driver", "body"])
+def test_a_dragged_pose_is_kept_as_the_start(page: Any, name: str) -> None:
+    """It could be looked at only: what was dragged into place had to be typed."""
+    free = {key: value for key, value in toggle().items() if key != "drivers"}
+    turned = five_bar() | {"drivers": {"turn": {"body": "left", "position": 2.0, "speed": 1.0}}}
+    document, body, at = {
+        "four-bar": (presets.document("four-bar"), "crank", [0.1, 0.0]),
+        "toggle": (toggle(), "crank", [0.04, 0.0]),
+        "slider without a driver": (free, "crank", [0.04, 0.0]),
+        "body": (turned, "left", [0.1, 0.0]),
+    }[name]
+    start = shown(page, document)["poses"][0]
+    button = page.get_by_role("button", name="Start here")
+    expect(button).to_be_disabled()
+    pose = dragged_to(page, document, body, at)
+    assert abs(pose[body][2] - start[body][2]) > 0.02
+    with page.expect_response(posed) as answer:
+        button.click()
+    assert flat(answer.value.json()["poses"][0]) == pytest.approx(flat(pose), abs=1e-7)
+    expect(button).to_be_disabled()
+    written = json.loads(page.evaluate("sessionStorage.getItem('jointplay-scene')"))
+    scene = assembled_scene(written, is_whole=True)
+    assert flat(scene.pose()) == pytest.approx(flat(pose), abs=1e-7)
+    assert {**written, "start": 0, "drivers": 0} == {**document, "start": 0, "drivers": 0}
