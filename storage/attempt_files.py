@@ -88,11 +88,12 @@ class AttemptFiles:
     def needed(self) -> Iterator[tuple[str, int]]:
         """Give name and bytes of what the attempt builds on; nothing that it may do without.
 
-        A run needs what earlier attempts left, and what they sealed. A block of a study needs the
-        documents of its store, and, if it was begun, what is there; the block that seals, all.
+        A run needs what earlier attempts left, and what they sealed; so does one of the same number
+        whose claim the catalogue has lost. A block of a study needs the documents of its store,
+        and, if it was begun, what is there; the block that seals, all.
         """
         block = self._block
-        for attempt in range(1, block.attempt):
+        for attempt in range(1, block.attempt + 1):
             lost = self.sealed(f"{SEALED}{attempt}")
             if lost is not None and lost.exists():
                 yield f"{SEALED}{attempt}", lost.size()

@@ -9,7 +9,7 @@ import pytest
 
 from jointplay.storage.catalogue.connections import Connections
 from jointplay.worker.own_solver import own_solver
-from tests.joined_by_hand import SWEEP, installation
+from tests.joined_by_hand import SWEEP, SWING, installation, sealed
 
 
 def test_a_power_cut_forgets_no_claim_of_a_worker_that_it_does_not_end(
@@ -35,3 +35,18 @@ def test_a_power_cut_forgets_no_claim_of_a_worker_that_it_does_not_end(
         answer = service.http.post(f"{held.path}/beside", json=asked)
         assert len(answer.json()["claims"]) == 1
     assert changed == [True, True]
+
+
+def test_a_run_whose_claim_was_undone_after_it_was_sealed_is_not_computed_again(
+    tmp_path: Path,
+) -> None:
+    """After an older catalogue was put back it was computed again, and refused for its bytes."""
+    with installation("folder", tmp_path / "data") as service:
+        job = service.submit(SWING)
+        content = sealed(SWING)  # with the seconds that it took
+        target = service.settings.sealed_run(job.id, 1)
+        target.put([content])
+        service.work()
+        assert service.outcomes(job) == ["done"]
+        service.require_right(job)
+        assert target.read(0, target.size()) == content
