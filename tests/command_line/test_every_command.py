@@ -41,6 +41,7 @@ def test_it_says_what_it_does_with_an_example_and_explains_every_option(name):
     for parameter in command.params:
         if parameter.name != "help":
             assert parameter.help, parameter.name
+            assert "{'" not in parameter.help  # fields of a document, which options have not
 
 
 def test_it_can_print_json(name):

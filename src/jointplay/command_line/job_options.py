@@ -37,6 +37,7 @@ _HELP: Final = {
         "Leave out what comes before: of a simulation's peaks, in seconds; of a study's sections or"
         " statistics, in periods, or auto."
     ),
+    "second": "A second parameter, over which special orbits of the first branch are followed.",
     "seed": "Seed of what is drawn; the same gives the same.",
     "section": (
         "Where: crank_angle=RAD past the start, onset=JOINT, or of a study CHANNEL=VALUE:up (or"
