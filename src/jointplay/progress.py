@@ -8,9 +8,9 @@ from contextlib import contextmanager
 
 _QUIET = 5.0  # s between two plain lines: a log stays readable
 _BEGINNING = 0.25
-"""Of what is done, the share that says nothing about the pace of the rest."""
+"""Share of what is done that says nothing about the pace of the rest."""
 _FURTHER = 1.1
-"""How many times as much must be done as before, to tell a pace since then; or this much more:"""
+"""Factor by which more must be done than before, to tell a pace since then; or this much more:"""
 _ENOUGH = 0.02
 """Fraction of the whole that tells a pace, also with all that came before it."""
 

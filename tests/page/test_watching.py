@@ -56,7 +56,7 @@ def test_a_job_can_be_read_at_every_width(browsing, url, press, artifacts, width
 
 
 def test_long_names_of_channels_do_not_widen_a_narrow_page(browsing, url):
-    """Of a slider with play the page was 398 px wide in a window of 360."""
+    """The page of a slider with play was 398 px wide in a window of 360."""
     scene = {"preset": "slider-crank", "parameters": {"clearance_guide": 1e-4}}
     job = submitted(url, {"kind": "simulate", "scene": scene, "duration": 0.001})
     channels = ",".join(f"guide.corner_{n}.normal_force" for n in (1, 2, 3, 4))
