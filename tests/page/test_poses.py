@@ -228,7 +228,7 @@ def dragged_to(page: Any, document: dict[str, Any], body: str, at: list[float]) 
 
 
 @pytest.mark.parametrize("name", ["four-bar", "toggle", "slider without a driver", "body"])
-def test_a_dragged_pose_is_kept_as_the_start(page: Any, name: str) -> None:
+def test_a_dragged_pose_is_kept_as_the_start(browsing: Any, service_url: str, name: str) -> None:
     """It could be looked at only: what was dragged into place had to be typed."""
     free = {key: value for key, value in toggle().items() if key != "drivers"}
     turned = five_bar() | {"drivers": {"turn": {"body": "left", "position": 2.0, "speed": 1.0}}}
@@ -238,6 +238,12 @@ def test_a_dragged_pose_is_kept_as_the_start(page: Any, name: str) -> None:
         "slider without a driver": (free, "crank", [0.04, 0.0]),
         "body": (turned, "left", [0.1, 0.0]),
     }[name]
+    with browsing.page(f"{service_url}/#/editor") as page:
+        page.locator(CANVAS).wait_for()
+        assert_kept(page, document, body, at)
+
+
+def assert_kept(page: Any, document: dict[str, Any], body: str, at: list[float]) -> None:
     start = shown(page, document)["poses"][0]
     button = page.get_by_role("button", name="Start here")
     expect(button).to_be_disabled()
