@@ -13,7 +13,7 @@ from jointplay.solver.kernels.emit.judging import PASSING
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
-from jointplay.solver.quantities.scalars import floor, greatest, maximum
+from jointplay.solver.quantities.scalars import floor, greatest, maximum, select_positive
 
 EVERY = 256
 """Steps from one look inside to the next, and those that are looked at after a rough one."""
@@ -36,4 +36,11 @@ def _may_be(v: Callable[[str], Expression], pairs: int) -> Expression:
     due = maximum(v("rough_until") - v("steps"), 0.5 / EVERY - (rounds - floor(rounds)))
     inside = v("flag") - (PASSING - 0.5)  # the flags of `INSIDE` are the largest
     near = (bends.comes_near(v, j) for j in range(pairs))
-    return greatest(near, maximum(inside, due))
+    turning = (_turns_in_flight(v, j) for j in range(pairs))
+    return greatest((*near, *turning), maximum(inside, due))
+
+
+def _turns_in_flight(v: Callable[[str], Expression], j: int) -> Expression:
+    """Return a number that is positive where the slip of pair j turns while that is open."""
+    both = v(f"slip_rate_start{j}") * v(f"slip_rate{j}")
+    return select_positive(v(f"mode{j}"), 0.0, -both)

@@ -144,3 +144,73 @@ def test_what_rises_for_an_instant_behind_a_step_end_is_seen() -> None:
 @pytest.mark.parametrize("accuracy", ACCURACIES[:2])
 def test_no_sample_of_the_press_is_beyond_its_extremes(accuracy: dict[str, Any]) -> None:
     check("seven-bar-press", 0.04, {"friction": 0.1}, **accuracy)
+
+
+def loose_rotor() -> dict[str, Any]:
+    """Return a disc with play on a pin that a driver swings about: it flies from wall to wall."""
+    rise, fall = 0.03, 0.05  # s
+    swing = {
+        "type": "piecewise-polynomial",
+        "knots": [0.0, rise, rise + fall],
+        "coefficients": [
+            [0, 0, 0, 10 / rise**3, -15 / rise**4, 6 / rise**5],
+            [1, 0, 0, -10 / fall**3, 15 / fall**4, -6 / fall**5],
+        ],
+        "outside": "periodic",
+    }
+    clearance = {
+        "radial_clearance": 6.01e-4,
+        "bearing_radius": 0.0272,
+        "bearing_width": 0.0163,
+        "contact": {
+            "law": "stiffness-and-dissipation",
+            "stiffness": {"law": "esdu-78035", "youngs_modulus": 2.065e8, "poisson_ratio": 0.134},
+            "dissipation": {"law": "hu-guo", "restitution": 0.79, "impact_rate_floor": 1e-4},
+        },
+        "friction": {
+            "law": "brown-mcphee",
+            "static_coefficient": 0.813,
+            "kinetic_coefficient": 0.777,
+            "transition_velocity": 1.39e-3,
+        },
+    }
+    return {
+        "name": "loose-rotor",
+        "gravity": [0.0, -9.81],
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {
+            "arm": {
+                "mass": 1.0,
+                "inertia": 0.01,
+                "points": {"O": [0, 0], "C": [-0.01316, -0.01452]},
+            },
+            "rotor": {"mass": 0.68, "inertia": 1.615e-3, "points": {"J": [-2.85e-3, 0.0]}},
+        },
+        "joints": {
+            "main": {"type": "revolute", "bearing": "ground.O", "journal": "arm.O"},
+            "play": {
+                "type": "revolute",
+                "bearing": "rotor.J",
+                "journal": "arm.C",
+                "clearance": clearance,
+            },
+        },
+        "drivers": {"motor": {"joint": "main", "motion": swing}},
+        "forces": {
+            "spring": {
+                "type": "torsion-spring",
+                "first": "ground.O",
+                "second": "rotor.J",
+                "stiffness": 0.362,
+                "damping": 0.001,
+                "free_angle": -0.137,
+            }
+        },
+        "start": {"joints": {"play": {"eccentricity": [-1.297e-4, 4.002e-4]}}},
+    }
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-7, 1e-8])
+@pytest.mark.parametrize("method", ["tsitouras", "dormand-prince-853"])
+def test_a_slip_that_turns_twice_in_two_steps_of_a_flight(method: str, tolerance: float) -> None:
+    check(loose_rotor(), 0.045, {}, method=method, tolerance=tolerance)

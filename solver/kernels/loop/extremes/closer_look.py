@@ -17,6 +17,7 @@ from jointplay.solver.kernels.loop.extremes.passages import look_about_fast_pass
 from jointplay.solver.kernels.loop.extremes.roughness import is_due, may_set_extremes
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import place_evenly, seek_between
 from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
+from jointplay.solver.kernels.loop.extremes.slips_in_flight import look_at_slips_in_flight
 from jointplay.solver.kernels.loop.runs import NO_PAIR
 from jointplay.solver.kernels.loop.step import Step, channels_within
 
@@ -36,6 +37,7 @@ def look_closer(s: Step) -> None:
     due = flag & SWINGING != 0 or is_due(s)
     if at.watched_closely or flag & PASSING or due:
         look_about_fast_passages(s)
+    look_at_slips_in_flight(s)
     begins, ends = np.isnan(work[at.change, lane]), work[at.arrival, lane] >= work[at.end, lane]
     wanted = begins or ends or (at.watched_closely != 0 and touches(s))
     wanted |= s.run.landing != NO_PAIR and turns_before_onset(s)

@@ -1,0 +1,49 @@
+"""Slips of journals that touch nothing: they turn inside steps that no error keeps short.
+
+The slip of a free journal follows its normal, which turns the faster the nearer the journal is to
+the centre of its bearing. The ends of a few steps need not show that it turned in one and turned
+again in the next: its rates at both ends of a step do.
+"""
+
+import numpy as np
+
+from jointplay.solver.kernels.emit.judging import PASSING
+from jointplay.solver.kernels.jit import inner_kernel
+from jointplay.solver.kernels.loop.extremes.search.local_extremes import look_evenly
+from jointplay.solver.kernels.loop.step import Step
+from jointplay.solver.kernels.trace.rows import NO_ROW
+
+FARTHEST = 0.5
+"""The most that a slip goes beyond its ends, in changes over the step at the rates of both: a cubic
+4/27, and more where its normal whips round."""
+
+
+@inner_kernel()
+def look_at_slips_in_flight(s: Step) -> None:
+    """Seek extremes of free journals' slips that turn in a step, if they may be new.
+
+    To be called while ``channel`` has the values at the step's end, before the scan.
+    """
+    rows, count = np.empty(s.at.pairs, np.int64), 0
+    for j in range(s.at.pairs):
+        if turns_in_flight(j, s):
+            rows[count] = int(s.work[s.at.slip_row + j, s.lane])
+            count += 1
+    if count > 0:
+        look_evenly(rows[:count], 0.0, 1.0, s)
+
+
+@inner_kernel()
+def turns_in_flight(j: int, s: Step) -> bool:
+    """Whether pair j is open and its slip may have a new extreme inside this step."""
+    lane, at, work = s.lane, s.at, s.work
+    row = int(work[at.slip_row + j, lane])
+    if work[at.mode + j, lane] > 0.0 or row == NO_ROW:
+        return False
+    first, last = work[at.slip_rate_start + j, lane], work[at.slip_rate + j, lane]
+    if not (first * last < 0.0 or int(work[at.flag, lane]) & PASSING):
+        return False
+    before, now = work[at.previous + row, lane], work[at.channel + row, lane]
+    farther = FARTHEST * work[at.tried, lane] * (abs(first) + abs(last))
+    above, below = max(before, now) + farther, min(before, now) - farther
+    return bool(above > work[at.highest + row, lane] or below < work[at.lowest + row, lane])
