@@ -32,7 +32,7 @@ SHOWN = {
     "kinds/observables.py": "a name of an axis",
     "kinds/start_hints.py": "sentences",
     "mechanics/dragging.py": "poses that are shown",
-    "mechanics/misfit.py": "a sentence",
+    "mechanics/open_joint.py": "a sentence",
     "mechanics/redundancy.py": "sentences",
     "nonlinear/estimate.py": "digits of a sentence",
     "runs/ideal/constraints.py": "poses that are shown",

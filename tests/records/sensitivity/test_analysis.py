@@ -232,7 +232,8 @@ def test_what_is_said_of_rows_without_failures_is_said_to_be_of_them():
     whole = sensitivity(study_of(ishigami, 64, 3), Question(limit=10.0))
     found = sensitivity(study_of(ishigami, 64, 3, failed=high), Question(limit=10.0))
     assert whole["note"] == ""
-    assert whole["failure"]["probability"] > 0.05
+    # 0.0380 by 4e6 random draws; the standard error of 64 is 0.024
+    assert whole["failure"]["probability"] == pytest.approx(0.038, abs=0.024)
     assert found["failure"]["probability"] == 0.0
     lost = found["rows"]["left_out"]
     assert found["note"].startswith(f"In {lost} of 64 rows a point failed")

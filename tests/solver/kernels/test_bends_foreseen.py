@@ -94,8 +94,8 @@ def test_looks_are_foreseen_wherever_bends_are(kernel: Kernel) -> None:
         far = 10.0 ** random.uniform(-3.0, 0.0)
         work[layout["slip_start0"]] = random.uniform(-0.7, 0.7, lanes)
         work[layout["slip0"]] = work[layout["slip_start0"]] + random.normal(0.0, far, lanes)
-        for name in ("slip_rate_start0", "slip_rate0"):
-            work[layout[name]] = random.normal(0.0, 2.0 * far, lanes)
+        for name in ("slip_rate_start0", "slip_rate0"):  # of lanes apart none turns
+            work[layout[name]] = random.normal(0.0, 2.0 * far, lanes) * work[layout["mode0"]]
         foreseen = kernel.module.foresee_looks(work) != 0
         kernel.module.foresee_bends(work)
         bends = bool((work[layout["may_pass_bend"]] > 0.0).any())
@@ -103,6 +103,26 @@ def test_looks_are_foreseen_wherever_bends_are(kernel: Kernel) -> None:
         passing, quiet = passing + bends, quiet + (not foreseen)
     assert passing > 200
     assert quiet > 400  # it is worth asking
+
+
+@pytest.mark.parametrize(
+    ("mode", "begin", "end", "foreseen"),
+    [
+        (0.0, -1.0, 2.0, True),
+        (0.0, 1.0, -2.0, True),
+        (0.0, 1.0, 2.0, False),
+        (0.0, 0.0, 2.0, False),
+        (1.0, -1.0, 2.0, False),  # far from bends
+    ],
+)
+def test_looks_are_foreseen_where_a_slip_turns_in_flight(
+    kernel: Kernel, mode: float, begin: float, end: float, *, foreseen: bool
+) -> None:
+    work, layout = np.zeros((kernel.layout.size, own_target().lanes)), kernel.layout
+    work[layout.block("bend")] = 1e3
+    work[layout["tried"]], work[layout["mode0"]] = 1.0, mode
+    work[layout["slip_rate_start0"]], work[layout["slip_rate0"]] = begin, end
+    assert (kernel.module.foresee_looks(work) != 0) == foreseen
 
 
 @pytest.mark.parametrize(
