@@ -13,9 +13,11 @@ from jointplay.solver.kernels.loop.extremes.search.local_extremes import look_ev
 from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.trace.rows import NO_ROW
 
+FARTHER = 2.0
+"""Times that a slip may go farther beyond the ends of a step than a parabola of their rates."""
 FARTHEST = 0.5
-"""The most that a slip goes beyond its ends, in changes over the step at the rates of both: a cubic
-4/27, and more where its normal whips round."""
+"""The most where rates do not tell that it turns, but its normal whips round: in changes over the
+step at the rates of both ends. A cubic goes 4/27."""
 
 
 @inner_kernel()
@@ -40,10 +42,17 @@ def turns_in_flight(j: int, s: Step) -> bool:
     row = int(work[at.slip_row + j, lane])
     if work[at.mode + j, lane] > 0.0 or row == NO_ROW:
         return False
-    first, last = work[at.slip_rate_start + j, lane], work[at.slip_rate + j, lane]
-    if not (first * last < 0.0 or int(work[at.flag, lane]) & PASSING):
-        return False
+    tried, first, last = (
+        work[at.tried, lane],
+        work[at.slip_rate_start + j, lane],
+        work[at.slip_rate + j, lane],
+    )
     before, now = work[at.previous + row, lane], work[at.channel + row, lane]
-    farther = FARTHEST * work[at.tried, lane] * (abs(first) + abs(last))
-    above, below = max(before, now) + farther, min(before, now) - farther
-    return bool(above > work[at.highest + row, lane] or below < work[at.lowest + row, lane])
+    lowest, highest = work[at.lowest + row, lane], work[at.highest + row, lane]
+    if first * last < 0.0:
+        away = 0.5 * FARTHER * tried * first * first / (abs(first) + abs(last))
+        return bool(before + away > highest if first > 0.0 else before - away < lowest)
+    if not int(work[at.flag, lane]) & PASSING:
+        return False
+    away = FARTHEST * tried * (abs(first) + abs(last))
+    return bool(max(before, now) + away > highest or min(before, now) - away < lowest)
