@@ -30,7 +30,7 @@ from jointplay.solver.mechanics.start.pose import (
     unwound,
 )
 from jointplay.solver.mechanics.start.rates import start_rates
-from jointplay.solver.mechanics.start.shared_closings import shared_closings
+from jointplay.solver.mechanics.start.shared_closings import MECHANISM, shared_closings
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.once_per_scene import once_per_scene
@@ -38,14 +38,7 @@ from jointplay.solver.scene.once_per_scene import once_per_scene
 ASSEMBLED = CLOSED
 NEARBY, NEARBY_SEED, ASIDE = 3, 7, 0.05
 """Poses beside the start: how many, how they are drawn, and how far off, in rad and links."""
-GEOMETRY: Final[Any] = {
-    "ground": True,
-    "bodies": {"__all__": {"points"}},
-    "joints": True,
-    "gears": True,
-    "drivers": True,
-    "start": True,
-}
+GEOMETRY: Final[Any] = MECHANISM | {"start": True}
 RATES: Final[Any] = {
     "angular_velocities": True,
     "velocities": True,

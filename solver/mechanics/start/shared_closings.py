@@ -22,13 +22,14 @@ start is beside the centred one …"""
 BESIDE = 0.1
 """… and up to which a pose is."""
 MOST_KEPT = 64
-_PARTS: Final[Any] = {
+MECHANISM: Final[Any] = {
     "ground": True,
     "bodies": {"__all__": {"points"}},
     "joints": True,
     "gears": True,
     "drivers": True,
 }
+"""Parts of a scene on which it depends how a mechanism closes, but for its start."""
 _kept: BoundedDict[str, list[Floats]] = BoundedDict(MOST_KEPT)
 
 
@@ -61,7 +62,7 @@ def _beside_centred(demands: Demands) -> list[Floats] | None:
 
 def _centred(scene: Scene, length: float) -> list[Floats]:
     """Return the closed poses of a scene whose joints with play are centred."""
-    key = scene.model_dump_json(include=_PARTS, exclude={"joints": {"__all__": {"clearance"}}})
+    key = scene.model_dump_json(include=MECHANISM, exclude={"joints": {"__all__": {"clearance"}}})
     key += "".join(str(int(joint.has_play)) for joint in scene.joints.values())
     found = _kept.get(key)
     if found is None:
