@@ -22,9 +22,10 @@ from typing import Any
 from benchmarks.four_bars import four_bars
 from benchmarks.hostile_bodies import chain, free
 from jointplay.records.failure import LimitExceeded
-from jointplay.solver.kernels.compile_loop import RUNS, compile_part
+from jointplay.solver.kernels.compile_loop import compile_part
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.loop_code import RUNS
 from jointplay.solver.kernels.trace.equations import trace
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene

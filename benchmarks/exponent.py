@@ -10,19 +10,17 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numba import int64, njit, void
+from numba import njit
 
 from benchmarks.press import compiled, problem
 from jointplay.solver.kernels.emit.functions import (
-    ADDRESSES,
     DTYPE,
     OVER_LANES,
-    WORK,
     address_of,
-    functions_at,
 )
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
+from jointplay.solver.kernels.loop import calls
 from jointplay.solver.kernels.loop.bundle import Bundle
 
 REVOLUTIONS = 10
@@ -31,15 +29,14 @@ STAGES = 6
 REPEATS = 15
 
 
-@njit(void(ADDRESSES, WORK, int64))
+@njit
 def repeat(addresses: Any, work: Any, count: int) -> None:
     """Call a lane function many times."""
-    function = functions_at(addresses[0]).observe
     for _ in range(count):
-        function(work)
+        calls.observe(addresses[0], work)
 
 
-def calls(function: Any, bundle: Bundle, count: int) -> float:
+def seconds_of(function: Any, bundle: Bundle, count: int) -> float:
     """Return the seconds of `count` calls of a lane function, the best of repeated tenths."""
     addresses, seconds = np.zeros(1, DTYPE), []
     addresses["observe"] = address_of(function, OVER_LANES)
@@ -73,8 +70,8 @@ def main() -> None:
     plain, _ = runs(kernel, None)
     carried, bundle = runs(kernel, tangents)
     count = STAGES * bundle.attempts
-    equations = calls(kernel.module.right_hand_side, bundle, count)
-    derivatives = calls(tangents.module.carried_slopes, bundle, count)
+    equations = seconds_of(kernel.module.right_hand_side, bundle, count)
+    derivatives = seconds_of(tangents.module.carried_slopes, bundle, count)
     per = 1e3 / (8 * REVOLUTIONS)
     print("                                       ms a revolution and lane")
     print(f"evaluations of the equations alone     {per * equations:8.3f}")

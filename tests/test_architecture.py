@@ -241,6 +241,7 @@ def loaded_by(module: str, watched: list[str]) -> list[str]:
         ("jointplay.figures", ["numba", "celery", "fastapi", "matplotlib", "httpx"]),
         ("jointplay.command_line.application", ["numpy", "pydantic", "rich", "httpx", "numba"]),
         ("jointplay.solver.kinds", ["numba", "celery", "fastapi", "zarr", "scipy"]),
+        ("jointplay.worker.execute", ["numba", "celery", "fastapi"]),
         ("jointplay.storage.results", ["numba", "celery", "fastapi", "sqlalchemy"]),
         ("jointplay.storage.catalogue", ["numba", "celery", "fastapi", "zarr", "numpy"]),
         (

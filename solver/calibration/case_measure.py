@@ -18,7 +18,6 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.periods import stop
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
 from jointplay.solver.mechanics.assembly import assemble
@@ -131,7 +130,7 @@ class CaseMeasure:
                 if at.running:
                     if not costly:
                         continue
-                    stop(Status.STEP_LIMIT, at.index, at.run, at.slots[0], at.work)
+                    at.end(Status.STEP_LIMIT)
                 elif at.status == Status.DONE and not costly:
                     if self._goes_on(bundle, lane, run):
                         continue

@@ -1,11 +1,14 @@
 """Settings of the compiler, LLVM: they hold for the whole process."""
 
+from functools import cache
+
 from llvmlite import binding
 
 LEFT_OUT = ("-disable-post-ra", "-disable-vector-combine")
 """Passes whose time is the square of a straight line's length: see `leave_out_slow_passes`."""
 
 
+@cache
 def leave_out_slow_passes() -> None:
     """Leave out two passes that take the square of the time where a block is twice as long.
 

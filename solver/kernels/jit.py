@@ -1,17 +1,21 @@
-"""The decorators of hand-written kernels: cached on disk, IEEE division, no fast mathematics."""
+"""The decorators of hand-written kernels: IEEE division, no fast mathematics.
+
+Importing this sets how Numba compiles in this process. What it compiles is kept as machine code of
+the whole loop: see `solver.kernels.loop_code`.
+"""
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import Any
 
 import numba
 
-from jointplay.solver.kernels.cache import cache_folder
+from jointplay.solver.kernels.compiler import leave_out_slow_passes
+from jointplay.solver.kernels.inner_functions import link_inner_functions
 
-cache_folder()  # names Numba's cache before any kernel is declared
+leave_out_slow_passes()
+link_inner_functions()
 
-
-COMPILED: dict[str, Any] = {"cache": True, "error_model": "numpy"}
+COMPILED: dict[str, Any] = {"error_model": "numpy"}
 INNER = COMPILED | {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
@@ -34,37 +38,3 @@ def inner_kernel(*, forceinline: bool = False, borrows: bool = False) -> Callabl
 def written_out() -> Callable[[Any], Any]:
     """Write a function into those that call it: only so may it return a tuple with a structure."""
     return numba.njit(inline="always", **INNER)
-
-
-class Deferred:
-    """A kernel of one signature, compiled or loaded at its first call: importing costs nothing."""
-
-    def __init__(self, signature: Any, function: Callable[..., Any]) -> None:
-        self.signature = signature
-        self.function = function
-        self._entry_point: Callable[..., Any] | None = None
-
-    @cached_property
-    def dispatcher(self) -> Any:
-        """The compiled function, as Numba manages it."""
-        return numba.njit(self.signature, **COMPILED)(self.function)
-
-    def compile(self) -> Callable[..., Any]:
-        """Return the compiled function; seconds when it is not in the cache.
-
-        Its entry point is called directly, for looking up the types of all arguments took 70
-        microseconds at every call: they must be of the declared types.
-        """
-        if self._entry_point is None:
-            (compiled,) = self.dispatcher.overloads.values()
-            self._entry_point = compiled.entry_point
-        return self._entry_point
-
-    def __call__(self, *arguments: Any) -> Any:
-        """Run the kernel."""
-        return self.compile()(*arguments)
-
-
-def deferred(signature: Any) -> Callable[[Callable[..., Any]], Deferred]:
-    """Declare a kernel that Python calls, with arguments of these types."""
-    return lambda function: Deferred(signature, function)

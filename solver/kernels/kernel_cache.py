@@ -2,7 +2,7 @@
 
 from jointplay.records.bounded_dict import BoundedDict
 from jointplay.solver.integrators import AUTO, METHODS
-from jointplay.solver.kernels import compile_loop
+from jointplay.solver.kernels import loop_code
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.target import ALONE, own_target
 from jointplay.solver.kernels.watched import attend
@@ -34,7 +34,7 @@ def ready_kernel(
     key = (form(scene), tree, formulation, method, lanes)
     if key in _kernels:
         return _kernels[key]
-    aside = compile_loop.begin(compile_loop.RUNS)
+    aside = loop_code.begin(loop_code.RUNS)
     kernel = _kernels[key] = compile_kernel(scene, tree, formulation, METHODS[method], lanes)
     if aside is not None:
         attend(aside)

@@ -17,11 +17,10 @@ from functools import cache
 from typing import Any, Final
 
 import llvmlite
-import numba
 from llvmlite import binding
-from numba.core.codegen import get_host_cpu_features
 
 from jointplay.records.failure import InvalidInput
+from jointplay.solver.kernels.compiler import leave_out_slow_passes
 
 WIDTHS: Final = {"1": 1, "4": 4, "8": 8}
 """For single numbers, and for vectors of 256 and of 512 bits."""
@@ -59,6 +58,7 @@ class Target:
         On x86 a module's numbers are within reach of its instructions (`machine_code` sees to
         that): to write out where each of them is made steps 6 % longer.
         """
+        leave_out_slow_passes()
         binding.initialize_native_target()
         binding.initialize_native_asmprinter()
         on_x86 = platform.machine().lower() in ("x86_64", "amd64")
@@ -76,18 +76,18 @@ class Target:
 def own_target() -> Target:
     """Return what this process compiles for.
 
-    The processor is the one that Numba compiles for: the host, or what ``NUMBA_CPU_NAME`` and
-    ``NUMBA_CPU_FEATURES`` say. ``JOINTPLAY_LANES`` chooses the lanes.
+    The processor is the host, or what ``NUMBA_CPU_NAME`` and ``NUMBA_CPU_FEATURES`` say, as it is
+    for Numba. ``JOINTPLAY_LANES`` chooses the lanes.
 
     Raises
     ------
     InvalidInput
         The variable is none of `WIDTHS`, or the processor has no fused products.
     """
-    name, features = numba.config.CPU_NAME, numba.config.CPU_FEATURES  # type: ignore[attr-defined]
+    name, features = (os.environ.get(f"NUMBA_CPU_{what}") for what in ("NAME", "FEATURES"))
     return target_of(
         binding.get_host_cpu_name() if name is None else name,
-        get_host_cpu_features() if features is None else features,
+        binding.get_host_cpu_features().flatten() if features is None else features,
         os.environ.get("JOINTPLAY_LANES"),
     )
 

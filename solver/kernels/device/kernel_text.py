@@ -13,6 +13,7 @@ from jointplay.solver.kernels.emit.lane_arithmetic import declared
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop import runs
+from jointplay.solver.kernels.loop_library import ARITHMETIC
 
 LOOP, LANE, MEET = "one_lane", "lane", "meet"
 """Names of functions: the loop, a lane's part of a launch, and where threads of a block meet,
@@ -24,29 +25,11 @@ PARTS = {ENTRY: LANE, MOVE: MOVE_ONE}
 CALLED = ("states_within", "gaps_within", "weigh", "tangent_gaps")
 """Functions that are called now and then: written in where they are called, they would fill the
 cache of instructions."""
-LIBRARY = """
-define void @NRT_incref(ptr %x) alwaysinline nounwind { ret void }
-define void @NRT_decref(ptr %x) alwaysinline nounwind { ret void }
-declare double @llvm.sqrt.f64(double)
-define double @sqrt(double %x) alwaysinline nounwind {
-  %root = call double @llvm.sqrt.f64(double %x)
-  ret double %root
-}
-define double @numba_frexp(double %x, ptr %exponent) nounwind {
-  %bits = bitcast double %x to i64
-  %shifted = lshr i64 %bits, 52
-  %field = and i64 %shifted, 2047
-  %power = sub i64 %field, 1022
-  %short = trunc i64 %power to i32
-  store i32 %short, ptr %exponent
-  %fraction = and i64 %bits, 4503599627370495
-  %half = or i64 %fraction, 4602678819172646912
-  %mantissa = bitcast i64 %half to double
-  ret double %mantissa
-}
-"""
-"""Functions that the loop calls and a host has elsewhere: references are not counted here, roots
-are the processor's own, and numbers whose exponent is asked for are positive and not tiny."""
+LIBRARY = f"""
+define void @NRT_incref(ptr %x) alwaysinline nounwind {{ ret void }}
+define void @NRT_decref(ptr %x) alwaysinline nounwind {{ ret void }}
+{ARITHMETIC}"""
+"""Functions that the loop calls: references are not counted here."""
 PARAMETERS = ", ".join(
     [*(f"ptr %{name}" for name in GlobalMemory._fields), "i64 %size.lanes", "i64 %budget"]
 )
@@ -156,13 +139,13 @@ def _functions(sources: Sequence[Source], *, on_host: bool) -> Iterator[str]:
     there, constants = {one.name for one in sources}, Constants()
     for one in sources:
         how = "noinline" if one.name in CALLED else "alwaysinline"
-        text = constants.read_in(one.of_numbers(_symbol, 1, f"{how} nounwind"))
+        text = constants.read_in(one.function_text(_symbol, 1, f"{how} nounwind"))
         yield text if on_host else in_own_memory(text)
         if one.name in functions.SIGNATURES:
             meeting = [f"call void @{MEET}()"] if one.name == "attempt" else []
-            yield one.of_arrays(_symbol, meeting)
+            yield one.called_by_loops(_symbol, meeting)
     addresses = [
-        f"i64 ptrtoint (ptr {_symbol(name + functions.OF_ARRAYS)} to i64)"
+        f"i64 ptrtoint (ptr {_symbol(name + functions.COUNTED)} to i64)"
         if name in there
         else "i64 0"
         for name in functions.SIGNATURES

@@ -9,10 +9,9 @@ from numba import carray, from_dtype, int64, types, void
 from jointplay.records.impact import IMPACT
 from jointplay.solver.kernels.device.lanes import Sizes
 from jointplay.solver.kernels.emit import functions, slots
-from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop import runs
+from jointplay.solver.kernels.loop import calls, runs
 from jointplay.solver.kernels.loop.lanes import attend_lanes, landing_lanes, settle_lanes
 from jointplay.solver.kernels.loop.runs import Buffers
 from jointplay.solver.kernels.loop.step import Group
@@ -111,11 +110,11 @@ def advance_one_lane(
     full, made = False, 0
     while made < budget and work[at.active, 0] > 0.0 and not full:
         made += 1
-        wanted = functions_at(call).attempt(work) | landing_lanes(own)
+        wanted = calls.attempt(call, work) | landing_lanes(own)
         full = wanted != 0 and attend_lanes(wanted, group, buffers.rows)
         if sizes.growths > 0 and work[at.accept, 0] > 0.0:
-            functions_at(call).tangent_step(work)
-        functions_at(call).take(work)
+            calls.tangent_step(call, work)
+        calls.take(call, work)
         if wanted != 0:
             full |= settle_lanes(wanted, group, buffers)
     for slot in range(sizes.slots):

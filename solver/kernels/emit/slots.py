@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import from_dtype
 from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
@@ -114,8 +113,6 @@ DTYPE = np.dtype(
 )
 Slots = Any
 """Type of `at` in loops: a structure of `DTYPE`, ``work[at.mode + j, lane]``."""
-AT = from_dtype(DTYPE)[::1]
-"""Type of the structure in kernels: an array of one, which costs Python least to pass."""
 
 
 def slots_of(

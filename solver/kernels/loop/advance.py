@@ -7,10 +7,8 @@ shorten a step.
 """
 
 import numpy as np
-from numba import int64
 
-from jointplay.solver.kernels.emit.functions import functions_at
-from jointplay.solver.kernels.jit import deferred
+from jointplay.solver.kernels.loop import calls
 from jointplay.solver.kernels.loop.events import any_crossing
 from jointplay.solver.kernels.loop.lanes import (
     any_accepted,
@@ -23,12 +21,12 @@ from jointplay.solver.kernels.loop.lanes import (
     refine_lanes,
     settle_lanes,
 )
-from jointplay.solver.kernels.loop.runs import BUFFERS, Buffers
-from jointplay.solver.kernels.loop.step import WORKSPACE, Workspace, group_of
+from jointplay.solver.kernels.loop.runs import Buffers
+from jointplay.solver.kernels.loop.step import group_of
 from jointplay.solver.kernels.loop.unowned_view import unowned
+from jointplay.solver.kernels.loop.workspace import Workspace
 
 
-@deferred(int64(WORKSPACE, BUFFERS, int64, int64))
 def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
     """Make at most `budget` attempts at a step; fewer if a lane ends or a buffer is full.
 
@@ -45,8 +43,8 @@ def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
         How many attempts were made.
     """
     group = group_of(given)
-    at, work, runs, call = group.at, group.work, group.runs, functions_at(group.call)
-    marked = unowned(work.reshape(work.size).view(np.uint64))
+    at, work, runs, call = group.at, group.work, group.runs, group.call
+    marked = unowned(work.view(np.uint64))
     rows, steps = unowned(buffers.rows), unowned(buffers.steps)
     running, landing, crossing = count_active(at, work), landing_lanes(runs), any_crossing(runs)
     tangents = buffers.growths.shape[1] > 0
@@ -55,30 +53,30 @@ def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
     made = 0
     while made < budget and running > 0:
         made += 1
-        wanted = call.attempt(work) | landing
+        wanted = calls.attempt(call, work) | landing
         full = wanted != 0 and attend_lanes(wanted, group, rows)
         if watch or crossing:
-            call.observe(work)
+            calls.observe(call, work)
         if crossing:
             crossed, filled = cross_lanes(group, rows)
             wanted, full = wanted | crossed, full or filled
         quiet = wanted == 0
         if watch:
-            foreseen = call.foresee_looks(work)
+            foreseen = calls.foresee_looks(call, work)
             if foreseen != 0:
-                call.foresee_bends(work)
+                calls.foresee_bends(call, work)
             if foreseen | wanted != 0:
                 look_closer_at_lanes(foreseen | wanted, group)
         if watch or crossing:  # a scan also keeps the values from which channels go on
-            candidates = call.scan(work) if quiet else call.scan_some(work)
+            candidates = calls.scan(call, work) if quiet else calls.scan_some(call, work)
             if watch and candidates > 0:
                 refine_lanes(candidates, group, marked)
         if watch:
-            call.remember(work) if quiet else call.remember_some(work)
+            calls.remember(call, work) if quiet else calls.remember_some(call, work)
         full |= keep_steps(group, steps)
         if tangents and (quiet or any_accepted(at, work)):
-            call.tangent_step(work)
-        call.take(work)
+            calls.tangent_step(call, work)
+        calls.take(call, work)
         if quiet and not full:
             continue
         full |= settle_lanes(wanted, group, buffers)

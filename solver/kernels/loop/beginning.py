@@ -7,9 +7,9 @@ import numpy as np
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.kernels.emit.knots import AT_ENDS
 from jointplay.solver.kernels.emit.stepping import ENDS
+from jointplay.solver.kernels.loop.entry_points import start_tangents
 from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.problem import LaneStart
-from jointplay.solver.kernels.loop.tangent import start_tangent
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.mechanics.impact_floors import resting_rate
 from jointplay.solver.scene.document import Scene
@@ -81,8 +81,7 @@ def _start_tangents(lanes: Lane, obstructed: Flags) -> None:
     Where a law jumps there is none: the tangent is NaN, and so is its growth.
     """
     assert lanes.tangents is not None  # noqa: S101  (asked before)
-    for lane in range(lanes.work.shape[1]):
-        start_tangent(lane, lanes.slots[0], lanes.work)
+    start_tangents(lanes.slots, lanes.work)
     lanes.tangents.module.kinks(lanes.work)
     lanes["kink_start"] = lanes["kink_end"]
     if lanes.kernel.equations.loops is not None:

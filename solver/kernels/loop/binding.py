@@ -14,9 +14,15 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.periods import PACE_STEPS
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem
-from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SAMPLES, SECTIONS, SectionKind
+from jointplay.solver.kernels.loop.runs import (
+    DTYPE,
+    NO_PAIR,
+    PACE_STEPS,
+    SAMPLES,
+    SECTIONS,
+    SectionKind,
+)
 from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER
 from jointplay.solver.mechanics.assembly import assemble, shortest_link, start_of
 from jointplay.solver.mechanics.impact_floors import impact_floor

@@ -11,19 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.kernels.compensated import product_difference
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
+from jointplay.solver.kernels.entry_point import Call
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
-from jointplay.solver.kernels.loop.advance import advance
 from jointplay.solver.kernels.loop.binding import FIRST_STEP, number
-from jointplay.solver.kernels.loop.dense_rows import observe_rows
+from jointplay.solver.kernels.loop.entry_points import advance, observe_rows, plan_anew
 from jointplay.solver.kernels.loop.extremes.search.brackets import room_for
 from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
-from jointplay.solver.kernels.loop.periods import look_ahead, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes, make_ready
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, RUNNING, SECTIONS, Buffers, Status
-from jointplay.solver.kernels.loop.step import Workspace
+from jointplay.solver.kernels.loop.workspace import Workspace
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed
 
@@ -47,6 +47,8 @@ class GroupState:
     buffers: Buffers
     attempts: int = 0
     """Attempts at a step that were made, each of all lanes at once."""
+    advancing: Call | None = None
+    """Advances them: to lay out its arguments anew for each call would take longer."""
 
     @property
     def runs_on(self) -> bool:
@@ -184,8 +186,13 @@ class Bundle:
         lane = self.lane(i)
         lane.run["status"] = Status.RUNNING
         lane["active"] = 1.0
-        look_ahead(lane.index, lane.run, lane.slots[0], lane.work)
+        self.plan_anew(i)
         lane["next_due"] = -math.inf  # the first step is looked at, whatever is due in it
+
+    def plan_anew(self, i: int) -> None:
+        """Let a lane go by what its run says of samples, sections and its end from now on."""
+        lane = self.lane(i)
+        plan_anew(lane.slots, lane.work, self.runs[i : i + 1], lane.index)
 
     def stop(self, i: int) -> None:
         """Let a lane run no more: it is free, and what it had come to is lost."""
@@ -221,8 +228,9 @@ class Bundle:
         running = [group for group in self.groups if group.runs_on]
         goal = min((group.attempts for group in running), default=0) + budget
         for group in running:
-            left = goal - group.attempts
-            group.attempts += advance(self.workspace(group), group.buffers, int(self.watch), left)
+            if group.advancing is None:
+                group.advancing = advance.prepare(self.workspace(group), group.buffers, 0, 0)
+            group.attempts += group.advancing(int(self.watch), goal - group.attempts)
         return int(np.count_nonzero(self.runs["status"] == RUNNING))
 
     def workspace(self, group: GroupState) -> Workspace:

@@ -1,12 +1,11 @@
 """Rows of dense state: written for samples and sections, and read again to evaluate channels."""
 
 import numpy as np
-from numba import float64, int64, void
 
-from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.slots import AT, PERIOD, TIME, Slots
-from jointplay.solver.kernels.jit import deferred, inner_kernel
+from jointplay.solver.kernels.emit.slots import PERIOD, TIME, Slots
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop import calls
 from jointplay.solver.kernels.loop.periods import due_time
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.step import Step, states_within
@@ -76,7 +75,6 @@ def hand_out(s: Step, rows: np.ndarray) -> bool:
     return False
 
 
-@deferred(void(ADDRESSES, AT, WORK, WORK, int64, float64[:, ::1], int64[::1], float64[:, ::1]))
 def observe_rows(
     addresses: np.ndarray,
     slots: np.ndarray,
@@ -100,7 +98,7 @@ def observe_rows(
     out : (count, channels)
         In the channels' units.
     """
-    call, at = functions_at(addresses[0]), slots[0]
+    call, at = addresses[0], slots[0]
     lanes = blank.shape[1]
     for s in range(at.numbers, at.size):
         for i in range(lanes):
@@ -109,9 +107,9 @@ def observe_rows(
         count = min(lanes, len(rows) - first)
         for i in range(lanes):
             read_row(rows[first + min(i, count - 1)], i, at, blank)
-        call.right_hand_side(blank)
-        call.observe(blank)
-        call.observe_rest(blank)
+        calls.right_hand_side(call, blank)
+        calls.observe(call, blank)
+        calls.observe_rest(call, blank)
         for i in range(count):
             for c in range(len(columns)):
                 out[first + i, c] = blank[at.channel + columns[c], i]

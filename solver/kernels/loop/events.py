@@ -161,7 +161,12 @@ def instants_to_look_at(s: Step, shares: np.ndarray) -> int:
 @inner_kernel()
 def ordered(shares: np.ndarray, count: int) -> int:
     """Sort shares and leave out those that are there already. Returns how many are left."""
-    shares[:count].sort()
+    for i in range(1, count):  # they are in order but for some
+        share, place = shares[i], i
+        while place > 0 and shares[place - 1] > share:
+            shares[place] = shares[place - 1]
+            place -= 1
+        shares[place] = share
     kept = 1
     for i in range(1, count):
         if shares[i] - shares[kept - 1] > SAME:

@@ -66,6 +66,11 @@ class Lane:
         """Steps accepted or rejected: the lane's own, whatever the others do."""
         return self.steps + int(self.run["rejections"])
 
+    def end(self, status: Status) -> None:
+        """Let it run no more."""
+        self.run["status"] = status
+        self["active"] = self["accept"] = 0.0
+
     def row(self) -> Floats:
         """Return its state as a dense row, (1, width)."""
         clock = np.array([float(self.run["periods"]), self.number("time")])

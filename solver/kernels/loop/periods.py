@@ -3,24 +3,20 @@
 import math
 
 import numpy as np
-from numba import void
 
 from jointplay.solver.kernels import compensated
-from jointplay.solver.kernels.emit.functions import WORK
-from jointplay.solver.kernels.emit.slots import AT, Slots
-from jointplay.solver.kernels.jit import deferred, inner_kernel, kernel
+from jointplay.solver.kernels.emit.slots import Slots
+from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.loop.runs import (
-    RUNS,
+    PACE_STEPS,
     SAMPLES,
     SECTIONS,
+    SLOWEST_PACE,
     Run,
     SectionKind,
     Status,
 )
 
-PACE_STEPS, SLOWEST_PACE = 200_000, 1e-5
-"""Fewer periods of the fastest driver than SLOWEST_PACE in PACE_STEPS steps are no progress: the
-run ends."""
 SAME = 1e-12
 """Share of a period: a section so close to the end of the run is taken there."""
 MOST_STEPS = 4e9
@@ -88,7 +84,6 @@ def set_clock(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
         work[at.phase + k, lane] = start + turn * (travel - turns)
 
 
-@deferred(void(AT, WORK, RUNS))
 def set_clocks(slots: np.ndarray, work: np.ndarray, runs: np.ndarray) -> None:
     """Set the clocks of all lanes as they are in their present periods; note what is due next."""
     for lane in range(len(runs)):
@@ -96,7 +91,16 @@ def set_clocks(slots: np.ndarray, work: np.ndarray, runs: np.ndarray) -> None:
         look_ahead(lane, runs[lane], slots[0], work)
 
 
-@kernel()
+def plan_anew(slots: np.ndarray, work: np.ndarray, runs: np.ndarray, lane: int) -> None:
+    """Note what is due next in a lane, and the local time at which it wants attention.
+
+    runs : (1,) that of the lane.
+    """
+    look_ahead(lane, runs[0], slots[0], work)
+    plan(lane, runs[0], slots[0], work)
+
+
+@inner_kernel()
 def stop(status: int, lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Take a lane out of the running."""
     run.status = status

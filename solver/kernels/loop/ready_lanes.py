@@ -11,8 +11,8 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.loop.beginning import begin, resting_rates
 from jointplay.solver.kernels.loop.binding import bind, own_start
+from jointplay.solver.kernels.loop.entry_points import set_clocks
 from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
-from jointplay.solver.kernels.loop.periods import set_clocks
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import DTYPE, Status
 from jointplay.solver.quantities.varied import REFUSALS, together

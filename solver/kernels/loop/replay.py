@@ -1,19 +1,17 @@
 """Makes stored steps again, and evaluates states inside them as the run would have."""
 
 import numpy as np
-from numba import float64, int64, void
 
-from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.emit.slots import LENGTH, PERIOD, TIME
-from jointplay.solver.kernels.jit import deferred, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop import calls
 from jointplay.solver.kernels.loop.accepted_steps import read_step, read_steps
 from jointplay.solver.kernels.loop.dense_rows import write_row
 from jointplay.solver.kernels.loop.periods import product_difference
-from jointplay.solver.kernels.loop.runs import RUNS, Run
-from jointplay.solver.kernels.loop.step import WORKSPACE, Workspace, group_of
-
-TABLE = float64[:, ::1]
+from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.loop.step import group_of
+from jointplay.solver.kernels.loop.workspace import Workspace
 
 
 @inner_kernel()
@@ -22,7 +20,6 @@ def moment_of(i: int, moments: np.ndarray, row: np.ndarray, run: Run) -> float:
     return product_difference(moments[i, 0], moments[i, 1], row[PERIOD], run.period)
 
 
-@deferred(void(RUNS, TABLE, TABLE, int64[::1]))
 def find_steps(runs: np.ndarray, steps: np.ndarray, moments: np.ndarray, found: np.ndarray) -> None:
     """Find the step that each instant is in: the first that does not end before it.
 
@@ -45,7 +42,6 @@ def find_steps(runs: np.ndarray, steps: np.ndarray, moments: np.ndarray, found: 
         found[i] = k
 
 
-@deferred(void(WORKSPACE, TABLE, TABLE, int64[::1], TABLE))
 def states_in_steps(
     given: Workspace, steps: np.ndarray, moments: np.ndarray, found: np.ndarray, rows: np.ndarray
 ) -> None:
@@ -62,7 +58,7 @@ def states_in_steps(
     """
     group = group_of(given)
     at, work, spare, runs = group.at, group.work, group.spare, group.runs
-    call = functions_at(group.call)
+    call = group.call
     lanes, done = work.shape[1], 0
     begins = np.empty(lanes + 1, np.int64)
     while done < len(found):
@@ -76,7 +72,7 @@ def states_in_steps(
         begins[busy] = i
         for lane in range(busy, lanes):
             read_step(steps[found[done]], lane, runs[lane], at, work)
-        call.attempt(work)
+        calls.attempt(call, work)
         for lane in range(busy):
             start, tried = work[at.time, lane], work[at.tried, lane]
             for first in range(begins[lane], begins[lane + 1], INSTANTS):
@@ -85,13 +81,12 @@ def states_in_steps(
                     moment = moment_of(first + k, moments, steps[found[first]], runs[lane])
                     theta = (moment - start) / tried if tried > 0.0 else 0.0
                     spare[at.theta, k] = min(max(theta, 0.0), 1.0)
-                call.states_within(work, spare, lane)
+                calls.states_within(call, work, spare, lane)
                 for k in range(count):
                     write_row(rows[first + k], k, lane, runs[lane], at, work, spare)
         done = i
 
 
-@deferred(void(WORKSPACE, TABLE, TABLE, TABLE))
 def make_again(given: Workspace, steps: np.ndarray, ends: np.ndarray, works: np.ndarray) -> None:
     """Make steps (n, width) again, in lanes as `states_in_steps` takes them.
 
@@ -99,23 +94,23 @@ def make_again(given: Workspace, steps: np.ndarray, ends: np.ndarray, works: np.
     ledger, (n, terms), J.
     """
     group = group_of(given)
-    at, work, call = group.at, group.work, functions_at(group.call)
+    at, work, call = group.at, group.work, group.call
     for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, group.runs, at, work)
-        call.right_hand_side(work)
-        call.weigh(work)
+        calls.right_hand_side(call, work)
+        calls.weigh(call, work)
         for lane in range(work.shape[1]):
             work[at.stored_start, lane] = work[at.stored, lane]
             for k in range(at.ledger):
                 work[at.kledger1_ + k, lane] = work[at.power + k, lane]
                 work[at.total + k, lane] = 0.0
-        call.attempt(work)
+        calls.attempt(call, work)
         for lane in range(count):
             for k in range(at.states):
                 ends[first + lane, k] = work[at.stage + k, lane]
         for lane in range(work.shape[1]):
             work[at.accept, lane] = 1.0
-        call.take(work)
+        calls.take(call, work)
         for lane in range(count):
             for k in range(works.shape[1]):
                 works[first + lane, k] = work[at.total + k, lane]

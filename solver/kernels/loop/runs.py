@@ -1,14 +1,11 @@
 """Each lane's run, beside the work array, and buffers of what the loop hands out."""
 
-# mypy: disable-error-code="no-untyped-call"
-
 from __future__ import annotations
 
 from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
-from numba import float64, from_dtype, types
 from numpy.typing import NDArray
 
 from jointplay.records.impact import IMPACT
@@ -41,6 +38,9 @@ class SectionKind(IntEnum):
 SAMPLES, SECTIONS = 0, 1
 """Kinds of dense rows; index of the pairs in a run, and of buffers."""
 NO_PAIR = -1
+PACE_STEPS, SLOWEST_PACE = 200_000, 1e-5
+"""Fewer periods of the fastest driver than SLOWEST_PACE in PACE_STEPS steps are no progress: the
+run ends."""
 
 
 class Run:
@@ -119,8 +119,6 @@ DTYPE = np.dtype(
     ],
     align=True,  # else a device takes eight loads for a number
 )
-RUNS = from_dtype(DTYPE)[::1]
-"""Type of the runs of all lanes in kernels."""
 
 GROWTH = np.dtype([("end", np.float64), ("logarithm", np.float64)], align=True)
 """Growth of a tangent: end of its time, s, and logarithm of the factor."""
@@ -155,15 +153,3 @@ class Buffers(NamedTuple):
             np.zeros((lanes, capacity if tangents else 0), GROWTH),
             np.zeros(steps),
         )
-
-
-BUFFERS = types.NamedTuple(
-    [
-        float64[:, :, :, ::1],
-        from_dtype(IMPACT)[:, ::1],
-        from_dtype(GROWTH)[:, ::1],
-        float64[:, :, ::1],
-    ],
-    Buffers,
-)
-"""Their type in kernels."""

@@ -1,18 +1,15 @@
 """A step of one lane, as the loop looks at it: what its functions take as `s`, one for all."""
 
-# mypy: disable-error-code="no-untyped-call"
-
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import types
 
-from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
-from jointplay.solver.kernels.emit.slots import AT, Slots
+from jointplay.solver.kernels.emit.slots import Slots
 from jointplay.solver.kernels.jit import inner_kernel, written_out
-from jointplay.solver.kernels.loop.extremes.search.brackets import BRACKETS
-from jointplay.solver.kernels.loop.runs import RUNS, Run
+from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.unowned_view import unowned
+from jointplay.solver.kernels.loop.workspace import Workspace
 
 Addresses = Any
 """Structure of the kernel's functions; see `solver.kernels.emit.functions`."""
@@ -46,24 +43,6 @@ class Group(NamedTuple):
     call: Addresses
 
 
-class Workspace(NamedTuple):
-    """Lanes as Python gives them to kernels, and room for these to compute in."""
-
-    addresses: np.ndarray
-    """Addresses of the kernel's functions, by name, (1,); those of tangents may be 0."""
-    slots: np.ndarray
-    """Where quantities are in `work` and `spare`, (1,) of `Slots`, in kernels called `at`."""
-    work: np.ndarray
-    spare: np.ndarray
-    runs: np.ndarray
-    brackets: np.ndarray
-    """These as in a `Group`."""
-
-
-WORKSPACE = types.NamedTuple([ADDRESSES, AT, WORK, WORK, RUNS, BRACKETS], Workspace)
-"""Its type in kernels."""
-
-
 @written_out()
 def group_of(given: Workspace) -> Group:
     """Return the lanes of a workspace; the caller keeps its arrays alive."""
@@ -81,22 +60,22 @@ def step_of(lane: int, group: Group) -> Step:
 @inner_kernel(forceinline=True)
 def states_within(s: Step) -> None:
     """Evaluate the states at the instants of this step that `spare` has."""
-    functions_at(s.call).states_within(s.work, s.spare, s.lane)
+    calls.states_within(s.call, s.work, s.spare, s.lane)
 
 
 @inner_kernel(forceinline=True)
 def gaps_within(s: Step) -> None:
     """Evaluate gaps and slips there."""
-    functions_at(s.call).gaps_within(s.work, s.spare, s.lane)
+    calls.gaps_within(s.call, s.work, s.spare, s.lane)
 
 
 @inner_kernel(forceinline=True)
 def channels_within(s: Step) -> None:
     """Evaluate all channels there."""
-    functions_at(s.call).channels_within(s.work, s.spare, s.lane)
+    calls.channels_within(s.call, s.work, s.spare, s.lane)
 
 
 @inner_kernel(forceinline=True)
 def channels_around(s: Step) -> None:
     """Evaluate all channels at four instants of the step before and four of this one."""
-    functions_at(s.call).channels_around(s.work, s.spare, s.lane)
+    calls.channels_around(s.call, s.work, s.spare, s.lane)

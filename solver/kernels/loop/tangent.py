@@ -20,16 +20,16 @@ LEAST = math.sqrt(0.5)
 """Mantissas are from here to twice as much, about 1."""
 
 
-@kernel()
-def start_tangent(lane: int, at: Slots, work: np.ndarray) -> None:
-    """Give a lane a tangent of length 1 that has a share of every coordinate and speed."""
-    for i in range(at.states):
-        share = (i + 1) * GOLDEN - math.floor((i + 1) * GOLDEN) + 0.5
-        weight = work[at.weight + i, lane]
-        work[at.tangent + i, lane] = share / weight
-    for j in range(at.pairs):
-        work[at.tangent_impact_rate + j, lane] = 0.0
-    scale_tangent(1.0 / tangent_length(lane, at, work), lane, at, work)
+def start_tangents(slots: np.ndarray, work: np.ndarray) -> None:
+    """Give all lanes a tangent of length 1 that has a share of every coordinate and speed."""
+    at = slots[0]
+    for lane in range(work.shape[1]):
+        for i in range(at.states):
+            share = (i + 1) * GOLDEN - math.floor((i + 1) * GOLDEN) + 0.5
+            work[at.tangent + i, lane] = share / work[at.weight + i, lane]
+        for j in range(at.pairs):
+            work[at.tangent_impact_rate + j, lane] = 0.0
+        scale_tangent(1.0 / tangent_length(lane, at, work), lane, at, work)
 
 
 @inner_kernel()
@@ -120,6 +120,11 @@ def tangent_length(lane: int, at: Slots, work: np.ndarray) -> float:
         share = work[at.tangent + i, lane] * weight / total
         square += share * share
     return total * math.sqrt(square)
+
+
+def measure_tangent(slots: np.ndarray, work: np.ndarray, lane: int) -> float:
+    """Return the length of a lane's tangent."""
+    return float(tangent_length(lane, slots[0], work))
 
 
 @inner_kernel()

@@ -19,7 +19,6 @@ from jointplay.records.arrays import Floats, Integers
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.periods import look_ahead, plan, stop
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
 from jointplay.solver.quantities.scalars import power
@@ -141,7 +140,7 @@ class Companions:
             if left > 0:
                 budget = min(budget, left)
                 continue
-            stop(Status.STEP_LIMIT, lane.index, lane.run, lane.slots[0], lane.work)
+            lane.end(Status.STEP_LIMIT)
         return budget
 
     def collect(self) -> None:
@@ -158,7 +157,7 @@ class Companions:
             if coarser > stride:
                 index = range((following - len(rows)) * stride, following * stride, stride)
                 rows = rows[[i % self.instants.stride(i) == 0 for i in index]]
-                self._coarsen(lane, following, stride, coarser)
+                self._coarsen(i, following, stride, coarser)
             self.rows[i].append(rows.copy())
 
     def _keep_contacts(self, lane: int) -> None:
@@ -172,13 +171,12 @@ class Companions:
             self.contacts[lane].append(found[:room])
         self.forgotten_from = min([self.forgotten_from, *found["onset"][max(room, 0) :]])
 
-    def _coarsen(self, lane: Lane, following: int, stride: int, coarser: int) -> None:
+    def _coarsen(self, i: int, following: int, stride: int, coarser: int) -> None:
+        lane = self.bundle.lane(i)
         lane.run["output_step"] = coarser * self.instants.finest
         lane.run["next"][SAMPLES] = -(-following * stride // coarser)
         lane.run["stop"][SAMPLES] = self.instants.last // coarser + 1
-        arguments = (lane.index, lane.run, lane.slots[0], lane.work)
-        look_ahead(*arguments)
-        plan(*arguments)
+        self.bundle.plan_anew(i)
 
     def checkpoint(self) -> dict[str, NDArray[Any]]:
         """Return arrays that `restore` takes; the lanes' own state is the bundle's."""

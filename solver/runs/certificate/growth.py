@@ -17,9 +17,9 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.entry_points import measure_tangent
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import Status
-from jointplay.solver.kernels.loop.tangent import tangent_length
 from jointplay.solver.quantities.scalars import logarithm
 from jointplay.solver.runs.certificate.companions import RUN, TIGHTEST, Companions
 
@@ -104,7 +104,7 @@ class Windows:
     def logarithms(self) -> Floats:
         """Logarithm of how much each tangent has grown."""
         lanes = [self.bundle.lane(lane) for lane in range(BUNDLE)]
-        lengths = [tangent_length(lane.index, lane.slots[0], lane.work) for lane in lanes]
+        lengths = [measure_tangent(lane.slots, lane.work, lane.index) for lane in lanes]
         logarithms = [
             logarithm(length) if 0.0 < length < math.inf else length or -math.inf
             for length in lengths

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.records.peak import HIGHEST, LOWEST
 from jointplay.solver.kernels.emit.slots import LENGTH
-from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
-from jointplay.solver.kernels.loop.extremes.window.extremes_in_steps import extremes_in_steps
+from jointplay.solver.kernels.loop.entry_points import extremes_in_steps
+from jointplay.solver.kernels.loop.extremes.search.brackets import SHARP
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
 from jointplay.solver.runs.dense_output.replay import Replay

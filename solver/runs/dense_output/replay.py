@@ -9,12 +9,16 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.slots import LENGTH
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
-from jointplay.solver.kernels.loop.extremes.window.book import blank_book
-from jointplay.solver.kernels.loop.extremes.window.extremes_in_steps import extremes_in_steps
+from jointplay.solver.kernels.loop.entry_points import (
+    extremes_in_steps,
+    find_steps,
+    make_again,
+    states_in_steps,
+)
+from jointplay.solver.kernels.loop.extremes.search.brackets import SHARP
+from jointplay.solver.kernels.loop.extremes.window.blank_book import blank_book
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.replay import find_steps, make_again, states_in_steps
-from jointplay.solver.kernels.loop.step import Workspace
+from jointplay.solver.kernels.loop.workspace import Workspace
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
 from jointplay.solver.runs.run_kernel import run_kernel

@@ -6,15 +6,13 @@ import numba
 
 from jointplay.solver.kernels.jit import INNER
 
-UNCACHED = INNER | {"cache": False}
 
-
-@numba.njit(**UNCACHED)
+@numba.njit(**INNER)
 def doubled(number: float) -> float:
     return 2.0 * number
 
 
-@numba.njit(**UNCACHED)
+@numba.njit(**INNER)
 def next_to_doubled(number: float) -> float:
     return doubled(number) + 1.0
 

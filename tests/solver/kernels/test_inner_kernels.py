@@ -4,9 +4,13 @@ import ast
 from collections.abc import Iterator
 from pathlib import Path
 
+from jointplay.solver.kernels.compile_loop import FUNCTIONS
+
 ROOT = Path(__file__).resolve().parents[3]
 LOOP = "jointplay.solver.kernels.loop"
-COMPILED = ("kernel(", "deferred(", "written_out(")
+COMPILED = ("kernel(", "written_out(")
+ENTRIES = {one.__name__ for part in FUNCTIONS.values() for one in part.values()}
+"""Functions that Python calls by their entry points alone."""
 
 
 def is_compiled(function: ast.FunctionDef, by: tuple[str, ...] = COMPILED) -> bool:
@@ -30,7 +34,7 @@ def module_of(path: Path) -> str:
 def interpreted(node: ast.AST) -> Iterator[ast.AST]:
     """Yield what Python itself runs: all but the bodies of kernels."""
     for child in ast.iter_child_nodes(node):
-        if isinstance(child, ast.FunctionDef) and is_compiled(child):
+        if isinstance(child, ast.FunctionDef) and (is_compiled(child) or child.name in ENTRIES):
             continue
         yield child
         yield from interpreted(child)

@@ -1,17 +1,17 @@
 """Openings of gaps: where a cubic falls to zero, and what a step sees of them."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numba import cfunc, int64, void
+from numba import carray, cfunc, types
 
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.enclosure import may_open
 from jointplay.solver.kernels.emit.functions import DTYPE as FUNCTIONS
-from jointplay.solver.kernels.emit.functions import WORK
 from jointplay.solver.kernels.emit.judging import RELEASE
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.slots import DTYPE
@@ -54,9 +54,13 @@ def test_a_straight_line_is_met_at_once(start: float, speed: float) -> None:
     assert falling_root(start, rate, min(end, 0.0), rate) == pytest.approx(1.0 / speed, rel=1e-12)
 
 
-@cfunc(void(WORK, WORK, int64))  # type: ignore[misc]
-def gaps_of_a_polynomial(work: np.ndarray, spare: np.ndarray, lane: int) -> None:
+NUMBERS = types.CPointer(types.float64)
+
+
+@cfunc(types.void(NUMBERS, NUMBERS, types.int64))  # type: ignore[misc]
+def gaps_of_a_polynomial(lanes: Any, instants: Any, lane: int) -> None:
     """A gap with up to four zeros in a step, and its rate: it is as deep as their product."""
+    work, spare = carray(lanes, (10, LANES)), carray(instants, (3, INSTANTS))
     for i in range(INSTANTS):
         share, depth, rate = spare[0, i], 1.0, 0.0
         for k in range(4):

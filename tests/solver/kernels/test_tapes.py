@@ -8,10 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from llvmlite import binding
-from numba import int64, void
 
 from jointplay.solver.kernels.emit import module
-from jointplay.solver.kernels.emit.functions import WORK
+from jointplay.solver.kernels.emit.functions import (
+    ARRAY,
+    INDEX,
+    MARKING,
+    OVER_LANES,
+    Signature,
+)
 from jointplay.solver.kernels.emit.module import load
 from jointplay.solver.kernels.emit.tapes import Source, module_text
 from jointplay.solver.kernels.target import Target, own_target
@@ -42,9 +47,9 @@ def test_a_tape_calls_others_and_has_the_value_of_the_last() -> None:
     work = work_of(3.0)
     assert step.step(work) == (1 << LANES) - 1
     assert work[3].tolist() == [9.0] * LANES
-    assert step.square.signature == void(WORK)
-    assert step.move.signature == void(WORK, int64)
-    assert step.step.signature == step.judge.signature == int64(WORK)
+    assert step.square.signature == OVER_LANES
+    assert step.move.signature == Signature("void", (ARRAY, INDEX))
+    assert step.step.signature == step.judge.signature == MARKING
     assert len({getattr(step, one.name).address for one in SOURCES}) == len(SOURCES)
 
 
@@ -90,7 +95,7 @@ def test_vectors_on_the_stack_lie_in_one_line_of_the_cache() -> None:
     for i in numbers:
         lines += [f"w{i} = mul v{i} v{(7 * i + 1) % 40}", f"store {40 + i} w{i}"]
     target = Target(8, "x86-64-v4", "")
-    text = Source("crowded", tuple(lines)).of_numbers(lambda name: f"@{name}", target.lanes)
+    text = Source("crowded", tuple(lines)).function_text(lambda name: f"@{name}", target.lanes)
     code = target.machine().emit_assembly(binding.parse_assembly(text))
     moved = re.findall(r"(vmov\w+) .*%rsp\)", code.replace("\t", " "))
     assert moved  # by instructions that ask for such a place

@@ -10,7 +10,7 @@ import pytest
 from one_block import run
 
 from jointplay.records.point import PointStatus
-from jointplay.solver.kernels import cache, compile_loop, kernel_cache
+from jointplay.solver.kernels import cache, kernel_cache, loop_code
 from jointplay.solver.kernels.emit import module as emit_module
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
@@ -315,9 +315,9 @@ def compiling(catalogue: Catalogue, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(kernel_cache, "_kernels", {})
     folder = tmp_path / "kernels"
     folder.mkdir()
-    for module in (cache, compile_loop, emit_module):
+    for module in (cache, loop_code, emit_module):
         monkeypatch.setattr(module, "cache_folder", lambda: folder)
-    compile_loop.marker(compile_loop.RUNS).touch()
+    loop_code.path_of(loop_code.RUNS).touch()
     admitted = admit(SEVERAL_BODIES)
     new = NewJob("simulate", admitted.job, admitted.digest, SOLVER_VERSION)
     return f"{catalogue.submit(new).job.id}-0"

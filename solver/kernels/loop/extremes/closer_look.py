@@ -15,8 +15,8 @@ from jointplay.solver.kernels.loop.extremes.bends import find_in_reach, look_bet
 from jointplay.solver.kernels.loop.extremes.inner_states import look_at_inner_states
 from jointplay.solver.kernels.loop.extremes.passages import look_about_fast_passages
 from jointplay.solver.kernels.loop.extremes.roughness import is_due, may_set_extremes
+from jointplay.solver.kernels.loop.extremes.search.brackets import SHARP
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import place_evenly, seek_between
-from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
 from jointplay.solver.kernels.loop.extremes.slips_in_flight import look_at_slips_in_flight
 from jointplay.solver.kernels.loop.runs import NO_PAIR
 from jointplay.solver.kernels.loop.step import Step, channels_within

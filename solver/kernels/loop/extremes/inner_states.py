@@ -9,13 +9,13 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.extremes.search.brackets import SHARP
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import (
     CORNER,
     look_evenly,
     place_evenly,
     spread_and_bend,
 )
-from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
 from jointplay.solver.kernels.loop.step import Step, states_within
 from jointplay.solver.kernels.trace.rows import NO_ROW
 

@@ -10,10 +10,10 @@ import numpy as np
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.extremes.bends import has_bend
-from jointplay.solver.kernels.loop.extremes.search.brackets import NODES
+from jointplay.solver.kernels.loop.extremes.search.brackets import NODES, SHARP
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import open_brackets
 from jointplay.solver.kernels.loop.extremes.search.narrowing import HALF
-from jointplay.solver.kernels.loop.extremes.search.seeking import FORETOLD, SHARP
+from jointplay.solver.kernels.loop.extremes.search.seeking import FORETOLD
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
 FARTHEST = 0.25

@@ -23,13 +23,13 @@ def refine_peaks(s: Step, marked: np.ndarray) -> None:
     """Seek the extremes that the scan suspects around the start of this step.
 
     Candidate channels are evaluated at quarters of the step before and of this one. `marked` :
-    `work`, seen as bytes of the scan.
+    `work`, whose bytes are the scan's.
     """
     for i in range(INSTANTS):
         s.spare[s.at.theta, i] = (i % HALF) / HALF
     channels_around(s)
     rows, waiting = np.empty(s.at.rows, np.int64), 0
-    rows = rows[: find_marked(s, marked[s.at.marked * s.work.shape[1] :], rows)]
+    rows = rows[: find_marked(s, marked[s.at.marked :], rows)]
     for r in rows:
         waiting = look_at_quarters(r, waiting, s)
     waiting = look_at_kinks_beside(rows, waiting, s)
@@ -44,9 +44,9 @@ def find_marked(s: Step, marked: np.ndarray, rows: np.ndarray) -> int:
     Returns how many. `marked` : from the marks on.
     """
     count = 0
-    lanes_bits = np.uint64(ONE_OF_EIGHT << s.lane)
+    lanes, lanes_bits = marked.shape[1], np.uint64(ONE_OF_EIGHT << s.lane)
     for word in range((s.at.rows + BYTES - 1) // BYTES):
-        bits = marked[word] & lanes_bits
+        bits = marked[word // lanes, word % lanes] & lanes_bits
         if bits != 0:
             for r in range(min(BYTES, s.at.rows - BYTES * word)):  # no marks beyond
                 if bits >> np.uint64(8 * r + s.lane) & np.uint64(1):

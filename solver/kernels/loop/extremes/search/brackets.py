@@ -1,17 +1,16 @@
 """Brackets of steps in which extremes are sought, and room for all that one search has at once."""
 
-# mypy: disable-error-code="no-untyped-call"
-
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from numba import from_dtype
 from numpy.typing import NDArray
 
 from jointplay.solver.kernels.layout import INSTANTS
 
+SHARP = 2e-7
+"""Share of a channel's range up to now to which its extremes are sought."""
 NODES = 5
 MIDDLE, LAST = 2, NODES - 1
 MOST_ROUNDS = 18
@@ -63,8 +62,6 @@ DTYPE = np.dtype(
         for name, kind in Bracket.__annotations__.items()
     ]
 )
-BRACKETS = from_dtype(DTYPE)[::1]
-"""Their type in kernels."""
 
 
 def room_for(channels: int) -> NDArray[Any]:

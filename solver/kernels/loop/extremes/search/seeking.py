@@ -8,7 +8,7 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.search.brackets import MOST_ROUNDS, Bracket
+from jointplay.solver.kernels.loop.extremes.search.brackets import MOST_ROUNDS, SHARP, Bracket
 from jointplay.solver.kernels.loop.extremes.search.extreme import LEFT_OUT, extreme, slope_left_out
 from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import (
     count,
@@ -25,8 +25,6 @@ from jointplay.solver.kernels.loop.extremes.search.narrowing import (
 from jointplay.solver.kernels.loop.extremes.search.step_ends import is_at_end, look_at_ends
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
-SHARP = 2e-7
-"""Share of a channel's range up to now to which its extremes are sought."""
 FORETOLD = 5e-9
 """The same, of the bound on what a quartic foretells that is not evaluated there."""
 LEAST_OFF = 0.1

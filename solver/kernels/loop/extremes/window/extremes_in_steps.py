@@ -3,11 +3,10 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import float64, int64, void
 
-from jointplay.solver.kernels.emit.functions import functions_at
-from jointplay.solver.kernels.jit import deferred, inner_kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS, MOTION
+from jointplay.solver.kernels.loop import calls
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
 from jointplay.solver.kernels.loop.extremes.bends import look_between_bends
 from jointplay.solver.kernels.loop.extremes.passages import look_about_passages, passes
@@ -25,14 +24,13 @@ from jointplay.solver.kernels.loop.extremes.window.book import (
 from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import has_corner
 from jointplay.solver.kernels.loop.extremes.window.suspects import Part, find_suspects
 from jointplay.solver.kernels.loop.step import (
-    WORKSPACE,
     Step,
-    Workspace,
     channels_within,
     group_of,
     step_of,
 )
 from jointplay.solver.kernels.loop.unowned_view import unowned
+from jointplay.solver.kernels.loop.workspace import Workspace
 
 
 @inner_kernel()
@@ -105,7 +103,7 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
     place_evenly(low, high, s)
     channels_within(s)
     behind = find_suspects(part, wanted.blocks, s, wanted.close, book, wanted.suspects)
-    functions_at(s.call).foresee_bends(s.work)
+    calls.foresee_bends(s.call, s.work)
     passing, bending = False, s.work[s.at.may_pass_bend, s.lane] > 0.0
     for j in range(s.at.pairs):
         passing |= passes(j, s)
@@ -124,12 +122,6 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
     store_extremes(chosen, book, s)
 
 
-@deferred(
-    void(
-        *(WORKSPACE, float64[:, ::1], int64[:, ::1], float64[:, ::1], int64[::1]),
-        *(float64, float64[:, ::1], float64[:, :, ::1]),
-    )
-)
 def extremes_in_steps(
     given: Workspace,
     steps: np.ndarray,
@@ -157,12 +149,12 @@ def extremes_in_steps(
     sharp
         Share of its range by which an extreme may be off unseen; 0: it is evaluated where it is.
     book
-        See `solver.kernels.loop.extremes.window.book`: of bin 0 so far, then of the last one.
+        See `solver.kernels.loop.extremes.window.blank_book`: of bin 0 so far, then of the last one.
     extremes : (bins, channels, 4)
         Lowest value, its time, highest value, its time; left as it is where a bin has no part.
     """
     group = group_of(given)
-    at, work, call = group.at, group.work, functions_at(group.call)
+    at, work, call = group.at, group.work, group.call
     book, room = unowned(book), np.empty((2, book.shape[1]), np.int64)
     wanted = Wanted(
         rows[rows < at.rows], eights(rows), room[0], room[1], np.empty(group.spare.shape)
@@ -170,10 +162,10 @@ def extremes_in_steps(
     p, present = 0, 0
     for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, group.runs, at, work)
-        call.right_hand_side(work)
+        calls.right_hand_side(call, work)
         for lane in range(work.shape[1]):
             remember_start(step_of(lane, group))
-        call.attempt(work)
+        calls.attempt(call, work)
         while p < len(parts) and parts[p, 0] < first + count:
             if parts[p, 1] != present:
                 close_bin(book, rows, extremes[present])

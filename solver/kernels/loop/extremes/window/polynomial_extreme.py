@@ -7,9 +7,10 @@ import numpy as np
 from jointplay.records.peak import HIGHEST, LOWEST
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.extremes.search.brackets import SHARP
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import CORNER
-from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
-from jointplay.solver.kernels.loop.extremes.window.book import RANGE, count_value
+from jointplay.solver.kernels.loop.extremes.window.blank_book import RANGE
+from jointplay.solver.kernels.loop.extremes.window.book import count_value
 from jointplay.solver.kernels.loop.step import Step
 
 LAST = INSTANTS - 1

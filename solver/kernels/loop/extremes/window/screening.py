@@ -24,9 +24,9 @@ from jointplay.solver.kernels.loop.extremes.eights import (
     store,
     where,
 )
+from jointplay.solver.kernels.loop.extremes.search.brackets import SHARP
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import CORNER
-from jointplay.solver.kernels.loop.extremes.search.seeking import SHARP
-from jointplay.solver.kernels.loop.extremes.window.book import RANGE, ROUNDING
+from jointplay.solver.kernels.loop.extremes.window.blank_book import RANGE, ROUNDING
 from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import SEVENTH
 
 ULPS = 1e-15
@@ -49,7 +49,7 @@ def _screen(
     row
         Slot of the first of eight channels.
     book : (rows, channels)
-        See `solver.kernels.loop.extremes.window.book`.
+        See `solver.kernels.loop.extremes.window.blank_book`.
     first
         Column of the first of the eight channels there.
     begin, end

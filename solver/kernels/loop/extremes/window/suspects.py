@@ -4,11 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from jointplay.solver.kernels.emit.functions import functions_at
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop import calls
 from jointplay.solver.kernels.loop.extremes.search.rounding import place_closely, scatter, spread_of
-from jointplay.solver.kernels.loop.extremes.window.book import ROUNDING, count_value
+from jointplay.solver.kernels.loop.extremes.window.blank_book import ROUNDING
+from jointplay.solver.kernels.loop.extremes.window.book import count_value
 from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import count_if_polynomial
 from jointplay.solver.kernels.loop.extremes.window.screening import JAGGED, ONE_BY_ONE, screen
 from jointplay.solver.kernels.loop.step import Step
@@ -86,7 +87,7 @@ def find_suspects(
             if mark >> JAGGED & 1:
                 if not looked:
                     place_closely(0.5 * (part.low + part.high), close[at.theta])
-                    functions_at(s.call).channels_within(s.work, close, s.lane)
+                    calls.channels_within(s.call, s.work, close, s.lane)
                     looked = True
                 if is_rounding(r, s, close, book):
                     count_each(r, False, part, s, book)

@@ -1,0 +1,53 @@
+"""Entry points of the loop: its functions that Python calls, and the arrays that they take."""
+
+from functools import partial
+
+import numpy as np
+
+from jointplay.records.impact import IMPACT
+from jointplay.solver.kernels.emit import functions, slots
+from jointplay.solver.kernels.entry_point import INTEGER, REAL, Array, EntryPoint, Together
+from jointplay.solver.kernels.loop import runs
+from jointplay.solver.kernels.loop.extremes.search import brackets
+from jointplay.solver.kernels.loop.runs import Buffers
+from jointplay.solver.kernels.loop.workspace import Workspace
+from jointplay.solver.kernels.loop_code import RUNS as OF_RUNS
+from jointplay.solver.kernels.loop_code import WINDOWS as OF_WINDOWS
+from jointplay.solver.kernels.loop_code import address_in
+
+ADDRESSES = Array.of(functions.DTYPE, 1)
+"""Addresses of the kernel's functions."""
+AT = Array.of(slots.DTYPE, 1)
+WORK = Array.of(np.float64, 2)
+RUNS = Array.of(runs.DTYPE, 1)
+TABLE = Array.of(np.float64, 2)
+INDICES = Array.of(np.int64, 1)
+WORKSPACE = Together(Workspace, (ADDRESSES, AT, WORK, WORK, RUNS, Array.of(brackets.DTYPE, 1)))
+BUFFERS = Together(
+    Buffers,
+    (
+        Array.of(np.float64, 4),
+        Array.of(IMPACT, 2),
+        Array.of(runs.GROWTH, 2),
+        Array.of(np.float64, 3),
+    ),
+)
+_run, _window = (partial(address_in, part) for part in (OF_RUNS, OF_WINDOWS))
+
+advance = EntryPoint("advance", _run, (WORKSPACE, BUFFERS, INTEGER, INTEGER), INTEGER)
+observe_rows = EntryPoint(
+    "observe_rows", _run, (ADDRESSES, AT, WORK, WORK, INTEGER, TABLE, INDICES, TABLE)
+)
+set_clocks = EntryPoint("set_clocks", _run, (AT, WORK, RUNS))
+plan_anew = EntryPoint("plan_anew", _run, (AT, WORK, RUNS, INTEGER))
+start_tangents = EntryPoint("start_tangents", _run, (AT, WORK))
+measure_tangent = EntryPoint("measure_tangent", _run, (AT, WORK, INTEGER), REAL)
+
+find_steps = EntryPoint("find_steps", _window, (RUNS, TABLE, TABLE, INDICES))
+states_in_steps = EntryPoint("states_in_steps", _window, (WORKSPACE, TABLE, TABLE, INDICES, TABLE))
+make_again = EntryPoint("make_again", _window, (WORKSPACE, TABLE, TABLE, TABLE))
+extremes_in_steps = EntryPoint(
+    "extremes_in_steps",
+    _window,
+    (WORKSPACE, TABLE, Array.of(np.int64, 2), TABLE, INDICES, REAL, TABLE, Array.of(np.float64, 3)),
+)

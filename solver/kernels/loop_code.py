@@ -1,0 +1,58 @@
+"""Machine code of the integration loop: compiled once by another process, loaded from the cache.
+
+It is the same for every scene, whose own equations take seconds: on a machine that has never
+computed, a second process compiles it while the first compiles the scene's own kernel. So no
+process that computes needs Numba, which takes a second to import and to get ready.
+"""
+
+import subprocess
+import sys
+from dataclasses import replace
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+
+from jointplay.solver.kernels.cache import cache_folder
+from jointplay.solver.kernels.emit.machine_code import address_of_symbol, load_code
+from jointplay.solver.kernels.target import own_target
+from jointplay.solver.kernels.watched import attend
+
+RUNS, WINDOWS = "runs", "windows"
+"""Parts of the loop: what every run needs, and what makes stored steps again."""
+PARTS = (RUNS, WINDOWS)
+
+
+def path_of(part: str) -> Path:
+    """Return the file of a part's code, for this processor; it is the same for every width."""
+    processor = replace(own_target(), lanes=1).mark
+    return cache_folder() / f"loop-{part}-{version('numba')}-{processor}.o"
+
+
+def begin(part: str) -> subprocess.Popen[bytes] | None:
+    """Start compiling a part in a process of its own. Returns None where it is in the cache."""
+    if path_of(part).exists():
+        return None
+    return subprocess.Popen(  # noqa: S603 - our own program
+        [sys.executable, "-P", "-m", "jointplay.solver.kernels.compile_loop", part],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+    )
+
+
+def address_in(part: str, symbol: str) -> int:
+    """Return the address of a function of a part; half a minute where that is not compiled."""
+    _load(part)
+    return address_of_symbol(symbol)
+
+
+@cache
+def _load(part: str) -> None:
+    path, compiling = path_of(part), begin(part)
+    if compiling is not None:
+        attend(compiling)
+    if not path.exists():
+        raise RuntimeError(
+            "the integration loop could not be compiled; python -m"
+            f" jointplay.solver.kernels.compile_loop {part} says why"
+        )
+    load_code(path.read_bytes())
