@@ -8,7 +8,6 @@ process that computes needs Numba, which takes a second to import and to get rea
 import subprocess
 import sys
 from dataclasses import replace
-from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
@@ -41,12 +40,11 @@ def begin(part: str) -> subprocess.Popen[bytes] | None:
 
 def address_in(part: str, symbol: str) -> int:
     """Return the address of a function of a part; half a minute where that is not compiled."""
-    _load(part)
+    load_code(part, lambda: _code(part))
     return address_of_symbol(symbol)
 
 
-@cache
-def _load(part: str) -> None:
+def _code(part: str) -> bytes:
     path, compiling = path_of(part), begin(part)
     if compiling is not None:
         attend(compiling)
@@ -55,4 +53,4 @@ def _load(part: str) -> None:
             "the integration loop could not be compiled; python -m"
             f" jointplay.solver.kernels.compile_loop {part} says why"
         )
-    load_code(path.read_bytes())
+    return path.read_bytes()

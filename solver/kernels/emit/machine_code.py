@@ -4,7 +4,9 @@ Numba, which compiles the loops that call it, would optimise such a module three
 and keep an entry to each function for itself: more than half of the compilation of a press.
 """
 
+from collections.abc import Callable
 from functools import cache
+from threading import Lock
 from typing import Any
 
 from llvmlite import binding
@@ -20,9 +22,22 @@ LONG = 8_000_000
 order in which they are written: to order them takes three times as long for twice the length."""
 
 
-def load_code(code: bytes) -> None:
-    """Load the code of a module, as `compiled` returns it."""
-    _engine().add_object_file(binding.ObjectFileRef.from_data(code))
+_loading = Lock()
+_loaded: set[str] = set()
+
+
+def load_code(name: str, code: Callable[[], bytes]) -> None:
+    """Load the code of a module, as `compiled` returns it, unless this process has done so.
+
+    `name` : of the module. `code` : returns it; that may take long, and other threads go on.
+    """
+    if name in _loaded:
+        return
+    found = code()
+    with _loading:
+        if name not in _loaded:
+            _engine().add_object_file(binding.ObjectFileRef.from_data(found))
+            _loaded.add(name)
 
 
 def address_of_symbol(name: str) -> int:

@@ -52,7 +52,7 @@ def load(sources: Sequence[Source], lanes: int = 0, target: Target | None = None
         path = cache_folder() / f"{prefix}.o"
         if is_watched() and not path.exists():
             _compile_elsewhere(path, sources, target)
-        load_code(_code(path, sources, target))
+        load_code(prefix, lambda: _code(path, sources, target))
         _loaded[prefix] = Module(sources, prefix)
     return _loaded[prefix]
 

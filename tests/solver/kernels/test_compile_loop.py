@@ -91,3 +91,29 @@ def test_a_loop_that_cannot_be_compiled_says_where_to_look(
 def test_an_entry_point_takes_arrays_of_its_own_kind_alone(wrong: Any) -> None:
     with pytest.raises(TypeError, match="a contiguous array of 2 dimensions of float64 is wanted"):
         list(entry_points.WORK.passed(wrong))
+
+
+THREADS = """
+import threading
+from jointplay.solver.kernels.loop.entry_points import EntryPoint
+from jointplay.solver.kernels.loop import entry_points
+
+known = [one for one in vars(entry_points).values() if isinstance(one, EntryPoint)]
+together, found = threading.Barrier(8), []
+
+def look():
+    together.wait()
+    found.append(tuple(one.address(one.symbol) for one in known))
+
+threads = [threading.Thread(target=look) for _ in range(8)]
+for each in threads:
+    each.start()
+for each in threads:
+    each.join()
+print(len(found), len(set(found)), all(found[0]))
+"""
+
+
+def test_threads_that_compute_at_once_share_one_loop() -> None:
+    ended = subprocess.run([sys.executable, "-c", THREADS], capture_output=True, text=True)
+    assert ended.stdout.split() == ["8", "1", "True"], ended.stderr
