@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from llvmlite import binding
 
-from jointplay.solver.kernels.emit import module
+from jointplay.solver.kernels.emit import machine_code, module
 from jointplay.solver.kernels.emit.functions import (
     ARRAY,
     INDEX,
@@ -62,21 +62,27 @@ def test_tapes_of_one_name_in_two_modules_are_two() -> None:
         assert work[1].tolist() == [expected] * LANES
 
 
+def forget(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a process know of no code that it has loaded."""
+    monkeypatch.setattr(module, "_loaded", {})
+    monkeypatch.setattr(machine_code, "_loaded", set())
+
+
 def test_code_is_compiled_once_and_the_same_each_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(module, "cache_folder", lambda: tmp_path)
-    monkeypatch.setattr(module, "_loaded", {})
+    forget(monkeypatch)
     sources = [*SOURCES, Source("of_this_test")]
     begun = load(sources)
     assert load(sources) is begun
     (kept,) = tmp_path.glob("*.o")
     code = kept.read_bytes()
     kept.unlink()
-    monkeypatch.setattr(module, "_loaded", {})
+    forget(monkeypatch)
     load(sources)
     assert kept.read_bytes() == code
-    monkeypatch.setattr(module, "_loaded", {})
+    forget(monkeypatch)
     monkeypatch.setattr(module, "compiled", None)  # nothing can be compiled any more
     assert load(sources).step(work_of(2.0)) == (1 << LANES) - 1
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels import cache, watched
-from jointplay.solver.kernels.emit import module
+from jointplay.solver.kernels.emit import machine_code, module
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.trace.equations import trace
@@ -30,6 +30,7 @@ def test_what_another_process_has_compiled_is_loaded(
 ) -> None:
     monkeypatch.setattr(module, "cache_folder", lambda: tmp_path)
     monkeypatch.setattr(module, "_loaded", {})
+    monkeypatch.setattr(machine_code, "_loaded", set())
     monkeypatch.setattr(module, "compiled", None)  # nothing can be compiled here
     before = cache.SPENT.elsewhere
     lines = ("v0 = load 0", "v1 = add v0 v0", "store 0 v1")
