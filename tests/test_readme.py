@@ -32,7 +32,9 @@ PAGES = [
             "laws",
             "figures",
             "windows",
-            "studies",
+            "basins",
+            "sensitivities",
+            "periodic_orbits",
             "calibration",
         )
     ),
@@ -88,6 +90,15 @@ def also_as_printed(texts: list[tuple[str, str]]) -> list[Any]:
 def test_every_shortened_piece_is_printed_somewhere():
     printed = [text for _, text in (*BLOCKS, *NOTEBOOKS)]
     assert all(any(piece in text for text in printed) for piece in SHORTER)
+
+
+def test_no_figure_of_a_block_is_written_over_an_earlier_one():
+    for _, text in BLOCKS:
+        drawn = []
+        for command in re.findall(r"^jointplay plot (.*)$", text, re.MULTILINE):
+            _, *names = re.split(r" -", command)[0].split()  # those of figures follow the results
+            drawn += [(name, re.findall(r"-o (\S+)", command)) for name in names]
+        assert all(drawn.count(one) == 1 for one in drawn), text
 
 
 @pytest.mark.parametrize(("language", "text"), also_as_printed(BLOCKS))
