@@ -84,7 +84,7 @@ def _(error: NotTheJobs) -> RequestRefused:
 
 @refusal.register
 def _(error: KeyReused) -> RequestRefused:
-    sentence = f"{str(error).capitalize()}."
+    sentence = f"T{str(error)[1:]}."  # which quotes a key: its letters stay as they are
     errors = [ErrorDetail(parameter="Idempotency-Key", detail=clipped(sentence))]
     return RequestRefused(kinds.KEY_REUSED, sentence, errors)
 

@@ -87,7 +87,7 @@ def test_a_job_that_ended_badly_is_computed_again(own, ending):
 
 def test_a_repeated_request_finds_what_the_first_one_made(own):
     http, _ = own
-    key = {"Idempotency-Key": "a-key"}
+    key = {"Idempotency-Key": "A-Key"}
     job = JOB | {"cache": False}
     first, again = (http.post("/v1/jobs", json=job, headers=key) for _ in range(2))
     assert (first.status_code, again.status_code) == (202, 202)
@@ -95,6 +95,7 @@ def test_a_repeated_request_finds_what_the_first_one_made(own):
     other = http.post("/v1/jobs", json=job | {"duration": 0.25}, headers=key)
     assert (other.status_code, other.json()["type"]) == (422, "/problems/key-reused")
     assert other.json()["errors"][0]["parameter"] == "Idempotency-Key"
+    assert other.json()["detail"].startswith("The idempotency key 'A-Key' was used")
     assert len(http.get("/v1/jobs").json()["jobs"]) == 1
     batch = http.post("/v1/batches", json={"jobs": [job]}, headers=key)
     assert batch.json()["type"] == "/problems/key-reused"
