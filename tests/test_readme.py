@@ -17,6 +17,7 @@ from typing import Any
 import pytest
 
 from jointplay.service.processes import running_service
+from tests.forked_commands import forked_commands
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text()
@@ -68,6 +69,14 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield url
 
 
+@pytest.fixture(scope="module")
+def environment(service: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
+    """Variables that commands of the documentation find, and that `jointplay` is found by."""
+    with forked_commands(tmp_path_factory.mktemp("commands") / "bin") as commands:
+        path = (str(commands), str(Path(sys.executable).parent), os.environ["PATH"])
+        yield os.environ | {"PATH": os.pathsep.join(path), "JOINTPLAY_URL": service}
+
+
 def shortened(text: str) -> str:
     for printed, shorter in SHORTER.items():
         text = text.replace(printed, shorter)
@@ -102,20 +111,13 @@ def test_no_figure_of_a_block_is_written_over_an_earlier_one():
 
 
 @pytest.mark.parametrize(("language", "text"), also_as_printed(BLOCKS))
-def test_what_the_documentation_says_works(language, text, service, tmp_path):
+def test_what_the_documentation_says_works(language, text, service, environment, tmp_path):
     if "curl" in text and shutil.which("curl") is None:
         pytest.skip("this machine has no curl")
     text = text.replace("http://127.0.0.1:8000", service)
     shell = ["bash", "-euo", "pipefail", "-c"]
     command = [*shell, text] if language == "bash" else [sys.executable, "-c", text]
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    ended = subprocess.run(
-        command,
-        cwd=tmp_path,
-        env=os.environ | {"PATH": path, "JOINTPLAY_URL": service},
-        capture_output=True,
-        text=True,
-    )
+    ended = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert ended.returncode == 0, ended.stderr
     for made in re.findall(r"(?:-o|>) ([\w-]+(?:\.\w+)?)(?=[;\s]|$)", text):
         assert (tmp_path / made).exists(), made

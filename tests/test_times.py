@@ -12,7 +12,7 @@ from tests.times import Spent, most_expensive, processor
 ROOT = Path(__file__).parents[1]
 BUSY = "import time; [None for _ in iter(lambda: time.process_time() < 0.5, False)]"
 TESTS = f"""
-import subprocess, sys, time
+import pytest, subprocess, sys, time
 
 def test_here():
     begun = time.process_time()
@@ -21,6 +21,16 @@ def test_here():
 
 def test_elsewhere():
     subprocess.run([sys.executable, "-c", {BUSY!r}], check=True)
+
+@pytest.fixture(scope="module")
+def shared():
+    subprocess.run([sys.executable, "-c", {BUSY!r}], check=True)
+
+def test_first(shared):
+    pass
+
+def test_second(shared):
+    pass
 """
 
 
@@ -42,6 +52,9 @@ def test_tests_have_their_processes_and_seconds(tmp_path: Path) -> None:
     assert elsewhere.processor >= 0.5 - 0.02
     assert none.processor < here.processor
     assert here.seconds >= 0.1
+    assert found["shared"].processor >= 0.5 - 0.02
+    assert (found["shared"].tests, found["shared"].processes) == (0, 1)
+    assert max(found[f"test_{name}"].processor for name in ("first", "second")) < 0.25
 
 
 ORPHAN = f"""

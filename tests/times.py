@@ -1,7 +1,9 @@
 """Where the tests' processor time goes, test by test: `pytest -p tests.times --times FILE`.
 
 Processor seconds are those of pytest and of all processes that it started, whether these have ended
-or not: what a service takes that several tests share is that of those which make it work.
+or not: what a service takes that several tests share is that of those which make it work. What it
+takes to set up a fixture that several tests share is no test's: it has a row of its own, named
+after the file of the first test that asked for it.
 """
 
 import json
@@ -58,6 +60,11 @@ class Times:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._spent: dict[str, Spent] = {}
+        self._shared = Spent()
+        """Costs of all shared fixtures until now."""
+        self._file = ""
+        self._setting_up = False
+        """Whether a shared fixture is being set up, and maybe asks for others."""
         self._tests = self._processes = 0
         self._processor = self._lost = 0.0
         sys.addaudithook(self._hear)
@@ -77,11 +84,28 @@ class Times:
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
         """Add what a test takes, its fixtures included."""
-        before = self._until_now()
+        before, shared = self._until_now(), self._shared
         self._tests += 1
+        self._file = item.nodeid.partition("::")[0]
         result = yield
-        self._spent[item.nodeid] = self._until_now() - before
+        self._spent[item.nodeid] = self._until_now() - before - (self._shared - shared)
         return result
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_fixture_setup(self, fixturedef: pytest.FixtureDef[object]) -> Iterator[None]:
+        """Add what a fixture takes that several tests share, those it asks for included."""
+        if fixturedef.scope == "function" or self._setting_up:
+            return (yield)
+        before = self._until_now()
+        self._setting_up = True
+        try:
+            return (yield)
+        finally:
+            self._setting_up = False
+            spent = self._until_now() - before
+            self._shared += spent
+            name = f"{self._file}::{fixturedef.argname}"
+            self._spent[name] = self._spent.get(name, Spent()) + spent
 
     def pytest_unconfigure(self) -> None:
         """Write the tests' times."""
