@@ -9,7 +9,7 @@ import typer
 
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import aligned, make_folder, tell
+from jointplay.command_line.output import aligned, make_folder, print_result
 
 SEED = Annotated[int, typer.Option(min=0, help="Of jobs and schedule.")]
 DURATION = Annotated[float, typer.Option(min=1.0, max=86_400.0, help="In which faults strike, s.")]
@@ -85,6 +85,6 @@ def chaos(
     if output is None and not report.wrong:
         shutil.rmtree(folder)
     lines = [*aligned([*report.rows()]), *report.closing()]
-    tell(report.document(), lines, as_json=as_json)
+    print_result(report.document(), lines, as_json=as_json)
     if report.wrong:
         raise Stopped(f"{len(report.wrong)} things were wrong", Exit.CHECK_FAILED)

@@ -76,8 +76,8 @@ def _draw_over(chart: OverChart, found: list[Branch]) -> page.Figure:
     placed = chart.placed(found)
     figure, axes = chart.panel(2)
     for branch, x, y in placed:
-        look: page.Look = {"color": colours.GEOMETRY, "path_effects": halo()}
-        _curve(axes, branch, x, y, **look)
+        style: page.Style = {"color": colours.GEOMETRY, "path_effects": halo()}
+        _curve(axes, branch, x, y, **style)
     name_special(axes, placed)
     chart.explain(figure, axes)
     return figure
@@ -95,9 +95,10 @@ def _draw_over_diagram(diagram: OverDiagram, found: list[Branch]) -> page.Figure
     return figure
 
 
-def _curve(axes: page.Axes, branch: Branch, x: Floats, y: Floats, **look: Any) -> None:
+def _curve(axes: page.Axes, branch: Branch, x: Floats, y: Floats, **style: Any) -> None:
     """Draw the orbits of a branch in their order along it."""
-    style: page.Look = {"color": colours.COMPUTED, "linewidth": 0.9} | look
+    common: page.Style = {"color": colours.COMPUTED, "linewidth": 0.9}
+    style = common | style
     order = np.argsort(branch.column(LENGTH), kind="stable")
     x, y, stable = x[order], y[order], branch.column(UNSTABLE)[order] == 0.0
     ends = [*(np.flatnonzero(np.diff(stable)) + 1).tolist(), len(x)]

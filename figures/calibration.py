@@ -41,8 +41,8 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         ends = [_miss(target, target[end]) for end in ("lowest", "highest")]
         misses.plot([number, number], ends, color=colours.AUXILIARY, linewidth=1.2)
         inside = colours.COMPUTED if target["weight"] > 0.0 else "white"
-        look: page.Look = {"markerfacecolor": inside, "markersize": 3.0, "markeredgewidth": 0.6}
-        misses.plot([number], _miss(target, target["fitted"]), "o", color=colours.COMPUTED, **look)
+        style: page.Style = {"markerfacecolor": inside, "markersize": 3.0, "markeredgewidth": 0.6}
+        misses.plot([number], _miss(target, target["fitted"]), "o", color=colours.COMPUTED, **style)
     misses.set_xlim(0.0, len(targets) + 1.0)
     misses.locator_params(axis="x", integer=True)
     misses.set_xlabel("target, in the order of the document")

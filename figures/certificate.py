@@ -64,8 +64,8 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
             page.instead(axes, "0 everywhere" if len(finite) else "not known")
         across.shade(axes)
         if time[0] <= end <= time[-1]:
-            look: page.Look = {"color": colours.MARKED, "linestyle": "--", "linewidth": 0.7}
-            axes.axvline(end / across.scale.factor, label="horizon", **look)
+            style: page.Style = {"color": colours.MARKED, "linestyle": "--", "linewidth": 0.7}
+            axes.axvline(end / across.scale.factor, label="horizon", **style)
         axes.set_ylabel(shown.label("error"))
         page.corner_text(axes, name)
     page.finish_stack(figure, panels, across.label, panels[0])

@@ -44,9 +44,9 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
         panels, joints, named, impacts, strict=True
     ):
         axes.plot(across.shown(time), force / newtons.factor, color=colours.COMPUTED, label=label)
-        look: page.Look = {"color": colours.MARKED, "linewidth": 0.5, "zorder": 1.5}
+        style: page.Style = {"color": colours.MARKED, "linewidth": 0.5, "zorder": 1.5}
         heights = peak / newtons.factor
-        axes.vlines(across.shown(onset), 0.0, heights, label="impacts between samples", **look)
+        axes.vlines(across.shown(onset), 0.0, heights, label="impacts between samples", **style)
         across.shade(axes)
         axes.set_ylim(bottom=0.0)
         axes.set_ylabel(newtons.label("normal force"))

@@ -15,7 +15,7 @@ from jointplay.records.branch import CURVES, LENGTH, SECOND, VALUE, Branch
 from jointplay.records.study import StudySource
 
 _HEIGHT = 65.0  # mm
-_LOOKS: Final = dict(zip(CURVES, colours.COMPARED, strict=False))
+_STYLES: Final = dict(zip(CURVES, colours.COMPARED, strict=False))
 _NAMES: Final = {
     "LP": "LP fold",
     "PD": "PD period doubling",
@@ -51,7 +51,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     for curve in curves:
         order = np.argsort(curve.column(LENGTH), kind="stable")
         x, y = curve.column(VALUE) / across.factor, curve.column(SECOND) / up.factor
-        colour, dashes, _ = _LOOKS[curve.of]
+        colour, dashes, _ = _STYLES[curve.of]
         (line,) = axes.plot(x[order], y[order], dashes, color=colour, linewidth=0.9)
         line.set_label(_NAMES[curve.of])
         placed.append((_behind_start(curve), x, y))
@@ -67,8 +67,8 @@ def _draw_over(chart: OverChart, curves: list[Branch]) -> page.Figure:
     figure, axes = chart.panel(len({curve.of for curve in curves}))
     for curve, (_, x, y) in zip(curves, placed, strict=True):
         order = np.argsort(curve.column(LENGTH), kind="stable")
-        look: page.Look = {"color": colours.GEOMETRY, "linewidth": 0.9, "path_effects": halo()}
-        (line,) = axes.plot(x[order], y[order], _LOOKS[curve.of][1], **look)
+        style: page.Style = {"color": colours.GEOMETRY, "linewidth": 0.9, "path_effects": halo()}
+        (line,) = axes.plot(x[order], y[order], _STYLES[curve.of][1], **style)
         line.set_label(_NAMES[curve.of])
     name_special(axes, placed)
     chart.explain(figure, axes)

@@ -65,8 +65,8 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
         if axes is panels[0]:
             page.legend(figure, axes, ncols=3)
         else:
-            look: page.Look = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 4}
-            axes.legend(handles=lines, borderaxespad=0.2, **look)
+            style: page.Style = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 4}
+            axes.legend(handles=lines, borderaxespad=0.2, **style)
     page.finish_stack(figure, panels, across.label)
     return figure
 
@@ -77,8 +77,8 @@ def _draw_panel(
     """Draw curves, and a ring where the ledger has the end of one. Returns the curves."""
     lines, joules = [], scale("J", *curves.values())
     for (name, curve), (colour, dashes, _) in zip(curves.items(), colours.COMPARED, strict=False):
-        look: page.Look = {"color": colour, "linestyle": dashes, "label": name}
-        lines += axes.plot(*_thinned(across.shown(time), curve / joules.factor), **look)
+        style: page.Style = {"color": colour, "linestyle": dashes, "label": name}
+        lines += axes.plot(*_thinned(across.shown(time), curve / joules.factor), **style)
         if name in ledger:
             end = across.shown(time[-1:]), [ledger[name] / joules.factor]
             axes.plot(*end, "o", color=colour, markersize=4.0, clip_on=False, **page.RING)

@@ -85,8 +85,8 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         for group in groups:
             members = group.members[points] & np.isfinite(tested[points])
             values = np.clip(tested[points][members], -0.1, 1.1)
-            look: page.Look = {"color": group.colour, "markersize": 1.6, "markeredgewidth": 0.0}
-            panels[1].plot(axis.shown[members], values, "o", **look)
+            style: page.Style = {"color": group.colour, "markersize": 1.6, "markeredgewidth": 0.0}
+            panels[1].plot(axis.shown[members], values, "o", **style)
         panels[1].set_ylim(-0.15, 1.15)
         panels[1].set_ylabel("0-1 test")
     for axes in panels:

@@ -125,12 +125,12 @@ def _loop(axes: page.Axes, pair: str, contact: Any, depth: Floats, force: Floats
     metres, newtons = scale("m", depth), scale("N", force)
     x, y = depth / metres.factor, force / newtons.factor
     turn = int(np.argmax(depth))
-    look: page.Look = {"color": colours.COMPUTED, "rasterized": len(x) > page.MOST_VECTOR_MARKS}
+    style: page.Style = {"color": colours.COMPUTED, "rasterized": len(x) > page.MOST_VECTOR_MARKS}
     axes.fill(
-        x, y, **look | {"color": colours.UNKNOWN}, linewidth=0.0, zorder=0.5, label="dissipated"
+        x, y, **style | {"color": colours.UNKNOWN}, linewidth=0.0, zorder=0.5, label="dissipated"
     )
-    axes.plot(x[: turn + 1], y[: turn + 1], label="loading", **look)
-    axes.plot(x[turn:], y[turn:], linestyle="--", label="unloading", **look)
+    axes.plot(x[: turn + 1], y[: turn + 1], label="loading", **style)
+    axes.plot(x[turn:], y[turn:], linestyle="--", label="unloading", **style)
     axes.set_xlabel(metres.label("penetration"))
     axes.set_ylabel(newtons.label("normal force"))
     axes.set_xlim(left=min(0.0, float(x.min())))

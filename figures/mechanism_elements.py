@@ -91,23 +91,23 @@ def draw_elements(axes: page.Axes, drawn: list[Element], size: float, metre: flo
                 zorder=6,
             )
         elif element.kind in TURNING:
-            look: page.Look = {"color": colours.COMPUTED, "markersize": 13.0, "fillstyle": "none"}
-            look |= {"linestyle": "none", "markeredgewidth": 0.9, "zorder": 6}
-            axes.plot([x / metre], [y / metre], marker=_turn(), **look)
+            style: page.Style = {"color": colours.COMPUTED, "markersize": 13.0, "fillstyle": "none"}
+            style |= {"linestyle": "none", "markeredgewidth": 0.9, "zorder": 6}
+            axes.plot([x / metre], [y / metre], marker=_turn(), **style)
     for line in springs(drawn, size):
         axes.plot(*(line.T / metre), color=colours.COMPUTED, linewidth=0.9, zorder=3)
 
 
 def draw_wheels(axes: page.Axes, drawn: list[Wheels], metre: float) -> None:
     """Draw the pitch circles of wheels side by side, and belts as a line between their joints."""
-    look: page.Look = {"color": colours.AUXILIARY, "linewidth": 0.8, "zorder": 1}
+    style: page.Style = {"color": colours.AUXILIARY, "linewidth": 0.8, "zorder": 1}
     for pair in drawn:
         rims = circles(pair)
         for rim in rims:
-            axes.plot(*(rim / metre), linestyle="-.", **look)
+            axes.plot(*(rim / metre), linestyle="-.", **style)
         if not rims:
             line = np.array([pair.first, pair.second]).T / metre
-            axes.plot(*line, linestyle=":", **look)
+            axes.plot(*line, linestyle=":", **style)
 
 
 def circles(pair: Wheels) -> list[np.ndarray]:

@@ -33,7 +33,7 @@ class JointMark:
     """One joint: its sign, its place [m], the direction of its axis if it slides [rad], play."""
 
     name: str
-    look: str
+    style: str
     place: Point
     grounded: bool
     axis: float | None
@@ -133,7 +133,7 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
         joints.append(
             JointMark(
                 name=name,
-                look=_look(joint, name in driven or (marks["turns"] and bodies[1] in moved)),
+                style=_style(joint, name in driven or (marks["turns"] and bodies[1] in moved)),
                 place=world(scene, pose, joint[second]),
                 grounded=GROUND in bodies,
                 axis=axis,
@@ -164,7 +164,7 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
     )
 
 
-def _look(joint: Mapping[str, Any], driven: bool) -> str:
+def _style(joint: Mapping[str, Any], driven: bool) -> str:
     """Name the sign that a joint is drawn with; sliders have a rail instead."""
     sign = marks_of(joint)["sign"]
     if sign != "pin":

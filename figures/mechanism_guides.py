@@ -86,13 +86,13 @@ def _walls(middle: Floats, half: Floats, aside: Floats) -> Floats:
 
 def draw_guides(axes: page.Axes, drawn: list[Guide], shape: Geometry, metre: float) -> None:
     """Draw the walls in the colour of clearances, and the slider between them."""
-    named = any(joint.look == WITH_CLEARANCE for joint in shape.joints)
+    named = any(joint.style == WITH_CLEARANCE for joint in shape.joints)
     for guide in drawn:
-        look: page.Look = {"facecolor": colours.UNKNOWN, "edgecolor": EDGE, "linewidth": 0.6}
+        style: page.Style = {"facecolor": colours.UNKNOWN, "edgecolor": EDGE, "linewidth": 0.6}
         if len(guide.slider):
-            axes.fill(*(guide.slider.T / metre), **look, zorder=1.5)
+            axes.fill(*(guide.slider.T / metre), **style, zorder=1.5)
         for wall in guide.walls:
             label = "_" if named else WITH_CLEARANCE
-            look = {"color": colours.MARKED, "linewidth": 1.4, "zorder": 1.6}
-            axes.plot(*(wall.T / metre), solid_capstyle="butt", label=label, **look)
+            style = {"color": colours.MARKED, "linewidth": 1.4, "zorder": 1.6}
+            axes.plot(*(wall.T / metre), solid_capstyle="butt", label=label, **style)
             named = True

@@ -24,7 +24,7 @@ _SIZE = 6.0
 _LINE = 1.2 * _SIZE
 _LINES_ABOVE = {"top": 0.0, "center": 0.5, "bottom": 1.0}
 """Share of the further lines of a name that are above its place, by its alignment there."""
-_LOOKS: Final = (
+_STYLES: Final = (
     (True, {"color": colours.MARKED, "weight": "bold"}),
     (False, {"color": colours.GEOMETRY}),
 )
@@ -99,19 +99,19 @@ def draw_labels(
     points = metre * points_per_metre
     frame = (left * points, low * points, right * points, high * points)
 
-    def write(looks: Mapping[str, page.Look], places: Iterator[_Place]) -> None:
+    def write(styles: Mapping[str, page.Style], places: Iterator[_Place]) -> None:
         def merit(place: _Place) -> tuple[int, float]:
-            box = place.box([*looks], points_per_metre)
+            box = place.box([*styles], points_per_metre)
             faults = sum(_overlap(box, other) for other in written) + (not _within(box, frame))
             faults += sum(_is_crossed(box, line) for line in lines)
             return -faults, place.merit
 
         best = max(places, key=merit)
-        written.append(best.box([*looks], points_per_metre))
+        written.append(best.box([*styles], points_per_metre))
         horizontal, vertical = best.alignment
         x, y = best.apart * math.cos(best.angle), best.apart * math.sin(best.angle)
-        y += page.in_font(_LINE) * (len(looks) - 1) * _LINES_ABOVE[vertical]
-        for text, look in looks.items():
+        y += page.in_font(_LINE) * (len(styles) - 1) * _LINES_ABOVE[vertical]
+        for text, style in styles.items():
             note = axes.annotate(
                 text,
                 xy=(best.point[0] / metre, best.point[1] / metre),
@@ -121,15 +121,15 @@ def draw_labels(
                 va=vertical,
                 fontsize=page.in_font(_SIZE),
                 zorder=6,
-                **look,
+                **style,
             )
             note.set_in_layout(False)
             y -= page.in_font(_LINE)
 
     for point, joints in shape.places():
         names = {
-            ", ".join(joint.name for joint in joints if joint.play == play): look
-            for play, look in _LOOKS
+            ", ".join(joint.name for joint in joints if joint.play == play): style
+            for play, style in _STYLES
         }
         names.pop("", None)
         write(names, _joint_places(shape, point, joints))

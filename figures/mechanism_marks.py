@@ -55,10 +55,10 @@ def draw_bodies(axes: page.Axes, shape: Geometry, metre: float) -> None:
 
 def draw_joints(axes: page.Axes, shape: Geometry, metre: float) -> None:
     """Draw a circle for each joint that turns, a square for each weld, and supports."""
-    black: page.Look = {"color": colours.GEOMETRY, "markersize": 4.0}
-    white: page.Look = {"markerfacecolor": "white"}
-    play: page.Look = {"color": colours.MARKED, "markersize": 5.5, "markeredgewidth": 1.4}
-    looks: dict[str, page.Look] = {
+    black: page.Style = {"color": colours.GEOMETRY, "markersize": 4.0}
+    white: page.Style = {"markerfacecolor": "white"}
+    play: page.Style = {"color": colours.MARKED, "markersize": 5.5, "markeredgewidth": 1.4}
+    styles: dict[str, page.Style] = {
         "ideal joint": black | white,
         "driven joint": black | {"markerfacecolor": colours.GEOMETRY},
         WITH_CLEARANCE: play | white | {"zorder": 5},  # around others in its place
@@ -67,14 +67,19 @@ def draw_joints(axes: page.Axes, shape: Geometry, metre: float) -> None:
     for joint in shape.joints:
         on_block = any(shape.is_block(body) for body in joint.bodies)
         if joint.axis is None and joint.grounded and not on_block:
-            look: page.Look = {"markersize": 13.0, "color": EDGE, "fillstyle": "none", "zorder": 1}
+            style: page.Style = {
+                "markersize": 13.0,
+                "color": EDGE,
+                "fillstyle": "none",
+                "zorder": 1,
+            }
             x, y = joint.place
-            axes.plot([x / metre], [y / metre], marker=_support(), markeredgewidth=0.6, **look)
-    common: page.Look = {"marker": "o", "linestyle": "none", "markeredgewidth": 0.8, "zorder": 5.1}
-    for name, look in looks.items():
-        places = [joint.place for joint in shape.joints if joint.look == name]
+            axes.plot([x / metre], [y / metre], marker=_support(), markeredgewidth=0.6, **style)
+    common: page.Style = {"marker": "o", "linestyle": "none", "markeredgewidth": 0.8, "zorder": 5.1}
+    for name, style in styles.items():
+        places = [joint.place for joint in shape.joints if joint.style == name]
         if places:
-            axes.plot(*(np.array(places).T / metre), **(common | look), label=name)
+            axes.plot(*(np.array(places).T / metre), **(common | style), label=name)
 
 
 def draw_gravity(axes: page.Axes, shape: Geometry) -> None:

@@ -61,11 +61,11 @@ def _orbit(axes: page.Axes, x: Floats, y: Floats, radius: float, beginning: str)
     frame(axes, 1.12 * max(radius, float(np.nanmax(np.abs([x, y]), initial=0.0))))
 
 
-def draw_clearance(axes: page.Axes, radius: float, **look: Any) -> None:
+def draw_clearance(axes: page.Axes, radius: float, **style: Any) -> None:
     """Draw a circle around the bearing's centre, dashed."""
     angle = np.linspace(0.0, 2.0 * np.pi, 241)
     circle = (radius * np.cos(angle), radius * np.sin(angle))
-    axes.plot(*circle, color=colours.GEOMETRY, linestyle=(0, (4, 3)), **look)
+    axes.plot(*circle, color=colours.GEOMETRY, linestyle=(0, (4, 3)), **style)
 
 
 def frame(axes: page.Axes, reach: float) -> None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 else:  # matplotlib is loaded when something is drawn, not when a signature names its types
     Axes = Axis = Figure = MarkerPath = Any
 
-Look = dict[str, Any]
+Style = dict[str, Any]
 """Keywords of matplotlib's artists."""
 Panels = list[list[Axes]]
 """Axes by row and column."""
@@ -35,7 +35,7 @@ CAPTION_LINE: Final = 2.8
 AXIS_HEIGHT: Final = 8.0
 """Height of an axis below panels, with its label [mm]."""
 
-RING: Final[Look] = {"markerfacecolor": "none", "markeredgewidth": 0.7}
+RING: Final[Style] = {"markerfacecolor": "none", "markeredgewidth": 0.7}
 """An open circle around a point of a curve."""
 
 MOST_VECTOR_POINTS: Final = 20_000
@@ -207,15 +207,15 @@ def legend_rows(entries: Sequence[Any] | Mapping[str, Any]) -> int:
     return -(-len(entries) // LEGEND_COLUMNS)
 
 
-def legend(figure: Figure, axes: Axes, **look: Any) -> None:
+def legend(figure: Figure, axes: Axes, **style: Any) -> None:
     """Explain the curves of a panel once for all panels, above them; others add what is theirs."""
-    look = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2} | look
+    style = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2} | style
     entries: dict[str, Any] = {}
     for panel in (axes, *figure.axes):
         for handle, label in zip(*panel.get_legend_handles_labels(), strict=True):
             if not _is_empty(handle):
                 entries.setdefault(label, handle)
-    figure.legend(entries.values(), entries.keys(), loc="outside upper center", **look)
+    figure.legend(entries.values(), entries.keys(), loc="outside upper center", **style)
 
 
 def _is_empty(drawn: Any) -> bool:
@@ -247,10 +247,10 @@ def legend_of_marks(
         drawn, labels = lines.get_legend_handles_labels()
         handles += dict(zip(labels, drawn, strict=True)).values()
     if handles:
-        look: Look = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2}
+        style: Style = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2}
         if lines is None:
-            look["handletextpad"] = 0.1  # a mark is in the middle of the room of a line
-        figure.legend(handles=handles, loc="outside upper center", **look)
+            style["handletextpad"] = 0.1  # a mark is in the middle of the room of a line
+        figure.legend(handles=handles, loc="outside upper center", **style)
 
 
 def caption_height(sentence: str) -> float:

@@ -76,11 +76,11 @@ def _columns(measure: dict[str, Any]) -> tuple[Floats, Floats, Floats]:
     return values, low, high
 
 
-def _bars(axes: page.Axes, beside: float, columns: list[Floats], **look: Any) -> None:
+def _bars(axes: page.Axes, beside: float, columns: list[Floats], **style: Any) -> None:
     values, low, high = columns
     reach = [np.clip(values - low, 0.0, None), np.clip(high - values, 0.0, None)]
     at = np.arange(len(values)) + beside
-    axes.barh(at, values, 0.9 * _APART, **look)
+    axes.barh(at, values, 0.9 * _APART, **style)
     axes.errorbar(
         values,
         at,

@@ -39,8 +39,12 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
         axes.set_ylim(bottom, 3.0 * top)
         ends += [_MARGIN * frequency[0], frequency[power >= bottom][-1]]
         if marked:
-            look: page.Look = {"color": colours.MARKED, "linewidth": 0.7, "linestyle": (0, (4, 3))}
-            axes.axvline(drive, zorder=1.5, label="once a period of the drivers", **look)
+            style: page.Style = {
+                "color": colours.MARKED,
+                "linewidth": 0.7,
+                "linestyle": (0, (4, 3)),
+            }
+            axes.axvline(drive, zorder=1.5, label="once a period of the drivers", **style)
         log_axis.number(axes.yaxis)
     if ends:
         panels[-1].set_xlim(min(ends), max(ends))

@@ -50,8 +50,11 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
             color=colours.COMPUTED,
             label=label,
         )
-        look: page.Look = {"color": colours.MARKED, "label": "extreme between samples"} | page.RING
-        axes.plot(across.shown(when), extremes / shown.factor, "o", **look)
+        style: page.Style = {
+            "color": colours.MARKED,
+            "label": "extreme between samples",
+        } | page.RING
+        axes.plot(across.shown(when), extremes / shown.factor, "o", **style)
         across.shade(axes)
         axes.set_ylabel(page.in_lines(shown.label(name)))
     page.finish_stack(figure, panels, across.label, panels[0] if explained else None)

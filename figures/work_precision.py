@@ -44,13 +44,13 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
             shown = chosen[values[chosen] > 0.0]
             axes.plot(cost[shown], values[shown], color=colour, linestyle=dashes, label=name)
             for inside, each in ((colour, admitted[shown]), ("white", ~admitted[shown])):
-                look: page.Look = {
+                style: page.Style = {
                     "marker": mark,
                     "markerfacecolor": inside,
                     "markeredgewidth": 0.6,
                 }
                 points = (cost[shown][each], values[shown][each])
-                axes.plot(*points, color=colour, linestyle="", **look)
+                axes.plot(*points, color=colour, linestyle="", **style)
     for (axes,), label in zip(grid, drawn, strict=True):
         axes.set_xscale("log")
         axes.set_yscale("log")

@@ -10,7 +10,7 @@ import typer
 
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.options import AS_JSON, PROCESSES
-from jointplay.command_line.output import json_text, make_folder, tell
+from jointplay.command_line.output import json_text, make_folder, print_result
 
 if find_spec("jinja2") is None:
     raise ModuleNotFoundError("of the extra", name="jinja2")
@@ -70,7 +70,7 @@ def reproduce(
         "for forces take the fitted preset: right at A, half of the printed ones at B"
         " (docs/calibration.md)"
     )
-    tell({"report": str(page), "runs": str(runs)}, [line, forces], as_json=as_json)
+    print_result({"report": str(page), "runs": str(runs)}, [line, forces], as_json=as_json)
 
 
 def _is_quick(output: Path) -> bool:

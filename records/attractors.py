@@ -27,7 +27,7 @@ from jointplay.records.motion import (
     motions,
     name_of,
 )
-from jointplay.records.scattered import Places, told_apart
+from jointplay.records.scattered import Places, clusters
 from jointplay.records.share_error import error_of_starts
 from jointplay.records.study import StudySource
 
@@ -175,7 +175,7 @@ def _groups(motion: Labels, cycles: Cycles) -> Iterator[_Group]:
         points = np.flatnonzero(motion == code)
         if len(points):
             own = cycles.of(points)
-            for members in told_apart(Places(own.places, own.scatter(), own.angles)):
+            for members in clusters(Places(own.places, own.scatter(), own.angles)):
                 yield _Group(code, points[members], own.places[members[0]])
 
 

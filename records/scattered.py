@@ -38,7 +38,7 @@ class Places:
         return np.asarray((np.abs(self.apart(chosen, one)) / errors).max(axis=1), np.float64)
 
 
-def told_apart(places: Places) -> list[Integers]:
+def clusters(places: Places) -> list[Integers]:
     """Return groups of motions, of indices each; some may be in none.
 
     One group of all: nothing tells them apart. Those of several groups differ beyond their scatter;

@@ -32,7 +32,7 @@ IMPORTED = (
     "numba.np.arraymath",
     "pandas",
 )
-"""What commands import."""
+"""Modules that commands import."""
 PROGRAM = """#!{python} -IS
 import json, os, socket, sys
 with socket.socket(socket.AF_UNIX) as server:
@@ -87,7 +87,15 @@ class Command(socketserver.BaseRequestHandler):
 
 
 class Commands(socketserver.ForkingMixIn, socketserver.UnixStreamServer):
-    """Makes a fork for each command."""
+    """Makes a fork for each command, until the process that started this one has ended."""
+
+    caller = os.getppid()
+
+    def service_actions(self) -> None:
+        """Wait for forks that have ended; twice a second see whether the caller has."""
+        super().service_actions()
+        if os.getppid() != self.caller:
+            raise SystemExit
 
 
 def serve(folder: Path) -> None:

@@ -26,7 +26,7 @@ class OwnDevice:
 
     name: str
     """Such as ``cuda:0``."""
-    told: WorkerDevice
+    record: WorkerDevice
 
 
 def tried_device(name: str, processes: int = 1) -> OwnDevice | None:
@@ -74,8 +74,8 @@ def of_trial(name: str, trial: "DeviceTrial", lanes: int, processes: int = 1) ->
         detail = f"{name!r}, {trial.name}, has other bits than this processor."
         raise InvalidInput.at("/device", detail)
     _log.info("%s, %s, makes %.3g steps a second", name, trial.name, trial.steps)
-    told = WorkerDevice(trial.name[:_NAME], trial.steps / processes, max(lanes // processes, 1))
-    return OwnDevice(name, told)
+    record = WorkerDevice(trial.name[:_NAME], trial.steps / processes, max(lanes // processes, 1))
+    return OwnDevice(name, record)
 
 
 def trial_scenes() -> "Iterator[Scene]":

@@ -49,12 +49,12 @@ class Relay:
         self._reap_next = self._look_for_solvers_next = self._trust_leases = 0.0
         self._clear_up_pause = settings.lease
         self._clear_up_next = time.monotonic() + settings.lease
-        self._last_turn, self._last_seen = time.monotonic(), catalogue.clock()
+        self._last_round, self._last_seen = time.monotonic(), catalogue.clock()
         self._queues_empty_since: float | None = None
         self._results: threading.Thread | None = None
         self._lead_until = 0.0
 
-    def turn(self) -> None:
+    def do_round(self) -> None:
         """Do what is due now, if this process leads."""
         now = time.monotonic()
         seen = self._catalogue.clock()
@@ -121,7 +121,7 @@ class Relay:
         All leases seem to have run out then; the living extend theirs with their next heartbeat.
         Returns the seconds by which the clock was set, or this machine slept; else 0.
         """
-        awake, passed = now - self._last_turn, seen - self._last_seen
+        awake, passed = now - self._last_round, seen - self._last_seen
         jumped = 0.0
         if abs(passed - awake) > _LONGEST_TURN:  # it was set, or this machine slept
             jumped = passed - awake
@@ -130,7 +130,7 @@ class Relay:
         elif awake > _LONGEST_TURN:
             _log.warning("%.1f s have passed since the last turn", awake)
             self._trust_leases = max(self._trust_leases, now + self._settings.heartbeat + 1.0)
-        self._last_turn, self._last_seen = now, seen
+        self._last_round, self._last_seen = now, seen
         return jumped
 
     def publish(self) -> None:
@@ -200,7 +200,7 @@ def main() -> None:
     with WakeUpListener(settings.redis_url) as listener:
         while not stop.is_set():
             try:
-                relay.turn()
+                relay.do_round()
             except Unavailable as error:
                 _log.warning("trying again: %s", error)
             listener.wait(settings.relay_period)

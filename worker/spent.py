@@ -39,23 +39,23 @@ def _spent() -> dict[str, float]:
 
 
 class SpentReport:
-    """Tells the catalogue, or a service, what this process has spent since this was made."""
+    """Reports to the catalogue, or to a service, what this process spends from now on."""
 
     def __init__(self) -> None:
-        self._told = _spent()
+        self._sent = _spent()
 
-    def tell(self, catalogue: "Catalogue", worker: str) -> None:
-        """Count what was not told yet; Unavailable: it is told the next time."""
-        if more := self.untold():
+    def send(self, catalogue: "Catalogue", worker: str) -> None:
+        """Count what was not sent yet; Unavailable: it is sent the next time."""
+        if more := self.unsent():
             catalogue.note_spent(worker, more)
-            self.told(more)
+            self.note_sent(more)
 
-    def untold(self) -> dict[str, float]:
-        """Return what was not told yet, by its counter."""
-        more = {name: amount - self._told[name] for name, amount in _spent().items()}
+    def unsent(self) -> dict[str, float]:
+        """Return what was not sent yet, by its counter."""
+        more = {name: amount - self._sent[name] for name, amount in _spent().items()}
         return {name: amount for name, amount in more.items() if amount > 0.0}
 
-    def told(self, more: Mapping[str, float]) -> None:
-        """Note that this was told."""
+    def note_sent(self, more: Mapping[str, float]) -> None:
+        """Note that this was sent."""
         for name, amount in more.items():
-            self._told[name] += amount
+            self._sent[name] += amount

@@ -153,9 +153,9 @@ def _be_present() -> None:
     spent_report = SpentReport()
     while True:
         try:
-            told = None if _device is None else _device.told
-            catalogue.note_worker(own_name(), own_solver(), told)
-            spent_report.tell(catalogue, own_name())
+            record = None if _device is None else _device.record
+            catalogue.note_worker(own_name(), own_solver(), record)
+            spent_report.send(catalogue, own_name())
         except Unavailable as fault:
             _log.debug("not known to be there: %s", fault)
         time.sleep(settings.heartbeat)

@@ -91,12 +91,17 @@ class Follower:
         tip = self.apart(at) * away
         cam = turned(angle_of(pose, self._ends[0]), self._cam - touched) / self._drawn
         axes.fill(*cam.T, facecolor=WALL, edgecolor=EDGE, linewidth=0.8, zorder=1)
-        look: page.Look = {"facecolor": TINTS[0], "edgecolor": EDGE, "linewidth": 0.8, "zorder": 3}
+        style: page.Style = {
+            "facecolor": TINTS[0],
+            "edgecolor": EDGE,
+            "linewidth": 0.8,
+            "zorder": 3,
+        }
         if self._is_flat:
             along = _LONG * np.array([away[1], -away[0]])
             ends = [tip - along, tip + along]
             face = np.array([*ends, *(end + _THICK * away for end in ends[::-1])])
-            axes.fill(*face.T, **look)
+            axes.fill(*face.T, **style)
         else:
-            axes.add_patch(Circle(tuple(tip + ROLLER * away), ROLLER, **look))
+            axes.add_patch(Circle(tuple(tip + ROLLER * away), ROLLER, **style))
         arrow(axes, tip, -away, self.force(at) / self._strongest)

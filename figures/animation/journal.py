@@ -58,13 +58,13 @@ class Journal:
         from matplotlib.patches import Circle
 
         centre = self._place(at)
-        for middle, radius, look in (
+        for middle, radius, style in (
             ((0.0, 0.0), _RING, {"facecolor": WALL, "edgecolor": EDGE}),
             ((0.0, 0.0), 1.0, {"facecolor": "white", "edgecolor": EDGE}),
             (tuple(centre), 1.0 - GAP, {"facecolor": TINTS[0], "edgecolor": EDGE}),
             ((0.0, 0.0), GAP, {"fill": False, "edgecolor": colours.AUXILIARY}),
         ):
-            axes.add_patch(Circle(middle, radius, linewidth=0.6, **look))
+            axes.add_patch(Circle(middle, radius, linewidth=0.6, **style))
         first = max(at - _TRAIL, 0)
         trail = np.array([self._place(one) for one in range(first, at + 1)])
         for part in range(_FADING):

@@ -73,13 +73,18 @@ class BetweenWalls:
             axes.fill(*wall.T, facecolor=WALL, edgecolor="none", zorder=1)
             axes.plot(*wall[:2].T, color=EDGE, linewidth=0.8, zorder=2)
         touching = self.touching(at)
-        look: page.Look = {"facecolor": TINTS[0], "edgecolor": EDGE, "linewidth": 0.8, "zorder": 3}
+        style: page.Style = {
+            "facecolor": TINTS[0],
+            "edgecolor": EDGE,
+            "linewidth": 0.8,
+            "zorder": 3,
+        }
         if self._is_pin:
             nearest = int(np.argmax(self._depth[:, at]))
             centre = touching[nearest] - self._half * self._places[nearest]
-            axes.add_patch(Circle(tuple(turned(angle, centre)), self._half, **look))
+            axes.add_patch(Circle(tuple(turned(angle, centre)), self._half, **style))
         else:
-            axes.fill(*turned(angle, touching).T, **look)
+            axes.fill(*turned(angle, touching).T, **style)
         outwards = turned(angle, self._places * [0.0, 1.0])
         for tip, normal, force in zip(
             turned(angle, touching), outwards, self._force[:, at], strict=True

@@ -34,7 +34,7 @@ from jointplay.storage.studies.reader import StudyReader
 _VERDICT = "verdict"
 _MOST_BYTES = 128_000_000
 _TURNS = 16
-_TOLD_APART: WeakKeyDictionary[StudyReader, Attractors] = WeakKeyDictionary()
+_ATTRACTORS: WeakKeyDictionary[StudyReader, Attractors] = WeakKeyDictionary()
 """As long as a request has its store open."""
 
 
@@ -42,7 +42,7 @@ def quantities(store: StudyReader) -> dict[str, Channel]:
     """Return what the points of a chart have, by name, with units; labels first."""
     outputs = {**OUTPUTS, **store.own_outputs}
     found = {}
-    if tells_attractors(store):
+    if has_attractors(store):
         found[ATTRACTOR] = Channel(ATTRACTOR, "1", "attractor")
     if store.verdicts is not None:
         found[MOTION] = Channel(MOTION, "1", "kind of motion")
@@ -52,16 +52,16 @@ def quantities(store: StudyReader) -> dict[str, Channel]:
     return found | extremes(store)
 
 
-def tells_attractors(store: StudyReader) -> bool:
+def has_attractors(store: StudyReader) -> bool:
     """Whether points have what tells their attractors apart."""
     return "states" in store.attributes and store.verdicts is not None
 
 
 def _attractors(store: StudyReader) -> Attractors:
     """Return the attractors of a store as it was opened, told apart once."""
-    if store not in _TOLD_APART:
-        _TOLD_APART[store] = attractors_of(store)
-    return _TOLD_APART[store]
+    if store not in _ATTRACTORS:
+        _ATTRACTORS[store] = attractors_of(store)
+    return _ATTRACTORS[store]
 
 
 def names_of(store: StudyReader, name: str) -> Callable[[int], str]:

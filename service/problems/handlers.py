@@ -49,7 +49,7 @@ async def answer(request: Request, error: Exception) -> Response:
         known |= {"HEAD"} if "GET" in known else set()  # see `jointplay.service.heads`
         refused.headers["Allow"] = ", ".join(sorted(known - {""}))
     if refused.kind.status >= 500:
-        _tell(request, refused, error)
+        _log_failure(request, refused, error)
     document = ProblemDocument(
         type=refused.kind.type,
         title=refused.kind.title,
@@ -66,7 +66,7 @@ async def answer(request: Request, error: Exception) -> Response:
     )
 
 
-def _tell(request: Request, refused: RequestRefused, error: Exception) -> None:
+def _log_failure(request: Request, refused: RequestRefused, error: Exception) -> None:
     path = request.url.path
     if path.startswith(PREFIX):
         path = f"{PREFIX}..."  # what is behind it opens a job's results

@@ -75,7 +75,7 @@ def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
         "residual": assembly.residual,
         "pose": {body: list(pose) for body, pose in scene.pose().items()},
         "given": [
-            {**taken._asdict(), "kept": taken.off <= assembly.told} for taken in assembly.given
+            {**taken._asdict(), "kept": taken.off <= assembly.reported} for taken in assembly.given
         ],
         "assemblies": found.angles,
         "places": found.places,

@@ -23,7 +23,7 @@ class AttractorKind(Motions[J]):
 
     def admit(self, job: J) -> Study:
         """Check and fill in; see `Kind.admit`."""
-        check_told_apart(job, "Attractors are told apart by")
+        check_distinguished(job, "Attractors are told apart by")
         return super().admit(job)
 
     def offset(self, job: J, scenes: PointScenes) -> Floats | None:
@@ -37,7 +37,7 @@ class AttractorKind(Motions[J]):
         return {**super().outputs(study), **outputs_of(study.point_scene(0))}
 
 
-def check_told_apart(job: MotionsJob, what: str) -> None:
+def check_distinguished(job: MotionsJob, what: str) -> None:
     """Refuse (InvalidInput) what does not tell attractors apart; `what` needs joint coordinates."""
     check_reduced(job.formulation, what)
     if "recurrence" not in indicators_of(job):

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kinds.attractors import check_told_apart
+from jointplay.solver.kinds.attractors import check_distinguished
 from jointplay.solver.kinds.idle_fields import check_idle
 from jointplay.solver.kinds.map import AlongStart
 from jointplay.solver.kinds.motion_map import MotionMap, MotionMapJob
@@ -67,7 +67,7 @@ class Chart(MotionMap[ChartJob]):
             if job.continuation != "none":
                 sentence = "A point starts from its neighbour or from several starts; choose one."
                 raise InvalidInput.at("/starts", sentence)
-            check_told_apart(job, "Starts lie apart in")
+            check_distinguished(job, "Starts lie apart in")
             check_spread(job.spread)
         else:
             check_idle(job, "several 'starts'", "spread", "seed")

@@ -46,8 +46,8 @@ RATES: Final[Any] = {
     "guides": {"__all__": {"rate", "tilt_rate"}},
 }
 """Parts of a start on which a pose does not depend."""
-TOLD = 1e-6
-"""Share of the shortest link, or of 1 m, up to which a difference is not told, m or m/s."""
+REPORTED = 1e-6
+"""Share of the shortest link, or of 1 m, up to which a difference is not reported, m or m/s."""
 NOTHING: Mapping[str, Any] = MappingProxyType({})
 Kept = TypeVar("Kept")
 MOST_KEPT = 512
@@ -80,13 +80,13 @@ class Assembly:
     given: tuple[Taken, ...]
     """All values that the scene gives of the start, and those that are taken."""
 
-    told: float
-    """Smallest difference from what is given that is told, m or m/s."""
+    reported: float
+    """Smallest difference from what is given that is reported, m or m/s."""
 
     @property
     def misfits(self) -> list[Taken]:
         """Return what is given and not kept."""
-        return [one for one in self.given if one.off > self.told]
+        return [one for one in self.given if one.off > self.reported]
 
     @property
     def redundant(self) -> int:
@@ -300,7 +300,7 @@ def _assembly(demands: Demands, held: AbsoluteMechanism, pose: Floats) -> Assemb
         redundant_with_play=len(open_jacobian) - loose_rank,
         rate=max((abs(float(row.rate)) for row in loose_rows), default=0.0),
         given=(*taken(demands.given, pose, still), *taken(rates, pose, velocity)),
-        told=TOLD * min(1.0, demands.length),
+        reported=REPORTED * min(1.0, demands.length),
     )
 
 

@@ -111,7 +111,7 @@ class DynamicRun:
 
     def _reconsider(self, choice: stiff_method.MethodChoice) -> None:
         """Go on with the other method from here, if it is better."""
-        method, change = choice.look(self.bundle, self.problem, self.admission)
+        method, change = choice.examine(self.bundle, self.problem, self.admission)
         if not method:
             return
         before = stiff_method.problem_for(self.problem, self.kernel.tableau.name, self.admission)
@@ -204,7 +204,7 @@ class DynamicRun:
         first_sample, first_section = self.samples_done, self.sections_done
         self.samples_done += len(samples)
         sample_time = np.arange(first_sample, self.samples_done) * self.admission.job["output_step"]
-        self.followers.look(self.bundle, LANE, sample_time)
+        self.followers.examine(self.bundle, LANE, sample_time)
         self.sections_done += len(sections)
         reached = self.bundle.lane(LANE).time
         duration = self.admission.job["duration"]

@@ -48,7 +48,7 @@ class Followers:
         self.first: dict[str, list[list[float]]] = {}
         """As `first_pulls` has it, by joint."""
 
-    def look(self, bundle: Bundle, lane: int, times: Floats) -> None:
+    def examine(self, bundle: Bundle, lane: int, times: Floats) -> None:
         """Look at the samples that a lane hands out, at their times, s."""
         if self.names and len(times):
             values = bundle.observe(lane, bundle.rows(SAMPLES, lane), self.columns)

@@ -135,7 +135,7 @@ class Trial:
             trial.advance(most - trial.attempts)
         return trial.attempts if trial.lane(LANE).status == Status.DONE else 0
 
-    def told(self, attempts: int) -> str:
+    def reason(self, attempts: int) -> str:
         """Return why the other method goes on."""
         now = self.bundle.lane(LANE).time
         tolerance = problem_for(self.problem, self.other, self.admission).tolerance
@@ -147,7 +147,7 @@ class Trial:
 
 
 class MethodChoice:
-    """When a run is looked at, and what was seen; `look` after every `allowance` of attempts."""
+    """When a run is looked at, and what was seen; `examine` after every `allowance` of attempts."""
 
     def __init__(self, bundle: Bundle) -> None:
         self._begin(bundle)
@@ -169,7 +169,9 @@ class MethodChoice:
         """Whether the run is to be looked at."""
         return bundle.lane(LANE).running and bundle.attempts >= self.look_at
 
-    def look(self, bundle: Bundle, problem: LaneProblem, admission: Admission) -> tuple[str, str]:
+    def examine(
+        self, bundle: Bundle, problem: LaneProblem, admission: Admission
+    ) -> tuple[str, str]:
         """Return the method that goes on, and why; empty: the same as before.
 
         Compiles the implicit kernel where it is not cached, which takes seconds.
@@ -182,7 +184,7 @@ class MethodChoice:
             waits = 0 if found else min(2**failures, MOST_WAITS)
         self.waits, self.failures = max(waits, 0), failures
         if found:
-            return trial.other, trial.told(found)
+            return trial.other, trial.reason(found)
         self._begin(bundle)
         return "", ""
 

@@ -8,7 +8,7 @@ from sqlalchemy import delete, func, insert, literal, select, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.databases.postgresql import take_turns
+from jointplay.storage.catalogue.databases.postgresql import lock_numbers
 from jointplay.storage.catalogue.errors import BatchNotFinished, BatchNotFound
 from jointplay.storage.catalogue.idempotency import (
     earlier_answer,
@@ -51,7 +51,7 @@ def submit_batch(
 ) -> SubmittedBatch:
     """Store a batch and all its jobs, or find the one an earlier request made."""
     if key is not None:
-        take_turns(unit.connection, key.number)
+        lock_numbers(unit.connection, key.number)
         earlier = earlier_answer(unit, key)
         if earlier is not None and earlier.batch is not None:
             return _submitted(unit, earlier.batch)

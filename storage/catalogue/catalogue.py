@@ -16,6 +16,7 @@ from jointplay.storage.catalogue import (
     claims,
     disagreements,
     ending,
+    fair_queueing,
     holding,
     idempotency,
     installation,
@@ -28,7 +29,6 @@ from jointplay.storage.catalogue import (
     stored,
     submission,
     tally,
-    turns,
     upkeep,
     usage,
 )
@@ -291,7 +291,7 @@ class Catalogue:
     mark_published = writing(upkeep.mark_published)
     holders = reading(upkeep.holders)
     reap = durably(upkeep.reap)
-    settle = writing(turns.settle)
+    settle = writing(fair_queueing.settle)
     removable = reading(upkeep.removable)
     mark_removed = writing(upkeep.mark_removed)
     unmeasured = reading(stored.unmeasured)

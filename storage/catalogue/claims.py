@@ -6,9 +6,9 @@ from typing import Any, Final
 
 from sqlalchemy import bindparam, delete, insert, update
 
-from jointplay.storage.catalogue import calls, quotas, solvers, tables, turns
+from jointplay.storage.catalogue import calls, fair_queueing, quotas, solvers, tables
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.databases.postgresql import take_turns
+from jointplay.storage.catalogue.databases.postgresql import lock_numbers
 from jointplay.storage.catalogue.holding import job_of
 from jointplay.storage.catalogue.numbers import number_of
 from jointplay.storage.catalogue.records import Block, BlockState, Claim, JobState, Solver
@@ -61,7 +61,7 @@ def claim_next(
     Owners of whose blocks `most_running` are computed are passed by; 0: any number may be.
     """
     if most_running:  # counted by one after the other
-        take_turns(unit.connection, _COUNTED)
+        lock_numbers(unit.connection, _COUNTED)
     busy = quotas.busy_owners(unit, most_running)
     if unit.shared:
         found = calls.claim_next(unit, worker, lease, solver, busy)
@@ -106,7 +106,7 @@ def _claim(
         return None
     held = Block(**row._mapping)
     unit.execute(_SENT, {"of_block": block_id})
-    charge = {"of_account": turns.ACCOUNT, "paid": turns.charge(unit, job.owner)}
+    charge = {"of_account": fair_queueing.ACCOUNT, "paid": fair_queueing.charge(unit, job.owner)}
     unit.execute(_BEGIN, {**holder, **moment, **charge, "number_of": held.attempt})
     begins = job.state is JobState.queued
     changes: dict[str, Any] = {

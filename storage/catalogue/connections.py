@@ -11,7 +11,7 @@ from sqlalchemy import Connection
 from sqlalchemy.exc import DBAPIError, IntegrityError
 
 from jointplay.storage.catalogue.databases import database_at
-from jointplay.storage.catalogue.databases.postgresql import take_turns
+from jointplay.storage.catalogue.databases.postgresql import lock_numbers
 from jointplay.storage.catalogue.errors import Interrupted
 
 _PATIENCE = 5.0
@@ -99,7 +99,7 @@ class Connections:
             if self._database.apart:
                 connection.exec_driver_sql("SET LOCAL lock_timeout = 0")
                 connection.exec_driver_sql("SET LOCAL statement_timeout = 0")
-            take_turns(connection, _MIGRATION)
+            lock_numbers(connection, _MIGRATION)
             yield connection
 
     def repeated(self, unit: Callable[[], Answer]) -> Answer:

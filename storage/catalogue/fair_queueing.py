@@ -103,7 +103,7 @@ def arrive(unit: Unit, owners: Collection[str]) -> None:
         unit.execute(_ARRIVE, {"owner": owner})
 
 
-def in_turn(unit: Unit) -> list[tuple[str, str]]:
+def in_order(unit: Unit) -> list[tuple[str, str]]:
     """Return queues and owners with blocks that wait there, in the order of their turn."""
     return [(row.queue, row.owner) for row in unit.execute(_WAITING)]
 

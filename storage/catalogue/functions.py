@@ -10,7 +10,7 @@ from typing import Final
 
 from sqlalchemy import Connection
 
-from jointplay.storage.catalogue import turns
+from jointplay.storage.catalogue import fair_queueing
 
 _WRITTEN: Final = (
     """
@@ -106,7 +106,7 @@ BEGIN
 END $$
 """,
 )
-_NAMED: Final = {"MOST_BEHIND": turns.MOST_BEHIND, "HEAD_START": turns.HEAD_START}
+_NAMED: Final = {"MOST_BEHIND": fair_queueing.MOST_BEHIND, "HEAD_START": fair_queueing.HEAD_START}
 FUNCTIONS: Final = tuple(
     reduce(lambda written, one: written.replace(one[0], f"{one[1]:g}"), _NAMED.items(), function)
     for function in _WRITTEN

@@ -10,7 +10,7 @@ from sqlalchemy import Select, func, select
 
 from jointplay.storage.catalogue import stored, tables, usage
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.databases.postgresql import take_turns
+from jointplay.storage.catalogue.databases.postgresql import lock_numbers
 from jointplay.storage.catalogue.errors import QuotaExceeded
 from jointplay.storage.catalogue.numbers import number_of
 from jointplay.storage.catalogue.records import LIVE, BlockState
@@ -85,7 +85,7 @@ class Uses:
 
     def __init__(self, unit: Unit, owners: Collection[str]) -> None:
         if owners:
-            take_turns(unit.connection, *(number_of("live", owner) for owner in owners))
+            lock_numbers(unit.connection, *(number_of("live", owner) for owner in owners))
         self._uses = {owner: use_of(unit, owner) for owner in owners}
 
     def add(self, owner: str, more: int, quota: Quota) -> None:

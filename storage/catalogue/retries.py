@@ -57,7 +57,7 @@ def _lock(unit: Unit, jobs: Sequence[str]) -> None:
         unit.execute(locked.with_for_update(key_share=True)).all()
 
 
-def tell(unit: Unit, retries: Sequence[tuple[str, str]]) -> None:
+def record(unit: Unit, retries: Sequence[tuple[str, str]]) -> None:
     """Record with jobs, the first of each pair, which new jobs repeat them."""
     if not retries:
         return
@@ -66,8 +66,8 @@ def tell(unit: Unit, retries: Sequence[tuple[str, str]]) -> None:
         record_event(unit, repeated, _RETRIED, {"job": new})
 
 
-def tell_once(unit: Unit, old: str, new: str) -> None:
+def record_once(unit: Unit, old: str, new: str) -> None:
     """Record with a job that another one, which was there, computes the same, but only once."""
     noted = select(_event.c.data).where(_event.c.job == old, _event.c.type == _RETRIED)
     if {"job": new} not in unit.execute(noted).scalars().all():
-        tell(unit, [(old, new)])
+        record(unit, [(old, new)])

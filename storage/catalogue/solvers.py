@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from sqlalchemy import and_, bindparam, delete, func, insert, or_, select, update
 
-from jointplay.storage.catalogue import tables, tally, turns
+from jointplay.storage.catalogue import fair_queueing, tables, tally
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import TooManyWorkers
 from jointplay.storage.catalogue.records import (
@@ -93,7 +93,7 @@ def _asked_by(unit: Unit, solver: Solver) -> dict[str, Any]:
 def waiting_for(unit: Unit, solver: Solver, busy: Collection[str]) -> tuple[str, ...]:
     """Return the queued block whose turn it is of a solver's, if there is one, of idle owners."""
     own = _asked_by(unit, solver)
-    for queue, owner in turns.in_turn(unit):
+    for queue, owner in fair_queueing.in_order(unit):
         asked = {**own, "of_queue": queue, "of_owner": owner}
         found = None if owner in busy else unit.execute(_NEXT, asked).scalar_one_or_none()
         if found is not None:

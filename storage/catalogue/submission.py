@@ -15,9 +15,9 @@ from sqlalchemy import (
     update,
 )
 
-from jointplay.storage.catalogue import idempotency, labels, retries, tables, turns
+from jointplay.storage.catalogue import fair_queueing, idempotency, labels, retries, tables
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.databases.postgresql import take_turns
+from jointplay.storage.catalogue.databases.postgresql import lock_numbers
 from jointplay.storage.catalogue.errors import CatalogueError, KeyReused, QuotaExceeded
 from jointplay.storage.catalogue.numbers import number_of
 from jointplay.storage.catalogue.quotas import Quota, Uses
@@ -78,7 +78,7 @@ def submit(
     looked_for += [one.key.number for one in requests if one.key is not None]
     owners = {one.new.owner for one in requests} - {""}
     looked_for += [number_of("turn", owner) for owner in owners]  # in one order
-    take_turns(unit.connection, *looked_for)
+    lock_numbers(unit.connection, *looked_for)
     uses = Uses(unit, {one.new.owner for one in requests if one.quota})
     answers: list[Submitted | CatalogueError] = []
     fresh: list[tuple[Row, Request]] = []
@@ -158,7 +158,7 @@ def _earlier(
     elif new.label is not None:
         labels.add(unit, job, new.label)
     if new.retry_of is not None:
-        retries.tell_once(unit, new.retry_of, same)
+        retries.record_once(unit, new.retry_of, same)
     (job,) = labels.labelled(unit, [job])
     return Submitted(job, created=False, cached=True)
 
@@ -236,7 +236,7 @@ def insert_jobs(unit: Unit, jobs: Sequence[tuple[Row, NewJob]]) -> None:
         for block in queued
     ]
     fresh = {"created": now, "due": now, "tries": 0}
-    turns.arrive(unit, [owner for _, owner in places])
+    fair_queueing.arrive(unit, [owner for _, owner in places])
     wake_ups = [
         {"block": block["id"], "queue": queue, "owner": owner, **fresh}
         for block, (queue, owner) in zip(queued, places, strict=True)
@@ -246,7 +246,7 @@ def insert_jobs(unit: Unit, jobs: Sequence[tuple[Row, NewJob]]) -> None:
     data = {row["id"]: {"retry_of": new.retry_of} if new.retry_of else {} for row, new in jobs}
     events = [first | {"job": job, "data": facts} for job, facts in data.items()]
     unit.execute(insert(tables.event), events)
-    retries.tell(unit, [(new.retry_of, row["id"]) for row, new in jobs if new.retry_of])
+    retries.record(unit, [(new.retry_of, row["id"]) for row, new in jobs if new.retry_of])
 
 
 def _blocks(job_id: str, new: NewJob) -> Iterator[Row]:

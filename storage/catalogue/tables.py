@@ -166,7 +166,7 @@ attempt = Table(
     Column("started", Float(53), nullable=False),
     Column("ended", Float(53)),
     Column("outcome", String(16)),
-    # whose share was charged so many seconds, until it is settled; see `storage.catalogue.turns`
+    # whose share was charged so many seconds, until it is settled; see `fair_queueing`
     Column("account", String(32)),
     Column("charged", Float(53)),
     PrimaryKeyConstraint("block", "number"),
@@ -201,7 +201,7 @@ outbox = Table(
     Index("ix_outbox_queue_owner", "queue", "owner", "block", "due"),
 )
 
-# What each owner has been charged, s; see `storage.catalogue.turns`.
+# What each owner has been charged, s; see `storage.catalogue.fair_queueing`.
 share = Table(
     "share",
     metadata,

@@ -7,16 +7,16 @@ from collections.abc import Callable, Iterator
 from typing import Final
 
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.reconciliation.extent import Counted, Extent
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.leftovers import leftovers
-from jointplay.storage.reconciliation.look import Counted, Look
 from jointplay.storage.reconciliation.results import damage
 from jointplay.storage.reconciliation.rows import contradictions, unsound
 from jointplay.storage.reconciliation.solvers import unserved
 from jointplay.storage.reconciliation.surroundings import clock, disk
 from jointplay.storage.settings import Settings
 
-__all__ = ["CHECKS", "Counted", "Finding", "Look", "findings"]
+__all__ = ["CHECKS", "Counted", "Extent", "Finding", "findings"]
 
 Check = Callable[[Settings, Catalogue], Iterator[Finding]]
 CHECKS: Final[tuple[Check, ...]] = (disk, clock, unserved, contradictions)
@@ -29,7 +29,7 @@ def findings(
     settings: Settings,
     catalogue: Catalogue,
     more: tuple[Check, ...] = (),
-    look: Look | None = None,
+    extent: Extent | None = None,
 ) -> Iterator[Finding]:
     """Yield everything that is not as it should be; nothing is mended by it.
 
@@ -42,16 +42,16 @@ def findings(
     look
         How closely results are looked at, and who hears how far that is; by default at every byte.
     """
-    look = look or Look()
+    extent = extent or Extent()
     flaws = [*unsound(settings, catalogue)]
     yield from flaws
     if flaws:
         return
     for check in CHECKS:
-        look.report(0.0, f"looking at {check.__name__}")
+        extent.report(0.0, f"looking at {check.__name__}")
         yield from check(settings, catalogue)
-    yield from damage(settings, catalogue, look.within(0.0, _READ))
-    yield from leftovers(settings, catalogue, look.within(_READ, _LEFT_OVER - _READ))
+    yield from damage(settings, catalogue, extent.within(0.0, _READ))
+    yield from leftovers(settings, catalogue, extent.within(_READ, _LEFT_OVER - _READ))
     for check in more:
-        look.report(_LEFT_OVER, f"looking at {check.__name__.replace('_', ' ')}")
+        extent.report(_LEFT_OVER, f"looking at {check.__name__.replace('_', ' ')}")
         yield from check(settings, catalogue)

@@ -25,7 +25,7 @@ class Counted:
 
 
 @dataclass(frozen=True)
-class Look:
+class Extent:
     """A way to look at results.
 
     Parameters
@@ -42,7 +42,7 @@ class Look:
     report: Callable[[float, str], None] = lambda fraction, note: None
     counted: Counted = field(default_factory=Counted)
 
-    def within(self, begin: float, part: float) -> "Look":
+    def within(self, begin: float, part: float) -> "Extent":
         """Return the same of a check that is a part of all, from where that begins."""
         return replace(self, report=lambda done, note: self.report(begin + part * done, note))
 

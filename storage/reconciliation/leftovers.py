@@ -12,8 +12,8 @@ from jointplay.storage.durable import PARTIAL
 from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.installation import MARK
 from jointplay.storage.places import StoredObject
+from jointplay.storage.reconciliation.extent import Extent
 from jointplay.storage.reconciliation.finding import Finding
-from jointplay.storage.reconciliation.look import Look
 from jointplay.storage.reconciliation.results import damage_of, sealed_results, verified
 from jointplay.storage.settings import OF_A_JOB, RUNNING, Settings
 
@@ -38,19 +38,19 @@ _TOLD: Final = 100
 _READ: Final = "jointplay show FILE reads it; remove it, or keep it elsewhere"
 
 
-def leftovers(settings: Settings, catalogue: Catalogue, look: Look) -> Iterator[Finding]:
+def leftovers(settings: Settings, catalogue: Catalogue, extent: Extent) -> Iterator[Finding]:
     """Look for files of jobs that have ended, longer ago than workers take to tidy up."""
-    return left_after(settings, catalogue, settings.lease, look)
+    return left_after(settings, catalogue, settings.lease, extent)
 
 
 def left_after(
-    settings: Settings, catalogue: Catalogue, grace: float, look: Look | None = None
+    settings: Settings, catalogue: Catalogue, grace: float, extent: Extent | None = None
 ) -> Iterator[Finding]:
     """Look for files of jobs that ended more than some seconds ago, and of no job.
 
     Files are listed before their job is looked up: what a worker is about to write is not here.
     """
-    yield from _of_the_place(settings, catalogue, grace, look or Look())
+    yield from _of_the_place(settings, catalogue, grace, extent or Extent())
     yield from of_running_jobs(settings, catalogue, grace)
     for path in sorted(settings.data.glob("*")):
         if path.name not in _DATA:
@@ -60,14 +60,14 @@ def left_after(
 
 
 def _of_the_place(
-    settings: Settings, catalogue: Catalogue, grace: float, look: Look
+    settings: Settings, catalogue: Catalogue, grace: float, extent: Extent
 ) -> Iterator[Finding]:
     place = settings.place
     keys = sorted([*place.list(""), *place.cut_off("")])
     listed = set(keys)
     for done, key in enumerate(keys):
         if done % _TOLD == 0:
-            look.report(done / len(keys), f"looking at object {done} of {len(keys)}")
+            extent.report(done / len(keys), f"looking at object {done} of {len(keys)}")
         if settings.sends and key.startswith(f"{RUNNING}/") and key.count("/") >= OF_A_JOB:
             continue
         if key == MARK:

@@ -12,8 +12,8 @@ from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.identity import growing_study, require_results_of
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
+from jointplay.storage.reconciliation.extent import Extent, several_at_once
 from jointplay.storage.reconciliation.finding import Finding
-from jointplay.storage.reconciliation.look import Look, several_at_once
 from jointplay.storage.results import manifest
 from jointplay.storage.results.metadata import FILE, Document
 from jointplay.storage.results.reader import ResultReader
@@ -24,13 +24,15 @@ _MENDED = ("marked as damaged", "no longer marked as damaged")
 _ANEW = "jointplay show {0} --job > job.json; jointplay submit job.json"
 
 
-def damage(settings: Settings, catalogue: Catalogue, look: Look | None = None) -> Iterator[Finding]:
+def damage(
+    settings: Settings, catalogue: Catalogue, extent: Extent | None = None
+) -> Iterator[Finding]:
     """Compare the results of jobs that have ended with what was stored.
 
     All are looked for in a list of what there is; of those that `look` chooses, of those that are
     marked as damaged or not in that list, every byte is read.
     """
-    look = look or Look()
+    extent = extent or Extent()
     listed = {job_in(key) for key in settings.place.list("")}
     ended, besides = [], []
     for job in catalogue.every_job():
@@ -39,8 +41,8 @@ def damage(settings: Settings, catalogue: Catalogue, look: Look | None = None) -
             lacks = job.state is JobState.succeeded and job.id not in listed
             if lacks or job.damaged:
                 besides.append(job.id)
-    chosen = look.chosen(ended, besides)
-    look.counted.read, look.counted.there = len(chosen), len(ended)
+    chosen = extent.chosen(ended, besides)
+    extent.counted.read, extent.counted.there = len(chosen), len(ended)
 
     def compared(job_id: str) -> tuple[Job, str | None] | None:
         try:
@@ -52,7 +54,7 @@ def damage(settings: Settings, catalogue: Catalogue, look: Look | None = None) -
         return job, CONTRADICTED if whole else found
 
     for done, (_, one) in enumerate(several_at_once(compared, chosen)):
-        look.report(done / len(chosen), f"read {done} of {len(chosen)} results")
+        extent.report(done / len(chosen), f"read {done} of {len(chosen)} results")
         if one is None:
             continue
         job, found = one

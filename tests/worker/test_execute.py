@@ -1,4 +1,3 @@
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -6,8 +5,9 @@ import pytest
 from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.errors import StoreExists
 from jointplay.storage.results.reader import ResultReader
-from jointplay.worker.execute import Answer, Outcome, Progress, execute
+from jointplay.worker.execute import Answer, Outcome, execute
 from tests.stores import files_of, target
+from tests.worker.answers import after
 
 JOB = {
     "kind": "simulate",
@@ -21,21 +21,6 @@ JOB = {
 @pytest.fixture(scope="module")
 def admission() -> Admission:
     return admit(JOB)
-
-
-def after(slices: int, answer: Answer, names: list[str]) -> Callable[[Progress], Answer]:
-    """Let so many slices pass, then take a restart point and give an answer."""
-    seen = 0
-
-    def report(progress: Progress) -> Answer:
-        nonlocal seen
-        seen += 1
-        if seen <= slices:
-            return Answer.go_on
-        names.append(progress.keep()[0])
-        return answer
-
-    return report
 
 
 def arrays(store: Path) -> dict[str, bytes]:

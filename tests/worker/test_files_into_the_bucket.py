@@ -158,7 +158,7 @@ def test_what_a_late_attempt_puts_is_no_file(attempt: Attempt) -> None:
     connection, block = attempt.connection, attempt.block
     address = connection.offered(block, drop("sealed/1"))
     assert address is not None
-    connection.tell(block, "release")
+    connection.report(block, "release")
     httpx.put(address, content=CONTENT, trust_env=False).raise_for_status()
     for ask in (connection.taken, connection.offered):
         with pytest.raises(Fenced):

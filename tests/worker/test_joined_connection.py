@@ -46,7 +46,7 @@ def connection() -> Iterator[Connection]:
 
 def test_what_a_proxy_answers_for_a_while_ends_no_block(connection: Connection) -> None:
     for ask in (
-        lambda: connection.tell(BLOCK, "heartbeat"),
+        lambda: connection.report(BLOCK, "heartbeat"),
         lambda: connection.ask(BLOCK, Files),
         lambda: [*connection.read(BLOCK, "block0-a1")],
         lambda: connection.write(BLOCK, "a1/parts/0", [b""], 0, "", 0),

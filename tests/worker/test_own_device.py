@@ -12,12 +12,12 @@ TRIAL = DeviceTrial("a card " + "x" * 64, 2, same_bits=True, revolutions=6e5, st
 
 def test_a_device_is_told_with_the_rate_of_its_trial() -> None:
     own = of_trial("cuda:0", TRIAL, 33792)
-    assert (own.name, own.told) == ("cuda:0", WorkerDevice(TRIAL.name[:64], 9e8, 33792))
+    assert (own.name, own.record) == ("cuda:0", WorkerDevice(TRIAL.name[:64], 9e8, 33792))
 
 
 def test_processes_that_share_a_device_tell_of_their_parts() -> None:
     own = of_trial("cuda:0", TRIAL, 33792, 4)
-    assert (own.told.rate, own.told.lanes) == (TRIAL.steps / 4, 33792 // 4)
+    assert (own.record.rate, own.record.lanes) == (TRIAL.steps / 4, 33792 // 4)
 
 
 def test_a_device_with_other_bits_is_none() -> None:

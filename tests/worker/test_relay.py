@@ -35,7 +35,7 @@ def test_a_message_carries_a_blocks_id_and_nothing_else(
     relay: Relay, catalogue: Catalogue, redis: Redis
 ) -> None:
     job = catalogue.submit(NEW).job.id
-    relay.turn()
+    relay.do_round()
     message = redis.lindex(FRESH, 0)
     assert isinstance(message, bytes)
     assert f"{job}-0".encode() in message.replace(b"\\u002d", b"-")
@@ -45,10 +45,10 @@ def test_a_message_carries_a_blocks_id_and_nothing_else(
 def test_what_redis_forgot_is_told_again(relay: Relay, catalogue: Catalogue, redis: Redis) -> None:
     for _ in range(3):
         catalogue.submit(NEW)
-    relay.turn()
+    relay.do_round()
     assert redis.llen(FRESH) == 3
     redis.flushall()
-    until(lambda: redis.llen(FRESH) == 3, act=relay.turn)
+    until(lambda: redis.llen(FRESH) == 3, act=relay.do_round)
 
 
 def test_a_wake_up_that_redis_lost_is_not_waited_for(
@@ -56,9 +56,9 @@ def test_a_wake_up_that_redis_lost_is_not_waited_for(
 ) -> None:
     patient = Relay(catalogue, settings.model_copy(update={"republish_after": 3600.0}))
     catalogue.submit(NEW)
-    patient.turn()
+    patient.do_round()
     redis.flushall()
-    until(lambda: redis.llen(FRESH) == 1, act=patient.turn)
+    until(lambda: redis.llen(FRESH) == 1, act=patient.do_round)
     patient.release_lead()
 
 
@@ -68,12 +68,12 @@ def test_a_wake_up_that_no_queue_has_may_be_on_its_way_to_a_worker(
     monkeypatch.setattr(relay_module, "_UNDERWAY", 0.0)
     patient = Relay(catalogue, settings.model_copy(update={"republish_after": 3600.0}))
     catalogue.submit(NEW)
-    patient.turn()
+    patient.do_round()
     for _ in range(2):
         redis.delete(FRESH)
-        patient.turn()
+        patient.do_round()
         assert redis.llen(FRESH) == 0
-        until(lambda: redis.llen(FRESH) == 1, act=patient.turn)
+        until(lambda: redis.llen(FRESH) == 1, act=patient.do_round)
     patient.release_lead()
 
 
@@ -84,7 +84,7 @@ def test_a_wake_up_that_is_still_in_redis_is_not_sent_again(
     patient = Relay(catalogue, settings.model_copy(update={"republish_after": 3600.0}))
     catalogue.submit(NEW)
     for _ in range(5):
-        patient.turn()
+        patient.do_round()
     assert redis.llen(FRESH) == 1
     patient.release_lead()
 
@@ -92,10 +92,10 @@ def test_a_wake_up_that_is_still_in_redis_is_not_sent_again(
 def test_a_claimed_block_is_told_no_more(relay: Relay, catalogue: Catalogue, redis: Redis) -> None:
     job = catalogue.submit(NEW).job.id
     other = catalogue.submit(NEW).job.id
-    relay.turn()
+    relay.do_round()
     catalogue.claim_block(f"{job}-0", "worker", 30)
     redis.flushall()
-    until(lambda: redis.llen(FRESH) > 0, act=relay.turn)
+    until(lambda: redis.llen(FRESH) > 0, act=relay.do_round)
     assert redis.llen(FRESH) == 1
     assert other in str(redis.lindex(FRESH, 0))
 
@@ -105,7 +105,7 @@ def test_the_block_of_a_silent_worker_is_queued_ahead_of_others(
 ) -> None:
     job = catalogue.submit(NEW).job.id
     catalogue.claim_block(f"{job}-0", "worker", lease=0.0)
-    until(lambda: redis.llen(RECOVERED) == 1, act=relay.turn)
+    until(lambda: redis.llen(RECOVERED) == 1, act=relay.do_round)
     assert [attempt.outcome for attempt in catalogue.attempts(job)] == ["lost"]
 
 
@@ -116,19 +116,19 @@ def test_no_block_is_taken_back_until_the_living_had_time_for_a_heartbeat(
     ahead, true_time = 0.0, catalogue.clock
     monkeypatch.setattr(catalogue, "clock", lambda: true_time() + ahead)
     relay = Relay(catalogue, settings.model_copy(update={"heartbeat": 0.1, "lease": 3.0}))
-    relay.turn()
+    relay.do_round()
     held, lost = (catalogue.submit(NEW).job.id for _ in range(2))
     for job in (held, lost):
         catalogue.claim_block(f"{job}-0", "worker", lease=1.0)
 
-    def turn() -> None:
-        relay.turn()
+    def act() -> None:
+        relay.do_round()
         catalogue.heartbeat(f"{held}-0", 1, lease=6.0)
 
     ahead = jump
     began = time.monotonic()
     relay._reap_next = 0.0  # it is just about to look for leases that ran out
-    until(lambda: catalogue.attempts(lost)[0].outcome == "lost", act=turn)
+    until(lambda: catalogue.attempts(lost)[0].outcome == "lost", act=act)
     assert time.monotonic() - began >= 3.0  # a lease
     assert catalogue.attempts(held)[0].outcome is None
     relay.release_lead()
@@ -145,13 +145,13 @@ def test_nobody_pays_for_the_time_by_which_a_clock_was_set_ahead(
     seeing = [Relay(catalogue, settings) for _ in range(relays)]
     for number, relay in enumerate(seeing):
         relay._name += str(number)  # a process of its own
-        relay.turn()
+        relay.do_round()
     held, later = (catalogue.submit(replace(NEW, owner="ada")).job.id for _ in range(2))
     catalogue.claim_block(f"{held}-0", "worker", lease=30.0)
     ahead = 36_000.0
     catalogue.claim_block(f"{later}-0", "worker", lease=30.0)
     for relay in seeing:
-        relay.turn()
+        relay.do_round()
     took = catalogue.clock() - began - ahead
     assert 0.0 <= catalogue.use_of("ada").computed <= 2 * took
     catalogue.finish(f"{held}-0", 1, BlockEnd(BlockState.done))
@@ -174,7 +174,7 @@ def test_what_a_process_had_that_ended_is_taken_over_before_its_time(
     catalogue.claim_block(f"{lost}-0", ended, lease=1000.0)
     catalogue.claim_block(f"{held}-0", own_name(), lease=1000.0)
     assert catalogue.take_lead("relay", ended, 9.0)  # more than 10 s: the clock was set back
-    relay.turn()
+    relay.do_round()
     assert redis.llen(RECOVERED) == 1
     assert [attempt.outcome for attempt in catalogue.attempts(lost)] == ["lost"]
     assert [attempt.outcome for attempt in catalogue.attempts(held)] == [None]
@@ -184,28 +184,28 @@ def test_a_broker_that_dies_is_waited_for(
     relay: Relay, catalogue: Catalogue, broker: Broker, redis: Redis
 ) -> None:
     catalogue.submit(NEW)
-    relay.turn()
+    relay.do_round()
     assert broker.child.pid is not None
     os.kill(broker.child.pid, signal.SIGKILL)
     until(lambda: not broker.child.alive)
     catalogue.submit(NEW)
-    relay.turn()  # cannot send, must not raise
+    relay.do_round()  # cannot send, must not raise
     broker.start()
     redis.flushall()
-    until(lambda: redis.llen(FRESH) == 2, act=relay.turn)
+    until(lambda: redis.llen(FRESH) == 2, act=relay.do_round)
 
 
 def test_only_one_relay_leads(
     relay: Relay, catalogue: Catalogue, settings: Settings, redis: Redis
 ) -> None:
-    relay.turn()
+    relay.do_round()
     other = Relay(catalogue, settings)
     other._name = "another machine"
     catalogue.submit(NEW)
-    other.turn()
+    other.do_round()
     assert redis.llen(FRESH) == 0
     relay.release_lead()
-    other.turn()
+    other.do_round()
     assert redis.llen(FRESH) == 1
     other.release_lead()
 
@@ -242,7 +242,7 @@ def test_the_results_of_deleted_jobs_are_removed(
         settings.running_folder(job).mkdir(parents=True)
         settings.sealed_run(job, 1).put([b"results"])
     catalogue.delete(deleted)
-    until(lambda: catalogue.get(deleted).removed is not None, act=relay.turn)
+    until(lambda: catalogue.get(deleted).removed is not None, act=relay.do_round)
     left = settings.running_folder(deleted).parent
     assert not left.exists() or list(left.iterdir()) == [settings.running_folder(kept)]
     assert not settings.running_folder(deleted).exists()
@@ -260,7 +260,7 @@ def test_the_results_of_owners_jobs_are_measured_when_they_have_ended(
     for job in (ended, running):
         settings.sealed_run(job, 1).put([b"results"])
         settings.sealed_run(job, 2).put([b"again"])
-    until(lambda: catalogue.get(ended).stored is not None, act=relay.turn)
+    until(lambda: catalogue.get(ended).stored is not None, act=relay.do_round)
     assert catalogue.get(ended).stored == len(b"resultsagain")
     assert catalogue.get(running).stored is None
 

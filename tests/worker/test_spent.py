@@ -36,7 +36,7 @@ class Away(Catalogue):
 def test_what_was_spent_is_told_once(tmp_path: Path, catalogue: Catalogue) -> None:
     before = SPENT.seconds + SPENT.elsewhere
     spent_report = SpentReport()
-    spent_report.tell(catalogue, "worker")
+    spent_report.send(catalogue, "worker")
     assert catalogue.census().totals == {}
     settings = Settings(data=tmp_path)
     admission = cast("Admission", admit(JOB))
@@ -44,12 +44,12 @@ def test_what_was_spent_is_told_once(tmp_path: Path, catalogue: Catalogue) -> No
     execute(admission, tmp_path / "a1", target, report=lambda _: "continue")
     away = Away(f"sqlite:///{tmp_path / 'catalogue.sqlite'}")
     with pytest.raises(Unavailable):
-        spent_report.tell(away, "worker")
+        spent_report.send(away, "worker")
     away.close()
-    spent_report.tell(catalogue, "worker")
+    spent_report.send(catalogue, "worker")
     told = catalogue.census().totals
     assert told[PUBLISHED] == 1
     assert told[PUBLISHING] > 0
     assert told.get(COMPILING, 0.0) == SPENT.seconds + SPENT.elsewhere - before
-    spent_report.tell(catalogue, "worker")
+    spent_report.send(catalogue, "worker")
     assert catalogue.census().totals == told

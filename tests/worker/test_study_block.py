@@ -1,6 +1,5 @@
 """Blocks of a real study into a real store, as workers and local runs compute them."""
 
-from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -16,6 +15,7 @@ from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.layouts import layout_of_study
 from jointplay.worker.study_block import run_block
 from tests.stores import packed, target
+from tests.worker.answers import after
 
 PARAMETERS = {"clearance": 5e-4, "friction": 0.1, "stiffness": 5e9}
 JOB = {
@@ -49,21 +49,6 @@ def write(study: Study, folder: Path) -> Path:
         assert run_block(study, index, folder).state == "succeeded"
     seal(folder, layout_of_study(study), target(folder))
     return packed(folder)
-
-
-def after(slices: int, answer: Answer, names: list[str]) -> Callable[[Progress], Answer]:
-    """Let so many slices pass, then take a restart point and give an answer."""
-    seen = 0
-
-    def report(progress: Progress) -> Answer:
-        nonlocal seen
-        seen += 1
-        if seen <= slices:
-            return Answer.go_on
-        names.append(progress.keep()[0])
-        return answer
-
-    return report
 
 
 def test_a_study_is_readable_and_repeats_itself_from_its_job_file(

@@ -53,7 +53,7 @@ class JoinedAttempt:
         within, progress = _PART_OF_LEASE * lease, self._progress
         if progress is not None:
             self._answered("progress", progress, within=within)
-            self._note_told(progress)
+            self._note_reported(progress)
         return self._answered("heartbeat", None, within=within)
 
     def record_progress(
@@ -78,28 +78,28 @@ class JoinedAttempt:
         progress = self._progress
         told = protocol.Checkpoint(watermark=watermark, checkpoint=checkpoint, progress=progress)
         self._answered("checkpoint", told)
-        self._note_told(progress)
+        self._note_reported(progress)
 
     def note_activity(self, block_id: str, attempt: int, activity: str, /) -> None:
         """Tell what takes long."""
-        self._tell("activity", protocol.Activity(activity=activity))
+        self._report("activity", protocol.Activity(activity=activity))
 
     def release(self, block_id: str, attempt: int, /) -> None:
         """Give the block back."""
-        self._tell("release")
+        self._report("release")
 
     def put_off(self, block_id: str, attempt: int, activity: str, /) -> None:
         """Give the block back until a fault has passed."""
-        self._tell("put-off", protocol.Activity(activity=activity))
+        self._report("put-off", protocol.Activity(activity=activity))
 
     def finish(self, block_id: str, attempt: int, end: BlockEnd, /) -> JobState:
         """Send sealed results, then end the block."""
         with publishing(jobs=0.0):  # whose packing was counted
             self._scratch.send_sealed()
-        answer = self._tell("finish", protocol.Finish(**vars(end)))
+        answer = self._report("finish", protocol.Finish(**vars(end)))
         return protocol.Finished.model_validate_json(answer).state
 
-    def _note_told(self, progress: protocol.Progress | None) -> None:
+    def _note_reported(self, progress: protocol.Progress | None) -> None:
         if self._progress is progress:  # else the block has come further meanwhile
             self._progress = None
 
@@ -108,32 +108,32 @@ class JoinedAttempt:
     ) -> Verdict:
         """Tell something from whatever thread, and note the answer for the one that computes."""
         try:
-            content = self._tell(what, document, within=within)
+            content = self._report(what, document, within=within)
         except (Fenced, Refused) as end:
             self._end = end
             raise
         self._verdict = protocol.Answered.model_validate_json(content).verdict
         return self._verdict
 
-    def _tell(
+    def _report(
         self, what: str, document: protocol.Document | None = None, *, within: float | None = None
     ) -> bytes:
         """Tell something; of a block that was lost while the service was out of reach also that."""
         begun = time.monotonic()
         try:
-            content = self._connection.tell(self._claim.block, what, document, within=within)
+            content = self._connection.report(self._claim.block, what, document, within=within)
         except Unavailable:
             self._cut_off = True
             raise
         except Fenced:
             self._cut_off |= time.monotonic() - begun > _LATE
-            self.tell_if_cut_off()
+            self.report_if_cut_off()
             raise
         self._cut_off = False
         return content
 
-    def tell_if_cut_off(self) -> None:
+    def report_if_cut_off(self) -> None:
         """Tell of a block that was lost, if the service was out of reach meanwhile."""
         if self._cut_off:
             with suppress(CatalogueError):
-                self._connection.tell(self._claim.block, "cut-off")
+                self._connection.report(self._claim.block, "cut-off")

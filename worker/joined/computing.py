@@ -58,7 +58,7 @@ class JoinedBlocks:
         except OSError as fault:
             block = claim.block
             _log.warning("block %s is put off: %s", block.id, fault)
-            self._connection.tell(block, "put-off", Activity(activity=waits_for(fault)))
+            self._connection.report(block, "put-off", Activity(activity=waits_for(fault)))
 
     def _compute(self, claim: Claim) -> None:
         block = claim.block
@@ -78,7 +78,7 @@ class JoinedBlocks:
             try:
                 scratch.fetch(beat)
             except Fenced:  # lost before it began: the claim was answered late
-                attempt.tell_if_cut_off()
+                attempt.report_if_cut_off()
                 raise
             sent = SentAttempt(attempt, scratch)
             with scratch.sending_rows(), sent.sending():

@@ -85,9 +85,9 @@ class Connection:
     def claim_beside(self, block: Block, solver: Solver, most: int) -> tuple[Claim, ...]:
         """Claim at most so many further blocks of the study of one that is held."""
         asked = ClaimBeside(**vars(solver), most=most)
-        return ClaimedBeside.model_validate_json(self.tell(block, "beside", asked)).claims
+        return ClaimedBeside.model_validate_json(self.report(block, "beside", asked)).claims
 
-    def tell(
+    def report(
         self,
         block: Block,
         what: str,

@@ -56,11 +56,11 @@ def work(
     blocks = 0
     while not draining.is_set() and (idle is None or time.monotonic() - last <= idle):
         try:
-            spent = spent_report.untold()
-            told = None if device is None else Device(**vars(device.told))
-            asked = request.model_copy(update={"spent": spent, "device": told})
+            spent = spent_report.unsent()
+            record = None if device is None else Device(**vars(device.record))
+            asked = request.model_copy(update={"spent": spent, "device": record})
             claimed = connection.claim(asked)
-            spent_report.told(spent)
+            spent_report.note_sent(spent)
             if claimed is not None:
                 source = JoinedBlocks(connection, bucket, claimed.customs, draining)
                 lanes = None if device is None else opener(device.name)

@@ -39,7 +39,7 @@ class Violation:
         self.largest = np.zeros(2)
         """Largest violation of positions, m, and of angles, rad."""
 
-    def look(self, rows: Floats) -> None:
+    def examine(self, rows: Floats) -> None:
         """Look at dense states, (count, width), as `solver.kernels.loop.dense_rows` writes them."""
         if not len(rows):
             return
@@ -105,7 +105,7 @@ class Survey:
         self.bundle.advance(self.companions.allowance(budget))
         self.companions.collect()
         if self.violation is not None:
-            self.violation.look(self.bundle.rows(SAMPLES, RUN))
+            self.violation.examine(self.bundle.rows(SAMPLES, RUN))
         return self.bundle.attempts - before
 
     def go_on_with(self, bundle: Bundle, problem: LaneProblem) -> None:

@@ -11,7 +11,7 @@ from jointplay.command_line.figure_options import form_of
 from jointplay.command_line.job_document import job_document
 from jointplay.command_line.job_options import with_job_options
 from jointplay.command_line.options import AS_JSON, JOB, SET
-from jointplay.command_line.output import json_text, tell
+from jointplay.command_line.output import json_text, print_result
 
 _OF_A_RUN = ("scene", "duration", "formulation", "label")
 
@@ -57,7 +57,7 @@ def accuracy(
         output.write_text(json_text(found) + "\n")
     elif output is not None and form is not None:
         output.write_bytes(measured.figure("work-precision", form=form).content)
-    tell(found, accuracy_lines(found), as_json=as_json)
+    print_result(found, accuracy_lines(found), as_json=as_json)
 
 
 def accuracy_lines(found: dict[str, Any]) -> Iterator[str]:

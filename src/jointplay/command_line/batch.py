@@ -11,7 +11,7 @@ import typer
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.job_document import replaced_numbers
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
-from jointplay.command_line.output import remark, tell
+from jointplay.command_line.output import print_result, remark
 
 if TYPE_CHECKING:
     from jointplay.client import Batch
@@ -47,7 +47,7 @@ def batch(
         if source is None:
             listed = list(islice(client.batches(), _MOST_LISTED))
             document = {"batches": [one.to_document() for one in listed]}
-            tell(document, (f"{one.id}  {one.states}" for one in listed), as_json=as_json)
+            print_result(document, (f"{one.id}  {one.states}" for one in listed), as_json=as_json)
             return
         known = is_job_id(source) and not Path(source).exists()
         if known:
@@ -64,7 +64,7 @@ def batch(
                 typer.echo(found.id)
         if wait:
             _wait_for(found)
-    tell(found.to_document(), [found.states] if known or wait else [], as_json=as_json)
+    print_result(found.to_document(), [found.states] if known or wait else [], as_json=as_json)
     if wait:
         _check(found)
 

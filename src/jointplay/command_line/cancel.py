@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import print_result
 
 
 def cancel(
@@ -21,4 +21,4 @@ def cancel(
     """
     with connect(url) as client:
         job = client.job(job_id).cancel()
-    tell(job.to_document(), [f"{job_id}  {job.state}"], as_json=as_json)
+    print_result(job.to_document(), [f"{job_id}  {job.state}"], as_json=as_json)

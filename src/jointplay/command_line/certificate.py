@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, RESULTS, URL, job_of
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import print_result
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -20,7 +20,7 @@ def certificate(results: RESULTS, as_json: AS_JSON = False, url: URL = DEFAULT_U
     """
     with job_of(results, url) as job:
         document = job.certificate
-    tell(document, _lines(document), as_json=as_json)
+    print_result(document, _lines(document), as_json=as_json)
 
 
 def _lines(document: dict[str, Any]) -> Iterator[str]:

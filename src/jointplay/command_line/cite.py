@@ -5,7 +5,7 @@ from typing import Annotated, Any
 import typer
 
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, job_of
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import print_result
 
 TITLE = "jointplay: simulation of planar mechanisms whose joints have play"
 AUTHORS = "The jointplay developers"
@@ -35,7 +35,7 @@ def cite(
         facts |= _facts(results, url)
     entry = _ENTRY % facts["version"]
     lines = [f"{name}: {value}" for name, value in facts.items() if name != "version" and value]
-    tell(facts | {"bibtex": entry}, [entry, *lines], as_json=as_json)
+    print_result(facts | {"bibtex": entry}, [entry, *lines], as_json=as_json)
 
 
 def _facts(results: str, url: str) -> dict[str, Any]:

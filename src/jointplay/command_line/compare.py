@@ -10,7 +10,7 @@ import typer
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.figure_options import form_of, page_of, with_figure_options
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, job_of
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import print_result
 from jointplay.command_line.peaks import Row, peak_rows, peak_table
 from jointplay.command_line.typed_window import check_ends, check_start
 
@@ -79,7 +79,7 @@ def compare(
     of_runs = list(zip(labels, peaks, strict=True))
     table = [{"run": label, **of_run[name]} for name in names for label, of_run in of_runs]
     found = {"figure": str(output), "start": start, "stop": stop, "peaks": table}
-    tell(found, [*about, *peak_table(table, "run"), output], as_json=as_json)
+    print_result(found, [*about, *peak_table(table, "run"), output], as_json=as_json)
 
 
 def _peaks_inside(

@@ -16,7 +16,7 @@ from jointplay.command_line.chosen_jobs import (
     chosen,
 )
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
-from jointplay.command_line.output import print_json, tell
+from jointplay.command_line.output import print_json, print_result
 
 _FINISHED = ("succeeded", "failed", "cancelled")
 
@@ -47,7 +47,9 @@ def delete(
             whole = client.batch(batch)
             agree(f"Delete batch {batch} with its {whole.size} jobs and their results?", yes=yes)
             whole.delete()
-            tell(whole.to_document(), [f"{batch}  deleted with {whole.size} jobs"], as_json=as_json)
+            print_result(
+                whole.to_document(), [f"{batch}  deleted with {whole.size} jobs"], as_json=as_json
+            )
             return
         jobs = chosen(client, job_ids, batch, filters, _FINISHED)
         if jobs and not job_ids:

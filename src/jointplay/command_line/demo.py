@@ -9,7 +9,7 @@ import typer
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import aligned, tell
+from jointplay.command_line.output import aligned, print_result
 
 if TYPE_CHECKING:
     from jointplay.client import Job, Peak
@@ -65,7 +65,7 @@ def demo(
         f"  jointplay serve --data {data}",
         f"  jointplay plot {jobs[-1].id}",
     ]
-    tell(facts, lines, as_json=as_json)
+    print_result(facts, lines, as_json=as_json)
 
 
 def _finished(jobs: list["Job"]) -> list["Job"]:

@@ -12,10 +12,10 @@ import typer
 
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import aligned, tell
+from jointplay.command_line.output import aligned, print_result
 
 if TYPE_CHECKING:
-    from jointplay.storage.reconciliation import Finding, Look
+    from jointplay.storage.reconciliation import Extent, Finding
 
 FOLDER = Annotated[
     Path,
@@ -62,12 +62,12 @@ def doctor(
         _try_device(as_json=as_json)
         return
     from jointplay.progress import progress
-    from jointplay.storage.reconciliation.look import Counted, Look
+    from jointplay.storage.reconciliation.extent import Counted, Extent
 
     found, counted = [], Counted()
     seed = _day() if seed is None else seed
-    look = partial(Look, None if every_byte else seed, counted=counted)
-    with progress("doctor") as report, _examination(folder, look(report=report)) as findings:
+    extent = partial(Extent, None if every_byte else seed, counted=counted)
+    with progress("doctor") as report, _examination(folder, extent(report=report)) as findings:
         for finding in findings:
             if finding.mend is not None and not dry_run:
                 finding.mend()
@@ -83,7 +83,7 @@ def doctor(
     if counted.read < counted.there and not as_json:
         sample = f"every byte was read of {counted.read} of {counted.there} results (--seed {seed})"
         typer.echo(f"{sample}; --bytes reads all", err=True)
-    tell(document, _lines(found, dry_run=dry_run), as_json=as_json)
+    print_result(document, _lines(found, dry_run=dry_run), as_json=as_json)
     if found:
         done = "can be mended" if dry_run else "mended"
         raise Stopped(f"findings: {len(found)}, {done}: {mendable}", Exit.CHECK_FAILED)
@@ -105,13 +105,13 @@ def _try_device(*, as_json: bool) -> None:
         f"{TRIED}: {trial.revolutions:.3g} revolutions, {trial.steps:.3g} steps a second",
         f"single precision is {trial.ratio} times as fast as double",
     ]
-    tell(asdict(trial) | {"serves": trial.serves}, lines, as_json=as_json)
+    print_result(asdict(trial) | {"serves": trial.serves}, lines, as_json=as_json)
     if not trial.serves:
         raise Stopped(f"{trial.name} does not serve.", Exit.CHECK_FAILED)
 
 
 @contextmanager
-def _examination(folder: Path, look: "Look") -> "Iterator[Iterable[Finding]]":
+def _examination(folder: Path, extent: "Extent") -> "Iterator[Iterable[Finding]]":
     """Give what is found in a folder, while it is looked for."""
     from jointplay.worker.local.folder import JOB_FILE, STORE
 
@@ -135,7 +135,7 @@ def _examination(folder: Path, look: "Look") -> "Iterator[Iterable[Finding]]":
         raise Stopped(line)
     catalogue = Catalogue(settings.catalogue_url)
     try:
-        yield findings(settings, catalogue, (stray_messages,), look)
+        yield findings(settings, catalogue, (stray_messages,), extent)
     finally:
         catalogue.close()
 

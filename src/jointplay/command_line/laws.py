@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import aligned, tell
+from jointplay.command_line.output import aligned, print_result
 
 if TYPE_CHECKING:
     from jointplay.solver.laws.catalogue import Law, LawParameter
@@ -26,7 +26,9 @@ def laws(
     from jointplay.solver.laws import catalogue
 
     found = catalogue.laws(name)
-    tell({"laws": [law.model_dump() for law in found]}, _lines(found, name), as_json=as_json)
+    print_result(
+        {"laws": [law.model_dump() for law in found]}, _lines(found, name), as_json=as_json
+    )
 
 
 def _lines(found: "list[Law]", name: str | None) -> Iterator[str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.figure_paths import FigurePaths
-from jointplay.command_line.output import json_text, tell
+from jointplay.command_line.output import json_text, print_result
 from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def compute_and_show(
         draw_all(job, FigurePaths(output / "figures"))
     document = document_of(job, found)
     del document["statistics"]
-    tell(document, _lines(job, found, table), as_json=as_json)
+    print_result(document, _lines(job, found, table), as_json=as_json)
     if job.state == "cancelled":
         line = f"{output} was cancelled at {job.done_so_far}. {_go_on(output)}"
         raise Stopped(line, Exit.CANCELLED)

@@ -9,7 +9,7 @@ import typer
 from jointplay.command_line.chosen_jobs import KIND, LABEL, SCENE
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
-from jointplay.command_line.output import tell, visible
+from jointplay.command_line.output import print_result, visible
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -48,7 +48,7 @@ def ls(
         else:
             found = client.batch(batch).jobs()
         jobs = list(islice(found, count))
-    tell({"jobs": [job.to_document() for job in jobs]}, map(_row, jobs), as_json=as_json)
+    print_result({"jobs": [job.to_document() for job in jobs]}, map(_row, jobs), as_json=as_json)
 
 
 def _row(job: "Job") -> str:

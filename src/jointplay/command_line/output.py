@@ -15,7 +15,7 @@ _TURNS: Final = frozenset({"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI
 """Classes of characters that embed or override a direction of writing."""
 
 
-def tell(document: object, lines: Iterable[object], *, as_json: bool) -> None:
+def print_result(document: object, lines: Iterable[object], *, as_json: bool) -> None:
     """Print what a command found: the document, or else the lines."""
     for line in [json_text(document)] if as_json else map(visible, map(str, lines)):
         typer.echo(line)

@@ -22,7 +22,7 @@ from jointplay.command_line.options import (
     refused_as_typed,
     whole,
 )
-from jointplay.command_line.output import remark, tell
+from jointplay.command_line.output import print_result, remark
 from jointplay.command_line.typed_window import check_ends, check_start
 from jointplay.progress import progress
 from jointplay.records.figure_form import FilmForm, Form
@@ -166,6 +166,6 @@ def _tell(drawn: Drawn, *, as_json: bool) -> None:
     """Name the figures that were written, and what was refused, which is bad input."""
     found = {"figures": drawn.written} | ({"refused": drawn.refused} if drawn.refused else {})
     remark(drawn.refused)
-    tell(found, [one["path"] for one in drawn.written], as_json=as_json)
+    print_result(found, [one["path"] for one in drawn.written], as_json=as_json)
     if drawn.refused:
         raise typer.Exit(Exit.BAD_INPUT)

@@ -6,7 +6,7 @@ import typer
 
 from jointplay.command_line.chosen_jobs import BATCH, IDS, KIND, LABEL, SCENE, Filters, chosen
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
-from jointplay.command_line.output import print_json, tell
+from jointplay.command_line.output import print_json, print_result
 
 _UNSUCCESSFUL = ("failed", "cancelled")
 
@@ -34,7 +34,7 @@ def retry(
     with connect(url) as client:
         if batch is not None and not (job_ids or any(filters)):
             made = client.batch(batch).retry()
-            tell(made.to_document(), [f"{made.id}  {made.states}"], as_json=as_json)
+            print_result(made.to_document(), [f"{made.id}  {made.states}"], as_json=as_json)
             return
         retried = {}
         for job in chosen(client, job_ids, batch, filters, _UNSUCCESSFUL):

@@ -13,7 +13,7 @@ from jointplay.command_line.options import (
     job_of,
     refused_as_typed,
 )
-from jointplay.command_line.output import aligned, tell
+from jointplay.command_line.output import aligned, print_result
 
 if TYPE_CHECKING:
     from jointplay.records.sensitivity.analysis import Side
@@ -48,7 +48,7 @@ def sensitivity(
     with job_of(results, url) as job, refused_as_typed(*options):
         side = cast("Side", failing)
         found = job.sensitivity(output, limit, failing=side, confidence=confidence)
-    tell(found, sensitivity_lines(found), as_json=as_json)
+    print_result(found, sensitivity_lines(found), as_json=as_json)
 
 
 def sensitivity_lines(found: dict[str, Any]) -> Iterator[str]:

@@ -14,7 +14,7 @@ from jointplay.command_line.options import (
     job_of,
     wait_for,
 )
-from jointplay.command_line.output import print_json, tell
+from jointplay.command_line.output import print_json, print_result
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -42,7 +42,7 @@ def show(
             print_json(job.job)
             return
         found = results_of(job)
-        tell(document_of(job, found), _lines(job, found), as_json=as_json)
+        print_result(document_of(job, found), _lines(job, found), as_json=as_json)
     if wait:
         job.check()
 

@@ -18,7 +18,7 @@ from jointplay.command_line.options import (
     connect,
     wait_for,
 )
-from jointplay.command_line.output import print_json, remark, tell
+from jointplay.command_line.output import print_json, print_result, remark
 
 if TYPE_CHECKING:
     from jointplay.client import Estimate
@@ -53,7 +53,7 @@ def submit(
         if estimate:
             cost = client.estimate(job)
             remark(replaced_numbers(job, settings))
-            tell(asdict(cost), _lines(cost), as_json=as_json)
+            print_result(asdict(cost), _lines(cost), as_json=as_json)
             return
         queued = client.submit(job)
         remark(replaced_numbers(job, settings))

@@ -9,7 +9,7 @@ import typer
 from jointplay.command_line.calibrate import computed
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, PROCESSES, URL, job_of
-from jointplay.command_line.output import aligned, remark, tell
+from jointplay.command_line.output import aligned, print_result, remark
 
 if TYPE_CHECKING:
     from jointplay.client.job import Job
@@ -44,7 +44,7 @@ def verify(
         found = _calibration(Path(results), processes)
     else:
         found = _job(results, url, processes)
-    tell(found.document(), _lines(found), as_json=as_json)
+    print_result(found.document(), _lines(found), as_json=as_json)
     if not found.holds:
         raise Stopped(_verdict(found), Exit.CHECK_FAILED)
 

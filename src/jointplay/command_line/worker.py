@@ -9,7 +9,7 @@ import typer
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import remark, tell
+from jointplay.command_line.output import print_result, remark
 
 _MARGIN = 30.0  # s for a restart point to be stored and sent
 
@@ -110,7 +110,7 @@ def worker(
         blocks = work_in(processes, join, key, idle, end, found.device)
     except Refused as refused:
         raise Stopped(f"{refused}.") from refused
-    tell({"url": join, "blocks": blocks}, [f"computed {blocks} blocks"], as_json=as_json)
+    print_result({"url": join, "blocks": blocks}, [f"computed {blocks} blocks"], as_json=as_json)
 
 
 def _moment(text: str) -> float:

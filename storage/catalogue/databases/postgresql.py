@@ -148,7 +148,7 @@ class PostgreSQL:
         self._engine.dispose()
 
 
-def take_turns(connection: Connection, *numbers: int) -> None:
+def lock_numbers(connection: Connection, *numbers: int) -> None:
     """Have this unit wait for those that named one of the same numbers, until they have ended.
 
     Numbers have 64 bits and a sign. Units of writing on SQLite take turns anyway.

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from stepped_clock import Clock
 
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.fair_queueing import HEAD_START, MOST_BEHIND
 from jointplay.storage.catalogue.records import BlockEnd, BlockState, Claim, NewJob, Solver
-from jointplay.storage.catalogue.turns import HEAD_START, MOST_BEHIND
 
 SOLVER = Solver("1", "skylake")
 RUN = NewJob("simulate", {}, "d" * 64, "1")

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 import pytest
 
 from jointplay.storage.places import StoredObject
-from jointplay.storage.reconciliation import Finding, Look, findings, look, results
+from jointplay.storage.reconciliation import Extent, Finding, extent, findings, results
 from tests.storage.reconciliation.harms import flip, remove
 from tests.storage.reconciliation.installation import Installed
 
@@ -22,30 +22,30 @@ def read(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
         return verified(sealed)
 
     monkeypatch.setattr(results, "verified", counting)
-    monkeypatch.setattr(look, "SAMPLE", 1)
+    monkeypatch.setattr(extent, "SAMPLE", 1)
     return counted
 
 
-def looked(installed: Installed, way: Look) -> list[Finding]:
-    return [*findings(installed.settings, installed.catalogue, look=way)]
+def looked(installed: Installed, way: Extent) -> list[Finding]:
+    return [*findings(installed.settings, installed.catalogue, extent=way)]
 
 
 def seed_without(installed: Installed, job: str) -> int:
     """Find a seed whose sample leaves out a job."""
     ended = [one.id for one in installed.catalogue.every_job() if one.state.terminal]
-    return next(seed for seed in range(99) if job not in Look(seed).chosen(ended, []))
+    return next(seed for seed in range(99) if job not in Extent(seed).chosen(ended, []))
 
 
 def test_bytes_are_read_of_a_sample_or_of_all(installed: Installed, read: Counter[str]) -> None:
     harmed = installed.jobs["succeeded"]
     flip(installed.sealed("succeeded"))
     told: list[float] = []
-    some = Look(seed_without(installed, harmed), lambda done, _: told.append(done))
+    some = Extent(seed_without(installed, harmed), lambda done, _: told.append(done))
     assert looked(installed, some) == []
     assert (some.counted.read, harmed in read) == (1, False)
     assert some.counted.there > 2
     assert told == sorted(told)
-    every = Look()
+    every = Extent()
     (finding,) = looked(installed, every)
     assert finding.subjects == (f"job {harmed}",)
     assert every.counted.read == every.counted.there == some.counted.there
@@ -57,11 +57,11 @@ def test_what_is_not_there_or_is_marked_is_found_whatever_the_sample(
     harmed = installed.jobs["succeeded"]
     seed = seed_without(installed, harmed)
     installed.catalogue.mark_damaged(harmed, "it was")
-    (finding,) = looked(installed, Look(seed))
+    (finding,) = looked(installed, Extent(seed))
     assert finding.mended == "no longer marked as damaged"
     installed.catalogue.mark_damaged(harmed, None)
     remove(installed.sealed("succeeded"))
-    (finding,) = looked(installed, Look(seed))
+    (finding,) = looked(installed, Extent(seed))
     assert finding.found.endswith("is gone")
 
 
@@ -76,10 +76,10 @@ def test_what_is_in_its_place_is_not_asked_for_again(
         asked[results.job_in(self.key)] += 1
         return exists(self)
 
-    monkeypatch.setattr(look, "SAMPLE", 1)
+    monkeypatch.setattr(extent, "SAMPLE", 1)
     monkeypatch.setattr(StoredObject, "exists", counting)
     harmed = installed.jobs["succeeded"]
-    assert looked(installed, Look(seed_without(installed, harmed))) == []
+    assert looked(installed, Extent(seed_without(installed, harmed))) == []
     assert harmed not in asked
 
 
@@ -95,7 +95,7 @@ def test_a_job_whose_rows_go_meanwhile_is_nothing_to_find(
             f"DELETE FROM block WHERE job = '{harmed}'", f"DELETE FROM job WHERE id = '{harmed}'"
         )
 
-    class Late(Look):
+    class Late(Extent):
         """A look that begins some time after the list was made."""
 
         def chosen(self, results: Sequence[str], besides: Iterable[str]) -> list[str]:

@@ -15,34 +15,6 @@ from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import create, seal
 
-SHAPES = {
-    "a chunk a block": made_up_layout(),
-    "one chunk for all blocks": made_up_layout(points=10, blocks=((0, 5), (5, 3), (8, 2))),
-    "chunks on boundaries": made_up_layout(points=20, record=3000, blocks=((0, 11), (11, 9))),
-    "more sections than a chunk": made_up_layout(points=10, record=9000, blocks=((0, 8), (8, 2))),
-}
-STEP = {"more sections than a chunk": 1000, "chunks on boundaries": 500}
-
-
-@pytest.fixture(params=SHAPES)
-def shape(request):
-    return request.param
-
-
-@pytest.fixture
-def study(shape):
-    return MadeUpStudy(SHAPES[shape])
-
-
-@pytest.fixture
-def step(shape):
-    return STEP.get(shape, 2)
-
-
-@pytest.fixture
-def undisturbed(tmp_path, study):
-    return study.write(tmp_path / "undisturbed").read_bytes()
-
 
 def test_a_restart_file_that_is_damaged_or_of_another_study_is_refused(tmp_path):
     study = MadeUpStudy(made_up_layout())

@@ -110,7 +110,7 @@ def test_blocks_are_computed_together_beside_those_of_others(
     driver = DriverByHost()
     spent_report = SpentReport()
     compute(catalogue, settings, study, driver)
-    assert spent_report.untold()[ON_DEVICES] == len(CLEARANCES) - admit(dict(JOB)).blocks[1][1]
+    assert spent_report.unsent()[ON_DEVICES] == len(CLEARANCES) - admit(dict(JOB)).blocks[1][1]
     *blocks, seal = catalogue.blocks(study)
     assert {block.state for block in blocks} == {BlockState.done}
     assert {block.attempt for block in blocks} == {1}

@@ -124,7 +124,7 @@ class Called(Connection):
         super().__init__(url, None)
         self.away = threading.Event()
 
-    def tell(
+    def report(
         self,
         block: Block,
         what: str,
@@ -132,7 +132,7 @@ class Called(Connection):
         *,
         within: float | None = None,
     ) -> bytes:
-        answer = super().tell(block, what, document, within=within)
+        answer = super().report(block, what, document, within=within)
         if what == "checkpoint":
             self.away.set()
         return answer

@@ -2,7 +2,7 @@
 
 from jointplay.command_line.key.place import DATA, HERE, catalogue_at, shown
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import aligned, tell
+from jointplay.command_line.output import aligned, print_result
 
 
 def ls(data: DATA = HERE, as_json: AS_JSON = False) -> None:
@@ -23,4 +23,4 @@ def ls(data: DATA = HERE, as_json: AS_JSON = False) -> None:
         )
         for key in keys
     ]
-    tell({"keys": keys}, aligned(rows), as_json=as_json)
+    print_result({"keys": keys}, aligned(rows), as_json=as_json)

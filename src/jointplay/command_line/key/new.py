@@ -7,7 +7,7 @@ import typer
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.key.place import DATA, HERE, catalogue_at, shown
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import print_result
 
 
 def new(
@@ -44,4 +44,4 @@ def new(
             )
         except ValueError as error:
             raise Stopped(f"{error}.") from error
-    tell(shown(key) | {"key": text}, [text], as_json=as_json)
+    print_result(shown(key) | {"key": text}, [text], as_json=as_json)

@@ -7,7 +7,7 @@ import typer
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.key.place import DATA, HERE, catalogue_at, shown
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import print_result
 
 
 def revoke(
@@ -27,4 +27,4 @@ def revoke(
         except KeyNotFound as error:
             line = f"T{str(error)[1:]}; jointplay key ls lists them."
             raise Stopped(line) from error
-    tell(shown(key), [f"{key.id}  revoked"], as_json=as_json)
+    print_result(shown(key), [f"{key.id}  revoked"], as_json=as_json)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.options import AS_JSON, SCENE, SET
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import print_result
 from jointplay.command_line.scene.assembled import assemble_scene
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
     lines += [f"{'hint':22} {one.pointer}: {one.detail}" for one in scene.hints]
     turn = document["turn"]
     told = [*lines, f"{'turn':22} {turn['detail']}"] if turn else lines
-    tell(document, told, as_json=as_json)
+    print_result(document, told, as_json=as_json)
     if scene.refusal is not None:
         raise scene.refusal
 

@@ -8,7 +8,7 @@ import typer
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.figure_options import form_of, page_of, with_figure_options
 from jointplay.command_line.options import AS_JSON, SCENE, SET
-from jointplay.command_line.output import remark, tell
+from jointplay.command_line.output import print_result, remark
 from jointplay.command_line.scene.assembled import assemble_scene
 
 
@@ -42,6 +42,6 @@ def draw(
     except figures.NotDrawable as error:
         raise Stopped(str(error)) from None
     file.write_bytes(picture)
-    tell({"figure": str(file), "problems": scene.problems}, [file], as_json=as_json)
+    print_result({"figure": str(file), "problems": scene.problems}, [file], as_json=as_json)
     if scene.refusal is not None:
         remark([f"drawn, but it cannot be run. {scene.refusal}"])

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import print_result
 
 
 def list_presets(as_json: AS_JSON = False) -> None:
@@ -21,7 +21,7 @@ def list_presets(as_json: AS_JSON = False) -> None:
     wanted = ("name", "description", "source", "parameters")
     lines = (line for one in documents for line in (one["name"], *_about(one)))
     found = [{key: one.get(key) for key in wanted} for one in documents]
-    tell({"scenes": found}, lines, as_json=as_json)
+    print_result({"scenes": found}, lines, as_json=as_json)
 
 
 def show(
@@ -37,7 +37,7 @@ def show(
     from jointplay.solver.scene import presets
 
     scene = presets.document(name, pointer="PRESET")
-    tell(scene, _lines(scene), as_json=as_json)
+    print_result(scene, _lines(scene), as_json=as_json)
 
 
 def _about(scene: dict[str, Any]) -> Iterator[str]:

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line.options import AS_JSON
-from jointplay.command_line.output import tell
+from jointplay.command_line.output import print_result
 
 
 def schema(
@@ -29,4 +29,4 @@ def schema(
     text = json.dumps(document, indent=2)
     if output is not None:
         output.write_text(text + "\n")
-    tell(document, [text if output is None else output], as_json=as_json)
+    print_result(document, [text if output is None else output], as_json=as_json)
