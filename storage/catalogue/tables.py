@@ -17,7 +17,6 @@ from sqlalchemy import (
     Index,
     Integer,
     MetaData,
-    PrimaryKeyConstraint,
     String,
     Table,
     Text,
@@ -119,9 +118,8 @@ Index("ix_job_unserved", job.c.id, sqlite_where=UNSERVED, postgresql_where=UNSER
 label = Table(
     "label",
     metadata,
-    Column("label", Text, nullable=False),
-    Column("job", ForeignKey("job.id", ondelete="CASCADE"), nullable=False),
-    PrimaryKeyConstraint("label", "job"),
+    Column("label", Text, primary_key=True),
+    Column("job", ForeignKey("job.id", ondelete="CASCADE"), primary_key=True),
     Index("ix_label_job", "job"),
 )
 
@@ -160,8 +158,8 @@ block = Table(
 attempt = Table(
     "attempt",
     metadata,
-    Column("block", ForeignKey("block.id", ondelete="CASCADE"), nullable=False),
-    Column("number", Integer, nullable=False),
+    Column("block", ForeignKey("block.id", ondelete="CASCADE"), primary_key=True),
+    Column("number", Integer, primary_key=True),
     Column("worker", String(200), nullable=False),
     Column("started", Float(53), nullable=False),
     Column("ended", Float(53)),
@@ -169,7 +167,6 @@ attempt = Table(
     # whose share was charged so many seconds, until it is settled; see `fair_queueing`
     Column("account", String(32)),
     Column("charged", Float(53)),
-    PrimaryKeyConstraint("block", "number"),
 )
 UNSETTLED: Final = attempt.c.account.is_not(None)
 Index("ix_attempt_unsettled", attempt.c.account, sqlite_where=UNSETTLED, postgresql_where=UNSETTLED)
@@ -177,12 +174,11 @@ Index("ix_attempt_unsettled", attempt.c.account, sqlite_where=UNSETTLED, postgre
 event = Table(
     "event",
     metadata,
-    Column("job", ForeignKey("job.id", ondelete="CASCADE"), nullable=False),
-    Column("seq", Integer, nullable=False),
+    Column("job", ForeignKey("job.id", ondelete="CASCADE"), primary_key=True),
+    Column("seq", Integer, primary_key=True),
     Column("time", Float(53), nullable=False),
     Column("type", String(32), nullable=False),
     Column("data", JSON, nullable=False),
-    PrimaryKeyConstraint("job", "seq"),
 )
 
 # One row for each queued block, until it is claimed: wake-ups that workers still have to get.
@@ -205,22 +201,20 @@ outbox = Table(
 share = Table(
     "share",
     metadata,
-    Column("queue", String(32), nullable=False),
-    Column("owner", String(64), nullable=False),
+    Column("queue", String(32), primary_key=True),
+    Column("owner", String(64), primary_key=True),
     Column("began", Float(53), nullable=False),  # where their last block was claimed
     Column("next", Float(53), nullable=False),  # where their next one will be
     Column("cost", Float(53), nullable=False, server_default="1"),  # of a block, lately
-    PrimaryKeyConstraint("queue", "owner"),
 )
 
 # Of programs before revision 0009.
 turn = Table(
     "turn",
     metadata,
-    Column("queue", String(32), nullable=False),
-    Column("owner", String(64), nullable=False),
+    Column("queue", String(32), primary_key=True),
+    Column("owner", String(64), primary_key=True),
     Column("next", BigInteger, nullable=False),
-    PrimaryKeyConstraint("queue", "owner"),
 )
 
 idempotency = Table(
@@ -254,21 +248,19 @@ api_key = Table(
 usage = Table(
     "usage",
     metadata,
-    Column("owner", String(64), nullable=False),
-    Column("hour", Integer, nullable=False),
-    Column("worker", String(200), nullable=False),
+    Column("owner", String(64), primary_key=True),
+    Column("hour", Integer, primary_key=True),
+    Column("worker", String(200), primary_key=True),
     Column("seconds", Float(53), nullable=False),
-    PrimaryKeyConstraint("owner", "hour", "worker"),
 )
 
 # What has been counted by workers, or of them; see `storage.catalogue.tally`.
 tally = Table(
     "tally",
     metadata,
-    Column("name", String(32), nullable=False),
-    Column("worker", String(200), nullable=False),
+    Column("name", String(32), primary_key=True),
+    Column("worker", String(200), primary_key=True),
     Column("value", Float(53), nullable=False),
-    PrimaryKeyConstraint("name", "worker"),
 )
 
 # Processes that take blocks, with what each computes them, and when it was heard of last and first.
