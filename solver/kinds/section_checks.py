@@ -42,7 +42,8 @@ def _turns(checked: PlacedPoints, units: Periods) -> list[Problem]:
             points.pointer(point) if points.axes else "/section",
             checked.beginning(point)
             + note
-            + " A section at onsets of contact or at a channel's crossing needs none.",
+            + " The scene may give a 'period' (s) of its own. A section at onsets of contact or at"
+            " a channel's crossing needs none.",
         )
         for point, note in units.notes.items()
     ]

@@ -74,6 +74,8 @@ def grounds(found: Mapping[str, float]) -> str:
     if rotation is None and "rotation" in found:
         rotation = UNKNOWN
     verdict = decide(lyapunov, zero_one, recurrence, rotation)
+    if verdict.code != found["verdict"] == QUASI_PERIODIC:
+        verdict = decide(lyapunov, zero_one, recurrence, rotation, repeats=False)
     if verdict.code == found["verdict"]:
         return verdict.reason
     seen = "" if lyapunov is None else f": it is {lyapunov} 1/s"
@@ -91,21 +93,25 @@ def decide(
     period: int | None,
     rotation: Estimate | None = None,
     finer: Estimate | None = None,
+    *,
+    repeats: bool | None = None,
 ) -> Verdict:
     """Return the verdict on a motion from the indicators of the whole system.
 
     lyapunov : largest exponent, 1/s, other than the zero along an autonomous flow. zero_one : K.
     period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
     number; not finite where the section is no closed curve. finer : the exponent in far smaller
-    steps. None: not known. An exponent that is not finite, and a K with an error of 0.5 or more
-    (too few sections), are as good as none.
+    steps. repeats : whether what drives the mechanism does so from section to section. None: not
+    known. An exponent that is not finite, and a K with an error of 0.5 or more (too few sections),
+    are as good as none.
 
     chaotic : the exponent exceeds zero by more than three errors, in smaller steps too, nothing
         recurs, and K > 0.9. An exponent that does not drift will do where there is no K.
     periodic : every p-th section is the same and the exponent is not positive. An exponent near
         zero and K > 0.9 contradict that; a clearly negative exponent overrules K.
     quasi-periodic : exponent within three errors of zero, K < 0.1, a closed curve with a rotation
-        number, and no recurrence.
+        number, and no recurrence. Where what drives the mechanism does not repeat, neighbours may
+        converge to such a motion: the exponent that is zero is that of the drive.
     undecided : the exponent is another in smaller steps, or anything else; the reason says what is
         missing or what contradicts what, and what to try.
 
@@ -131,10 +137,7 @@ def decide(
     if lyapunov.exceeds(0.0):
         return _diverging(lyapunov, zero_one, finer)
     if lyapunov.falls_below(0.0):
-        return _undecided(
-            f"neighbours converge, {exponent}, but no short period is seen: the motion may not have"
-            f" settled, or have a longer period; {LONGER}, {SMALLER} or {MORE}"
-        )
+        return _converging(exponent, zero_one, rotation, repeats=repeats)
     return _neutral(exponent, zero_one, period, rotation)
 
 
@@ -231,6 +234,43 @@ def _neutral(
         QUASI_PERIODIC,
         0,
         f"{neutral}, K is {zero_one}, and the section is a closed curve"
+        f" with rotation number {rotation}",
+    )
+
+
+def _converging(
+    exponent: str, zero_one: Estimate | None, rotation: Estimate | None, *, repeats: bool | None
+) -> Verdict:
+    """Return the verdict where neighbours converge and nothing recurs; see `decide`."""
+    if repeats is not False:
+        none = "" if repeats else ", or none where what drives it does not repeat"
+        return _undecided(
+            f"neighbours converge, {exponent}, but no short period is seen: the motion may not have"
+            f" settled, or have a longer period{none}; {LONGER}, {SMALLER} or {MORE}"
+        )
+    drive = f"neighbours converge, {exponent}, and what drives the motion does not repeat"
+    drive += " from section to section"
+    if zero_one is None or rotation is None:
+        return _undecided(
+            f"{drive}: to see whether sections lie on a closed curve, {TEST} and 'rotation'"
+        )
+    if zero_one.value >= REGULAR:
+        return _undecided(
+            f"{drive}, but the 0-1 test sees no regular motion, K is {zero_one}: {LONGER} or {MORE}"
+        )
+    if not math.isfinite(rotation.value):
+        return _undecided(
+            f"{drive}, K is {zero_one}, but the section is no closed curve: take sections at the"
+            f" period of one of two drives, {LONGER} or {MORE}"
+        )
+    if not rotation.error < LOOSE:
+        return _undecided(
+            f"{drive}, K is {zero_one}, but the rotation number is {rotation}: {MORE}"
+        )
+    return Verdict(
+        QUASI_PERIODIC,
+        0,
+        f"{drive}, K is {zero_one}, and the section is a closed curve"
         f" with rotation number {rotation}",
     )
 

@@ -88,13 +88,27 @@ def never_back(scene: Scene) -> str:
     for name, period in _moving(scene).items():
         if math.isinf(period):
             return f"'{name}' moves the mechanism in time and never repeats"
-        times = (scene.period or 0.0) / period
-        if not (round(times) and math.isclose(times, round(times), rel_tol=AGREEING)):
+        if not _back_after(scene.period or 0.0, period):
             whole = "the scene gives no 'period' after which all that moves it is back"
             if scene.period is not None:
                 whole = f"the scene's period of {scene.period:.9g} s is no multiple of that"
             return f"'{name}' repeats after {period:.9g} s, and {whole}"
     return ""
+
+
+def out_of_step(scene: Scene, interval: float) -> bool:
+    """Return whether something that moves a scene in time repeats, but not with an interval, s.
+
+    What never repeats, such as a start-up, says nothing: behind it, what it drives may recur.
+    """
+    periods = _moving(scene).values()
+    return any(math.isfinite(one) and not _back_after(interval, one) for one in periods)
+
+
+def _back_after(interval: float, period: float) -> bool:
+    """Return whether an interval is a number of whole periods, none of them 0."""
+    times = interval / period
+    return round(times) > 0 and math.isclose(times, round(times), rel_tol=AGREEING)
 
 
 def _moving(scene: Scene) -> dict[str, float]:

@@ -60,6 +60,7 @@ def indicators_of(
     settled: int,
     *,
     compared: bool = False,
+    repeats: bool = True,
 ) -> tuple[dict[str, float], Verdict]:
     """Return the chosen indicators, each with its error, and the verdict that they allow.
 
@@ -70,6 +71,7 @@ def indicators_of(
     the same behind the record, in far smaller steps. period : s. settled : periods of the vector
     before the record. compared : whether cycles are compared with those of other points: then one
     that still creeps does not recur, for it would be another attractor than that it comes to.
+    repeats : whether what drives the mechanism does so from section to section.
     """
     by_period = len(sections.states) == len(log_growth)
     states = unwound(sections.states[:MOST_SECTIONS], sections.angles) / sections.scales
@@ -104,7 +106,7 @@ def indicators_of(
         spectrum = power_spectrum(along, sections.interval)
         frequency, share = strongest_line(spectrum)
         found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
-    verdict = decide(lyapunov, zero_one, recurrence, rotation, finer)
+    verdict = decide(lyapunov, zero_one, recurrence, rotation, finer, repeats=repeats)
     return found | {"verdict": float(verdict.code)}, verdict
 
 
