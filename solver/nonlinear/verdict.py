@@ -25,6 +25,7 @@ VAGUE = 0.5
 LOOSE = 0.01
 """Error of a rotation number, in turns, from which on the curve is not traversed steadily."""
 LONGER, SMALLER, MORE = "settle for longer", "choose a smaller tolerance", "record more sections"
+RECUR = "record four sections or more with the indicator 'recurrence'"
 TEST = f"record {FEWEST_TELLING} sections with the indicator 'zero_one'"
 """Remedies where nothing is decided."""
 
@@ -59,8 +60,8 @@ RESTS = Verdict(
 def grounds(found: Mapping[str, float]) -> str:
     """Return the reason of a verdict from the numbers that are kept of a point; empty: none is.
 
-    Its exponent in far smaller steps is not kept, and errors are those in all: where these numbers
-    alone would not give the verdict, that is said.
+    Its exponent in far smaller steps and its sections are not kept, and errors are those in all:
+    where these numbers alone would not give the verdict, that is said.
     """
     if not math.isfinite(found.get("verdict", math.nan)):
         return ""
@@ -68,6 +69,8 @@ def grounds(found: Mapping[str, float]) -> str:
         return RESTS.reason
     period = found.get("period", math.nan)
     recurrence = int(period) if math.isfinite(period) else None
+    if recurrence is None and found["verdict"] == CHAOTIC:
+        recurrence = 0  # looked for, and not kept
     lyapunov, zero_one, rotation = (
         _kept(found, name) for name in ("lyapunov", "zero_one", "rotation")
     )
@@ -79,7 +82,7 @@ def grounds(found: Mapping[str, float]) -> str:
     if verdict.code == found["verdict"]:
         return verdict.reason
     seen = "" if lyapunov is None else f": it is {lyapunov} 1/s"
-    return f"by the errors of the record, or the exponent in far smaller steps{seen}"
+    return f"by the errors of the record, its sections, or the exponent in far smaller steps{seen}"
 
 
 def _kept(found: Mapping[str, float], name: str) -> Estimate | None:
@@ -95,18 +98,21 @@ def decide(
     finer: Estimate | None = None,
     *,
     repeats: bool | None = None,
+    leaves: bool = False,
 ) -> Verdict:
     """Return the verdict on a motion from the indicators of the whole system.
 
     lyapunov : largest exponent, 1/s, other than the zero along an autonomous flow. zero_one : K.
     period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
     number; not finite where the section is no closed curve. finer : the exponent in far smaller
-    steps. repeats : whether what drives the mechanism does so from section to section. None: not
-    known. An exponent that is not finite, and a K with an error of 0.5 or more (too few sections),
-    are as good as none.
+    steps. repeats : whether what drives the mechanism does so from section to section. leaves :
+    whether sections leave an unstable orbit. None: not known. An exponent that is not finite, and a
+    K with an error of 0.5 or more (too few sections), are as good as none.
 
     chaotic : the exponent exceeds zero by more than three errors, in smaller steps too, nothing
-        recurs, and K > 0.9. An exponent that does not drift will do where there is no K.
+        recurs, and K > 0.9. Where there is no K, an exponent will do that does not drift, if
+        it is known that nothing recurs, and sections leave no orbit: neighbours of an unstable one
+        part, too.
     periodic : every p-th section is the same and the exponent is not positive. An exponent near
         zero and K > 0.9 contradict that; a clearly negative exponent overrules K.
     quasi-periodic : exponent within three errors of zero, K < 0.1, a closed curve with a rotation
@@ -126,8 +132,9 @@ def decide(
         zero_one = None
     if lyapunov is not None and finer is not None and contradicts(finer, lyapunov):
         return _undecided(
-            f"the exponent is {lyapunov} 1/s, but {finer} 1/s in far smaller steps: the steps of"
-            " this tolerance are too long for it; choose a smaller tolerance"
+            f"the exponent is {lyapunov} 1/s, but {finer} 1/s in far smaller steps behind the"
+            " record: the steps of this tolerance are too long for it, or the motion has not"
+            f" settled; {SMALLER}, or {LONGER}"
         )
     exponent = "" if lyapunov is None else f"the exponent is {_told(lyapunov, finer)}"
     if period:
@@ -135,9 +142,10 @@ def decide(
     if lyapunov is None:
         return _without_exponent(zero_one, period)
     if lyapunov.exceeds(0.0):
-        return _diverging(lyapunov, zero_one, finer)
+        return _diverging(lyapunov, zero_one, finer, _unstable(period, leaves=leaves))
     if lyapunov.falls_below(0.0):
-        return _converging(exponent, zero_one, rotation, repeats=repeats)
+        carried = _carried_along(exponent, zero_one, rotation)
+        return carried if repeats is False else _converging(exponent, period, repeats=repeats)
     return _neutral(exponent, zero_one, period, rotation)
 
 
@@ -156,7 +164,8 @@ def _recurrent(
     if lyapunov is not None and lyapunov.exceeds(0.0):
         return _undecided(
             f"{recurs}, yet neighbours part, {exponent}: chaos in bands narrower than what counts"
-            f" as the same, or an unstable orbit not yet left; {LONGER}, or {SMALLER}"
+            f" as the same, or an unstable orbit not yet left; {LONGER}, {SMALLER}, or start"
+            " elsewhere"
         )
     if lyapunov is not None and lyapunov.falls_below(0.0):
         return Verdict(PERIODIC, period, f"{recurs} and {exponent}")
@@ -181,7 +190,18 @@ def _without_exponent(zero_one: Estimate | None, period: int | None) -> Verdict:
     )
 
 
-def _diverging(lyapunov: Estimate, zero_one: Estimate | None, finer: Estimate | None) -> Verdict:
+def _unstable(period: int | None, *, leaves: bool) -> str:
+    """Return why neighbours may part though nothing is chaotic; empty: there is no reason."""
+    if period is None:
+        return f"whether sections recur, as on an unstable orbit, is not known: {RECUR}"
+    if leaves:
+        return f"sections part as neighbours do, as on the way from an unstable orbit: {LONGER}"
+    return ""
+
+
+def _diverging(
+    lyapunov: Estimate, zero_one: Estimate | None, finer: Estimate | None, unstable: str
+) -> Verdict:
     parts = f"neighbours part, the exponent is {lyapunov} 1/s"
     if finer is not None and not finer.exceeds(0.0):
         return _undecided(
@@ -196,6 +216,8 @@ def _diverging(lyapunov: Estimate, zero_one: Estimate | None, finer: Estimate | 
             f"{parts}, but it still drifts, and there is no 0-1 test to confirm it: {LONGER},"
             f" or {TEST}"
         )
+    if zero_one is None and unstable:
+        return _undecided(f"{parts}, but {unstable}, or {TEST}")
     if zero_one is None:
         return Verdict(CHAOTIC, 0, f"{parts}; there is no 0-1 test to confirm it")
     if zero_one.value > IRREGULAR:
@@ -238,16 +260,20 @@ def _neutral(
     )
 
 
-def _converging(
-    exponent: str, zero_one: Estimate | None, rotation: Estimate | None, *, repeats: bool | None
-) -> Verdict:
-    """Return the verdict where neighbours converge and nothing recurs; see `decide`."""
-    if repeats is not False:
-        none = "" if repeats else ", or none where what drives it does not repeat"
-        return _undecided(
-            f"neighbours converge, {exponent}, but no short period is seen: the motion may not have"
-            f" settled, or have a longer period{none}; {LONGER}, {SMALLER} or {MORE}"
-        )
+def _converging(exponent: str, period: int | None, *, repeats: bool | None) -> Verdict:
+    """Return the verdict where neighbours converge and nothing is seen to recur."""
+    converge = f"neighbours converge, {exponent}, but"
+    if period is None:
+        return _undecided(f"{converge} whether sections recur is not known: {RECUR}")
+    none = "" if repeats else ", or none where what drives it does not repeat"
+    return _undecided(
+        f"{converge} no short period is seen: the motion may not have settled, or have a longer"
+        f" period{none}; {LONGER}, {SMALLER} or {MORE}"
+    )
+
+
+def _carried_along(exponent: str, zero_one: Estimate | None, rotation: Estimate | None) -> Verdict:
+    """Return the verdict where neighbours converge to what a drive that does not repeat makes."""
     drive = f"neighbours converge, {exponent}, and what drives the motion does not repeat"
     drive += " from section to section"
     if zero_one is None or rotation is None:

@@ -14,7 +14,7 @@ from jointplay.solver.nonlinear.lyapunov import (
     exponent_from_growth,
     in_smaller_steps,
 )
-from jointplay.solver.nonlinear.recurrence import creep_to_come, recurrence_period
+from jointplay.solver.nonlinear.recurrence import creep_to_come, leaves_an_orbit, recurrence_period
 from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
 from jointplay.solver.nonlinear.verdict import Verdict, decide
 from jointplay.solver.nonlinear.whole_turns import unwound
@@ -77,9 +77,10 @@ def indicators_of(
     states = unwound(sections.states[:MOST_SECTIONS], sections.angles) / sections.scales
     found: dict[str, float] = {}
     lyapunov = finer = zero_one = rotation = None
-    recurrence: int | None = None
-    if "recurrence" in chosen and len(states) >= FEWEST_FOR_RECURRENCE:
-        recurrence = _recurrence(states, compared=compared)
+    seen = (
+        _recurrence(states, compared=compared) if {"recurrence", "lyapunov"} & set(chosen) else None
+    )
+    recurrence = seen if "recurrence" in chosen else None
     if "lyapunov" in chosen:
         turns = recurrence if recurrence and by_period else 1
         lyapunov, finer = exponents(log_growth, finer_growth, period, settled, turns)
@@ -99,19 +100,31 @@ def indicators_of(
         found["rotation"] = rotation.value if rotation else math.nan
         found["rotation_error"] = rotation.error if rotation else math.nan
         rotation = rotation or UNKNOWN
-    if "spectrum" in chosen and len(states) < FEWEST_FOR_SPECTRUM:
-        found |= dict.fromkeys(("line_frequency", "line_share", "flatness"), math.nan)
-    elif "spectrum" in chosen:
-        along = principal_plane(states, sections.coordinates)[:, 0]
-        spectrum = power_spectrum(along, sections.interval)
-        frequency, share = strongest_line(spectrum)
-        found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
-    verdict = decide(lyapunov, zero_one, recurrence, rotation, finer, repeats=repeats)
+    if "spectrum" in chosen:
+        found |= _spectrum(states, sections)
+    leaves = False
+    if lyapunov is not None and lyapunov.exceeds(0.0):
+        recurrence = seen  # neighbours of an unstable orbit part, too, whatever was asked for
+        leaves = leaves_an_orbit(states)
+    evidence = lyapunov, zero_one, recurrence, rotation, finer
+    verdict = decide(*evidence, repeats=repeats, leaves=leaves)
     return found | {"verdict": float(verdict.code)}, verdict
 
 
-def _recurrence(states: Floats, *, compared: bool) -> int:
-    """Return the period by recurrence, 0: there is none; see `indicators_of`."""
+def _spectrum(states: Floats, sections: Sections) -> dict[str, float]:
+    """Return what the spectrum of the sections says."""
+    if len(states) < FEWEST_FOR_SPECTRUM:
+        return dict.fromkeys(("line_frequency", "line_share", "flatness"), math.nan)
+    along = principal_plane(states, sections.coordinates)[:, 0]
+    spectrum = power_spectrum(along, sections.interval)
+    frequency, share = strongest_line(spectrum)
+    return {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
+
+
+def _recurrence(states: Floats, *, compared: bool) -> int | None:
+    """Return the period by recurrence, 0: there is none, None: too few sections to tell."""
+    if len(states) < FEWEST_FOR_RECURRENCE:
+        return None
     widths = np.maximum(np.ptp(states, axis=0), 1.0)
     period = recurrence_period(states, widths, RECURS)
     if compared and period and creep_to_come(states / widths, period) > RECURS:
