@@ -96,6 +96,11 @@ def never_back(scene: Scene) -> str:
     return ""
 
 
+def moves_in_time(scene: Scene) -> bool:
+    """Return whether something moves a scene in time, but for sliders at a constant speed."""
+    return bool(_moving(scene))
+
+
 def out_of_step(scene: Scene, interval: float) -> bool:
     """Return whether something that moves a scene in time repeats, but not with an interval, s.
 

@@ -107,7 +107,8 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     if study.brief:
         return replace(run.ended, indicators=found)
     seen, periods = len(states[:MOST_SECTIONS]), len(growths[0])
-    remarks = limits(study.point_scene(run.point), found, seen, periods)
+    scene, events = study.point_scene(run.point), study.ends_with_events
+    remarks = limits(scene, found, seen, periods, events=events)
     reason = "; ".join(filter(None, [verdict.reason, run.lasting, *remarks]))
     return replace(run.ended, indicators=found, reason=reason)
 

@@ -16,15 +16,18 @@ from jointplay.solver.runs.study.indicators import (
 )
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
+from jointplay.solver.scene.periods import moves_in_time
 from jointplay.solver.scene.references import tangent_obstacle
 
 
-def limits(scene: Scene, found: Mapping[str, float], sections: int, periods: int) -> Iterator[str]:
+def limits(
+    scene: Scene, found: Mapping[str, float], sections: int, periods: int, *, events: bool = False
+) -> Iterator[str]:
     """Yield what indicators cannot tell.
 
     found : the indicators of a point by name, those that were chosen and could be computed.
     sections : number of sections that they were found from. periods : whole periods among them,
-    which those at onsets need not have.
+    which those at onsets need not have. events : whether sections are at events.
     """
     yield from _limits_of_exponent(scene, found, periods)
     if "zero_one" in found and sections < FEWEST_TELLING:
@@ -38,7 +41,11 @@ def limits(scene: Scene, found: Mapping[str, float], sections: int, periods: int
             f" than {RECURS:g} of the {scale}, or of its own range, counts as the same"
         )
     if math.isnan(found.get("rotation", 0.0)):
-        yield "there is no rotation number: the sections lie on no closed curve"
+        moved = "; where the drive stands at events is no part of them, those at whole periods may"
+        yield (
+            "there is no rotation number: the sections lie on no closed curve"
+            + (moved if events and moves_in_time(scene) else "")
+        )
     if "flatness" in found and sections < FEWEST_FOR_SPECTRUM:
         yield f"a spectrum needs {FEWEST_FOR_SPECTRUM} sections, there are {sections}"
 

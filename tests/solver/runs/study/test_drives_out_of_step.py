@@ -115,3 +115,13 @@ def test_what_never_repeats_is_not_out_of_step() -> None:
     both = Scene.model_validate(shaken(1.0, ROOT, period=TURN))
     assert out_of_step(both, TURN)
     assert not out_of_step(Scene.model_validate(shaken(1.0, 1.5)), 2.0 * TURN)
+
+
+def test_curves_are_seen_at_whole_periods_rather_than_at_events() -> None:
+    """A mass that comes through its middle has but one state there: its speed."""
+    crossing = {"channel": "mass.x", "value": 0.0}
+    end = judged(shaken(1.0), "rotation", section=crossing, record=40)
+    assert "at events is no part of them, those at whole periods may" in end.reason
+    end = judged(shaken(1.0), "rotation", record=40)
+    assert "lie on no closed curve" in end.reason
+    assert "at events" not in end.reason
