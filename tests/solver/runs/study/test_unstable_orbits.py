@@ -97,7 +97,7 @@ def test_without_sections_nothing_is_chaotic() -> None:
 
 
 def test_chaos_is_seen_by_its_exponent_alone() -> None:
-    """Of Henon's map, whose sections come and go."""
+    """The sections of Henon's map come and go."""
     generator = np.random.default_rng(0)
     for skipped in range(0, 2000, 100):
         orbit = HENON.orbit(50, skipped)
