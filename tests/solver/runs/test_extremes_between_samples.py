@@ -214,3 +214,19 @@ def loose_rotor() -> dict[str, Any]:
 @pytest.mark.parametrize("method", ["tsitouras", "dormand-prince-853"])
 def test_a_slip_that_turns_twice_in_two_steps_of_a_flight(method: str, tolerance: float) -> None:
     check(loose_rotor(), 0.045, {}, method=method, tolerance=tolerance)
+
+
+@pytest.mark.parametrize(
+    "flight",
+    [
+        (2.8160402e-3, 3.851917121e-4, -6.803001118e-4, -0.1638888014, 0.3015500236, -0.24393686),
+        (2.8427459e-3, -5.148300482e-4, 4.059786830e-4, 0.2177916926, -0.1591580342, -131.459667),
+        (2.9081821e-3, 7.642387844e-4, 2.150020983e-4, -0.3155515532, -0.0760952813, -10.0938942),
+    ],
+)
+def test_a_slip_that_turns_as_its_normal_whips_round_and_once_more(
+    flight: tuple[float, ...],
+) -> None:
+    """Gravity bends a fall past the centre: rates at both ends of the step have one sign."""
+    names = ("position_x", "position_y", "velocity_x", "velocity_y", "spin")
+    check("bouncing-journal", flight[0], dict(zip(names, flight[1:], strict=True)))
