@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing import Pipe
@@ -11,6 +12,7 @@ from typing import Any
 from jointplay.service.fair_queue import FairQueue, Full
 from jointplay.service.owners import OWNER
 from jointplay.service.problems import unavailable
+from jointplay.service.processor_time import processor_time
 
 _AT_ONCE = 2
 """Processes: the second one is started where another owner asks while the first one is busy."""
@@ -18,12 +20,22 @@ _START = 60.0
 """Seconds that a question waits for a process to start; it goes on starting for the next one."""
 
 
+_LONGER = 4
+"""Times of the patience for which a process is waited for that is not let compute."""
+_LOOKS = 20
+"""In a patience, at most: how long it has computed."""
+
+
 class Busy(Exception):
     """Many are waiting for an answer already, or the process has not started yet."""
 
 
 class TooSlow(Exception):
-    """An answer took longer than the patience."""
+    """An answer took more computing than the patience."""
+
+
+class Hindered(Exception):
+    """There is no answer, and the process was not let compute: others have the processors."""
 
 
 class NoAnswer(Exception):
@@ -37,6 +49,8 @@ def refusing(busy: str, too_slow: Exception, no_answer: str) -> Iterator[None]:
         yield
     except Busy:
         raise unavailable(busy, 2) from None
+    except Hindered:
+        raise unavailable("The machine of the service is too busy; ask again later.", 5) from None
     except TooSlow:
         raise too_slow from None
     except NoAnswer:
@@ -53,7 +67,8 @@ class AnsweringProcess:
         connection, sends an object once it has started, answers each that it receives with
         another, and ends with the connection, or when it is idle.
     patience
-        Seconds for one answer, beside the start of the process; what takes longer is ended.
+        Seconds of computing for one answer, beside the start of the process; what takes longer is
+        ended. Where the system does not tell how long it computes, the clock is looked at.
     start
         Seconds for which a question waits for the start; the process is left to go on with it.
     """
@@ -68,7 +83,7 @@ class AnsweringProcess:
 
         Raises
         ------
-        Busy, TooSlow, NoAnswer
+        Busy, TooSlow, Hindered, NoAnswer
             See there.
         """
         try:
@@ -103,10 +118,8 @@ class _Process:
             with suppress(EOFError, OSError):
                 self._wait_for_start(connection, start)
                 connection.send(question)
-                if connection.poll(patience):
-                    return connection.recv()
-                self.close()
-                raise TooSlow
+                self._wait_for_answer(connection, patience)
+                return connection.recv()
             self.close()
         raise NoAnswer
 
@@ -117,6 +130,22 @@ class _Process:
             self.process.kill()
             self.process.wait()
         self.process = self._connection = None
+
+    def _wait_for_answer(self, connection: Connection, patience: float) -> None:
+        """Wait for an answer or the end of the process; TooSlow or Hindered if neither comes."""
+        begun, before, left = time.monotonic(), self._computed(), patience
+        while not connection.poll(max(left, patience / _LOOKS)):
+            now = self._computed()
+            left = 0.0 if before is None or now is None else patience - (now - before)
+            if left <= 0.0:
+                self.close()
+                raise TooSlow
+            if time.monotonic() - begun > _LONGER * patience:
+                self.close()
+                raise Hindered
+
+    def _computed(self) -> float | None:
+        return None if self.process is None else processor_time(self.process.pid)
 
     def _wait_for_start(self, connection: Connection, patience: float) -> None:
         if not self._has_started:

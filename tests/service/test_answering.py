@@ -1,12 +1,19 @@
 """The process that answers one question at a time: lost, too slow, asked by too many, ended."""
 
+import os
+import subprocess
+import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import count
 from pathlib import Path
 
 import pytest
 
-from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
+from jointplay.service import answering
+from jointplay.service.answering import AnsweringProcess, Busy, Hindered, NoAnswer, TooSlow
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.processor_time import processor_time
 from tests.waiting import is_alive, until
 
 PROGRAM = """
@@ -62,13 +69,59 @@ def test_a_question_that_ends_the_process_twice_has_no_answer(process):
     assert is_alive(process.answer(("answer", "")))
 
 
-def test_an_answer_that_takes_too_long_ends_the_process(process):
+def computes(monkeypatch: pytest.MonkeyPatch, looked: Callable[[int], float | None]) -> None:
+    """Have the process compute as long as `looked` says, in s, of the looks at it so far."""
+    looks = count()
+    monkeypatch.setattr(answering, "processor_time", lambda _: looked(next(looks)))
+
+
+@pytest.mark.parametrize("spent", [lambda looks: 0.05 * looks, lambda _: None])
+def test_an_answer_that_takes_too_long_ends_the_process(process, monkeypatch, spent):
+    """By its computing, or by the clock where the system does not tell that."""
     pid = process.answer(("answer", ""))
     process.patience = 0.1
+    computes(monkeypatch, spent)
     with pytest.raises(TooSlow):
         process.answer(("wait until there", "never"))
     assert not is_alive(pid)
     assert starts() == 1
+
+
+def test_a_process_that_is_not_let_compute_is_waited_for(process, monkeypatch):
+    """A scene of five bodies was refused as too large, since others had the processors."""
+
+    def looked(looks: int) -> float:
+        if looks == 3:
+            Path("there").touch()
+        return 0.0
+
+    process.patience = 0.2
+    computes(monkeypatch, looked)
+    assert is_alive(process.answer(("wait until there", "there")))
+
+
+def test_who_asks_a_process_that_is_never_let_compute_may_ask_again(process, monkeypatch):
+    process.patience = 0.05
+    computes(monkeypatch, lambda _: 0.0)
+    with pytest.raises(Hindered):
+        process.answer(("wait until there", "never"))
+    with pytest.raises(RequestRefused) as refused, answering.refusing("", ValueError(), ""):
+        process.answer(("wait until there", "never"))
+    assert refused.value.kind is kinds.UNAVAILABLE
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="nothing tells it")
+def test_the_computing_of_what_a_process_has_started_counts(tmp_path):
+    program = "import subprocess, sys; subprocess.run([sys.executable, '-c', sys.argv[1]])"
+    spin = "import time\nwhile time.process_time() < 0.3: pass\nopen('spun', 'w')\ninput()"
+    gone = os.spawnv(os.P_NOWAIT, sys.executable, [sys.executable, "-c", "pass"])
+    os.waitpid(gone, 0)
+    assert processor_time(gone) is None
+    with subprocess.Popen(
+        [sys.executable, "-c", program, spin], cwd=tmp_path, stdin=subprocess.PIPE
+    ) as started:
+        until((tmp_path / "spun").exists)
+        assert processor_time(started.pid) >= 0.28
 
 
 def test_the_start_is_no_part_of_an_answer(tmp_path, process):

@@ -15,6 +15,7 @@ from jointplay.service.access import concurrency
 from jointplay.service.app import create_app
 from jointplay.service.body import LARGEST_BATCH, LARGEST_BODY
 from jointplay.service.processes import connection_limit, connections
+from jointplay.service.processes.api import LONGEST_HEAD
 from jointplay.service.results.queries import MOST_VALUES
 from jointplay.solver.kinds import KINDS
 from jointplay.solver.kinds.limits import (
@@ -157,6 +158,7 @@ def test_the_problem_that_the_documentation_shows_is_the_one_that_is_sent(http):
 
 def test_the_documentation_gives_the_limits_that_hold():
     documentation = (Path(__file__).parents[2] / "docs" / "http.md").read_text()
+    assert f"headers of a request | {LONGEST_HEAD // 2**10} KiB" in documentation
     assert f"| a body | {LARGEST_BODY // 2**20} MiB" in documentation
     assert f"of a batch {LARGEST_BATCH // 2**20} MiB" in documentation
     assert f"| its JSON | {DEEPEST} levels" in documentation
