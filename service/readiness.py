@@ -6,6 +6,7 @@ import os
 import socket
 import tempfile
 import time
+from pathlib import Path
 from typing import Final
 
 from jointplay.service.vital import VitalThreads
@@ -46,7 +47,7 @@ class Readiness:
             proof.exception()  # nobody may be left who waits for it
 
     def prove(self) -> None:
-        """Store something in the catalogue and in the data folder; ask the place for results.
+        """Store something in the catalogue, the data folder and the place for results.
 
         Raises
         ------
@@ -59,15 +60,17 @@ class Readiness:
         """
         self._catalogue.ping()
         self._catalogue.take_lead("readiness", self._name, _AT_ONCE)
-        self._write()
-        self._try_place()
-
-    def _write(self) -> None:
         data = self._settings.data
         if not data.is_dir():
             raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(data))
-        folder = data / RUNNING
-        folder.mkdir(exist_ok=True)
+        (data / RUNNING).mkdir(exist_ok=True)
+        self._write(data / RUNNING)
+        place = self._settings.place
+        if isinstance(place, Folder) and Path(place.root).is_dir():  # made for the first results
+            self._write(Path(place.root))
+        self._try_place()
+
+    def _write(self, folder: Path) -> None:
         # without a name: in containers, APIs that share the folder have one process id
         with tempfile.TemporaryFile(dir=folder) as trial:
             trial.write(_TRIAL)

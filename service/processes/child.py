@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -14,6 +15,7 @@ _FIRST_PAUSE, _LONGEST_PAUSE = 0.2, 10.0  # seconds before a process is started 
 _STEADY = 30.0  # a process that ran this long was well: its failures are forgotten
 _BOUND = Path(__file__).with_name("bound.py")
 _POLL = 0.02
+_LITTLE = 2**16  # bytes that are free on a disk on which nothing can be started
 
 
 class StartFailed(Exception):
@@ -112,8 +114,10 @@ class Child:
         while not answers():
             if not self.alive:
                 last = self.log.read_text(errors="replace").splitlines()[-12:]
-                told = "\n".join(line for line in last if not line[:1].isspace())  # no traceback's
-                raise StartFailed(f"the {self.name} ended at once:\n{told}")
+                told = [line for line in last if not line[:1].isspace()]  # no traceback's
+                if shutil.disk_usage(self.log.parent).free < _LITTLE:  # which the log cannot tell
+                    told.append(f"the disk with {self.log.parent} is full")
+                raise StartFailed("\n".join([f"the {self.name} ended at once:", *told]))
             if time.monotonic() > deadline:
                 raise StartFailed(f"the {self.name} did not answer in {patience:g} s: {self.log}")
             pause(_POLL)

@@ -21,6 +21,7 @@ from jointplay.records.log_lines import begin
 from jointplay.service.processes.broker import Broker, answers
 from jointplay.service.processes.child import Child, StartFailed, WrongSetting
 from jointplay.service.processes.folder_lock import holding
+from jointplay.service.processes.writable import require_writable
 from jointplay.storage.settings import Settings
 
 _START_PATIENCE = 60.0  # seconds until the API answers; a cold disk is slow
@@ -68,6 +69,7 @@ class Supervisor:
             Something could not be started; what had been started is stopped again.
         """
         begin(self._settings.log_format, logging.WARNING)
+        require_writable(self._settings.data)
         with ExitStack() as stack:
             say = stack.enter_context(holding(self._settings.data))
             wake = stack.enter_context(self._signals())

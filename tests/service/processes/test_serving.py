@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import pytest
 
+from jointplay.chaos.small_disk import on_small_disk
 from jointplay.service.processes import StartFailed, WrongSetting, running_service, serve
 from tests.waiting import descendants, is_alive, until
 
@@ -143,3 +144,14 @@ def test_a_redis_that_does_not_answer_is_said(
         running_service(tmp_path / "data"),
     ):
         pass
+
+
+def test_a_full_disk_is_said(tmp_path: Path) -> None:
+    """The API ended at once, and its log was empty: there was no room for a word."""
+    data = tmp_path / "data"
+    call = SERVE.format(call=f"serve('127.0.0.1', 0, Path({str(data)!r}), 1)")
+    command = on_small_disk(data, 100_000, [sys.executable, "-c", call])
+    if len(command) == 3:
+        pytest.skip("unshare and mount cannot make a disk here")
+    ended = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert f"the disk with {data / 'logs'} is full" in ended.stderr
