@@ -12,8 +12,9 @@ const COME_BACK = 1000; // ms after which a stream that was cut is opened again
  *
  * @param onEvent called with each event of the history, once
  * @param onProgress called with the newest state and progress
+ * @param onLost called if there is nothing more to be read, though no end was told
  */
-export async function follow(address, { onEvent, onProgress, signal }) {
+export async function follow(address, { onEvent, onProgress, onLost, signal }) {
   let last = 0;
   let over = false;
   const take = (message) => {
@@ -32,7 +33,7 @@ export async function follow(address, { onEvent, onProgress, signal }) {
       const answer = await fetch(`${address}/events`, { headers: { ...keyHeaders(), ...seen }, signal });
       report(true);
       if (answer.status === 200) await read(answer.body, take);
-      else if (!mayPass(answer)) return;
+      else if (!mayPass(answer)) return onLost?.();
       if (!over) await pause(COME_BACK, signal);
     } catch (error) {
       if (error.name === "AbortError") return;

@@ -1,6 +1,6 @@
 /** Asks a service again that is busy, or does not answer for a moment. */
 
-import { Unreachable, isBusy, pause } from "./service.js";
+import { Unreachable, isBusy, mayPass, pause } from "./service.js";
 
 const TRIES = 5;
 const COME_BACK = 1; // s
@@ -15,6 +15,18 @@ export async function patiently(ask, signal, again = (error) => isBusy(error) ||
       const after = error.after ?? COME_BACK;
       if (!again(error) || tries === TRIES || after > LONGEST) throw error;
       await pause(1000 * after, signal);
+    }
+  }
+}
+
+/** Returns what `ask` returns, for however long the service is busy or away. */
+export async function untilAnswered(ask, signal) {
+  for (;;) {
+    try {
+      return await ask();
+    } catch (error) {
+      if (!mayPass(error)) throw error;
+      await pause(1000 * (error.after ?? COME_BACK), signal);
     }
   }
 }

@@ -7,9 +7,11 @@ import { declaredFor, jobWords } from "../interface/job_words.js";
 import { KINDS, kindsOfJobs } from "../interface/kinds_of_job.js";
 import { address, go } from "../interface/place.js";
 import { progressWords, sceneName, stateMark } from "../interface/state.js";
+import { trouble } from "../interface/trouble.js";
 import { whyQueued, workers } from "../interface/workers.js";
 import { TERMINAL, follow } from "../requests/following.js";
-import { get, pause, post } from "../requests/service.js";
+import { untilAnswered } from "../requests/patiently.js";
+import { Problem, get, pause, post } from "../requests/service.js";
 
 const TABS = {
   watch: ["Watch", () => import("./job/watch.js"), ["history"]],
@@ -66,11 +68,18 @@ export async function show(room, { parts, query, signal }) {
         for (const listener of listeners) listener(job);
         if (TERMINAL.has(job.state)) ended();
       },
+      onLost: () => ended(),
     });
   }
   const ended = async () => {
-    const now = await get(`/v1/jobs/${id}`, {}, signal);
-    Object.assign(job, now);
+    try {
+      const ask = () => get(`/v1/jobs/${id}`, {}, signal);
+      Object.assign(job, await untilAnswered(ask, signal));
+    } catch (error) {
+      if (!(error instanceof Problem)) throw error;
+      fill(room, trouble(error, { view: "job", parts })); // it was deleted meanwhile
+      return;
+    }
     head.refresh();
     for (const listener of listeners) listener(job);
   };

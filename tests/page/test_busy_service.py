@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from jointplay.storage.catalogue.records import BlockState, Solver
+from jointplay.storage.catalogue.records import BlockState, JobError, Solver
 from tests.page.browsing import expect
 
 BUSY = ("429", "503")
@@ -45,6 +45,50 @@ def test_a_job_is_followed_on(browsing, service_url, worker, status):
         worker.store(claim)
         worker.finish(claim, BlockState.done)
         page.get_by_text("succeeded", exact=True).wait_for()
+
+
+@pytest.mark.parametrize("is_deleted", [True, False])
+def test_a_job_that_ended_unseen_is_shown_as_it_is(browsing, http, service_url, worker, is_deleted):
+    """It was shown as it was last seen, for ever."""
+    job_id = worker.submit(label="ended unseen")
+    events = re.compile("/events$")
+    with browsing.page(f"{service_url}/healthz", expected=(*BUSY, "410", "404")) as page:
+        page.route(events, lambda route: route.fulfill(status=503, json={}))
+        page.goto(f"{service_url}/#/job/{job_id}")
+        page.get_by_text("queued", exact=True).wait_for()
+        http.post(f"/v1/jobs/{job_id}/cancel").raise_for_status()
+        if is_deleted:
+            http.delete(f"/v1/jobs/{job_id}").raise_for_status()
+            page.unroute(events)
+            page.get_by_role("heading", name="This job is gone").wait_for()
+        else:  # as of a stream that was cut before its last word
+            page.unroute(events)
+            page.route(events, lambda route: route.fulfill(status=204))
+            page.get_by_text("cancelled", exact=True).wait_for()
+
+
+def test_why_a_job_failed_is_told_once_the_service_is_back(browsing, service_url, worker):
+    """Its state was shown alone where the service was lost as the job ended."""
+    job_id = worker.submit(label="failed meanwhile")
+    missed = []
+
+    def lose(route):
+        missed.append(route.request.url)
+        route.abort()
+
+    with browsing.page(f"{service_url}/#/job/{job_id}", expected=("ERR_FAILED", "404")) as page:
+        page.get_by_text("Nothing is computed yet").wait_for()
+        claim = worker.start(job_id)
+        page.get_by_text("running", exact=True).wait_for()
+        job = re.compile(f"/v1/jobs/{job_id}$")
+        page.route(job, lose)
+        worker.store(claim, complete=False)
+        error = JobError("solver", "step-size-underflow", "The step fell below 1e-15 s.", 0.7)
+        worker.finish(claim, BlockState.failed, error)
+        while len(missed) < MANY:
+            page.wait_for_event("request", lambda asked: job.search(asked.url))
+        page.unroute(job)
+        page.get_by_text("The step fell below 1e-15 s.").first.wait_for()
 
 
 @pytest.mark.parametrize("view", ["batches", "batch", "jobs", "workers"])
