@@ -65,7 +65,11 @@ export class FreeMotion {
   }
 
   async take(scene) {
-    const found = await poses(scene, [0], this.signal);
+    const found = await poses(scene, [0], this.signal).catch((error) => {
+      const known = error.errors?.length || error.name === "AbortError"; // the check tells what is wrong
+      if (!known) fill(this.said, `This is not drawn: ${error.message}`);
+      throw error;
+    });
     if (!found.poses.length) return;
     this.scene = { ...scene, curves: found.curves };
     Object.assign(this, { found, box: bounds(this.scene, found.poses) });

@@ -2,7 +2,7 @@
 
 import { element, fill } from "./element.js";
 import { bytes, short, span } from "./numbers.js";
-import { patiently } from "../requests/patiently.js";
+import { patiently, untilAnswered } from "../requests/patiently.js";
 import { pause, post } from "../requests/service.js";
 
 const QUIET = 600; // ms without a change before it is asked
@@ -38,8 +38,8 @@ export class Estimate {
       const slow = setTimeout(() => !signal.aborted && fill(this.element,
         "Estimating the cost … (equations are compiled the first time they are met)"), 1500);
       signal.addEventListener("abort", () => clearTimeout(slow));
-      const ask = () => post("/v1/estimates", job, signal);
-      const found = await patiently(ask, signal).finally(() => clearTimeout(slow));
+      const ask = () => patiently(() => post("/v1/estimates", job, signal), signal);
+      const found = await untilAnswered(ask, signal, { away: true }).finally(() => clearTimeout(slow));
       fill(this.element, words(found));
       this.onWrong([]);
     } catch (error) {

@@ -19,13 +19,13 @@ export async function patiently(ask, signal, again = (error) => isBusy(error) ||
   }
 }
 
-/** Returns what `ask` returns, for however long the service is busy or away. */
-export async function untilAnswered(ask, signal) {
+/** Returns what `ask` returns, for however long the service is away, and busy or broken unless `away`. */
+export async function untilAnswered(ask, signal, { away = false } = {}) {
   for (;;) {
     try {
       return await ask();
     } catch (error) {
-      if (!mayPass(error)) throw error;
+      if (!(error instanceof Unreachable || (!away && mayPass(error)))) throw error;
       await pause(1000 * (error.after ?? COME_BACK), signal);
     }
   }

@@ -1,6 +1,6 @@
 /** Poses of a scene before it is run, as the solver puts it together and follows it; and its channels. */
 
-import { patiently } from "./patiently.js";
+import { patiently, untilAnswered } from "./patiently.js";
 import { post } from "./service.js";
 
 let turn = Promise.resolve();
@@ -21,7 +21,8 @@ export function channels(scene, signal) {
 }
 
 function inTurn(address, question, signal) {
-  const ask = () => patiently(() => post(address, question, signal), signal);
+  const once = () => patiently(() => post(address, question, signal), signal);
+  const ask = () => untilAnswered(once, signal, { away: true });
   const answer = turn.then(ask, ask);
   turn = answer.catch(() => {});
   return answer;

@@ -16,7 +16,7 @@ import { short, typed } from "../interface/numbers.js";
 import { forget, go, note, place } from "../interface/place.js";
 import { someDuration } from "../interface/some_duration.js";
 import { onNewColours } from "../mechanism/palette.js";
-import { patiently } from "../requests/patiently.js";
+import { patiently, untilAnswered } from "../requests/patiently.js";
 import { get, pause, post } from "../requests/service.js";
 
 const QUIET = 500; // ms without typing before the service checks
@@ -168,7 +168,8 @@ class Editing {
     const { signal } = this.checking;
     try {
       await pause(QUIET, signal);
-      const found = await patiently(() => post("/v1/scenes/check", this.document, signal), signal);
+      const ask = () => patiently(() => post("/v1/scenes/check", this.document, signal), signal);
+      const found = await untilAnswered(ask, signal, { away: true });
       this.checked = true;
       fill(this.facts, factsOf(found));
       fill(this.notes, notesOf(found).map((sentence) => element("li", {}, sentence)));

@@ -1,5 +1,6 @@
 """A service that has too much to do for a while: the page goes on as soon as that has passed."""
 
+import json
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,6 +9,8 @@ import pytest
 
 from jointplay.storage.catalogue.records import BlockState, JobError, Solver
 from tests.page.browsing import expect
+from tests.page.test_own_mechanism import paste
+from tests.two_assemblies import arm
 
 BUSY = ("429", "503")
 BATCH = {"jobs": [{"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}]}
@@ -89,6 +92,20 @@ def test_why_a_job_failed_is_told_once_the_service_is_back(browsing, service_url
             page.wait_for_event("request", lambda asked: job.search(asked.url))
         page.unroute(job)
         page.get_by_text("The step fell below 1e-15 s.").first.wait_for()
+
+
+def test_the_editor_goes_on_once_the_service_is_back(browsing, service_url):
+    """It said that it would try again, and did not."""
+    checked, asked = re.compile("/v1/scenes/check$"), re.compile("/v1/scenes/(check|poses)$")
+    with browsing.page(f"{service_url}/#/editor", expected=("ERR_FAILED",)) as page:
+        page.locator("canvas[data-pose]").wait_for()
+        page.route(asked, lambda route: route.abort())
+        paste(page, json.dumps(arm(speed=1.0)))
+        for _ in range(MANY):
+            page.wait_for_event("requestfailed", lambda one: checked.search(one.url))
+        page.unroute(asked)
+        page.get_by_text("Degrees of freedom: 0.").wait_for()
+        page.wait_for_function("'arm' in JSON.parse(document.querySelector('canvas').dataset.pose)")
 
 
 @pytest.mark.parametrize("view", ["batches", "batch", "jobs", "workers"])

@@ -150,6 +150,22 @@ def test_drivers_are_moved_again_after_their_motion_could_not_be_had(
         assert slide(page, 90, found["poses"][0])
 
 
+def test_a_mechanism_that_takes_too_long_to_pose_is_not_drawn_and_says_so(
+    browsing: Any, service_url: str
+) -> None:
+    """The picture before it stayed, without a word."""
+    address, sentence = "**/v1/scenes/poses", "Looking at this scene takes more than 20 s."
+    problem = {"type": "/problems/limit-exceeded", "status": 422, "detail": sentence}
+    with browsing.page(f"{service_url}/#/editor", expected=("422",)) as page:
+        page.locator(CANVAS).wait_for()
+        page.route(address, lambda route: route.fulfill(status=422, json=problem))
+        paste(page, json.dumps(toggle()))
+        page.get_by_role("status").filter(has_text=f"This is not drawn: {sentence}").wait_for()
+        page.unroute(address)
+        shown(page, five_bar())
+        page.get_by_role("status").filter(has_text="Drag a point").wait_for()
+
+
 def test_points_are_dragged_and_joints_stay_closed(page) -> None:
     start = shown(page, toggle())["poses"][0]
     asked: list[dict[str, Any]] = []
