@@ -1,7 +1,8 @@
 """Functions that kernels alone call are made machine code in their callers alone.
 
 By itself Numba makes code of every function. But one without an entry for Python is never called
-where it stands: those that call it link its text, of which the same code is made.
+where it stands: those that call it link its text, of which the same code is made. Others in this
+process may keep what Numba compiles for them on the disk: their functions are code there as ever.
 """
 
 # mypy: disable-error-code="no-untyped-call, no-any-return, method-assign"
@@ -25,12 +26,22 @@ class Library(codegen.JITCodeLibrary):
         return not any(name.startswith(ENTRIES) for name in defined)
 
     def _finalize_final_module(self) -> None:
-        if not self._is_inner:
+        has_code = self._object_caching_enabled and self._compiled_object is not None
+        if has_code or not self._is_inner:
             super()._finalize_final_module()
             return
         self._finalize_dynamic_globals()
         self._verify_declare_only_symbols()
         self._finalized = True
+
+    def serialize_using_object_code(self) -> tuple[Any, ...]:
+        """Return what the cache keeps: of an inner function its text."""
+        self._ensure_finalized()
+        if self._compiled_object is None:
+            text: tuple[Any, ...] = self.serialize_using_bitcode()
+            return text
+        code: tuple[Any, ...] = super().serialize_using_object_code()
+        return code
 
 
 def link_inner_functions() -> None:
