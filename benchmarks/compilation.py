@@ -22,10 +22,9 @@ from typing import Any
 from benchmarks.four_bars import four_bars
 from benchmarks.hostile_bodies import chain, free
 from jointplay.records.failure import LimitExceeded
-from jointplay.solver.kernels.compile_loop import compile_part
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop_code import RUNS
+from jointplay.solver.kernels.loop_code import FOR_RUNS, begin, wait_for
 from jointplay.solver.kernels.trace.equations import trace
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
@@ -99,7 +98,8 @@ def main() -> None:
     arguments = parser.parse_args()
     if arguments.one:
         name, count, formulation = arguments.one
-        compile_part(RUNS)
+        if compiling := begin(FOR_RUNS):
+            wait_for(compiling)
         print(json.dumps(compiled(name, int(count), formulation, arguments.tangents)))
         return
     print(

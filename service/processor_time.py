@@ -1,6 +1,7 @@
 """Processor time of a process that this one has started, where the system tells it."""
 
 import os
+from contextlib import suppress
 from pathlib import Path
 
 
@@ -17,8 +18,11 @@ def _ticks(pid: int) -> int | None:
     try:
         fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
         threads = [*Path(f"/proc/{pid}/task").iterdir()]
-        children = [child for one in threads for child in (one / "children").read_text().split()]
     except OSError:
         return None
+    children: list[str] = []
+    for one in threads:
+        with suppress(OSError):  # it has ended meanwhile
+            children += (one / "children").read_text().split()
     ended_too = sum(map(int, fields[11:15]))  # of children that have ended and were waited for
     return ended_too + sum(_ticks(int(child)) or 0 for child in children)

@@ -29,7 +29,6 @@ IMPORTED = (
     "jointplay.worker.windows.evaluate",
     "matplotlib.backends.backend_agg",
     "matplotlib.figure",
-    "numba.np.arraymath",
     "pandas",
 )
 """Modules that commands import."""

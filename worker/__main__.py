@@ -8,7 +8,6 @@ import sys
 # One solver runs on one core; threads of libraries beside it only take turns with each other.
 for variable in (
     "OMP_NUM_THREADS",
-    "NUMBA_NUM_THREADS",
     "MKL_NUM_THREADS",
     "OPENBLAS_NUM_THREADS",
 ):

@@ -26,7 +26,7 @@ from jointplay.worker.own_device import OwnDevice, tried_device
 from jointplay.worker.own_solver import own_solver
 from jointplay.worker.process_name import own_name
 from jointplay.worker.scratch.computing import (
-    compute,  # before the fork: all children share numba and the solver
+    compute,  # before the fork: all children share the solver
 )
 from jointplay.worker.spent import SpentReport
 from jointplay.worker.wake_up import wake_relay

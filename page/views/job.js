@@ -76,6 +76,7 @@ export async function show(room, { parts, query, signal }) {
       const ask = () => get(`/v1/jobs/${id}`, {}, signal);
       Object.assign(job, await untilAnswered(ask, signal));
     } catch (error) {
+      if (error.name === "AbortError") return;
       if (!(error instanceof Problem)) throw error;
       fill(room, trouble(error, { view: "job", parts })); // it was deleted meanwhile
       return;

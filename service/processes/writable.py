@@ -1,6 +1,7 @@
-"""What an earlier service of another user left in a data folder, which this one cannot write."""
+"""Files of a data folder that a service cannot write, as those that another user's left."""
 
 import os
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
@@ -21,11 +22,14 @@ def require_writable(data: Path) -> None:
         The data folder, which need not be there.
     """
     path = next(_refusing(data), None)
-    if path is not None:
-        raise WrongSetting(
-            f"{path}, of user {_owner(path)}, cannot be written, as if another user had run a"
-            f" service here; give the folder to this one: chown -R {os.geteuid()} {data}"
-        )
+    if path is None:
+        return
+    if path.stat().st_uid == os.geteuid():
+        raise WrongSetting(f"{path} cannot be written: its mode or its disk is read-only")
+    raise WrongSetting(
+        f"{path}, of user {_owner(path)}, cannot be written, as if another user had run a service"
+        f" here; give the folder to this one: chown -R {os.geteuid()} {shlex.quote(str(data))}"
+    )
 
 
 def _refusing(data: Path) -> Iterator[Path]:
@@ -33,7 +37,7 @@ def _refusing(data: Path) -> Iterator[Path]:
     for patterns, mode in ((_FOLDERS, os.W_OK | os.X_OK), (_FILES, os.W_OK)):
         for pattern in patterns:
             for path in sorted(data.glob(pattern)):
-                if not os.access(path, mode, effective_ids=_EFFECTIVE):
+                if not os.access(path, mode, effective_ids=_EFFECTIVE) and path.exists():
                     yield path
 
 

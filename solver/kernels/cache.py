@@ -1,8 +1,8 @@
 """Where compiled code is kept.
 
-The whole cache lives under a digest of all sources of this package: compiled code calls nothing
-outside of it, and a generated module is named by its tapes. Wiping it is always safe. Installations
-of the same sources share it.
+The whole cache lives under a digest of all sources of this package and of `records`: compiled code
+takes nothing from elsewhere, and a generated module is named by its tapes. Wiping it is always
+safe. Installations of the same sources share it.
 """
 
 import gc
@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from jointplay import records
 from jointplay.solver.version import source_digest
 
-_PACKAGE = Path(__file__).parent
+_SOURCES = (Path(__file__).parent, Path(records.__file__).parent)
 
 
 @cache
@@ -30,7 +31,7 @@ def cache_folder() -> Path:
         os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"),
         "jointplay",
     )
-    digest = source_digest(_PACKAGE)
+    digest = "".join(source_digest(folder)[:8] for folder in _SOURCES)
     for parent in (Path(chosen), Path(tempfile.gettempdir()) / f"jointplay-{os.getuid()}"):
         folder = parent / f"kernels-{digest}"
         try:
@@ -44,10 +45,16 @@ def cache_folder() -> Path:
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Write a file that other processes find whole or not at all."""
+    """Write a file that other processes find whole or not at all, also after a power cut."""
     with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as partial:
-        partial.write(content)
-    os.replace(partial.name, path)
+        try:
+            partial.write(content)
+            partial.flush()
+            os.fsync(partial.fileno())
+            os.replace(partial.name, path)
+        except BaseException:
+            os.unlink(partial.name)
+            raise
 
 
 @dataclass

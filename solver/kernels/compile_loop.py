@@ -35,12 +35,12 @@ from jointplay.solver.kernels.loop import (
     tangent,
 )
 from jointplay.solver.kernels.loop.extremes.window import extremes_in_steps
-from jointplay.solver.kernels.loop_code import PARTS, RUNS, WINDOWS, begin, path_of
+from jointplay.solver.kernels.loop_code import FOR_RUNS, FOR_WINDOWS, PARTS, begin, path_of
 from jointplay.solver.kernels.loop_library import ARITHMETIC, MEMORY
 from jointplay.solver.kernels.target import own_target
 
 FUNCTIONS: Mapping[str, Mapping[EntryPoint, Callable[..., Any]]] = {
-    RUNS: {
+    FOR_RUNS: {
         entry_points.advance: advance.advance,
         entry_points.observe_rows: dense_rows.observe_rows,
         entry_points.set_clocks: periods.set_clocks,
@@ -48,7 +48,7 @@ FUNCTIONS: Mapping[str, Mapping[EntryPoint, Callable[..., Any]]] = {
         entry_points.start_tangents: tangent.start_tangents,
         entry_points.measure_tangent: tangent.measure_tangent,
     },
-    WINDOWS: {
+    FOR_WINDOWS: {
         entry_points.find_steps: replay.find_steps,
         entry_points.states_in_steps: replay.states_in_steps,
         entry_points.make_again: replay.make_again,
@@ -86,6 +86,7 @@ def _keep_only(module: Any, symbols: Collection[str], machine: Any) -> None:
             one.linkage = "private"
     builder = binding.create_pass_builder(machine, binding.create_pipeline_tuning_options())
     passes = binding.create_new_module_pass_manager()
+    passes.add_always_inliner_pass()
     passes.add_global_dead_code_eliminate_pass()
     passes.run(module, builder)
 
@@ -116,7 +117,7 @@ def _entry(entry_point: EntryPoint, function: str) -> str:
 def numba_type(argument: Argument) -> Any:
     """Return what an argument is for Numba."""
     if isinstance(argument, Number):
-        return {int: types.int64, float: types.float64}[argument.kind]
+        return {INTEGRAL: types.int64, FLOATING: types.float64}[argument.words]
     if isinstance(argument, Array):
         return types.Array(numba.from_dtype(argument.dtype), argument.dimensions, "C")
     return types.NamedTuple(list(map(numba_type, argument.members)), argument.kind)

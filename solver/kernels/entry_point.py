@@ -23,19 +23,15 @@ POINTER, INTEGRAL, FLOATING = "P", "q", "d"
 class Number:
     """A number among an entry point's arguments."""
 
-    kind: type[int] | type[float]
-
-    @property
-    def words(self) -> str:
-        """Kinds of the words that it is passed as."""
-        return INTEGRAL if self.kind is int else FLOATING
+    words: str
+    """Kind of the word that it is passed as."""
 
     def passed(self, number: Any) -> tuple[Any, ...]:
         """Return what is passed of it."""
         return (number,)
 
 
-INTEGER, REAL = Number(int), Number(float)
+INTEGER, REAL = Number(INTEGRAL), Number(FLOATING)
 
 
 @dataclass(frozen=True)
@@ -58,17 +54,17 @@ class Array:
     def passed(self, array: NDArray[Any]) -> tuple[Any, ...]:
         """Return what is passed of it. Raises TypeError if it is another kind of array."""
         alike = array.dtype == self.dtype and array.ndim == self.dimensions
-        if not alike or not array.flags.c_contiguous:
+        if not alike or not array.flags.carray:
             raise TypeError(
-                f"a contiguous array of {self.dimensions} dimensions of {self.dtype} is"
-                f" wanted, not one of {array.ndim} of {array.dtype}"
+                f"a contiguous array, which can be written, of {self.dimensions} dimensions of"
+                f" {self.dtype} is wanted, not one of {array.ndim} of {array.dtype}"
             )
         address = array.ctypes.data
         return (0, 0, array.size, array.itemsize, address, *array.shape, *array.strides)
 
 
 @dataclass(frozen=True)
-class Together:
+class Structure:
     """A named tuple among them: its class, and what its members are."""
 
     kind: type[tuple[Any, ...]]
@@ -84,7 +80,7 @@ class Together:
         return _all_passed(self.members, given)
 
 
-Argument = Number | Array | Together
+Argument = Number | Array | Structure
 
 
 def _all_passed(arguments: tuple[Argument, ...], given: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -129,9 +125,14 @@ class EntryPoint:
         ------
         TypeError
             An argument is not of its type.
+        ValueError
+            There are more or fewer.
         """
         passed = _all_passed(self.arguments, arguments)
-        return Call(self, struct.pack(self.words, 0, 0, *passed), arguments)
+        try:
+            return Call(self, struct.pack(self.words, 0, 0, *passed), arguments)
+        except struct.error as error:
+            raise TypeError(f"'{self.name}' takes other numbers: {error}") from error
 
     @cached_property
     def code(self) -> Callable[[int], int]:
@@ -148,7 +149,8 @@ class Call:
         self._name, self._code = entry_point.name, entry_point.code
         self._words = np.frombuffer(bytearray(words), np.int64)
         self._address = self._words.ctypes.data
-        self._value = self._words[:1].view(np.float64 if entry_point.value == REAL else np.int64)
+        value = entry_point.value
+        self._value = None if value is None else self._words[:1].view(value.words)
         self._arguments = arguments  # kept alive
 
     def __call__(self, *last: int) -> Any:
@@ -156,11 +158,11 @@ class Call:
 
         Raises
         ------
-        MemoryError
-            There was no room for what it computes in.
+        RuntimeError
+            It failed, as for want of memory.
         """
         if last:
             self._words[-len(last) :] = last
-        if self._code(self._address):
-            raise MemoryError(f"the loop's '{self._name}' found no memory")
-        return self._value[0].item()
+        if status := self._code(self._address):
+            raise RuntimeError(f"the loop's '{self._name}' failed, with status {status}")
+        return None if self._value is None else self._value[0].item()

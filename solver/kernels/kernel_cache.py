@@ -5,7 +5,6 @@ from jointplay.solver.integrators import AUTO, METHODS
 from jointplay.solver.kernels import loop_code
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.target import ALONE, own_target
-from jointplay.solver.kernels.watched import attend
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.mechanics.view import form
 from jointplay.solver.scene.document import Scene
@@ -34,8 +33,8 @@ def ready_kernel(
     key = (form(scene), tree, formulation, method, lanes)
     if key in _kernels:
         return _kernels[key]
-    aside = loop_code.begin(loop_code.RUNS)
+    aside = loop_code.begin(loop_code.FOR_RUNS)
     kernel = _kernels[key] = compile_kernel(scene, tree, formulation, METHODS[method], lanes)
     if aside is not None:
-        attend(aside)
+        loop_code.wait_for(aside)
     return kernel

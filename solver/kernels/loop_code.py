@@ -12,13 +12,13 @@ from importlib.metadata import version
 from pathlib import Path
 
 from jointplay.solver.kernels.cache import cache_folder
-from jointplay.solver.kernels.emit.machine_code import address_of_symbol, load_code
+from jointplay.solver.kernels.emit.machine_code import address_of_symbol, is_loaded, load_code
 from jointplay.solver.kernels.target import own_target
-from jointplay.solver.kernels.watched import attend
+from jointplay.solver.kernels.watched import CompilationTooLong, attend
 
-RUNS, WINDOWS = "runs", "windows"
+FOR_RUNS, FOR_WINDOWS = "runs", "windows"
 """Parts of the loop: what every run needs, and what makes stored steps again."""
-PARTS = (RUNS, WINDOWS)
+PARTS = (FOR_RUNS, FOR_WINDOWS)
 
 
 def path_of(part: str) -> Path:
@@ -28,14 +28,35 @@ def path_of(part: str) -> Path:
 
 
 def begin(part: str) -> subprocess.Popen[bytes] | None:
-    """Start compiling a part in a process of its own. Returns None where it is in the cache."""
-    if path_of(part).exists():
+    """Start compiling a part in a process of its own. Returns None where it is compiled."""
+    if is_loaded(part) or path_of(part).exists():
         return None
     return subprocess.Popen(  # noqa: S603 - our own program
         [sys.executable, "-P", "-m", "jointplay.solver.kernels.compile_loop", part],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
     )
+
+
+def wait_for(compiling: subprocess.Popen[bytes]) -> None:
+    """Wait for what `begin` returned.
+
+    Raises
+    ------
+    CompilationEnded
+        Somebody watched, and it took too long or was not wanted any more; or it was killed.
+    RuntimeError
+        It failed.
+    """
+    attend(compiling)
+    if compiling.returncode < 0:
+        raise CompilationTooLong(
+            "compile-memory",
+            "The process that compiled the integration loop was killed, by signal"
+            f" {-compiling.returncode}. It takes 0.5 GB of memory.",
+        )
+    if compiling.returncode > 0:
+        raise RuntimeError("the integration loop could not be compiled; the log says why")
 
 
 def address_in(part: str, symbol: str) -> int:
@@ -45,12 +66,7 @@ def address_in(part: str, symbol: str) -> int:
 
 
 def _code(part: str) -> bytes:
-    path, compiling = path_of(part), begin(part)
+    compiling = begin(part)
     if compiling is not None:
-        attend(compiling)
-    if not path.exists():
-        raise RuntimeError(
-            "the integration loop could not be compiled; python -m"
-            f" jointplay.solver.kernels.compile_loop {part} says why"
-        )
-    return path.read_bytes()
+        wait_for(compiling)
+    return path_of(part).read_bytes()

@@ -1,8 +1,9 @@
 """Compiling in a process of its own, which somebody watches who may end it.
 
-Numba cannot be interrupted, and what it takes in memory it never gives back. A worker therefore has
-a source compiled by another process, into the cache on the disk, and asks meanwhile whether the
-code is still wanted. Without a watch, as on the command line, code is compiled where it is used.
+A compiler cannot be interrupted, and what it takes in memory it hardly gives back. A worker
+therefore has a source compiled by another process, into the cache on the disk, and asks meanwhile
+whether the code is still wanted. Without a watch, as on the command line, a scene's code is
+compiled where it is used.
 """
 
 import subprocess

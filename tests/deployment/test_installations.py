@@ -79,7 +79,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def installed(wheel: Path) -> Installation:
     """Install a wheel into an environment that borrows its dependencies from this one."""
-    place = BUILD / "installed"  # always the same, so that Numba finds what it has compiled
+    place = BUILD / "installed"
     venv.create(place, clear=True)
     command = [sys.executable, "-m", "pip", "--python", str(place), "install", "--quiet"]
     command += ["--no-deps", "--no-index", str(wheel)]

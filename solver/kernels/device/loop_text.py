@@ -45,9 +45,8 @@ def loop_text() -> str:
 
 def main(path: Path) -> None:
     """Write the text; the loop's name in it is `LOOP`."""
-    cache_folder()  # names Numba's cache
     with without_collection():
-        compiled = numba.njit(SIGNATURE, **(INNER | {"cache": False}))(advance_one_lane.py_func)
+        compiled = numba.njit(SIGNATURE, **INNER)(advance_one_lane.py_func)
     overload: Any
     (overload,) = compiled.overloads.values()
     text = overload.library.get_llvm_str()

@@ -26,12 +26,17 @@ _loading = Lock()
 _loaded: set[str] = set()
 
 
+def is_loaded(name: str) -> bool:
+    """Return whether this process has loaded the code of a module."""
+    return name in _loaded
+
+
 def load_code(name: str, code: Callable[[], bytes]) -> None:
     """Load the code of a module, as `compiled` returns it, unless this process has done so.
 
     `name` : of the module. `code` : returns it; that may take long, and other threads go on.
     """
-    if name in _loaded:
+    if is_loaded(name):
         return
     found = code()
     with _loading:

@@ -6,24 +6,25 @@ import numpy as np
 
 from jointplay.records.impact import IMPACT
 from jointplay.solver.kernels.emit import functions, slots
-from jointplay.solver.kernels.entry_point import INTEGER, REAL, Array, EntryPoint, Together
+from jointplay.solver.kernels.entry_point import INTEGER, REAL, Array, EntryPoint, Structure
 from jointplay.solver.kernels.loop import runs
 from jointplay.solver.kernels.loop.extremes.search import brackets
 from jointplay.solver.kernels.loop.runs import Buffers
 from jointplay.solver.kernels.loop.workspace import Workspace
-from jointplay.solver.kernels.loop_code import RUNS as OF_RUNS
-from jointplay.solver.kernels.loop_code import WINDOWS as OF_WINDOWS
-from jointplay.solver.kernels.loop_code import address_in
+from jointplay.solver.kernels.loop_code import FOR_RUNS, FOR_WINDOWS, address_in
 
 ADDRESSES = Array.of(functions.DTYPE, 1)
 """Addresses of the kernel's functions."""
 AT = Array.of(slots.DTYPE, 1)
-WORK = Array.of(np.float64, 2)
+"""Where its quantities are."""
 RUNS = Array.of(runs.DTYPE, 1)
-TABLE = Array.of(np.float64, 2)
+"""Runs of lanes."""
+TABLE = WORK = Array.of(np.float64, 2)
+"""Rows of numbers; of all quantities, (slots, lanes)."""
 INDICES = Array.of(np.int64, 1)
-WORKSPACE = Together(Workspace, (ADDRESSES, AT, WORK, WORK, RUNS, Array.of(brackets.DTYPE, 1)))
-BUFFERS = Together(
+"""Steps of instants, or rows of the channel block."""
+WORKSPACE = Structure(Workspace, (ADDRESSES, AT, WORK, WORK, RUNS, Array.of(brackets.DTYPE, 1)))
+BUFFERS = Structure(
     Buffers,
     (
         Array.of(np.float64, 4),
@@ -32,7 +33,7 @@ BUFFERS = Together(
         Array.of(np.float64, 3),
     ),
 )
-_run, _window = (partial(address_in, part) for part in (OF_RUNS, OF_WINDOWS))
+_run, _window = (partial(address_in, part) for part in (FOR_RUNS, FOR_WINDOWS))
 
 advance = EntryPoint("advance", _run, (WORKSPACE, BUFFERS, INTEGER, INTEGER), INTEGER)
 observe_rows = EntryPoint(

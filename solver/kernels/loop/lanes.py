@@ -6,7 +6,7 @@ Sets of lanes are words: bit k is set for lane k.
 import numpy as np
 
 from jointplay.solver.kernels.emit.slots import Slots
-from jointplay.solver.kernels.jit import inner_kernel, kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.accepted_steps import write_step
 from jointplay.solver.kernels.loop.attention import attend, settle
 from jointplay.solver.kernels.loop.events import may_cross, record_crossings
@@ -16,7 +16,7 @@ from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers
 from jointplay.solver.kernels.loop.step import Group, step_of
 
 
-@kernel()
+@inner_kernel()
 def count_active(at: Slots, work: np.ndarray) -> int:
     """Return how many lanes run."""
     running = 0

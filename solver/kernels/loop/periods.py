@@ -44,14 +44,14 @@ def due_time(kind: int, index: int, lane: int, run: Run, at: Slots, work: np.nda
     return end if abs(moment - end) <= SAME * run.period else moment
 
 
-@kernel()
+@inner_kernel()
 def look_ahead(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Note when the next sample and the next section are due."""
     for kind in range(2):
         run.due[kind] = due_time(kind, run.next[kind], lane, run, at, work)
 
 
-@kernel()
+@inner_kernel()
 def plan(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Set the next local time at which a lane wants attention."""
     soonest = min(min(run.due[SAMPLES], run.due[SECTIONS]), run.period)
@@ -68,7 +68,7 @@ def turn_over(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     look_ahead(lane, run, at, work)
 
 
-@kernel()
+@inner_kernel()
 def set_clock(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     """Set the end and the clocks as they are in a lane's present period."""
     whole = float(run.periods)

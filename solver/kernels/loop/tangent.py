@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from jointplay.solver.kernels.emit.slots import Slots
-from jointplay.solver.kernels.jit import inner_kernel, kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.step import Step
 
 GOLDEN = 0.6180339887498949
@@ -105,7 +105,7 @@ def renormalise(lane: int, at: Slots, work: np.ndarray) -> float:
     return math.nan
 
 
-@kernel()
+@inner_kernel()
 def tangent_length(lane: int, at: Slots, work: np.ndarray) -> float:
     """Length in the metric of the error weights: the scene's own scales for metres and radians."""
     total = 0.0

@@ -41,7 +41,10 @@ def limits(
             f" than {RECURS:g} of the {scale}, or of its own range, counts as the same"
         )
     if math.isnan(found.get("rotation", 0.0)):
-        moved = "; where the drive stands at events is no part of them, those at whole periods may"
+        moved = (
+            "; where the drive stands at events is no part of them: sections at whole periods may"
+            " lie on one"
+        )
         yield (
             "there is no rotation number: the sections lie on no closed curve"
             + (moved if events and moves_in_time(scene) else "")

@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels import compile_loop, loop_code
+from jointplay.solver.kernels.emit import machine_code, slots
 from jointplay.solver.kernels.entry_point import EntryPoint
 from jointplay.solver.kernels.loop import entry_points
 from jointplay.solver.kernels.target import own_target
+from jointplay.solver.kernels.watched import CompilationTooLong
 
 PROGRAM = """
 import sys
@@ -46,6 +48,7 @@ def test_a_process_that_computes_never_loads_the_compiler_of_the_loop() -> None:
 def test_what_is_compiled_already_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(loop_code, "cache_folder", lambda: tmp_path)
     monkeypatch.setattr(compile_loop, "code_of", lambda part: part.encode())
+    monkeypatch.setattr(machine_code, "_loaded", set())
     for part in loop_code.PARTS:
         compile_loop.compile_part(part)
         assert loop_code.path_of(part).read_text() == part
@@ -53,9 +56,9 @@ def test_what_is_compiled_already_is_left(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(compile_loop, "code_of", None)  # nothing can be compiled any more
     monkeypatch.setattr(loop_code, "subprocess", None)
     assert compile_loop.main(list(loop_code.PARTS)) == compile_loop.main([]) == 0
-    loop_code.path_of(loop_code.RUNS).unlink()
+    loop_code.path_of(loop_code.FOR_RUNS).unlink()
     with pytest.raises(TypeError):
-        compile_loop.main([loop_code.RUNS])
+        compile_loop.main([loop_code.FOR_RUNS])
     with pytest.raises(AttributeError):
         compile_loop.main([])
 
@@ -63,20 +66,41 @@ def test_what_is_compiled_already_is_left(tmp_path: Path, monkeypatch: pytest.Mo
 def test_it_is_compiled_for_each_processor_and_the_same_for_every_width(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    own, target = loop_code.path_of(loop_code.RUNS), own_target()
+    own, target = loop_code.path_of(loop_code.FOR_RUNS), own_target()
     monkeypatch.setattr(loop_code, "own_target", lambda: replace(target, lanes=2))
-    assert loop_code.path_of(loop_code.RUNS) == own
+    assert loop_code.path_of(loop_code.FOR_RUNS) == own
     monkeypatch.setattr(loop_code, "own_target", lambda: replace(target, processor="another"))
-    assert loop_code.path_of(loop_code.RUNS) != own
+    assert loop_code.path_of(loop_code.FOR_RUNS) != own
 
 
-def test_a_loop_that_cannot_be_compiled_says_where_to_look(
+@pytest.mark.parametrize(
+    ("command", "kind", "words"),
+    [
+        ("exit 1", RuntimeError, "could not be compiled"),
+        ("kill -9 $$", CompilationTooLong, "killed, by signal 9"),
+    ],
+)
+def test_a_loop_that_is_not_compiled_is_told_and_not_begun_again(
+    command: str, kind: type[Exception], words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun = []
+
+    def begin(part: str) -> subprocess.Popen[bytes]:
+        begun.append(part)
+        return subprocess.Popen(["sh", "-c", command])
+
+    monkeypatch.setattr(loop_code, "begin", begin)
+    with pytest.raises(kind, match=words):
+        loop_code.address_in("anything", "jointplay.advance")
+    assert begun == ["anything"]
+
+
+def test_a_part_that_is_loaded_is_not_compiled_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(loop_code, "path_of", lambda part: tmp_path / part)
-    monkeypatch.setattr(loop_code, "begin", lambda part: subprocess.Popen(["false"]))
-    with pytest.raises(RuntimeError, match=r"compile_loop anything says why"):
-        loop_code.address_in("anything", "jointplay.advance")
+    assert loop_code.address_in(loop_code.FOR_RUNS, entry_points.advance.symbol) > 0
+    monkeypatch.setattr(loop_code, "cache_folder", lambda: tmp_path)  # as if it had been wiped
+    assert loop_code.begin(loop_code.FOR_RUNS) is None
 
 
 @pytest.mark.parametrize(
@@ -86,11 +110,17 @@ def test_a_loop_that_cannot_be_compiled_says_where_to_look(
         np.zeros(6),
         np.zeros((2, 6))[:, ::2],
         np.zeros((3, 2)).T,
+        np.broadcast_to(np.zeros(3), (2, 3)),
     ],
 )
 def test_an_entry_point_takes_arrays_of_its_own_kind_alone(wrong: Any) -> None:
-    with pytest.raises(TypeError, match="a contiguous array of 2 dimensions of float64 is wanted"):
-        list(entry_points.WORK.passed(wrong))
+    with pytest.raises(TypeError, match="of 2 dimensions of float64 is wanted"):
+        entry_points.WORK.passed(wrong)
+
+
+def test_an_entry_point_takes_whole_numbers_where_these_are_wanted() -> None:
+    with pytest.raises(TypeError, match="'measure_tangent' takes other numbers"):
+        entry_points.measure_tangent(np.zeros(1, slots.DTYPE), np.zeros((1, 1)), 0.5)
 
 
 THREADS = """

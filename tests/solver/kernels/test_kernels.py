@@ -185,14 +185,14 @@ def test_a_process_keeps_the_kernel_of_a_structure() -> None:
 COMPILED = """
 from jointplay.solver.kinds import admit
 from jointplay.solver.kernels.cache import SPENT, cache_folder
-from jointplay.solver.kernels.loop_code import RUNS, path_of
+from jointplay.solver.kernels.loop_code import FOR_RUNS, path_of
 from jointplay.solver.runs.simulate import Simulation
 
 simulation = Simulation(admit({"kind": "simulate", "scene": {"preset": "bouncing-journal"},
                                "duration": 0.1}))
 list(simulation.slices())
 (code,) = cache_folder().glob(simulation._run.kernel.module.prefix + ".o")
-print(SPENT.seconds, *((path.name, path.stat().st_mtime_ns) for path in (code, path_of(RUNS))))
+print(SPENT.seconds, *((path.name, path.stat().st_mtime_ns) for path in (code, path_of(FOR_RUNS))))
 """
 
 

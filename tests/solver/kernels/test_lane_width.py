@@ -100,7 +100,7 @@ def eight(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Pat
 
 @pytest.mark.parametrize(
     "lanes",
-    [pytest.param("1", marks=pytest.mark.long), "4"],  # each compiles a loop of its own
+    [pytest.param("1", marks=pytest.mark.long), "4"],
 )
 def test_fewer_lanes_give_the_bits_of_eight_and_take_their_checkpoints(
     lanes: str, eight: tuple[dict[str, Any], Path], tmp_path: Path

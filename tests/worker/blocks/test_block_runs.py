@@ -317,7 +317,7 @@ def compiling(catalogue: Catalogue, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     folder.mkdir()
     for module in (cache, loop_code, emit_module):
         monkeypatch.setattr(module, "cache_folder", lambda: folder)
-    loop_code.path_of(loop_code.RUNS).touch()
+    loop_code.path_of(loop_code.FOR_RUNS).touch()
     admitted = admit(SEVERAL_BODIES)
     new = NewJob("simulate", admitted.job, admitted.digest, SOLVER_VERSION)
     return f"{catalogue.submit(new).job.id}-0"
@@ -332,7 +332,7 @@ def test_a_job_can_be_cancelled_while_its_equations_are_compiled(
     catalogue.request_cancel(job)
     BlockRun(catalogue, settings, claim, threading.Event()).run()
     assert catalogue.get(job).state is JobState.cancelled
-    assert not list(cache.cache_folder().glob("*.o"))
+    assert not list(cache.cache_folder().glob("jointplay.*.o"))
 
 
 def test_a_worker_told_to_stop_gives_back_a_block_that_it_compiles(

@@ -121,7 +121,7 @@ def test_curves_are_seen_at_whole_periods_rather_than_at_events() -> None:
     """A mass that comes through its middle has but one state there: its speed."""
     crossing = {"channel": "mass.x", "value": 0.0}
     end = judged(shaken(1.0), "rotation", section=crossing, record=40)
-    assert "at events is no part of them, those at whole periods may" in end.reason
+    assert "at events is no part of them: sections at whole periods may" in end.reason
     end = judged(shaken(1.0), "rotation", record=40)
     assert "lie on no closed curve" in end.reason
     assert "at events" not in end.reason
