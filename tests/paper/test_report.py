@@ -23,6 +23,8 @@ from tests.paper.printed_numbers import pointers as printed_numbers
 from tests.waiting import until
 
 REPRODUCE = [sys.executable, "-m", "jointplay", "reproduce"]
+ALL_RUNS = pytest.mark.long
+"""Marks tests of a whole reproduction, which takes a minute of processor time."""
 NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?")
 
 
@@ -119,11 +121,13 @@ def value_at(pointer: str) -> float:
     return float(found)
 
 
+@ALL_RUNS
 def test_it_ends_with_the_path_of_the_report(made):
     folder, page = made
     assert page == str(folder / PAGE)
 
 
+@ALL_RUNS
 def test_every_printed_number_stands_beside_ours(page):
     shown: dict[str, list[float]] = {}
     for pointers, cells in page.rows:
@@ -143,6 +147,7 @@ def test_every_printed_number_stands_beside_ours(page):
         ), pointer
 
 
+@ALL_RUNS
 def test_the_page_needs_nothing_beside_itself(text, page):
     assert all(image["src"].startswith("data:image/png;base64,") for image in page.images)
     outside = [link for link in page.links if not link.startswith("#")]
@@ -152,6 +157,7 @@ def test_the_page_needs_nothing_beside_itself(text, page):
     assert not re.search(r"[{}]", filled_in)
 
 
+@ALL_RUNS
 def test_every_link_inside_leads_somewhere(page):
     assert page.open == []
     inside = {link.removeprefix("#") for link in page.links if link.startswith("#")}
@@ -159,6 +165,7 @@ def test_every_link_inside_leads_somewhere(page):
     assert inside <= page.names
 
 
+@ALL_RUNS
 def test_every_figure_is_a_picture_with_words_for_it(page):
     assert len(page.images) == len(page.captions) > 0
     for image in page.images:
@@ -170,6 +177,7 @@ def test_every_figure_is_a_picture_with_words_for_it(page):
     assert wanted <= set(re.findall(r"Fig\. \d+", " ".join(page.captions)))
 
 
+@ALL_RUNS
 def test_exponents_and_verdicts_stand_beside_the_words(text):
     words = {
         word
@@ -181,6 +189,7 @@ def test_exponents_and_verdicts_stand_beside_the_words(text):
     assert re.search(r"\b(undecided|chaotic|period)", text)
 
 
+@ALL_RUNS
 def test_every_disagreement_has_a_reason(page):
     reasons = {"gravity", "sampling", "slip", "window", "contact", "order", "system", "bed"}
     assert {f"cause-{reason}" for reason in reasons} <= page.names
@@ -189,6 +198,7 @@ def test_every_disagreement_has_a_reason(page):
             assert cells["why"][0].split(), pointers
 
 
+@ALL_RUNS
 def test_sampled_peaks_lie_on_the_grid_and_below_the_true_ones(made):
     grid = reported.document()["grid"]
     for case in range(len(reported.document()["response_peaks"])):
@@ -204,6 +214,7 @@ def test_sampled_peaks_lie_on_the_grid_and_below_the_true_ones(made):
                 assert abs(found.sampled) <= abs(found.value) * (1.0 + 1e-9)
 
 
+@ALL_RUNS
 def test_the_first_impacts_are_the_printed_ones(made):
     """The times depend on geometry and gravity alone, the forces on the inferred stiffness."""
     for case, entry in enumerate(reported.document()["response_peaks"]):
@@ -217,6 +228,7 @@ def test_the_first_impacts_are_the_printed_ones(made):
             assert found.sampled == pytest.approx(force, rel=0.15)  # K = 5e9 was inferred from them
 
 
+@ALL_RUNS
 def test_results_of_every_job_are_kept(made):
     for run in cases.runs(QUICK):
         store = made[0] / RUNS / run.name
