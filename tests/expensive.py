@@ -19,7 +19,7 @@ import pytest
 
 TABLE = Path(__file__).with_name("expensive.json")
 TIMES = Path(__file__).parents[1] / "build" / "test-times.json"
-LEAST = 1.0
+LEAST = 0.5
 """Seconds of processor from which on a test is expensive."""
 SHARE = 0.06
 """Share of the seconds of a folder's expensive tests in which some are run, at least one."""

@@ -8,7 +8,7 @@ import pytest
 from tests import expensive
 
 TIMES = {f"tests/a/b/test_{i}.py::test": {"processor": 3.0 + i} for i in range(40)} | {
-    "tests/a/test_a.py::test_cheap": {"processor": 0.5},
+    "tests/a/test_a.py::test_cheap": {"processor": 0.9 * expensive.LEAST},
     "tests/b/test_b.py::test_alone": {"processor": 60.0},
     f"{expensive.ALWAYS[0]}::test": {"processor": 60.0},
 }
