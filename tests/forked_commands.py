@@ -78,7 +78,7 @@ class Command(socketserver.BaseRequestHandler):
         try:
             main()
         except SystemExit as ended:
-            code = int(ended.code or 0)
+            code = ended.code if isinstance(ended.code, int) else int(ended.code is not None)
         finally:
             sys.stdout.flush()
             sys.stderr.flush()

@@ -53,7 +53,7 @@ def wait_for(compiling: subprocess.Popen[bytes]) -> None:
         raise CompilationTooLong(
             "compile-memory",
             "The process that compiled the integration loop was killed, by signal"
-            f" {-compiling.returncode}. It takes 0.5 GB of memory.",
+            f" {-compiling.returncode}. It takes 0.6 GB of memory.",
         )
     if compiling.returncode > 0:
         raise RuntimeError("the integration loop could not be compiled; the log says why")

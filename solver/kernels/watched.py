@@ -17,7 +17,7 @@ from pathlib import Path
 
 MOST_MEMORY = 4 * 2**30
 """Bytes that a compiling process may take. A chain of 20 bodies, near the limit of statements,
-takes 0.66 GB with its tangents, the shortest 0.51 GB, most of it Numba's own."""
+takes 0.22 GB with its tangents, the shortest 0.14 GB: `python -m benchmarks compilation`."""
 _POLL = 0.1  # s between two questions
 _MODULE = "jointplay.solver.kernels.compile_file"
 

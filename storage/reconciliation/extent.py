@@ -1,4 +1,4 @@
-"""Ways to look at results: at every byte of all of them, or of a sample."""
+"""Extent of a check of results: every byte of all of them, or of a sample."""
 
 import random
 from collections import deque
@@ -26,7 +26,7 @@ class Counted:
 
 @dataclass(frozen=True)
 class Extent:
-    """A way to look at results.
+    """Results of which a check reads every byte, and how it is followed.
 
     Parameters
     ----------
