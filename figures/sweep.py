@@ -1,5 +1,7 @@
 """Extremes or statistics over the parameters of a sweep: curves over one, a map over two."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -119,7 +121,7 @@ class _Row:
     label: str
 
     @classmethod
-    def of(cls, source: StudySource, name: str, points: slice) -> "_Row":
+    def of(cls, source: StudySource, name: str, points: slice) -> _Row:
         statistics = by_name(study_facts.statistics(source))
         if name in statistics:
             values = source.statistics[name][points]

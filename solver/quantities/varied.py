@@ -36,6 +36,6 @@ class Varied(np.ndarray):
 def together(numbers: Iterable[Any]) -> Any:
     """Return the number that all points have, or those of the points, (points,)."""
     found = list(numbers)
-    if all(number == found[0] for number in found):
+    if found.count(found[0]) == len(found):
         return found[0]
     return np.array(found).view(Varied)

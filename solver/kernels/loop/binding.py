@@ -82,7 +82,8 @@ def bind(lane: Lane, problem: LaneProblem, like: Floats | None = None) -> None:
     shares = np.abs(lane["y"][count : 2 * count]) * lane["weight"][count : 2 * count]
     full = 1.0 / problem.tolerance
     lane["full"] = full
-    lane["fastest"] = np.minimum(np.max(shares, axis=0, initial=STRICTEST * full * full), full)
+    fastest = np.maximum(np.max(shares, axis=0, initial=0.0), STRICTEST * full * full)
+    lane["fastest"] = np.minimum(fastest, full)
 
 
 def own_start(kernel: Kernel, scene: Scene, one: Scene | None = None) -> Floats:

@@ -122,11 +122,19 @@ class Bundle:
 
         `like` is a lane that has the problem's scene already, which saves looking at it again.
         """
+        self.load_together({i: problem}, like)
+
+    def load_together(self, problems: Mapping[int, LaneProblem], like: int | None = None) -> None:
+        """Give lanes problems that may be made ready together (`make_ready`); as `load`."""
         numbers = None if like is None else self.lane(like).work[:, self.lane(like).index]
+        given = list(problems.values())
+        if not given:
+            return
         ready = make_ready(
-            self.kernel, self.tangents, [problem], lambda _: problem.scene, like=numbers
+            self.kernel, self.tangents, given, lambda k: given[k].scene, like=numbers
         )
-        self.load_ready(i, ready, 0)
+        for k, i in enumerate(problems):
+            self.load_ready(i, ready, k)
 
     def load_ready(self, i: int, ready: ReadyLanes, k: int) -> None:
         """Give a lane that does not run the k-th of problems that were made ready; as `load`."""

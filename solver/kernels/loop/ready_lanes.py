@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.arrays import Flags, Floats
+from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.loop.beginning import begin, resting_rates
@@ -21,6 +21,8 @@ from jointplay.solver.scene.references import tangent_obstacle
 
 ENERGIES = ("energy.kinetic", "energy.potential", "stored")
 DIFFERING = (
+    "tolerance",
+    "step",
     "duration",
     "output_step",
     "samples",
@@ -62,8 +64,8 @@ def make_ready(
     kernel, tangents
         Of the lanes' structure.
     problems
-        One; or some that are alike but for scenes' numbers, `DIFFERING`, starts' states and when
-        events count, and whose starts are without contacts.
+        One; or some that are alike but for scenes' numbers, `DIFFERING`, starts and when events
+        count; all starts are closed or none, and all have contacts or none.
     scene_of
         Returns the scene of a lane, for what cannot take all numbers at once.
     like : (slots,)
@@ -93,7 +95,7 @@ def make_ready(
         own = np.minimum(np.arange(first, first + kernel.lanes), len(problems) - 1)
         group[:] = work[:, own]
         lanes = Lane(kernel, tangents, group, slice(None), runs[own])
-        begin(lanes, problems[0].start, resting[:, own], obstructed[own])
+        begin(lanes, _of_lanes(problem.start, own), resting[:, own], obstructed[own])
         work[:, own] = group
         kernel.module.observe_rest(group)
         energies[:, own] = lanes["channel"][columns]
@@ -114,17 +116,40 @@ def _obstructed(problems: Sequence[LaneProblem], scene_of: SceneOf) -> Flags:
 def _joined(kernel: Kernel, problems: Sequence[LaneProblem], scene_of: SceneOf) -> LaneProblem:
     """Return the problem of all lanes, whose numbers differ by lane."""
     one = problems[0]
-    numbers = {name: together(getattr(problem, name) for problem in problems) for name in DIFFERING}
+    numbers = {
+        name: together([getattr(problem, name) for problem in problems]) for name in DIFFERING
+    }
     event = one.event
     if event is not None:
         late = together(problem.event.not_before for problem in problems if problem.event)
         event = replace(event, not_before=late)
     if one.start is not None:
-        states = np.stack([p.start.state for p in problems if p.start is not None], axis=1)
-        start = replace(one.start, state=states)
+        start = _joined_start([p.start for p in problems if p.start is not None])
     else:
         start = LaneStart(_own_starts(kernel, one.scene, len(problems), scene_of), closed=True)
     return replace(one, event=event, start=start, **numbers)
+
+
+def _joined_start(starts: Sequence[LaneStart]) -> LaneStart:
+    """Return starts of lanes as one, with states (states, lanes) and contacts (lanes, pairs)."""
+    rates = [one.impact_rate for one in starts if one.impact_rate is not None]
+    contacts = [one.contact for one in starts if one.contact is not None]
+    return LaneStart(
+        np.stack([one.state for one in starts], axis=1),
+        np.stack(contacts) if contacts else None,
+        np.stack(rates) if rates else None,
+        together(one.period for one in starts),
+        together(one.time for one in starts),
+        starts[0].closed,
+    )
+
+
+def _of_lanes(start: LaneStart | None, lanes: Integers) -> LaneStart | None:
+    """Return a start with the contacts (lanes, pairs) of some lanes."""
+    if start is None or start.contact is None or start.impact_rate is None:
+        return start
+    contacts, rates = np.atleast_2d(start.contact), np.atleast_2d(start.impact_rate)
+    return replace(start, contact=contacts[lanes], impact_rate=rates[lanes])
 
 
 def _own_starts(kernel: Kernel, scene: Scene, count: int, scene_of: SceneOf) -> Floats:

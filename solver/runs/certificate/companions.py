@@ -69,7 +69,7 @@ class Companions:
     @classmethod
     def beside(cls, bundle: Bundle, problem: LaneProblem) -> Companions:
         """Load companions of the trajectory that a bundle has in its first lane."""
-        period = float(bundle.lane(RUN).run["period"])
+        period, step = float(bundle.lane(RUN).run["period"]), problem.step
         instants = Instants.over(problem.duration, period)
         start = bundle.state_of(RUN)
         if problem.start is None:
@@ -82,22 +82,23 @@ class Companions:
             sections=0,
             start=start,
         )
-        order = bundle.kernel.tableau.order
-        for lane, factor in enumerate(LADDER, start=1):
-            longer = power(factor, 1.0 / order)
-            step = problem.step and problem.step * longer
-            rung = replace(coarse, tolerance=problem.tolerance * factor, step=step)
-            bundle.load(lane, rung, like=RUN)
-            longest = bundle.lane(RUN)["largest_step"] * longer
-            bundle.lane(lane)["largest_step"] = longest
+        longer = [power(factor, 1.0 / bundle.kernel.tableau.order) for factor in LADDER]
+        rungs = [
+            replace(coarse, tolerance=problem.tolerance * factor, step=step and step * length)
+            for factor, length in zip(LADDER, longer, strict=True)
+        ]
+        bundle.load_together({**dict(enumerate(rungs, start=1)), TWIN: coarse}, like=RUN)
+        for lane, length in enumerate(longer, start=1):
+            bundle.lane(lane)["largest_step"] = bundle.lane(RUN)["largest_step"] * length
         scales = start_scales(problem.scene, bundle.kernel.coordinates, period)
         perturbation = Perturbation(problem.tolerance, SEED)
+        beside: dict[int, LaneProblem] = {}
         for member, lane in enumerate(PERTURBED, start=1):
             state = perturbed_start(start.state, scales, perturbation, member)
-            beside = replace(start, state=state, closed=False)
-            step = problem.step and problem.step * SHORTER**member
-            bundle.load(lane, replace(coarse, start=beside, step=step), like=RUN)
-        bundle.load(TWIN, coarse, like=RUN)
+            shorter = step and step * SHORTER**member
+            own = replace(start, state=state, closed=False)
+            beside[lane] = replace(coarse, start=own, step=shorter)
+        bundle.load_together(beside, like=RUN)
         loud = LOUD if problem.duration >= SHORT * period else LOUD_IN_SHORT
         for lane in range(1, BUNDLE):
             if lane not in loud:  # no value is a record

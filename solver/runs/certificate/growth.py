@@ -59,9 +59,9 @@ class Windows:
         index = companions.instants.index
         wanted = [index.searchsorted(companions.instants.last * k // BUNDLE) for k in range(BUNDLE)]
         self.bundle.number_like(companions.bundle, RUN, problem.scene)
-        for lane, row in enumerate(rows[i] for i in wanted if i < len(rows)):
-            start = LaneStart.at_row(row, kernel.row)
-            self.bundle.load(lane, replace(plain, start=start), like=0)
+        starts = [LaneStart.at_row(rows[i], kernel.row) for i in wanted if i < len(rows)]
+        problems = [replace(plain, start=start) for start in starts]
+        self.bundle.load_together(dict(enumerate(problems)), like=0)
 
     @property
     def times(self) -> Floats:

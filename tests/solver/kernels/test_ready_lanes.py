@@ -1,6 +1,7 @@
 """Lanes that are made ready together have the bits that each has alone, for a share of the work."""
 
 import sys
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop import ready_lanes
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes, make_ready
 from jointplay.solver.kernels.trace.operations import OPERATIONS, operate
 from jointplay.solver.runs.study.scenes import Leaf, PointScenes
@@ -79,6 +80,48 @@ def test_a_lane_has_the_bits_that_it_has_alone(name: str, paths: list[str]) -> N
         alone.load(0, problem(scenes.scene(point), point))
         beside.load_ready(0, lanes, point)
         assert bits(beside) == bits(alone)
+
+
+@pytest.mark.parametrize("name", ["slider-crank", "seven-bar-press"])
+@pytest.mark.parametrize("step", [None, 1e-5])
+def test_lanes_that_go_on_elsewhere_have_the_bits_that_each_has_alone(
+    name: str, step: float | None
+) -> None:
+    """Companions of one scene: of other tolerances, steps, instants and contacts."""
+    scenes = scenes_of(name, [])
+    kernel = kernel_of(scenes)
+    tangents = compile_tangents(kernel) if name == "slider-crank" else None
+    run = Bundle(kernel, [problem(scenes.base, 0)])
+    rows = []
+    for _ in range(6):
+        run.advance(150)
+        rows.append(run.lane(0).row()[0])
+    starts = [LaneStart.at_row(row, kernel.row) for row in rows]
+    assert len({start.contact.tobytes() for start in starts if start.contact is not None}) > 1
+    problems = {
+        lane: replace(
+            problem(scenes.base, lane),
+            start=start,
+            tolerance=1e-6 / lane,
+            step=step and step * lane,
+        )
+        for lane, start in enumerate(starts, start=1)
+    }
+    alone, beside = (Bundle(kernel, [problem(scenes.base, 0)], tangents=tangents) for _ in range(2))
+    for lane, one in problems.items():
+        alone.load(lane, one, like=0)
+    beside.load_together(problems, like=0)
+    assert beside.block("y").tobytes() == alone.block("y").tobytes()
+    assert all(
+        array.tobytes() == alone.state("")[name].tobytes()
+        for name, array in beside.state("").items()
+    )
+
+
+def test_nothing_is_loaded_of_no_problems() -> None:
+    bundle = Bundle(kernel_of(scenes_of("slider-crank", [])))
+    bundle.load_together({})
+    assert not bundle.groups[0].runs_on
 
 
 def friction(dynamic: list[float]) -> PointScenes:
@@ -160,7 +203,7 @@ def test_a_point_takes_few_calls_of_python(paths: list[str]) -> None:
             bundle.load_ready(point % 8, lanes, point)
     finally:
         sys.setprofile(None)
-    assert calls <= 64 * 80
+    assert calls <= 64 * 70
 
 
 @pytest.mark.parametrize("name", sorted(OPERATIONS))

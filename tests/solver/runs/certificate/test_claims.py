@@ -119,9 +119,11 @@ def test_what_the_energy_ledger_lacks_is_told_in_tolerances(
 @pytest.mark.long
 def test_a_contact_that_only_the_trajectory_has_is_inside_its_bar() -> None:
     """The second contact begins at 0.362640 ms by the independent integration, to 1e-14."""
-    found, (own,), _ = computed(LEG)
-    late = abs(own[1] - 0.362640e-3)
-    assert late > 1e-7  # an unlucky one
-    assert found.facts["impacts"]["onset_error"] >= late
-    twin = found.facts["lanes"][7]
-    assert twin["steps"] == found.facts["lanes"][0]["steps"]  # closed loops and all
+    late = []
+    for tolerance in (2e-6, 1e-6, 5e-7):
+        found, (own,), _ = computed(LEG | {"tolerance": tolerance})
+        late.append(abs(own[1] - 0.362640e-3))
+        assert found.facts["impacts"]["onset_error"] >= late[-1]
+        twin = found.facts["lanes"][7]
+        assert twin["steps"] == found.facts["lanes"][0]["steps"]  # closed loops and all
+    assert max(late) > 1e-7  # one is unlucky: which, rounding decides
