@@ -35,6 +35,8 @@ class Windows:
         last = max((grid_indices(t.start, t.stop, self.step)[-1] for t in read), default=-1)
         if last * self.step > max(ends, default=0.0) * (1.0 + SAME):
             ends.add(last * self.step)
+        if not ends:  # what is read off is the start alone
+            ends.add(max(target.stop for target in read))
         self.legs = tuple(sorted(ends))
         """When each leg of the run ends, s; the last is the run's end."""
         starts = (0.0, *self.legs[:-1])

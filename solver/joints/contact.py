@@ -1,6 +1,6 @@
 """Contact of two bodies of a joint with play: what both do to each other where they touch.
 
-Signs: the normal n points out of the first body's material, the tangent is t = (-n_y, n_x);
+Signs: the normal n points out of the second body's material, the tangent is t = (-n_y, n_x);
 penetration is positive in contact, its rate positive while approaching. Both bodies are pushed at
 one point, so that the energy ledger closes: with r and d from the second and the first point to
 there, a force f on the second body has the moments r x f about the second point and -(d x f) about
@@ -143,7 +143,7 @@ class ContactGeometry(NamedTuple):
     """Surfaces of a joint's bodies where they are nearest, world components."""
 
     normal: Pair
-    """Unit normal out of the first body's material, towards the second's wall."""
+    """Unit normal out of the second body's material, into the first's."""
     push: Pair
     """Gradient of the penetration, with its sign changed: force on the second body per unit of
     normal force; -normal but where a penetration is no distance."""

@@ -25,6 +25,7 @@ from jointplay.solver.kinds.statistics import (
 from jointplay.solver.kinds.studies import Kept, PlacedPoints, Spans, StudyKind, make_study
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.scene.domains import domain_problems
 from jointplay.solver.statistics import Output
 
 
@@ -99,6 +100,7 @@ class ExtremesStudy(StudyKind[J]):
         names = [channel.name for channel in channels]
         filled = documents.filled(job, checked.document, checked.echo, channels=names)
         study = self.study(job, filled, checked, units)
+        _check_domains(checked, study)
         check_samples(job, study)
         longest = float((study.duration / study.period).max())
         check_size(study, longest, "/periods" if job.periods is not None else "/duration")
@@ -112,6 +114,15 @@ class ExtremesStudy(StudyKind[J]):
         statistics = statistic_count(job.statistics, len(channels), len(placed.pairs()))
         spans = Spans(units.seconds, job.settle * unit, (length or 0.0) * unit)
         return make_study(filled, placed, spans, Kept(channels=channels, statistics=statistics))
+
+
+def _check_domains(placed: PlacedPoints, study: Study) -> None:
+    """Refuse what the point that runs longest asks of a function that refuses it."""
+    point = int(np.argmax(study.duration))
+    problems = domain_problems(placed.scenes.scene(point), float(study.duration[point]))
+    named = [Problem(at, f"{placed.beginning(point)}{detail}") for at, detail in problems]
+    if named:
+        raise InvalidInput(named)
 
 
 def _check_length(job: ExtremesStudyJob) -> None:

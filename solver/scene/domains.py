@@ -49,6 +49,15 @@ def _over(
         )
 
 
+def bounded_motions(scene: Scene) -> list[tuple[str, Function]]:
+    """Return the motions of drivers, with their names, that refuse some times."""
+    return [
+        (name, driver.motion)
+        for name, driver in scene.drivers.items()
+        if isinstance(driver, MovingDriver) and driver.motion.domain
+    ]
+
+
 def bounded_courses(scene: Scene) -> dict[str, Function]:
     """Return the courses, by force, that refuse some arguments."""
     return {

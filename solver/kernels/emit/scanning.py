@@ -36,12 +36,15 @@ One that turns more slowly than that swings beyond its step ends, in steps befor
 def allocate(layout: Layout, rows: int, rest: int) -> None:
     """Give slots to `rows` channel values, their predecessors, changes and extremes so far.
 
-    Also to the range below which each is ``rounding``, and to the first row that is ``alike``.
+    Also to the range below which each is ``rounding``, to the first row that is ``alike``, and to
+    whether it is ``bent`` where friction is.
     `rest` further channel values are not scanned.
     """
     layout.add_block("marked", -(-rows // BYTES))
     layout.add_block("channel", rows + rest)
-    for block in (*BLOCKS[1:], "highest_time", "lowest_time", "known_range", "rounding", "alike"):
+    for block in (*BLOCKS[1:], "highest_time", "lowest_time", "known_range", "rounding"):
+        layout.add_block(block, rows)
+    for block in ("alike", "bent"):
         layout.add_block(block, rows)
 
 

@@ -65,7 +65,7 @@ def bind(lane: Lane, problem: LaneProblem, like: Floats | None = None) -> None:
     if like is not None:
         lane.work[:, lane.index].T[:] = like
     else:
-        lane["alike"].T[:] = kernel.rows.alike
+        lane["alike"].T[:], lane["bent"].T[:] = kernel.rows.alike, kernel.rows.bent
         number(lane, kernel, scene)
         if lane.tangents is not None:
             number(lane, lane.tangents, scene)

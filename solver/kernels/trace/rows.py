@@ -4,7 +4,7 @@ A constant, a function of time alone (a driven crank) or a multiple of another c
 of the watch: its extremes follow afterwards. What is watched costs memory traffic at every step.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from jointplay.solver.kernels.trace.equations import Equations
@@ -33,6 +33,8 @@ class Rows:
     """Channels that are factor * watched channel + offset: (channel, factor, offset)."""
     alike: tuple[int, ...]
     """First row of the kind of each that is scanned: angles count as lengths, moments as forces."""
+    bent: tuple[bool, ...]
+    """Whether each that is scanned has a kink where friction bends, see `_bent`."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -62,7 +64,7 @@ def arrange(scene: Scene, equations: Equations) -> Rows:
     watched: dict[int, str] = {}
     multiples: dict[str, tuple[str, float, float]] = {}
     linear = {o.name: (o.channel, o.factor, o.offset) for o in scene.outputs}
-    moving = _moving(equations.channels.values())
+    moving = _depending(equations.channels.values(), _moves)
     for name, expression in equations.channels.items():
         if name == "stored" or expression not in moving:
             continue
@@ -78,18 +80,41 @@ def arrange(scene: Scene, equations: Equations) -> Rows:
     kinds = {channel.name: _kind(channel.unit) for channel in channels(scene)}
     scanned = [kinds[name] for name in (*names, *contacts)]
     alike = tuple(map(scanned.index, scanned))
-    return Rows(names, contacts, rest, multiples, alike)
+    bends = _bent(equations)
+    bent = tuple(equations.channels[name] in bends for name in (*names, *contacts))
+    return Rows(names, contacts, rest, multiples, alike, bent)
 
 
 def _kind(unit: str) -> str:
     return unit.replace("rad", "m").removesuffix(" m")
 
 
-def _moving(expressions: Iterable[Expression]) -> set[Expression]:
-    """Return the nodes of expressions that depend on more than time."""
-    moving: set[Expression] = set()
+def _bent(equations: Equations) -> set[Expression]:
+    """Return the nodes of channels that have a kink inside a step where a slip comes to a bend.
+
+    These are accelerations, and what friction does where pairs touch; of the state alone, which is
+    smooth inside a step, nothing has one.
+    """
+    every, slips = equations.channels.values(), {slip for slip, _ in equations.slips}
+    accelerated = _depending(every, lambda node: _is_variable(node, "slope"))
+    touching = _depending(every, lambda node: _is_variable(node, "mode"))
+    return accelerated | touching & _depending(every, slips.__contains__)
+
+
+def _moves(node: Expression) -> bool:
+    return node.operation == "variable" and not _is_variable(node, IN_TIME)
+
+
+def _is_variable(node: Expression, begins: str | tuple[str, ...]) -> bool:
+    return node.operation == "variable" and str(node.data).startswith(begins)
+
+
+def _depending(
+    expressions: Iterable[Expression], own: Callable[[Expression], bool]
+) -> set[Expression]:
+    """Return the nodes of expressions of which this is true, or that depend on such a one."""
+    found: set[Expression] = set()
     for node in reachable(expressions):
-        own = node.operation == "variable" and not str(node.data).startswith(IN_TIME)
-        if own or any(argument in moving for argument in node.arguments):
-            moving.add(node)
-    return moving
+        if own(node) or any(argument in found for argument in node.arguments):
+            found.add(node)
+    return found

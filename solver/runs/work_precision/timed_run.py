@@ -86,7 +86,8 @@ class TimedRun:
         """Return what it cost, and the energy that it lost track of."""
         found = statistics_of(self.bundle, 0)
         energy = found["energy"]
-        taken = energy["contact_loss"] + energy["friction_loss"] + energy["element_loss"]
+        damped = max(energy["element_loss"], 0.0)  # elements may drive instead
+        taken = energy["contact_loss"] + energy["friction_loss"] + damped
         return {
             "steps": float(found["steps"]),
             "evaluations": float(self.evaluations),

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from jointplay.solver.calibration.document import CalibrationTarget, FreeParameter
 from jointplay.solver.calibration.space import space_of
 from jointplay.solver.calibration.targets import goals_of, grid_indices
+from jointplay.solver.calibration.windows import Windows
 from tests.solver.calibration.calibrations import coordinates
 
 SPACE = space_of(
@@ -82,3 +83,9 @@ def test_the_cost_is_the_weighted_root_mean_square_and_leaves_out_what_has_no_we
 )
 def test_the_ends_of_a_window_belong_to_its_grid(start, stop, step, indices):
     assert grid_indices(start, stop, step) == indices
+
+
+def test_a_run_that_is_read_off_at_its_start_alone_has_an_end():
+    found = Windows([target(statistic="maximum", value=1.0, to=0.5, sampled=1.0)])
+    assert found.legs == (0.5,)
+    assert found.samples == 2

@@ -7,10 +7,15 @@ import numpy as np
 import pytest
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kinds import admit
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.force.distance import distance
 from jointplay.solver.mechanics.courses import acting_between
+from jointplay.solver.runs.lane_results import failure_of
+from jointplay.solver.runs.left_domains import left_domain
 from jointplay.solver.scene.periods import common_period
 from tests.solver.completed_runs import run
 from tests.solver.driven_motions import carried
@@ -149,6 +154,52 @@ def test_a_duration_beyond_a_refused_course_is_refused() -> None:
     (problem,) = refused.value.problems
     assert problem.pointer == "/scene/forces/spring/course/knots"
     assert "given from 0 to 1, but time, s, goes from 0 to 5" in problem.detail
+
+
+def test_a_sweep_longer_than_a_refused_course_is_refused() -> None:
+    scene = pushed(ENDS | {"knots": [0.0, 0.2, 1.0]}, {"quantity": "time"})
+    mass = {
+        "help": "mass",
+        "unit": "kg",
+        "default": 1.0,
+        "targets": [{"path": "/bodies/block/mass"}],
+    }
+    scene["parameters"] = {"mass": mass}
+    sweep = {"kind": "sweep", "scene": scene, "grid": {"mass": [1.0, 2.0]}}
+    admit(sweep | {"duration": 1.0})
+    with pytest.raises(InvalidInput) as refused:
+        admit(sweep | {"duration": 1.5})
+    (problem,) = refused.value.problems
+    assert problem.pointer == "/scene/forces/spring/course/knots"
+    assert "but time, s, goes from 0 to 1.5" in problem.detail
+
+
+def started(scene: dict[str, Any], duration: float) -> Bundle:
+    """Return a bundle whose first lane has a scene to run, without a look at what it refuses."""
+    document = scene_of(scene)
+    kernel = ready_kernel(document, "reduced", "tsitouras")
+    return Bundle(kernel, [LaneProblem(document, duration, 1e-6, duration, 2, 0, 0.0)])
+
+
+def test_a_run_ends_where_a_motion_refuses_its_time() -> None:
+    scene = carried(ENDS | {"knots": [0.0, 0.5, 1.0]})
+    bundle = started(scene, 2.0)
+    while bundle.advance(1000):
+        pass
+    failure = failure_of(bundle, 0, 1e-6, scene_of(scene))
+    assert failure.code == "outside-of-a-function"
+    assert failure.time == pytest.approx(1.0, rel=1e-6)
+    assert "motion of driver" in str(failure)
+
+
+def test_an_argument_that_begins_at_an_end_has_not_left() -> None:
+    for quantity, knots in (("time", [0.0, 0.5, 10.0]), ("x", [0.0, 0.5, 1.0])):
+        scene = pushed(ENDS | {"knots": knots}, {"quantity": quantity})
+        bundle = started(scene, 0.9)
+        bundle.advance(1)
+        found = left_domain(bundle, 0, scene_of(scene))
+        assert bundle.lane(0).time > 0.0
+        assert found == ""
 
 
 def test_a_scene_that_never_repeats_gives_its_own_period() -> None:

@@ -52,15 +52,23 @@ def find_in_reach(s: Step, found: np.ndarray) -> int:
 
 @inner_kernel()
 def look_between_bends(chosen: np.ndarray, low: float, high: float, s: Step) -> None:
-    """Seek extremes of chosen rows between two shares, from one passage of a bend to the next."""
-    if len(chosen) == 0:
+    """Seek extremes of chosen rows between two shares, from one passage of a bend to the next.
+
+    Rows that depend on no friction have no kinks there, and are not looked at.
+    """
+    bent, rows = 0, np.empty(len(chosen), np.int64)
+    for r in chosen:
+        if s.work[s.at.bent + r, s.lane] > 0.0:
+            rows[bent] = r
+            bent += 1
+    if bent == 0:
         return
     cuts, begin = np.empty((MOST_INSTANTS + 1, 2)), low
     count = find_cuts(low, high, s, cuts)
     cuts[count] = high
     for end, behind in cuts[: count + 1]:
         if begin < end:
-            look_evenly(chosen, begin, end, s)
+            look_evenly(rows[:bent], begin, end, s)
         begin = max(begin, behind)
 
 
