@@ -29,7 +29,7 @@ from jointplay.chaos.inside import FOLDER_VARIABLE
 from jointplay.chaos.processes import running
 from jointplay.service.processes import running_service
 from jointplay.storage.catalogue.catalogue import Catalogue
-from tests.places import places, settings_at
+from tests.backends import backends, settings_at
 
 KINDS: Final = ("folder", "bucket")
 """SQLite and a folder; PostgreSQL and a bucket."""
@@ -79,7 +79,7 @@ def service(kind: str, folder: Path) -> Iterator[Attacked]:
     """Run a service that requires keys, and a worker that joined it."""
     with ExitStack() as stack:
         variables = {"JOINTPLAY_KEYS": "required", FOLDER_VARIABLE: str(folder)}
-        variables |= stack.enter_context(places(kind))
+        variables |= stack.enter_context(backends(kind))
         data = folder / "data"
         data.mkdir()
         with closing(Catalogue(settings_at(data, variables).catalogue_url)) as catalogue:

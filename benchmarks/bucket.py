@@ -34,7 +34,7 @@ from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import NewJob
-from jointplay.storage.places.s3 import Bucket
+from jointplay.storage.object_stores.s3 import Bucket
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.worker.scratch.computing import compute
@@ -73,14 +73,14 @@ class Puts(Counter[str]):
             yield from pieces
             self.packed = time.perf_counter()
 
-        def counting_put(place: Bucket, key: str, pieces: Iterable[bytes]) -> None:
+        def counting_put(bucket: Bucket, key: str, pieces: Iterable[bytes]) -> None:
             self[key] += 1
             self.packing = time.perf_counter()
-            put(place, key, packing(measured(pieces)))
+            put(bucket, key, packing(measured(pieces)))
 
-        def counting_replace(place: Bucket, key: str, pieces: Iterable[bytes]) -> None:
+        def counting_replace(bucket: Bucket, key: str, pieces: Iterable[bytes]) -> None:
             self[key] += 1
-            replace(place, key, measured(pieces))
+            replace(bucket, key, measured(pieces))
 
         Bucket.put = counting_put  # type: ignore[assignment, method-assign]
         Bucket.replace = counting_replace  # type: ignore[assignment, method-assign]
@@ -182,7 +182,7 @@ def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
             assert len(window[0]) == 1000
             reading.append(time.perf_counter() - begun)
             objects = max(
-                objects, sum(1 for _ in settings.place.list(f"running/{job[-2:]}/{job}/"))
+                objects, sum(1 for _ in settings.object_store.list(f"running/{job[-2:]}/{job}/"))
             )
         time.sleep(LOOK)
     puts, size, seconds, packed, published, before = results.get(timeout=60)
@@ -208,8 +208,8 @@ def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
 def installation() -> Iterator[tuple[Settings, Catalogue]]:
     """Keep a store of its own for a while: long jobs would fill one that others use, too."""
     with tempfile.TemporaryDirectory() as folder, running_store() as endpoint:
-        place = f"s3://{BUCKET}/one?endpoint={endpoint}"
-        settings = Settings(data=Path(folder), results_url=place)
+        address = f"s3://{BUCKET}/one?endpoint={endpoint}"
+        settings = Settings(data=Path(folder), results_url=address)
         catalogue = Catalogue(settings.catalogue_url)
         catalogue.migrate()
         yield settings, catalogue
@@ -230,8 +230,8 @@ def main() -> None:
         press_jobs(settings, catalogue)
     with tempfile.TemporaryDirectory() as name, running_store() as endpoint:
         folder, together = Path(name), f"s3://{BUCKET}/many?endpoint={endpoint}"
-        for where, place in (("bucket", together), ("folder", f"file:{folder / 'results'}")):
-            found = many_jobs(folder / where, place)
+        for where, address in (("bucket", together), ("folder", f"file:{folder / 'results'}")):
+            found = many_jobs(folder / where, address)
             print(f"{JOBS} press jobs, {WORKERS} workers, {where}: {found}")
         print(f"load of the machine {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
 

@@ -22,9 +22,9 @@ from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockEnd, BlockState
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.intervals import GROUP as INTERVALS
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.steps import GROUP

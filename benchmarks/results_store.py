@@ -13,9 +13,9 @@ from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
 from jointplay.records.run_rows import RunRows
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.writer import ResultWriter

@@ -34,7 +34,7 @@ def campaign(
     duration: float,
     faults: Sequence[str],
     workers: int,
-    places: Sequence[str],
+    servers: Sequence[str],
     tell: Tell,
 ) -> Report:
     """Let faults strike a service of its own for a while, and check what it made of them.
@@ -51,15 +51,15 @@ def campaign(
         Names of them.
     workers
         How many blocks are computed at a time.
-    places
-        Addresses of an empty database and of an empty place for results; "": files of its own.
+    servers
+        Addresses of an empty database and of an empty object store; "": files of its own.
     tell
         Called with a line for everything that happens.
     """
     mix = jobs_of(seed)
     report = Report(seed, duration)
     device = any(name.startswith("device-") for name in faults)
-    installation = Installation(folder, workers, *places, device=device)
+    installation = Installation(folder, workers, *servers, device=device)
     for name in faults:
         if (hindrance := FAULTS[name].hindrance(installation)) is not None:
             report.left_out[name] = hindrance

@@ -16,7 +16,7 @@ from jointplay.storage.reconciliation.rows import contradictions
 from jointplay.storage.settings import Settings
 
 _READERS: Final = 8
-"""Results that are compared at a time: a place elsewhere answers late, not slowly."""
+"""Results that are compared at a time: a store elsewhere answers late, not slowly."""
 _TERMINAL: Final = {state.value for state in JobState if state.terminal}
 
 

@@ -28,7 +28,7 @@ RESULTS = Annotated[
     str,
     typer.Option(
         metavar="URL",
-        help="Empty place, s3://BUCKET/PREFIX?endpoint=http://HOST. Default a folder.",
+        help="Empty object store, s3://BUCKET/PREFIX?endpoint=http://HOST. Default a folder.",
     ),
 ]
 OUTPUT = Annotated[
@@ -57,8 +57,8 @@ def chaos(
 
     Example: `jointplay chaos --seed 7 --duration 600`
     """
-    from jointplay.chaos.places import NotEmpty, require_empty
     from jointplay.chaos.program import carry_out, names
+    from jointplay.chaos.servers import NotEmpty, require_empty
 
     for name in fault or ():
         if name not in names():
@@ -77,7 +77,7 @@ def chaos(
             duration=duration,
             faults=fault or names(),
             workers=workers,
-            places=(catalogue, results),
+            servers=(catalogue, results),
         )
     except KeyboardInterrupt:
         line = f"interrupted; what it left is in {folder}"

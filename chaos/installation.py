@@ -13,8 +13,8 @@ from typing import Final
 from jointplay.chaos import inside
 from jointplay.chaos.device_worker import DeviceWorker
 from jointplay.chaos.gate import Gate
-from jointplay.chaos.places import database_behind_gate, store_behind_gate
 from jointplay.chaos.processes import Process, kill, running
+from jointplay.chaos.servers import database_behind_gate, store_behind_gate
 from jointplay.service.processes import StartFailed
 from jointplay.storage.settings import Settings
 
@@ -42,7 +42,7 @@ class Installation:
     workers
         How many blocks are computed at a time.
     catalogue_url, results_url
-        An empty database and an empty place; by default a file and a folder of its own.
+        An empty database and an empty object store; by default a file and a folder of its own.
     device
         Whether there is a further worker, whose device the processor stands for.
     """
@@ -58,7 +58,7 @@ class Installation:
     ) -> None:
         self.folder = folder
         self.data = folder / "data"
-        self.places = catalogue_url, results_url
+        self.servers = catalogue_url, results_url
         through_database, database = database_behind_gate(catalogue_url)
         through_store, store = store_behind_gate(results_url)
         self.gates: dict[str, Gate | None] = {"database": database, "store": store}

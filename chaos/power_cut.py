@@ -53,6 +53,6 @@ def cut_catalogue(folder: Path) -> None:
     index.unlink()
 
 
-def _number(index: bytes, place: int) -> int:
-    number: int = struct.unpack_from("=I", index, place)[0]
+def _number(index: bytes, offset: int) -> int:
+    number: int = struct.unpack_from("=I", index, offset)[0]
     return number

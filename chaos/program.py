@@ -25,9 +25,9 @@ def carry_out(
     duration: float,
     faults: Sequence[str],
     workers: int,
-    places: tuple[str, str] = ("", ""),
+    servers: tuple[str, str] = ("", ""),
 ) -> Report:
-    """Run a campaign in a folder, which is there and empty, as are the places. Returns its report.
+    """Run a campaign in a folder, which is there and empty, as the servers are. Returns its report.
 
     Raises
     ------
@@ -42,7 +42,7 @@ def carry_out(
         "duration": duration,
         "faults": list(faults),
         "workers": workers,
-        "places": places,
+        "servers": servers,
     }
     command = [sys.executable, "-P", "-m", "jointplay.chaos", json.dumps(plan)]
     if "disk-full" in faults:

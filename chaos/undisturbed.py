@@ -6,9 +6,9 @@ from typing import Final
 
 from jointplay.chaos.jobs import Document
 from jointplay.solver.kinds import admit
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.layout import MANIFEST
 from jointplay.worker.local.computing import compute
 from jointplay.worker.local.folder import STORE

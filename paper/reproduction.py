@@ -15,9 +15,9 @@ from jointplay.solver.runs.processes import Advance, Call, Processes, cores, pro
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.errors import CorruptStore, NotAStore
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.metadata import FILE
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, execute
@@ -134,7 +134,7 @@ def _is_there(target: StoredObject, admitted: Admission | Study) -> bool:
     wanted = {"job": admitted.job, "solver_version": SOLVER_VERSION, "complete": True}
     if wanted.items() <= root.items():
         return True
-    target.place.remove(target.key)
+    target.object_store.remove(target.key)
     return False
 
 

@@ -66,8 +66,8 @@ from jointplay.service.workers.uploads import Uploads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore
 from jointplay.storage.installation import require_own_files
-from jointplay.storage.places.fitness import require_fit
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.object_stores.fitness import require_fit
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.settings import Settings
 
 _DESCRIPTION = """
@@ -155,8 +155,8 @@ async def _running(app: FastAPI, *, patient: bool) -> AsyncIterator[None]:
     """Give an application what its requests need, while it runs."""
     settings: Settings = app.state.settings
     settings.data.mkdir(parents=True, exist_ok=True)
-    if not isinstance(settings.place, Folder):
-        require_fit(settings.place)
+    if not isinstance(settings.object_store, Folder):
+        require_fit(settings.object_store)
     catalogue = Catalogue(settings.catalogue_url)
     migrating = await migrated(catalogue, patient=patient)
     if not patient:

@@ -12,7 +12,7 @@ from jointplay.service.problems import kinds, problems, unavailable
 from jointplay.service.readiness import Readiness
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.installation import OtherFiles
-from jointplay.storage.places.fitness import Unfit
+from jointplay.storage.object_stores.fitness import Unfit
 
 router = APIRouter(tags=["health"])
 _log = logging.getLogger(__name__)

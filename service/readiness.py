@@ -12,8 +12,8 @@ from typing import Final
 from jointplay.service.vital import VitalThreads
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.installation import require_own_files
-from jointplay.storage.places.fitness import require_fit
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.object_stores.fitness import require_fit
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.settings import RUNNING, Settings
 
 _PERIOD: Final = 1.0
@@ -47,14 +47,14 @@ class Readiness:
             proof.exception()  # nobody may be left who waits for it
 
     def prove(self) -> None:
-        """Store something in the catalogue, the data folder and the place for results.
+        """Store something in the catalogue, the data folder and the object store.
 
         Raises
         ------
         jointplay.storage.catalogue.errors.Unavailable, RuntimeError
             The catalogue cannot be written, or has another schema.
         OSError
-            The data folder, or the place, cannot be written.
+            The data folder, or the object store, cannot be written.
         OtherFiles
             They are those of another catalogue, or a disk is not mounted.
         """
@@ -65,10 +65,10 @@ class Readiness:
             raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(data))
         (data / RUNNING).mkdir(exist_ok=True)
         self._write(data / RUNNING)
-        place = self._settings.place
-        if isinstance(place, Folder) and Path(place.root).is_dir():  # made for the first results
-            self._write(Path(place.root))
-        self._try_place()
+        store = self._settings.object_store
+        if isinstance(store, Folder) and Path(store.root).is_dir():  # made for the first results
+            self._write(Path(store.root))
+        self._try_object_store()
 
     def _write(self, folder: Path) -> None:
         # without a name: in containers, APIs that share the folder have one process id
@@ -78,9 +78,9 @@ class Readiness:
             if trial.read() != _TRIAL:
                 raise OSError(errno.EIO, os.strerror(errno.EIO), str(folder))
 
-    def _try_place(self) -> None:
+    def _try_object_store(self) -> None:
         if self._place_proved is None or time.monotonic() > self._place_proved + _PLACE_PERIOD:
             require_own_files(self._settings, self._catalogue)
-            if not isinstance(self._settings.place, Folder):
-                require_fit(self._settings.place, large=False)
+            if not isinstance(self._settings.object_store, Folder):
+                require_fit(self._settings.object_store, large=False)
             self._place_proved = time.monotonic()

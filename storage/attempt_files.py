@@ -14,10 +14,10 @@ from typing import Final
 
 from jointplay.storage import durable
 from jointplay.storage.catalogue.records import Block
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed.running import DOCUMENTS, ROWS, make_folders
-from jointplay.storage.places import StoredObject
 from jointplay.storage.running_files.folder import InFolder
-from jointplay.storage.running_files.objects import InPlace
+from jointplay.storage.running_files.objects import InObjectStore
 from jointplay.storage.settings import Settings
 
 _NAME: Final = re.compile(r"(?:(?!\.{1,2}/)[A-Za-z0-9._-]{1,80}/){0,2}(?!\.)[A-Za-z0-9._-]{1,120}")
@@ -27,7 +27,7 @@ STUDY: Final = "study"
 """
 _PIECE: Final = 2**20
 _PART: Final = 2**23
-"""Bytes that are read from a place at once, where each reading is a request."""
+"""Bytes that are read from an object store at once, where each reading is a request."""
 LEAST: Final = 4096
 """Bytes that a file of an attempt counts at least: names and places of files take room, too."""
 _DROPS: Final = "drops"
@@ -40,7 +40,7 @@ def is_written_once(name: str) -> bool:
 
 
 class AttemptFiles:
-    """Files of one attempt, in a data folder and the place of its results.
+    """Files of one attempt, in a data folder and in the object store.
 
     Parameters
     ----------
@@ -140,16 +140,16 @@ class AttemptFiles:
         """Return the object that a worker may put for a file, by the SHA-256 of its bytes.
 
         It is no file of the job until `take` was called. None for files that are replaced or
-        appended to, and where files of running jobs are in no place.
+        appended to, and where files of running jobs are in no object store.
 
         Raises
         ------
         ValueError
             There is no file of this name.
         """
-        if not isinstance(self.running, InPlace) or self._target(name) is None:
+        if not isinstance(self.running, InObjectStore) or self._target(name) is None:
             return None
-        return StoredObject(self.running.place, f"{self._drops()}{digest}")
+        return StoredObject(self.running.object_store, f"{self._drops()}{digest}")
 
     def stored(self, is_own: Callable[[str], bool]) -> int:
         """Return the bytes of files of the attempt, by their names, and of what it dropped.
@@ -162,15 +162,15 @@ class AttemptFiles:
                 sealed = self.sealed(name)
                 size = self.running.size(name) if sealed is None else sealed.size()
                 found += max(size, LEAST)
-        if isinstance(self.running, InPlace):
-            for key in self.running.place.list(self._drops()):
+        if isinstance(self.running, InObjectStore):
+            for key in self.running.object_store.list(self._drops()):
                 with suppress(FileNotFoundError):
-                    found += self.running.place.size(key)
+                    found += self.running.object_store.size(key)
         return found
 
     def _drops(self) -> str:
         """Begin the keys of what was dropped; of files in a folder nothing can be."""
-        prefix = self.running.prefix if isinstance(self.running, InPlace) else ""
+        prefix = self.running.prefix if isinstance(self.running, InObjectStore) else ""
         return f"{prefix}/{_DROPS}/{self._block.index}-a{self._block.attempt}-"
 
     @contextmanager
@@ -190,13 +190,13 @@ class AttemptFiles:
         if dropped is None or dropped.size() != size:
             raise ValueError(f"{name!r} has other bytes than were told")
         key = f"{self._drops()}copy-{secrets.token_hex(8)}"
-        copy = StoredObject(dropped.place, key)
-        dropped.place.adopt(key, dropped.key)
+        copy = StoredObject(dropped.object_store, key)
+        dropped.object_store.adopt(key, dropped.key)
         try:
             yield copy
-            dropped.place.remove(dropped.key)
+            dropped.object_store.remove(dropped.key)
         finally:
-            copy.place.remove(key)
+            copy.object_store.remove(key)
 
     def take(self, name: str, digest: str, size: int, md5: str) -> None:
         """Make a file of what was dropped for it, once its bytes were found right, and remove that.
@@ -216,11 +216,12 @@ class AttemptFiles:
             raise ValueError(f"{name!r} is no file that can be dropped")
         if not target.exists():
             if dropped.size() != size or (
-                dropped.place.entity_tag(dropped.key) != md5 and _sha256(dropped, size) != digest
+                dropped.object_store.entity_tag(dropped.key) != md5
+                and _sha256(dropped, size) != digest
             ):
                 raise ValueError(f"{name!r} has other bytes than were told")
-            target.place.adopt(target.key, dropped.key)
-        dropped.place.remove(dropped.key)
+            target.object_store.adopt(target.key, dropped.key)
+        dropped.object_store.remove(dropped.key)
 
     def _target(self, name: str) -> StoredObject | None:
         """Return the object of a file that is written once; None for other files."""

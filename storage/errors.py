@@ -42,7 +42,7 @@ class IncompleteStudy(ResultsError):
 
 
 class TooLarge(ResultsError):
-    """An object has more bytes than its place takes."""
+    """An object has more bytes than its object store takes."""
 
 
 class UnknownChannel(ResultsError):

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Final
 
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.places import Place
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.object_stores import ObjectStore
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.settings import Settings
 
 MARK: Final = "installation"
@@ -29,17 +29,17 @@ class OtherFiles(Exception):
 
 
 def require_own_files(settings: Settings, catalogue: Catalogue) -> None:
-    """Compare the marks of data folder and place for results, as far as all processes share them.
+    """Compare the marks of data folder and object store, as far as all processes share them.
 
     Raises
     ------
     OtherFiles
         One has another mark than the catalogue wants.
     """
-    for name, place, where in _shared(settings, catalogue):
+    for name, store, where in _shared(settings, catalogue):
         known = catalogue.mark_of(name)
         try:
-            found = _mark_in(place) or ("" if known else _marked(place))
+            found = _mark_in(store) or ("" if known else _marked(store))
         except OSError as error:  # readiness tells; the next start looks again
             _log.warning("%s is not compared with the catalogue: %s", where, error)
             continue
@@ -47,32 +47,32 @@ def require_own_files(settings: Settings, catalogue: Catalogue) -> None:
         if found != known:
             raise OtherFiles(
                 f"{where} {'is of another catalogue' if found else 'is new to this catalogue'},"
-                f" whose jobs have their files elsewhere; give the same place to all that share a"
+                f" whose jobs have their files elsewhere; give the same store to all that share a"
                 f" catalogue. If its files were moved or restored here, write {known} into"
                 f" {where}/{MARK}"
             )
 
 
-def require_places(settings: Settings, catalogue: Catalogue) -> None:
-    """Look whether data folder and place for results are there, before results are stored there.
+def require_reachable(settings: Settings, catalogue: Catalogue) -> None:
+    """Look whether data folder and object store are there, before results are stored.
 
     Raises
     ------
     ConnectionError
         A disk is not mounted, which had a mark, or a server does not answer.
     """
-    for name, place, where in _shared(settings, catalogue):
-        if place.version(MARK) is None and catalogue.mark_of(name) is not None:
+    for name, store, where in _shared(settings, catalogue):
+        if store.version(MARK) is None and catalogue.mark_of(name) is not None:
             raise ConnectionError(f"the disk with the results is not mounted at {where}")
 
 
-def _shared(settings: Settings, catalogue: Catalogue) -> Iterator[tuple[str, Place, str]]:
+def _shared(settings: Settings, catalogue: Catalogue) -> Iterator[tuple[str, ObjectStore, str]]:
     if not settings.sends:
         yield _DATA, Folder(str(settings.data)), str(settings.data)
-    place = settings.place
-    is_apart = not isinstance(place, Folder) or _is_apart(Path(place.root), settings.data)
+    store = settings.object_store
+    is_apart = not isinstance(store, Folder) or _is_apart(Path(store.root), settings.data)
     if is_apart or catalogue.mark_of(_RESULTS) is not None:
-        yield _RESULTS, place, settings.results_url.partition("?")[0]
+        yield _RESULTS, store, settings.results_url.partition("?")[0]
 
 
 def _is_apart(results: Path, data: Path) -> bool:
@@ -84,15 +84,15 @@ def _is_apart(results: Path, data: Path) -> bool:
     return False
 
 
-def _mark_in(place: Place) -> str:
-    """Return the mark of a place; empty if it has none."""
+def _mark_in(store: ObjectStore) -> str:
+    """Return the mark of an object store; empty if it has none."""
     with suppress(FileNotFoundError):
-        return place.read(MARK, 0, _LONGEST).decode(errors="replace").strip()
+        return store.read(MARK, 0, _LONGEST).decode(errors="replace").strip()
     return ""
 
 
-def _marked(place: Place) -> str:
-    """Mark a place, and return the mark that it has then."""
+def _marked(store: ObjectStore) -> str:
+    """Mark an object store, and return the mark that it has then."""
     with suppress(FileExistsError):
-        place.put(MARK, [secrets.token_hex(16).encode()])
-    return _mark_in(place)
+        store.put(MARK, [secrets.token_hex(16).encode()])
+    return _mark_in(store)

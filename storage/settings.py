@@ -10,11 +10,11 @@ from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
 
 from jointplay.records.log_lines import LogFormat
+from jointplay.storage.object_stores import ObjectStore, StoredObject, object_store_at
 from jointplay.storage.packed.running import Running
-from jointplay.storage.places import Place, StoredObject, place_at
 from jointplay.storage.running_files import RunningFiles
 from jointplay.storage.running_files.folder import InFolder
-from jointplay.storage.running_files.objects import InPlace
+from jointplay.storage.running_files.objects import InObjectStore
 from jointplay.storage.settings_files import named_files, with_password
 from jointplay.storage.sqlite_address import sqlite_address
 
@@ -52,14 +52,14 @@ class Settings(BaseSettings):
     )
     results_url: str = Field(
         "",
-        description="Place for finished results, such as file:/srv/results; empty: the folder"
+        description="Object store of finished results, such as file:/srv/results; empty: the folder"
         " `results` inside the data folder.",
     )
     running: Literal["", "data", "results"] = Field(
         "",
         description="Where jobs are that run: in the data folder, which all machines then share, or"
-        " in the place for results, to which each worker sends what it computes in a folder of its"
-        " own; empty: there if it is S3.",
+        " in the object store, to which each worker sends what it computes in a folder of its own;"
+        " empty: there if it is S3.",
     )
     results_redirect: str = Field(
         "",
@@ -205,8 +205,8 @@ class Settings(BaseSettings):
 
     @field_validator("results_url")
     @classmethod
-    def _names_a_place(cls, url: str) -> str:
-        place_at(url)
+    def _names_an_object_store(cls, url: str) -> str:
+        object_store_at(url)
         return url
 
     @field_validator("results_redirect")
@@ -249,9 +249,9 @@ class Settings(BaseSettings):
         return shutil.disk_usage(self.data).free - self.reserve
 
     @property
-    def place(self) -> Place:
+    def object_store(self) -> ObjectStore:
         """Where sealed results are kept."""
-        return place_at(self.results_url)
+        return object_store_at(self.results_url)
 
     def results_prefix(self, job: str) -> str:
         """Return the beginning of the keys of all sealed results of a job.
@@ -263,11 +263,11 @@ class Settings(BaseSettings):
 
     def sealed_run(self, job: str, attempt: int) -> StoredObject:
         """Sealed results of one attempt at a simulation; need not be there."""
-        return StoredObject(self.place, f"{self.results_prefix(job)}a{attempt}.zarr.zip")
+        return StoredObject(self.object_store, f"{self.results_prefix(job)}a{attempt}.zarr.zip")
 
     def sealed_study(self, job: str) -> StoredObject:
         """Sealed results of a study; need not be there."""
-        return StoredObject(self.place, f"{self.results_prefix(job)}study.zarr.zip")
+        return StoredObject(self.object_store, f"{self.results_prefix(job)}study.zarr.zip")
 
     @property
     def sends(self) -> bool:
@@ -279,13 +279,13 @@ class Settings(BaseSettings):
     def running_files(self, job: str) -> RunningFiles:
         """Everything that a job needs while it runs."""
         if self.sends:
-            return InPlace(self.place, f"{RUNNING}/{job[-2:]}/{job}")
+            return InObjectStore(self.object_store, f"{RUNNING}/{job[-2:]}/{job}")
         return InFolder(self.running_folder(job))
 
     def running_jobs(self) -> list[str]:
         """Jobs of which something is kept that they need while they run."""
         if self.sends:
-            found = (key.split("/") for key in self.place.list(f"{RUNNING}/"))
+            found = (key.split("/") for key in self.object_store.list(f"{RUNNING}/"))
             return sorted({parts[2] for parts in found if len(parts) > OF_A_JOB})
         return [folder.name for folder in sorted((self.data / RUNNING).glob("*/*"))]
 

@@ -20,8 +20,8 @@ from jointplay.service.app import create_app
 from jointplay.solver.kinds import Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Job
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, Progress, execute
@@ -126,17 +126,17 @@ class Held:
 def installation(kind: str, data: Path, *, redirect: bool = False) -> Iterator[Installation]:
     """Serve from SQLite and a folder, or from PostgreSQL and a bucket, which workers may reach."""
     with ExitStack() as stack:
-        places: dict[str, Any] = {}
+        servers: dict[str, Any] = {}
         if kind == "bucket":
             server = stack.enter_context(running_server())
             endpoint = stack.enter_context(running_store())
-            places = {
+            servers = {
                 "catalogue_url": server.new(),
                 "results_url": f"s3://{BUCKET}/{data.parent.name}?endpoint={endpoint}",
                 "results_redirect": endpoint if redirect else "",
             }
         data.mkdir()
-        settings = Settings(data=data, keys="none", **places)
+        settings = Settings(data=data, keys="none", **servers)
         catalogue = stack.enter_context(closing(Catalogue(settings.catalogue_url)))
         catalogue.migrate()
         url = stack.enter_context(serving(create_app(settings)))

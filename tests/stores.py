@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from jointplay.storage.catalogue.records import Job
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed import Packed, files_at
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 

@@ -18,7 +18,7 @@ from jointplay.records.run_rows import RunRows
 from jointplay.solver.kinds import KINDS, Admission, Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockEnd, BlockState, Claim
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from jointplay.storage.settings import Settings

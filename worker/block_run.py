@@ -50,7 +50,7 @@ class BlockRun:
     ----------
     draining
         Set when this process shall end soon: the block is then checkpointed and given back.
-    require_places
+    require_reachable
         Raises OSError while results cannot be stored. Asked before anything is computed, and again
         before the block ends: what was stored in place of a disk is not on it.
     """
@@ -61,7 +61,7 @@ class BlockRun:
         settings: Settings,
         claim: Claim,
         draining: threading.Event,
-        require_places: Callable[[], None] = lambda: None,
+        require_reachable: Callable[[], None] = lambda: None,
     ) -> None:
         self._catalogue = catalogue
         self._settings = settings
@@ -70,7 +70,7 @@ class BlockRun:
         self._job = claim.job
         self._lease = Lease(catalogue, claim, settings)
         self._draining = draining
-        self._require_places = require_places
+        self._require_reachable = require_reachable
         self._next_record = time.monotonic() + settings.progress_period
         self._next_look = time.monotonic() + _LOOK
         self._reports = 0
@@ -145,12 +145,12 @@ class BlockRun:
     def _compute(self) -> Outcome:
         try:
             self._require_room()
-            self._require_places()
+            self._require_reachable()
             self._work = work_of(self._claim, self._settings)
             self._compiling.start()
             with watched(self._while_compiling, self._settings.longest_compilation):
                 outcome = self._work.execute(self._report, self._lease.advanced)
-            self._require_places()
+            self._require_reachable()
             return outcome
         except (Fenced, Refused, *TRANSIENT):
             raise

@@ -20,7 +20,7 @@ from jointplay.solver.kernels.watched import (
 from jointplay.solver.kinds import Admission
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from jointplay.worker.certificates import record_of

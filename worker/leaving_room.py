@@ -11,8 +11,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.settings import Settings
 
 
@@ -23,7 +23,7 @@ class _LeavingRoom(StoredObject):
     settings: Settings
 
     def put(self, pieces: Iterable[bytes]) -> None:
-        """See `Place.put`; OSError, too, where half of the reserve would not stay free."""
+        """See `ObjectStore.put`; OSError, too, where half of the reserve would not stay free."""
         super().put(self._looked_at(pieces))
 
     def _looked_at(self, pieces: Iterable[bytes]) -> Iterator[bytes]:
@@ -39,9 +39,9 @@ def leaving_room(target: StoredObject, settings: Settings) -> StoredObject:
 
     The target itself where it is on no disk that they share.
     """
-    place = target.place
-    if isinstance(place, Folder) and _disk(Path(place.root)) == _disk(settings.data):
-        return _LeavingRoom(place, target.key, settings)
+    store = target.object_store
+    if isinstance(store, Folder) and _disk(Path(store.root)) == _disk(settings.data):
+        return _LeavingRoom(store, target.key, settings)
     return target
 
 

@@ -26,8 +26,8 @@ def measure_results(catalogue: Catalogue, settings: Settings) -> None:
 
 def _size(catalogue: Catalogue, settings: Settings, job_id: str) -> int:
     """Sum up the bytes of sealed results, or, where there are none, of what a job left."""
-    place = settings.place
-    sealed = sum(place.size(key) for key in place.list(settings.results_prefix(job_id)))
+    store = settings.object_store
+    sealed = sum(store.size(key) for key in store.list(settings.results_prefix(job_id)))
     job = catalogue.get(job_id)
     whole = settings.sealed_run(job.id, job.attempt), settings.sealed_study(job.id)
     if any(results.exists() for results in whole):

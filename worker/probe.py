@@ -23,9 +23,9 @@ from jointplay.solver.runs.dense_output.columns import most_steps
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.required_study import required_study
 from jointplay.solver.runs.trial_pace import trial_pace
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed.reading import Packed
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.certificate_group import CERTIFICATE
 from jointplay.storage.results.intervals import GROUP as INTERVALS
 from jointplay.storage.results.steps import GROUP as STEPS

@@ -36,7 +36,7 @@ def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
 
 def _remove(catalogue: Catalogue, settings: Settings, job: str) -> None:
     try:
-        settings.place.remove(settings.results_prefix(job))
+        settings.object_store.remove(settings.results_prefix(job))
         settings.running_files(job).clear()  # of a job that ended without results
         catalogue.mark_removed([job])
     except TRANSIENT as error:
@@ -54,18 +54,18 @@ def tidy(settings: Settings, block: Block) -> None:
         if settings.sealed_run(block.job, block.attempt).exists():
             for attempt in range(1, block.attempt):
                 lost = settings.sealed_run(block.job, attempt)
-                lost.place.remove(lost.key)
+                lost.object_store.remove(lost.key)
         elif not settings.sealed_study(block.job).exists():
             return
-        for left in [*settings.place.cut_off(settings.results_prefix(block.job))]:
-            settings.place.remove(left)  # of who was killed while it sealed
+        for left in [*settings.object_store.cut_off(settings.results_prefix(block.job))]:
+            settings.object_store.remove(left)  # of who was killed while it sealed
         settings.running_files(block.job).clear()
 
 
 def clear_up(catalogue: Catalogue, settings: Settings) -> int:
     """Remove what jobs needed that ended a lease ago. Returns the number of these jobs.
 
-    Their last worker may have ended before it could, or the place have been out of reach.
+    Their last worker may have ended before it could, or the object store have been out of reach.
     """
     removed = 0
     try:
@@ -108,7 +108,7 @@ def withdraw(catalogue: Holding, settings: Settings, block: Block) -> None:
         if not job.state.terminal:
             return  # the attempt that ends the job removes everything
         if job.attempt != attempt:
-            settings.place.remove(settings.sealed_run(job.id, attempt).key)
+            settings.object_store.remove(settings.sealed_run(job.id, attempt).key)
         sealed = settings.sealed_run(job.id, job.attempt), settings.sealed_study(job.id)
         if any(results.exists() for results in sealed):
             settings.running_files(job.id).clear()

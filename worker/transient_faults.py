@@ -29,4 +29,4 @@ def waits_for(fault: Exception) -> str:
 
     if isinstance(fault, DeviceError):
         return "waiting for a device"
-    return "waiting for the results' place"
+    return "waiting for the object store"

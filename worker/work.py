@@ -9,8 +9,8 @@ from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore, IncompleteStudy, NotAStore
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed.reading import Packed
-from jointplay.storage.places import StoredObject
 from jointplay.storage.results.manifest import verify
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
@@ -71,7 +71,7 @@ class SimulationWork:
         """
         if target.exists():
             _log.warning("block %s: %s is of an attempt that was undone", self._block.id, target)
-            target.place.remove(target.key)
+            target.object_store.remove(target.key)
         if self._folder.exists():
             shutil.rmtree(self._folder)
 
@@ -101,7 +101,7 @@ class SimulationWork:
             except (NotAStore, CorruptStore):
                 continue
             if run.complete and run.attributes["solver_version"] == SOLVER_VERSION:
-                if lost != target and not target.place.adopt(target.key, lost.key):
+                if lost != target and not target.object_store.adopt(target.key, lost.key):
                     continue
                 end = float(self._admission.job["duration"])
                 return Outcome("succeeded", end, 1.0, statistics=run.attributes["summary"])
@@ -159,7 +159,7 @@ class SealWork:
             return Outcome("succeeded", 0.0, 1.0)
         if self._target.exists():
             _log.warning("%s is not what it was, and is sealed again", self._target)
-            self._target.place.remove(self._target.key)
+            self._target.object_store.remove(self._target.key)
         try:
             with publishing():
                 seal(self._folder, self._layout, self._target, advanced)

@@ -19,7 +19,7 @@ from benchmarks.memory import anonymous
 from jointplay.chaos.inside import FOLDER_VARIABLE
 from jointplay.chaos.processes import running
 from jointplay.service.processes import running_service
-from tests.places import places
+from tests.backends import backends
 
 OWNERS = {
     "ada": ("jobs:write", "jobs:read", "results:read"),
@@ -159,7 +159,7 @@ def attacked(
     kind: str, folder: Path, program: Path | None, own: Mapping[str, str]
 ) -> Iterator[Attacked]:
     """Serve in a folder, by an earlier program if one is installed somewhere, without a worker."""
-    with places(kind) as variables:
+    with backends(kind) as variables:
         variables |= VARIABLES | {FOLDER_VARIABLE: str(folder)} | dict(own)
         if program is not None:
             variables["PYTHONPATH"] = str(program)

@@ -14,7 +14,7 @@ import psycopg
 from benchmarks.single_attacks.attacked import SWING, Attacked
 from jointplay.chaos.processes import end, running
 from jointplay.service.processes import StartFailed, running_service
-from jointplay.storage.places import place_at
+from jointplay.storage.object_stores import object_store_at
 
 _DAMAGES = 24
 _PATIENCE = 10.0  # s
@@ -35,10 +35,10 @@ def small_disk(folder: Path, size: int) -> Iterator[None]:
 def _store(service: Attacked) -> tuple[bytes, Callable[[bytes], None]]:
     """Return the bytes of the largest stored file, and what replaces them."""
     if url := service.variables.get("JOINTPLAY_RESULTS_URL"):
-        place = place_at(url)
-        found = {key: place.read(key, 0, place.size(key)) for key in place.list("")}
+        store = object_store_at(url)
+        found = {key: store.read(key, 0, store.size(key)) for key in store.list("")}
         key = max(found, key=lambda one: len(found[one]))
-        return found[key], lambda content: place.replace(key, [content])
+        return found[key], lambda content: store.replace(key, [content])
     files = [path for path in (service.folder / "data/results").rglob("*") if path.is_file()]
     path = max(files, key=lambda one: one.stat().st_size)
     return path.read_bytes(), lambda content: void(path.write_bytes(content))

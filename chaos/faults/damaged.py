@@ -11,7 +11,7 @@ from random import Random
 from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
 from jointplay.chaos.processes import DEVICE
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 
 _SHARE = 0.5  # of the files
 
@@ -28,10 +28,10 @@ class Damaged(Fault):
         """Kill the computing processes and damage half of what they have written."""
         installation.kill("computing", DEVICE)
         if installation.settings.sends:
-            place = installation.settings.place
-            for key in sorted(place.list("running/")):
+            store = installation.settings.object_store
+            for key in sorted(store.list("running/")):
                 if drawn.random() < _SHARE:
-                    _harm_object(StoredObject(place, key), drawn)
+                    _harm_object(StoredObject(store, key), drawn)
         for path in sorted((installation.data / "running").rglob("*")):
             if path.is_file() and drawn.random() < _SHARE:
                 drawn.choice((_flip, _cut, _remove))(path, drawn)
@@ -47,17 +47,17 @@ def _harm_object(stored: StoredObject, drawn: Random) -> None:
         path.write_bytes(stored.read(0, stored.size()))
         drawn.choice((_flip, _cut, _remove))(path, drawn)
         if path.exists():
-            stored.place.replace(stored.key, [path.read_bytes()])
+            stored.object_store.replace(stored.key, [path.read_bytes()])
         else:
-            stored.place.remove(stored.key)
+            stored.object_store.remove(stored.key)
 
 
 def _flip(path: Path, drawn: Random) -> None:
     with path.open("r+b") as file:
-        place = drawn.randrange(max(os.fstat(file.fileno()).st_size, 1))
-        file.seek(place)
+        offset = drawn.randrange(max(os.fstat(file.fileno()).st_size, 1))
+        file.seek(offset)
         byte = file.read(1)
-        file.seek(place)
+        file.seek(offset)
         file.write(bytes(value ^ 1 << drawn.randrange(8) for value in byte))
 
 

@@ -16,7 +16,7 @@ class PowerLost(Fault):
 
     def hindrance(self, installation: Installation) -> str | None:
         """Return why, unless all is in files of its own."""
-        if installation.places == ("", ""):
+        if installation.servers == ("", ""):
             return None
         return "what servers have synced is not known here"
 

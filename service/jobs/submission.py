@@ -90,7 +90,7 @@ def _within_limits(
 ) -> NewJob:
     """Return what the catalogue takes; LimitExceeded if it is too much for this service."""
     check_compilation(admission, settings.longest_compilation)
-    check_room(admission, settings.place.largest)
+    check_room(admission, settings.object_store.largest)
     scene = admission.job["scene"]
     return NewJob(
         kind=admission.job["kind"],

@@ -23,9 +23,9 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.identity import growing_study, require_results_of
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed import Packed
 from jointplay.storage.packed.running import DOCUMENTS
-from jointplay.storage.places import StoredObject
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.reader import StudyReader

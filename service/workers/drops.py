@@ -38,7 +38,7 @@ def offer(
         except ValueError as error:
             raise _refused(error) from error
         if dropped is not None:
-            address = dropped.place.link_to_put(
+            address = dropped.object_store.link_to_put(
                 dropped.key, settings.results_redirect, _SIGNED_FOR, message.size
             )
     return Response(status_code=204) if address is None else DropAt(address=address)

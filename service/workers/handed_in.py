@@ -11,9 +11,9 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block, BlockState, Job
 from jointplay.storage.errors import CorruptStore
-from jointplay.storage.installation import require_places
+from jointplay.storage.installation import require_reachable
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed.ranges import InFile, InParts
-from jointplay.storage.places import StoredObject
 from jointplay.storage.settings import Settings
 from jointplay.worker.handed_in import names, results
 from jointplay.worker.handed_in.expected import expected_of
@@ -77,7 +77,7 @@ class HandedIn:
         with self._taking_back():
             if sealed is not None:
                 results.require_sealed(source, self._job)
-                require_places(self._settings, self._catalogue)
+                require_reachable(self._settings, self._catalogue)
                 try:
                     sealed.put(pieces)
                 except FileExistsError:  # the answer to an earlier try was lost
@@ -103,7 +103,7 @@ class HandedIn:
                 if sealed.exists():
                     results.require_same(sealed, source)
                 else:
-                    sealed.place.adopt(sealed.key, copy.key)
+                    sealed.object_store.adopt(sealed.key, copy.key)
         self.require_still_held()
 
     def remove(self, name: str) -> None:
@@ -113,7 +113,7 @@ class HandedIn:
 
     def require_end(self, outcome: BlockState, steps: int | None) -> None:
         """Look whether what is stored is what the end of the block speaks of."""
-        require_places(self._settings, self._catalogue)
+        require_reachable(self._settings, self._catalogue)
         with self._taking_back():
             results.require_end(self._settings, self._job, self._held, outcome, steps)
 

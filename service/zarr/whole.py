@@ -17,10 +17,10 @@ from jointplay.service.problems import RequestRefused, header, kinds, problems
 from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
 from jointplay.service.zarr import ranges
 from jointplay.storage.errors import LostObject
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed import Packed
 from jointplay.storage.packed.ranges import OpenFile, Ranges
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 
 router = APIRouter(prefix="/v1/jobs/{job_id}", tags=["results"])
 
@@ -73,7 +73,7 @@ def show_whole(
     sealed, version = results.sealed, _sealed_version(results)
     size = sealed.size()
     if settings.results_redirect and size >= _LARGE and request.method == "GET":
-        address = sealed.place.link(sealed.key, settings.results_redirect, _SIGNED_FOR)
+        address = sealed.object_store.link(sealed.key, settings.results_redirect, _SIGNED_FOR)
         if address is not None:
             return RedirectResponse(address, 307, {"Cache-Control": "no-store"})
     guarded = "authorization" in request.headers or SIGNED in request.scope
@@ -118,10 +118,10 @@ def _held(sealed: StoredObject) -> Ranges:
 
     A bucket cannot keep it for that long.
     """
-    if not isinstance(sealed.place, Folder):
+    if not isinstance(sealed.object_store, Folder):
         return sealed
     try:
-        return OpenFile(str(sealed), Path(sealed.place.root) / sealed.key)
+        return OpenFile(str(sealed), Path(sealed.object_store.root) / sealed.key)
     except FileNotFoundError as error:
         raise LostObject(f"{sealed} was removed") from error
 

@@ -1,4 +1,4 @@
-"""Marks of the places whose files belong to the catalogue."""
+"""Marks of the data folder and the object store whose files belong to the catalogue."""
 
 from sqlalchemy import insert, select
 
@@ -6,16 +6,19 @@ from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 
 
-def mark_of(unit: Unit, place: str) -> str | None:
-    """Return the mark that a place must have; none if none was noted."""
+def mark_of(unit: Unit, part: str) -> str | None:
+    """Return the mark that the files of a part of the installation must have; none: not noted.
+
+    `part` : ``data`` or ``results``.
+    """
     table = tables.installation
-    found = unit.execute(select(table.c.mark).where(table.c.place == place)).scalar_one_or_none()
+    found = unit.execute(select(table.c.mark).where(table.c.place == part)).scalar_one_or_none()
     return None if found is None else str(found)
 
 
-def note_mark(unit: Unit, place: str, mark: str) -> str:
-    """Note the mark of a place, unless there is one already. Returns the one that holds."""
-    known = mark_of(unit, place)
+def note_mark(unit: Unit, part: str, mark: str) -> str:
+    """Note the mark of a part, unless there is one already. Returns the one that holds."""
+    known = mark_of(unit, part)
     if known is None:
-        unit.execute(insert(tables.installation).values(place=place, mark=mark))
+        unit.execute(insert(tables.installation).values(place=part, mark=mark))
     return known or mark

@@ -286,7 +286,7 @@ leader = Table(
     Column("until", Float(53), nullable=False),
 )
 
-# Marks of the places whose files belong to the catalogue; see `storage.installation`.
+# Marks of the data folder and the object store of this catalogue; see `storage.installation`.
 installation = Table(
     "installation",
     metadata,

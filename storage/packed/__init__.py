@@ -6,11 +6,11 @@ files with a manifest; what a running store finished is in packed files without 
 
 from pathlib import Path
 
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed.reading import Files, Packed
 from jointplay.storage.packed.running import Running
 from jointplay.storage.packed.writing import pack
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 
 __all__ = ["Files", "Packed", "Running", "files_at", "pack"]
 

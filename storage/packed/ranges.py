@@ -1,4 +1,4 @@
-"""Bytes that are read by ranges: an object of a place, a file without a name, or in memory."""
+"""Bytes that are read by ranges: an object of a store, a file without a name, or in memory."""
 
 import os
 from pathlib import Path

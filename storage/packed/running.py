@@ -15,10 +15,10 @@ from typing import Any, Final, TypeVar
 
 from jointplay.storage import durable
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed.ranges import InMemory
 from jointplay.storage.packed.reading import Entry, Packed
 from jointplay.storage.packed.writing import pack
-from jointplay.storage.places import StoredObject
 from jointplay.storage.running_files import RunningFiles
 from jointplay.storage.running_files.folder import InFolder
 

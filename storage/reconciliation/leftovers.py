@@ -11,7 +11,7 @@ from jointplay.storage.catalogue.records import Job, NewJob
 from jointplay.storage.durable import PARTIAL
 from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.installation import MARK
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.reconciliation.extent import Extent
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.results import damage_of, sealed_results, verified
@@ -50,7 +50,7 @@ def left_after(
 
     Files are listed before their job is looked up: what a worker is about to write is not here.
     """
-    yield from _of_the_place(settings, catalogue, grace, extent or Extent())
+    yield from _of_the_object_store(settings, catalogue, grace, extent or Extent())
     yield from of_running_jobs(settings, catalogue, grace)
     for path in sorted(settings.data.glob("*")):
         if path.name not in _DATA:
@@ -59,11 +59,11 @@ def left_after(
             )
 
 
-def _of_the_place(
+def _of_the_object_store(
     settings: Settings, catalogue: Catalogue, grace: float, extent: Extent
 ) -> Iterator[Finding]:
-    place = settings.place
-    keys = sorted([*place.list(""), *place.cut_off("")])
+    store = settings.object_store
+    keys = sorted([*store.list(""), *store.cut_off("")])
     listed = set(keys)
     for done, key in enumerate(keys):
         if done % _TOLD == 0:
@@ -79,11 +79,11 @@ def _of_the_place(
             continue
         job = _job_of(catalogue, named["job"])
         if job is None and not key.endswith(PARTIAL):
-            yield _without_job(settings, catalogue, StoredObject(place, key), named)
+            yield _without_job(settings, catalogue, StoredObject(store, key), named)
         elif job is not None and _is_due(settings, job, key, listed):
             continue
         elif job is None or (_settled(job, catalogue, grace) and _not_due(settings, job, key)):
-            remove = partial(place.remove, key)
+            remove = partial(store.remove, key)
             yield _left("results", key, remove, needed=job is not None and _needed(settings, job))
 
 
@@ -134,10 +134,10 @@ def _not_due(settings: Settings, job: Job, key: str) -> bool:
 
 def _clear(settings: Settings, job: Job) -> None:
     """Remove what lost attempts sealed, then what shows that there is something to remove."""
-    place, prefix = settings.place, settings.results_prefix(job.id)
-    for key in [*place.list(prefix), *place.cut_off(prefix)]:
+    store, prefix = settings.object_store, settings.results_prefix(job.id)
+    for key in [*store.list(prefix), *store.cut_off(prefix)]:
         if _not_due(settings, job, key):
-            place.remove(key)
+            store.remove(key)
     settings.running_files(job.id).clear()
 
 

@@ -10,8 +10,8 @@ from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import CONTRADICTED, BlockState, Job, JobState
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.identity import growing_study, require_results_of
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation.extent import Extent, several_at_once
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.results import manifest
@@ -33,7 +33,7 @@ def damage(
     marked as damaged or not in that list, every byte is read.
     """
     extent = extent or Extent()
-    listed = {job_in(key) for key in settings.place.list("")}
+    listed = {job_in(key) for key in settings.object_store.list("")}
     ended, besides = [], []
     for job in catalogue.every_job():
         if job.state.terminal:

@@ -11,9 +11,9 @@ from jointplay.records.peak import Peak
 from jointplay.records.run import CertificateRecord
 from jointplay.records.run_rows import RunRows
 from jointplay.storage.errors import InvalidAppend, StoreExists, StoreSealed
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed import Running, pack
 from jointplay.storage.packed.running import DOCUMENTS, digest_in
-from jointplay.storage.places import StoredObject
 from jointplay.storage.results import certificate_group, manifest, metadata
 from jointplay.storage.results.growing_table import GrowingTable
 from jointplay.storage.results.intervals import intervals_table

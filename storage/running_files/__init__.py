@@ -1,4 +1,4 @@
-"""Files of a job that runs: in the data folder, or objects of the place for results.
+"""Files of a job that runs: in the data folder, or in the object store of results.
 
 A member has one file. What it must do is said by `RunningFiles`, and tested by
 `tests/storage/running_files`. Names have slashes between them, such as ``a1/rows/history-0.zip``.
@@ -7,7 +7,7 @@ A member has one file. What it must do is said by `RunningFiles`, and tested by
 from collections.abc import Hashable, Iterable, Iterator
 from typing import Protocol, Self
 
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 
 
 class RunningFiles(Protocol):

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Self
 
 from jointplay.storage import durable
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class InFolder:
     def adopt(self, name: str, source: str) -> bool:
         """Link the file to a second name."""
         found = self.object(name)
-        return found.place.adopt(found.key, source)
+        return found.object_store.adopt(found.key, source)
 
     def remove(self, name: str) -> None:
         """Delete the file."""

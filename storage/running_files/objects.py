@@ -1,4 +1,4 @@
-"""Files of a running job as objects of a place, so that no two machines need share a folder.
+"""Files of a running job in an object store, so that no two machines need share a folder.
 
 An object cannot be appended to: a file is one object or several, whose keys end with the byte of
 the file that each begins with, such as ``a1/parts/00000001+000000004096``.
@@ -8,7 +8,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Final, Self, TypeVar
 
-from jointplay.storage.places import Place, StoredObject
+from jointplay.storage.object_stores import ObjectStore, StoredObject
 
 _MOST_PIECES: Final = 16
 """Objects of one file, after which all of it is put as one again."""
@@ -17,7 +17,7 @@ Answer = TypeVar("Answer")
 
 
 @dataclass
-class InPlace:
+class InObjectStore:
     """See `storage.running_files.RunningFiles`.
 
     Those who read have one for each moment: names are those that were last listed, and, of the
@@ -29,7 +29,7 @@ class InPlace:
         Of the keys, with no slash behind it.
     """
 
-    place: Place
+    object_store: ObjectStore
     prefix: str
     _listed: set[str] | None = field(default=None, init=False, repr=False, compare=False)
 
@@ -43,7 +43,7 @@ class InPlace:
 
     def below(self, name: str) -> Self:
         """Return the files of a folder in this one."""
-        return type(self)(self.place, f"{self.prefix}/{name}")
+        return type(self)(self.object_store, f"{self.prefix}/{name}")
 
     def names(self, folder: str = "") -> Iterator[str]:
         """List the objects."""
@@ -71,14 +71,14 @@ class InPlace:
 
     def object(self, name: str) -> StoredObject:
         """Name the first piece, which is all of it."""
-        return StoredObject(self.place, self._key(name))
+        return StoredObject(self.object_store, self._key(name))
 
     def put(self, name: str, pieces: Iterable[bytes]) -> None:
         """Replace the first piece, which is all of it then."""
         known = self._known()
-        self.place.replace(self._key(name), pieces)
+        self.object_store.replace(self._key(name), pieces)
         for later in [one for one in known if _is_piece(one, name) and not one.endswith(_FIRST)]:
-            self.place.remove(f"{self.prefix}/{later}")
+            self.object_store.remove(f"{self.prefix}/{later}")
             known.discard(later)
         known.add(f"{name}{_FIRST}")
 
@@ -88,25 +88,25 @@ class InPlace:
         if offset > self._size(name):
             raise ValueError(f"{name!r} has fewer than {offset} bytes")
         if len(there) < _MOST_PIECES and offset >= there[-1][0]:
-            self.place.replace(f"{self.prefix}/{name}+{offset:012d}", pieces)
+            self.object_store.replace(f"{self.prefix}/{name}+{offset:012d}", pieces)
             self._known().add(f"{name}+{offset:012d}")
         else:
             self.put(name, [self._joined(name)[:offset], *pieces])
 
     def adopt(self, name: str, source: str) -> bool:
-        """Have the place copy the object."""
+        """Have the object store copy the object."""
         self._listed = None  # it may not have been there
-        return self.place.adopt(self._key(name), self._key(source))
+        return self.object_store.adopt(self._key(name), self._key(source))
 
     def remove(self, name: str) -> None:
         """Remove all pieces."""
         self._listed = None
-        self.place.remove(f"{self.prefix}/{name}+")
+        self.object_store.remove(f"{self.prefix}/{name}+")
 
     def clear(self) -> None:
         """Remove all objects."""
         self._listed = None
-        self.place.remove(f"{self.prefix}/")
+        self.object_store.remove(f"{self.prefix}/")
 
     def _again(self, ask: Callable[[str], Answer], name: str) -> Answer:
         """Ask again, if it is not there any more as it was listed."""
@@ -121,7 +121,7 @@ class InPlace:
 
     def _size(self, name: str) -> int:
         offset, key = self._pieces(name)[-1]
-        return offset + self.place.size(key)
+        return offset + self.object_store.size(key)
 
     def _joined(self, name: str) -> bytes:
         content = bytearray()
@@ -130,7 +130,7 @@ class InPlace:
         for (offset, key), end in zip(pieces, [*ends, None], strict=True):
             if end is not None and end <= len(content):
                 continue
-            piece = self.place.read(key, 0, self.place.size(key))
+            piece = self.object_store.read(key, 0, self.object_store.size(key))
             if offset + len(piece) > len(content):
                 del content[offset:]
                 content += piece
@@ -146,7 +146,7 @@ class InPlace:
     def _known(self) -> set[str]:
         if self._listed is None:
             begin = len(self.prefix) + 1
-            self._listed = {key[begin:] for key in self.place.list(f"{self.prefix}/")}
+            self._listed = {key[begin:] for key in self.object_store.list(f"{self.prefix}/")}
         return self._listed
 
     def _key(self, name: str) -> str:

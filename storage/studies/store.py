@@ -20,10 +20,10 @@ from jointplay.storage.errors import (
     NotAStore,
     StoreExists,
 )
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed import Running, pack
 from jointplay.storage.packed.ranges import InParts
 from jointplay.storage.packed.running import DOCUMENTS
-from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata, shards
 from jointplay.storage.studies import documents, part
 from jointplay.storage.studies.block import chunk_files, written_chunks

@@ -9,9 +9,9 @@ import httpx
 import pytest
 
 from jointplay.chaos.gate import Gate
-from jointplay.chaos.places import NotEmpty, require_empty, store_behind_gate
+from jointplay.chaos.servers import NotEmpty, require_empty, store_behind_gate
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.places import place_at
+from jointplay.storage.object_stores import object_store_at
 
 
 class Answers(socketserver.StreamRequestHandler):
@@ -56,7 +56,7 @@ def test_what_is_somebodys_is_refused(tmp_path: Path) -> None:
     catalogue = Catalogue(url)
     catalogue.migrate()
     catalogue.close()
-    place_at(address).put("2R/notes", [b"mine"])
+    object_store_at(address).put("2R/notes", [b"mine"])
     with pytest.raises(NotEmpty, match="has tables"):
         require_empty(url, "")
     with pytest.raises(NotEmpty, match="has objects"):

@@ -12,7 +12,7 @@ import yaml
 from redis.connection import parse_url
 from sqlalchemy import make_url
 
-from jointplay.storage.places import place_at
+from jointplay.storage.object_stores import object_store_at
 from jointplay.storage.settings import Settings
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -41,7 +41,7 @@ def test_the_environment_and_its_files_are_ones_that_our_processes_take(
     assert (catalogue.host, catalogue.password) == ("postgres", SECRETS["postgres"])
     assert parse_url(settings.redis_url or "")["password"] == SECRETS["redis"]
     assert os.environ["AWS_SECRET_ACCESS_KEY"] == SECRETS["s3"]
-    assert settings.place is place_at(settings.results_url)
+    assert settings.object_store is object_store_at(settings.results_url)
     assert settings.keys == "required"
     ours = {name for name in given if name.startswith("JOINTPLAY_")} - {"JOINTPLAY_SECRETS"}
     assert ours <= {f"JOINTPLAY_{field.upper()}" for field in Settings.model_fields}

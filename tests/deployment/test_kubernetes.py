@@ -15,7 +15,7 @@ from sqlalchemy import make_url
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import NewJob, Solver
-from jointplay.storage.places import place_at
+from jointplay.storage.object_stores import object_store_at
 from jointplay.storage.settings import Settings
 from jointplay.worker.own_solver import own_solver
 from tests.postgresql_server import running_server
@@ -47,7 +47,7 @@ def test_our_processes_take_their_environment_and_its_files(
     catalogue = make_url(settings.catalogue_url)
     assert (catalogue.password, catalogue.query["sslmode"]) == ("p@ss/w:rd", "verify-full")
     assert os.environ["AWS_SECRET_ACCESS_KEY"] == "p@ss/w:rd"
-    assert settings.place is place_at(CONFIGURED["JOINTPLAY_RESULTS_URL"])
+    assert settings.object_store is object_store_at(CONFIGURED["JOINTPLAY_RESULTS_URL"])
     assert (settings.keys, settings.log_format) == ("required", "json")
     known = {f"JOINTPLAY_{name.upper()}" for name in Settings.model_fields}
     assert set(CONFIGURED) - {"JOINTPLAY_SECRETS"} <= known

@@ -13,7 +13,7 @@ from jointplay.service.processes import running_service
 from jointplay.solver.kinds import admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState, JobState
-from tests.places import PLACES, places, settings_at
+from tests.backends import BACKENDS, backends, settings_at
 from tests.waiting import until
 
 LONG = {
@@ -27,14 +27,14 @@ HOLDS = 4
 """More than losses after which a block is given up."""
 
 
-@pytest.mark.parametrize("kind", PLACES)
+@pytest.mark.parametrize("kind", BACKENDS)
 def test_a_service_that_is_away_for_longer_than_leases_ends_no_job(
     tmp_path: Path, kind: str
 ) -> None:
     data = tmp_path / "data"
     environment = IMPATIENT | {"JOINTPLAY_MAX_ATTEMPTS": "3"}
     with (
-        places(kind) as variables,
+        backends(kind) as variables,
         catalogue_of(settings_at(data, variables)) as catalogue,
         running_service(data, 0, environment | variables) as url,
     ):

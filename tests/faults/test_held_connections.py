@@ -13,7 +13,7 @@ import pytest
 
 from jointplay.service.processes import connections, running_service
 from jointplay.storage.catalogue.catalogue import Catalogue
-from tests.places import PLACES, places, settings_at
+from tests.backends import BACKENDS, backends, settings_at
 from tests.waiting import until
 
 HELD = 1000
@@ -21,14 +21,14 @@ WANTED = b"GET /openapi.json HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"
 HALF = b"GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Half: "
 
 
-@pytest.fixture(scope="module", params=PLACES)
+@pytest.fixture(scope="module", params=BACKENDS)
 def keyed(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[tuple[tuple[str, int], str]]:
     """Return the address of a service that requires keys, and the header of an owner's key."""
     data: Path = tmp_path_factory.mktemp("held") / "data"
     data.mkdir()
-    with places(request.param) as variables:
+    with backends(request.param) as variables:
         with closing(Catalogue(settings_at(data, variables).catalogue_url)) as catalogue:
             catalogue.migrate()
             key, _ = catalogue.make_key("ada", ["jobs:write"], "", None)

@@ -17,7 +17,7 @@ from jointplay.client import Client
 from jointplay.local.running import run
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Job, JobState
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.settings import Settings
 from tests.stores import files_of
 from tests.waiting import until

@@ -11,7 +11,7 @@ from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Job, JobState
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute
@@ -80,7 +80,7 @@ def test_a_block_goes_on_where_its_killed_worker_left_it(
     assert outcomes[-1] == "done"
     assert_same_bits(settings, finished, undisturbed)
     until(lambda: not settings.running_folder(job).exists())
-    left = list(settings.place.list(settings.results_prefix(job)))
+    left = list(settings.object_store.list(settings.results_prefix(job)))
     assert left == [settings.sealed_run(job, finished.attempt).key]
 
 

@@ -86,5 +86,5 @@ def test_a_large_answer_of_damaged_results_is_refused_before_it_begins(tmp_path:
         entries = Packed(sealed).entries
         last = max(key for key in entries if key.startswith("rod.x/c/"))
         content[entries[last].offset + 9] ^= 1
-        sealed.place.replace(sealed.key, [bytes(content)])
+        sealed.object_store.replace(sealed.key, [bytes(content)])
         assert http.get(f"/v1/jobs/{job}/history").status_code == 410

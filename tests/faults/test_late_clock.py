@@ -11,8 +11,8 @@ from jobs import IMPATIENT, catalogue_of, ended, in_mid_block, submit
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import admit
 from jointplay.storage.catalogue.records import JobState
+from tests.backends import BACKENDS, backends, settings_at
 from tests.machines.clock import COMPILER, Clock
-from tests.places import PLACES, places, settings_at
 
 OFF = {"folder": 3600.0, "bucket": 600.0}
 """Seconds; a store refuses what was signed by a clock that is a quarter of an hour off."""
@@ -20,7 +20,7 @@ LONG = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 
 
 
 @pytest.mark.skipif(COMPILER is None, reason="clocks of programs are set by a library in C")
-@pytest.mark.parametrize("kind", PLACES)
+@pytest.mark.parametrize("kind", BACKENDS)
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_a_worker_whose_clock_is_wrong_loses_nothing(
     tmp_path: Path, kind: str, sign: float
@@ -29,7 +29,7 @@ def test_a_worker_whose_clock_is_wrong_loses_nothing(
     clock = Clock(tmp_path)
     clock.set(sign * OFF[kind])
     with (
-        places(kind) as variables,
+        backends(kind) as variables,
         catalogue_of(settings_at(data, variables)) as catalogue,
         running_service(data, 0, IMPATIENT | variables),
     ):

@@ -15,7 +15,7 @@ import pytest
 
 from jointplay.service.processes import StartFailed, running_service
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.installation import MARK, OtherFiles, require_own_files, require_places
+from jointplay.storage.installation import MARK, OtherFiles, require_own_files, require_reachable
 from jointplay.storage.settings import Settings
 from tests.postgresql_server import running_server
 from tests.seaweedfs_server import BUCKET, running_store
@@ -81,8 +81,8 @@ def test_another_folder_of_results_is_refused(tmp_path: Path) -> None:
 
         def checked(results: str) -> None:
             (tmp_path / "data").mkdir(exist_ok=True)
-            place = f"file:{tmp_path / results}"
-            require_own_files(Settings(data=tmp_path / "data", results_url=place), catalogue)
+            address = f"file:{tmp_path / results}"
+            require_own_files(Settings(data=tmp_path / "data", results_url=address), catalogue)
 
         checked("mounted")
         checked("mounted")
@@ -112,18 +112,18 @@ def test_a_disk_that_is_mounted_in_the_data_folder_is_missed(
         require_own_files(settings, catalogue)  # before anything was stored
         results.symlink_to(other_disk)
         require_own_files(settings, catalogue)
-        require_places(settings, catalogue)
+        require_reachable(settings, catalogue)
         assert (other_disk / MARK).exists()
         results.unlink()
         results.mkdir()  # where the disk would be mounted
         with pytest.raises(OtherFiles, match="results is new to this catalogue"):
             require_own_files(settings, catalogue)
         with pytest.raises(ConnectionError, match=f"not mounted at .*{results}"):
-            require_places(settings, catalogue)
+            require_reachable(settings, catalogue)
         assert not [*results.iterdir()]
         shutil.copytree(other_disk, results, dirs_exist_ok=True)  # moved to the other disk
         require_own_files(settings, catalogue)
-        require_places(settings, catalogue)
+        require_reachable(settings, catalogue)
 
 
 def test_another_bucket_is_refused_and_another_machine_is_not(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from jointplay.local.running import run
 from jointplay.service.processes import running_service
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.installation import MARK
-from jointplay.storage.places import place_at
+from jointplay.storage.object_stores import object_store_at
 from jointplay.storage.reconciliation import findings
 from jointplay.storage.settings import Settings
 from tests.postgresql_server import running_server
@@ -30,12 +30,12 @@ SWEEP = {
 @pytest.mark.long
 def test_results_are_those_of_a_local_run(tmp_path: Path) -> None:
     with running_server() as server, running_store() as endpoint:
-        places = {
+        backends = {
             "JOINTPLAY_CATALOGUE_URL": server.new("template0"),
             "JOINTPLAY_RESULTS_URL": f"s3://{BUCKET}/lab?endpoint={endpoint}",
         }
         data = tmp_path / "data"
-        with running_service(data, 2, places) as url, Client(url) as client:
+        with running_service(data, 2, backends) as url, Client(url) as client:
             job, study = client.submit(SWING).wait(), client.submit(SWEEP).wait()
             assert (job.state, study.state) == ("succeeded", "succeeded")
             assert study.points["status"].tolist() == ["done", "done"]
@@ -45,15 +45,15 @@ def test_results_are_those_of_a_local_run(tmp_path: Path) -> None:
             assert not (data / "results").exists()
             settings = Settings(
                 data=data,
-                catalogue_url=places["JOINTPLAY_CATALOGUE_URL"],
-                results_url=places["JOINTPLAY_RESULTS_URL"],
+                catalogue_url=backends["JOINTPLAY_CATALOGUE_URL"],
+                results_url=backends["JOINTPLAY_RESULTS_URL"],
                 lease=0.2,
                 heartbeat=0.1,
             )
             catalogue = Catalogue(settings.catalogue_url)
-            place = place_at(settings.results_url)
+            store = object_store_at(settings.results_url)
             keys = {settings.sealed_run(job.id, 1).key, settings.sealed_study(study.id).key}
-            assert set(place.list("")) == keys | {MARK}
+            assert set(store.list("")) == keys | {MARK}
             assert [*findings(settings, catalogue)] == []
             for one, sealed in (
                 (job, settings.sealed_run(job.id, 1)),
@@ -62,9 +62,9 @@ def test_results_are_those_of_a_local_run(tmp_path: Path) -> None:
                 verify = ["verify", one.id, "--processes", "1", "--url", url]
                 assert command(verify) == 0
                 content = sealed.read(0, sealed.size())
-                place.replace(sealed.key, [content[:-3] + bytes([content[-3] ^ 1]) + content[-2:]])
+                store.replace(sealed.key, [content[:-3] + bytes([content[-3] ^ 1]) + content[-2:]])
                 assert command(verify) == 1
-                place.replace(sealed.key, [content])
+                store.replace(sealed.key, [content])
             job.delete()
-            until(lambda: len([*place.list("")]) == len(keys))
+            until(lambda: len([*store.list("")]) == len(keys))
             catalogue.close()

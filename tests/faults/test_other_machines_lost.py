@@ -1,5 +1,5 @@
 """A machine that is lost with everything on it: another one, which shares nothing but the catalogue
-and the place for results, goes on where it was.
+and the object store, goes on where it was.
 """
 
 import os
@@ -94,7 +94,7 @@ def test_another_machine_goes_on_without_the_files_of_a_lost_one(tmp_path: Path)
                 finished = ended(catalogue, job)
                 assert (finished.state, finished.attempt) == (JobState.succeeded, 2)
                 sealed = settings.sealed_run(job, 2)
-                until(lambda: {*settings.place.list("")} == {sealed.key, MARK})
+                until(lambda: {*settings.object_store.list("")} == {sealed.key, MARK})
             catalogue.close()
         stored, expected = files_of(sealed), files_of(packed(undisturbed))
         chunks = [key for key in expected if "/c/" in key]

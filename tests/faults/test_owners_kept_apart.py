@@ -17,7 +17,7 @@ from jobs import catalogue_of
 
 from jointplay.service.checking import SHORT
 from jointplay.service.processes import running_service
-from tests.places import PLACES, places, settings_at
+from tests.backends import BACKENDS, backends, settings_at
 from tests.solver.random_mechanisms import chain
 from tests.waiting import PATIENCE, until
 
@@ -44,12 +44,12 @@ class Keyed(NamedTuple):
         return f"{asked} HTTP/1.1\r\nHost: {self.url.host}\r\n{key}\r\n".encode()
 
 
-@pytest.fixture(scope="module", params=PLACES)
+@pytest.fixture(scope="module", params=BACKENDS)
 def keyed(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Keyed]:
     data: Path = tmp_path_factory.mktemp("owners") / "data"
-    with places(request.param) as variables:
+    with backends(request.param) as variables:
         with catalogue_of(settings_at(data, variables)) as catalogue:
             keys = {one: catalogue.make_key(one, SCOPES, "", None)[0] for one in ("ada", "bob")}
         with running_service(data, 0, variables | {"JOINTPLAY_KEYS": "required"}) as url:

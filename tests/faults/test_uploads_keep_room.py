@@ -14,13 +14,13 @@ import pytest
 from jointplay.service.workers import file_body
 from jointplay.storage.settings import Settings
 from jointplay.worker.joined.protocol import DropAt
+from tests.backends import BACKENDS
 from tests.joined_by_hand import NOT_HELD, REFUSED, SWING, Held, Installation, installation, said
 
 MEGABYTE = 10**6
-PLACES = ["folder", pytest.param("bucket", marks=pytest.mark.long)]
 
 
-@pytest.fixture(params=PLACES)
+@pytest.fixture(params=BACKENDS)
 def service(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Installation]:

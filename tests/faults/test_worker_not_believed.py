@@ -14,6 +14,7 @@ from jointplay.storage.packed.reading import Packed
 from jointplay.storage.reconciliation import findings
 from jointplay.storage.results.layout import MANIFEST
 from jointplay.storage.results.manifest import listed
+from tests.backends import BACKENDS
 from tests.joined_by_hand import (
     NOT_HELD,
     REFUSED,
@@ -28,10 +29,8 @@ from tests.joined_by_hand import (
     without,
 )
 
-PLACES = ["folder", pytest.param("bucket", marks=pytest.mark.long)]
 
-
-@pytest.fixture(scope="module", params=PLACES)
+@pytest.fixture(scope="module", params=BACKENDS)
 def service(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Installation]:

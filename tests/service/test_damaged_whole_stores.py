@@ -9,8 +9,8 @@ from httpx import Client
 
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
 from jointplay.storage.settings import Settings
 from tests.seaweedfs_server import BUCKET, running_store
 from tests.service_in_thread import client_of, serving
@@ -23,11 +23,11 @@ def stored(
 ) -> Iterator[tuple[Client, str, StoredObject]]:
     data: Path = tmp_path_factory.mktemp("data")
     with ExitStack() as stack:
-        place = {}
+        stores = {}
         if request.param == "bucket":
             endpoint = stack.enter_context(running_store())
-            place = {"results_url": f"s3://{BUCKET}/damaged?endpoint={endpoint}"}
-        settings = Settings(data=data, running="data", **place)
+            stores = {"results_url": f"s3://{BUCKET}/damaged?endpoint={endpoint}"}
+        settings = Settings(data=data, running="data", **stores)
         http = stack.enter_context(client_of(stack.enter_context(serving(create_app(settings)))))
         catalogue = Catalogue(settings.catalogue_url)
         stack.callback(catalogue.close)
@@ -41,23 +41,23 @@ def test_no_damaged_byte_is_sent(stored: tuple[Client, str, StoredObject]) -> No
     content = sealed.read(0, sealed.size())
     assert http.get(address).content == content
     entries = Packed(sealed).entries
-    places = {0: "the first header", len(content) - 40: "the directory"}
+    offsets = {0: "the first header", len(content) - 40: "the directory"}
     for key in (*list(entries)[::9], list(entries)[-1]):
-        places[entries[key].offset + entries[key].size // 2] = f"content of {key}"
-        places[entries[key].offset - 1] = f"name of {key}"
+        offsets[entries[key].offset + entries[key].size // 2] = f"content of {key}"
+        offsets[entries[key].offset - 1] = f"name of {key}"
     try:
-        for place, name in places.items():
+        for offset, name in offsets.items():
             damaged = bytearray(content)
-            damaged[place] ^= 4
-            sealed.place.replace(sealed.key, [bytes(damaged)])
+            damaged[offset] ^= 4
+            sealed.object_store.replace(sealed.key, [bytes(damaged)])
             answer = http.get(address)
             assert answer.status_code == 410, name
             assert answer.json()["type"] == "/problems/damaged-results"
             if not name.startswith("the directory"):
-                part = {"Range": f"bytes={place}-{place}"}
+                part = {"Range": f"bytes={offset}-{offset}"}
                 assert http.get(address, headers=part).status_code == 410, name
     finally:
-        sealed.place.replace(sealed.key, [content])
+        sealed.object_store.replace(sealed.key, [content])
     assert http.get(address).content == content
 
 
@@ -67,10 +67,10 @@ def test_a_range_apart_from_a_damage_is_sent(stored: tuple[Client, str, StoredOb
     first, *_, last = Packed(sealed).entries.values()
     damaged = bytearray(content)
     damaged[last.offset] ^= 4
-    sealed.place.replace(sealed.key, [bytes(damaged)])
+    sealed.object_store.replace(sealed.key, [bytes(damaged)])
     try:
         part = {"Range": f"bytes=0-{first.offset}"}
         answer = http.get(f"/v1/jobs/{job}/zarr.zip", headers=part)
         assert (answer.status_code, answer.content) == (206, content[: first.offset + 1])
     finally:
-        sealed.place.replace(sealed.key, [content])
+        sealed.object_store.replace(sealed.key, [content])

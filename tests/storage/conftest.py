@@ -24,4 +24,4 @@ def endpoint() -> Iterator[str]:
 @pytest.fixture(scope="session")
 def new_address(endpoint: str) -> Callable[[], str]:
     number = itertools.count()
-    return lambda: f"s3://{BUCKET}/place{next(number)}?endpoint={endpoint}"
+    return lambda: f"s3://{BUCKET}/store{next(number)}?endpoint={endpoint}"

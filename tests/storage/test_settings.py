@@ -44,7 +44,7 @@ def test_running_jobs_are_those_of_whose_files_there_are_some(tmp_path: Path) ->
     job = "01KZJ9W6P1M3QX8Y5T7R4B9C2R"
     here = Settings(data=tmp_path, running="results", results_url=f"file:{tmp_path}/results")
     for key in ("running/read-me", "running/2R/read-me", f"running/2R/{job}/a1/documents.zip"):
-        here.place.replace(key, [b"anything"])
+        here.object_store.replace(key, [b"anything"])
     assert here.running_jobs() == [job]
 
 

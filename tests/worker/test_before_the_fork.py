@@ -9,7 +9,7 @@ from pathlib import Path
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.installation import MARK
-from jointplay.storage.places import place_at
+from jointplay.storage.object_stores import object_store_at
 from tests.seaweedfs_server import BUCKET, running_store
 
 STARTING = """
@@ -37,4 +37,4 @@ def test_no_thread_is_left_of_a_look_at_a_bucket(tmp_path: Path) -> None:
         command = [sys.executable, "-P", "-c", STARTING]
         done = subprocess.run(command, env=os.environ | own, capture_output=True, text=True)
         assert done.stdout.strip() == "1 []", done.stderr
-        assert place_at(results).read(MARK, 0, 64)  # it was looked at
+        assert object_store_at(results).read(MARK, 0, 64)  # it was looked at

@@ -26,7 +26,7 @@ class Left:
 
     def is_left(self) -> list[bool]:
         lost = self.settings.sealed_run(self.job, 1)
-        partial = self.settings.place.cut_off(self.settings.results_prefix(self.job))
+        partial = self.settings.object_store.cut_off(self.settings.results_prefix(self.job))
         return [lost.exists(), self.settings.running_folder(self.job).exists(), any(partial)]
 
 
@@ -50,8 +50,8 @@ def leave(catalogue: Catalogue, settings: Settings) -> Left:
     catalogue.finish(f"{job}-0", 2, BlockEnd(BlockState.done))
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "late").write_bytes(b"late")
-    place, key = settings.place, sealed.key
-    place.replace(f"{key}.0123abcd{PARTIAL}", [b"of a worker that was killed while it sealed"])
+    store, key = settings.object_store, sealed.key
+    store.replace(f"{key}.0123abcd{PARTIAL}", [b"of a worker that was killed while it sealed"])
     return Left(job, settings)
 
 
@@ -73,7 +73,7 @@ def test_who_ends_a_job_removes_what_was_left(catalogue: Catalogue, left: Left) 
 
 def test_what_is_left_stays_where_the_results_are_damaged(catalogue: Catalogue, left: Left) -> None:
     sealed = left.settings.sealed_run(left.job, 2)
-    sealed.place.replace(sealed.key, [b"damaged"])
+    sealed.object_store.replace(sealed.key, [b"damaged"])
     assert clear_up(catalogue, left.settings.model_copy(update={"lease": 0.0})) == 0
     assert left.is_left() == [True, True, True]
 

@@ -58,7 +58,9 @@ class Attempt:
         return b"".join(AttemptFiles(self.settings, self.block).read(name))
 
     def objects(self) -> list[str]:
-        return sorted(self.settings.place.list(f"running/{self.block.job[-2:]}/{self.block.job}/"))
+        return sorted(
+            self.settings.object_store.list(f"running/{self.block.job[-2:]}/{self.block.job}/")
+        )
 
 
 @pytest.fixture(scope="module")

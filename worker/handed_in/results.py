@@ -11,9 +11,9 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Block, BlockState, Job
 from jointplay.storage.errors import CorruptStore, NotAStore, ResultsError
 from jointplay.storage.identity import require_results_of
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed.ranges import Ranges
 from jointplay.storage.packed.reading import Packed
-from jointplay.storage.places import StoredObject
 from jointplay.storage.results.examination import ODD, opened
 from jointplay.storage.results.examined_run import examined_run
 from jointplay.storage.results.layout import MANIFEST, ResultLayout
@@ -60,7 +60,7 @@ def _remove(settings: Settings, job: Job, block: Block) -> None:
         for name in [*files.own_sealed()]:
             sealed = files.sealed(name)
             if sealed is not None and names.writes(name, job, block, expected):
-                sealed.place.remove(sealed.key)
+                sealed.object_store.remove(sealed.key)
         for name in [*files.running.names()]:
             if names.removes(name, job, block, expected):
                 files.running.remove(name)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Final
 
 from jointplay.records.job import JobError
 from jointplay.storage import durable
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.worker.local.folder import OUTCOME_FILE, STORE, holding, write_job
 from jointplay.worker.local.interruption import interruption
 from jointplay.worker.transient_faults import is_full

@@ -9,8 +9,8 @@ from typing import Any
 
 from jointplay.storage import durable
 from jointplay.storage.errors import CorruptStore, NotAStore
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.results import verified
 from jointplay.worker.local.ending import ended

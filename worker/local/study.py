@@ -14,7 +14,7 @@ from jointplay.worker.local.study_of import study_of
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Study
-    from jointplay.storage.places import StoredObject
+    from jointplay.storage.object_stores import StoredObject
     from jointplay.storage.studies.layout import StudyLayout
     from jointplay.worker.execute import Outcome, Progress
     from jointplay.worker.local.devices import Lanes

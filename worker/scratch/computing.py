@@ -11,7 +11,7 @@ from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Claim
-from jointplay.storage.installation import require_places
+from jointplay.storage.installation import require_reachable
 from jointplay.storage.settings import Settings
 from jointplay.worker.block_run import ASK_AGAIN, BlockRun
 from jointplay.worker.removal import withdraw
@@ -30,7 +30,7 @@ def compute(
         with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
             _compute_in(Path(folder), catalogue, settings, claim, draining)
     else:
-        there = partial(require_places, settings, catalogue)
+        there = partial(require_reachable, settings, catalogue)
         BlockRun(catalogue, settings, claim, draining, there).run()
 
 
@@ -44,7 +44,7 @@ def _compute_in(
     block = claim.block
     here = settings.model_copy(update={"data": folder, "running": "data"})
     scratch = Scratch(AttemptFiles(settings, block), here, block)
-    there = partial(require_places, settings, catalogue)
+    there = partial(require_reachable, settings, catalogue)
     beat = partial(catalogue.heartbeat, block.id, block.attempt, settings.lease)
     with about(job=block.job, block=block.id, attempt=block.attempt):
         try:

@@ -12,8 +12,8 @@ from typing import Final, NamedTuple, Protocol, Self
 from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.storage.catalogue.errors import CatalogueError
 from jointplay.storage.catalogue.records import Block
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed.running import DOCUMENTS, PARTS, ROWS
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.settings import Settings
 
 _PIECE: Final = 2**20
@@ -181,8 +181,8 @@ class Scratch:
         """Send the sealed results of this attempt, if there are any and they are here."""
         for name in self._files.own_sealed():
             sealed = self._files.sealed(name)
-            if sealed is not None and isinstance(sealed.place, Folder):
-                with _File(Path(sealed.place.root) / sealed.key) as file:
+            if sealed is not None and isinstance(sealed.object_store, Folder):
+                with _File(Path(sealed.object_store.root) / sealed.key) as file:
                     self._elsewhere.put(name, _Pieces(file, 0, file.size))
 
     def _send(self, name: str, file: "_File") -> None:

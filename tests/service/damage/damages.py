@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Final
 
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed import Packed, Running
 from jointplay.storage.packed.running import PARTS, ROWS
-from jointplay.storage.places import StoredObject
 from tests.service.damage.subjects import File, Subject
 
 WHOLE: Final = ("flip directory", "flip end", "truncate", "empty", "remove", "swap")
@@ -71,9 +71,9 @@ def content_of(stored: StoredObject) -> bytes:
 def put(stored: StoredObject, content: bytes | None) -> None:
     """Give an object these bytes; None: remove it."""
     if content is None:
-        stored.place.remove(stored.key)
+        stored.object_store.remove(stored.key)
     else:
-        stored.place.replace(stored.key, [content])
+        stored.object_store.replace(stored.key, [content])
 
 
 def _places(

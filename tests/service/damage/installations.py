@@ -50,7 +50,7 @@ def in_bucket(folder: Path) -> Iterator[Installation]:
             yield made
 
 
-PLACES = {"folder": in_folder, "bucket": in_bucket}
+BACKENDS = {"folder": in_folder, "bucket": in_bucket}
 
 
 @contextmanager

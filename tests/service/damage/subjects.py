@@ -16,7 +16,7 @@ from jointplay.records.run_rows import RunRows
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState, Claim
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.results.layout import Partition, ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from jointplay.storage.running_files import RunningFiles

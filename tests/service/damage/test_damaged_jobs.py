@@ -9,9 +9,9 @@ import zarr
 
 from jointplay import figures
 from jointplay.storage.installation import MARK
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.reader import StudyReader
 from tests.worker_by_hand import BIFURCATION, Worker

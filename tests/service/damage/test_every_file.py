@@ -13,7 +13,7 @@ import pytest
 
 from tests.sampled import sampled
 from tests.service.damage.damages import WHOLE, Damage, content_of, damages, put
-from tests.service.damage.installations import PLACES, Installation
+from tests.service.damage.installations import BACKENDS, Installation
 from tests.service.damage.readings import Denied, Reading, readings
 from tests.service.damage.subjects import KINDS
 from tests.service.damage.table import Outcome, Table, outcome_of
@@ -28,13 +28,13 @@ pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
 def installation(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Installation]:
-    with PLACES[request.param](tmp_path_factory.mktemp("damaged")) as made:
+    with BACKENDS[request.param](tmp_path_factory.mktemp("damaged")) as made:
         yield made
 
 
 @pytest.fixture(scope="module")
 def table(installation: Installation, request: pytest.FixtureRequest) -> Iterator[Table]:
-    """Counts of one place."""
+    """Counts of one installation."""
     table = Table()
     yield table
     print("\n" + "\n".join(table.lines()))  # noqa: T201 - shown by -s
@@ -125,7 +125,7 @@ def test_nothing_is_served_from_a_bucket_that_was_not_stored(striker: Striker, k
 
 @pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("installation", PLACES, indirect=True)
+@pytest.mark.parametrize("installation", BACKENDS, indirect=True)
 def test_nothing_is_served_that_was_not_stored_whatever_is_done(
     striker: Striker, kind: str
 ) -> None:

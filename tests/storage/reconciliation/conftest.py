@@ -15,7 +15,7 @@ SAMPLE = 12
 
 @pytest.fixture(params=["in_a_folder", "in_servers"])
 def installed(request: pytest.FixtureRequest) -> Installed:
-    """An installation with catalogue and results in the places of this run of the test."""
+    """An installation with catalogue and results in the stores of this run of the test."""
     made: Installed = request.getfixturevalue(request.param)
     return made
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 
 Harm = Callable[..., None]
 
@@ -12,7 +12,7 @@ def content_of(stored: StoredObject) -> bytes:
 
 
 def write(stored: StoredObject, content: bytes) -> None:
-    stored.place.replace(stored.key, [content])
+    stored.object_store.replace(stored.key, [content])
 
 
 def flip(stored: StoredObject, _: StoredObject | None = None) -> None:
@@ -30,7 +30,7 @@ def empty(stored: StoredObject, _: StoredObject | None = None) -> None:
 
 
 def remove(stored: StoredObject, _: StoredObject | None = None) -> None:
-    stored.place.remove(stored.key)
+    stored.object_store.remove(stored.key)
 
 
 def swap(stored: StoredObject, other: StoredObject) -> None:

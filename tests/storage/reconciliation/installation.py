@@ -1,4 +1,4 @@
-"""An installation with jobs in every state, as workers leave them, in either kind of place."""
+"""An installation with jobs in every state, as workers leave them, in a folder or a bucket."""
 
 import shutil
 import time
@@ -17,7 +17,7 @@ from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockEnd, BlockState, Claim, NewJob
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.reconciliation import Finding, findings
 from jointplay.storage.running_files import RunningFiles
 from jointplay.storage.settings import Settings
@@ -120,13 +120,13 @@ class Installed:
         shutil.rmtree(self.settings.running_folder(job))
 
     def sealed(self, label: str) -> StoredObject:
-        place = self.settings.place
-        return StoredObject(place, min(place.list(self.settings.results_prefix(self.jobs[label]))))
+        store = self.settings.object_store
+        return StoredObject(store, min(store.list(self.settings.results_prefix(self.jobs[label]))))
 
     def every_object(self) -> dict[str, StoredObject]:
         """Return all that is stored of jobs, by name."""
-        place = self.settings.place
-        found = {key: StoredObject(place, key) for key in place.list("")}
+        store = self.settings.object_store
+        found = {key: StoredObject(store, key) for key in store.list("")}
         for label in self.jobs:
             files = self.running(label)
             found |= {f"{label} {name}": files.object(name) for name in files.names()}
@@ -210,9 +210,9 @@ def in_servers(
     with opened(tmp_path / "data", catalogue_url=database, results_url=new_address()) as copy:
         before = Settings(data=folder)
         copy_rows(before.catalogue_url, database)
-        for key in before.place.list(""):
-            content = before.place.read(key, 0, before.place.size(key))
-            copy.settings.place.put(key, [content])
+        for key in before.object_store.list(""):
+            content = before.object_store.read(key, 0, before.object_store.size(key))
+            copy.settings.object_store.put(key, [content])
         for job in jobs.values():
             files = before.running_files(job)
             for name in files.names():
@@ -239,8 +239,8 @@ def engine_at(url: str) -> Engine:
 
 
 @contextmanager
-def opened(data: Path, **places: str) -> Iterator[Installed]:
-    settings = Settings(data=data, heartbeat=0.05, reserve=0, **places)
+def opened(data: Path, **addresses: str) -> Iterator[Installed]:
+    settings = Settings(data=data, heartbeat=0.05, reserve=0, **addresses)
     clock = Clock()
     catalogue = Catalogue(settings.catalogue_url, clock=clock)
     yield Installed(settings, catalogue, clock)

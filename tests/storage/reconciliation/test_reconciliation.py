@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from jointplay.storage.catalogue.records import BlockState
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.reconciliation import findings, rows
 from tests.storage.reconciliation.harms import Harm, content_of, flip, remove
 from tests.storage.reconciliation.installation import RUN, Installed
@@ -31,13 +31,13 @@ def restore(installed: Installed) -> None:
 
 def leave_a_fenced_attempt(installed: Installed) -> None:
     sealed = installed.sealed("succeeded")
-    sealed.place.put(sealed.key.replace("-a1", "-a2"), [content_of(sealed)])
+    sealed.object_store.put(sealed.key.replace("-a1", "-a2"), [content_of(sealed)])
 
 
 def leave_a_run_beside_a_study(installed: Installed) -> None:
     job = installed.catalogue.get(installed.jobs["swept"])
     late = installed.settings.sealed_run(job.id, job.attempt)
-    late.place.put(late.key, [content_of(installed.sealed("succeeded"))])
+    late.object_store.put(late.key, [content_of(installed.sealed("succeeded"))])
 
 
 def leave_a_partial_result(installed: Installed) -> None:
@@ -192,7 +192,7 @@ def test_a_job_that_is_made_again_is_kept_as_one_that_is_submitted_now(
 
 def test_results_that_a_user_put_there_are_left_to_him(installed: Installed) -> None:
     sealed = installed.sealed("succeeded")
-    copy = StoredObject(sealed.place, f"{sealed.key}.bak")
+    copy = StoredObject(sealed.object_store, f"{sealed.key}.bak")
     copy.put([content_of(sealed)])
     (installed.settings.data / "notes").write_text("mine")
     found = installed.mend()

@@ -59,7 +59,7 @@ def test_a_dump_and_a_copy_of_the_bucket_are_the_whole_installation(
     )
     postgresql.client("pg_restore", f"--dbname={url}", "--exit-on-error", str(dump))
     objects = copied(endpoint, in_servers.settings.results_url, address)
-    in_servers.settings.place.remove("")
+    in_servers.settings.object_store.remove("")
     assert in_servers.look()
 
     empty = tmp_path / "elsewhere"
@@ -79,7 +79,7 @@ def test_a_dump_and_a_copy_of_the_bucket_are_the_whole_installation(
     sealed = [key for key in objects if key.endswith(".zarr.zip")]
     assert len(sealed) == 3
     for key in sealed:
-        content = settings.place.read(key, 0, settings.place.size(key))
+        content = settings.object_store.read(key, 0, settings.object_store.size(key))
         before, after = (arrays_in(one, tmp_path / "a.zip") for one in (objects[key], content))
         assert before.keys() == after.keys()
         assert len(before) > 5

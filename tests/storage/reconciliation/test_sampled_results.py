@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 import pytest
 
-from jointplay.storage.places import StoredObject
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.reconciliation import Extent, Finding, extent, findings, results
 from tests.storage.reconciliation.harms import flip, remove
 from tests.storage.reconciliation.installation import Installed

@@ -16,8 +16,8 @@ from made_up_runs import (
 )
 
 from jointplay.storage.errors import CorruptStore
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed import pack
-from jointplay.storage.places import StoredObject
 from jointplay.storage.results import shards
 from jointplay.storage.results.examined_run import examined_run
 from jointplay.storage.results.layout import MANIFEST, Partition

@@ -22,8 +22,8 @@ from made_up_runs import (
 )
 
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore, StoreExists
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.results.layout import Partition
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.writer import ResultWriter
@@ -144,10 +144,10 @@ def test_a_kill_amid_sealing_leaves_the_checkpoint_valid(tmp_path, monkeypatch, 
     run.append(writer, 0.0, 1.0)
     checkpoint = writer.checkpoint()
     monkeypatch.setattr(HalfWay, "survived", survived)
-    place = StoredObject(HalfWay(str(tmp_path)), "a1.zip")
+    target = StoredObject(HalfWay(str(tmp_path)), "a1.zip")
     with pytest.raises(Killed):
-        writer.seal(place, peaks=run.peaks, summary={"steps": 3})
-    assert not place.exists()
+        writer.seal(target, peaks=run.peaks, summary={"steps": 3})
+    assert not target.exists()
     resumed = ResultWriter.resume(
         tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
     )

@@ -4,9 +4,9 @@ from abc import ABC, abstractmethod
 
 import pytest
 
-from jointplay.storage.places import Place
+from jointplay.storage.object_stores import ObjectStore
 from jointplay.storage.running_files import RunningFiles
-from jointplay.storage.running_files.objects import InPlace
+from jointplay.storage.running_files.objects import InObjectStore
 
 ROWS = "a1/rows/history-0.zip"
 JOURNAL = "a1/parts/00000001"
@@ -125,18 +125,18 @@ class RunningFilesContract(ABC):
         files.clear()
 
 
-class InPlaceContract(RunningFilesContract):
-    """The contract, in some place."""
+class InObjectStoreContract(RunningFilesContract):
+    """The contract, in some object store."""
 
-    place: Place
+    object_store: ObjectStore
     prefix: str
 
     def opened(self) -> RunningFiles:
-        return InPlace(self.place, self.prefix)
+        return InObjectStore(self.object_store, self.prefix)
 
     def raw(self) -> dict[str, bytes]:
-        keys = self.place.list(f"{self.prefix}/")
-        return {key: self.place.read(key, 0, self.place.size(key)) for key in keys}
+        keys = self.object_store.list(f"{self.prefix}/")
+        return {key: self.object_store.read(key, 0, self.object_store.size(key)) for key in keys}
 
     def test_a_reader_who_listed_a_file_before_it_was_joined_reads_all_of_it(self) -> None:
         files, reader = self.opened(), self.opened()
@@ -147,7 +147,7 @@ class InPlaceContract(RunningFilesContract):
         assert reader.read(JOURNAL) == b"begin more and more"
 
     def test_other_jobs_files_are_left_alone(self) -> None:
-        other = InPlace(self.place, f"{self.prefix}-other")
+        other = InObjectStore(self.object_store, f"{self.prefix}-other")
         other.put("a1", [b"x"])
         self.opened().put("a1", [b"y"])
         self.opened().clear()

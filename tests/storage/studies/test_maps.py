@@ -13,9 +13,9 @@ from zarr.storage import MemoryStore
 
 from jointplay.records.coarse_to_fine import coarse_to_fine
 from jointplay.storage.errors import CorruptStore, InvalidAppend, InvalidLayout
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed import Running, pack
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.results import manifest
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.cut import bands, chunk_shape, chunks

@@ -11,9 +11,9 @@ from zarr.storage import ZipStore
 from jointplay.records.channel import Channel
 from jointplay.records.point import Failure
 from jointplay.storage.errors import CorruptStore, InvalidLayout, NotAStore, UnknownChannel
+from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed import Packed, Running, files_at, pack
-from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.live import LiveStudy
 from jointplay.storage.studies.reader import StudyReader

@@ -87,7 +87,7 @@ def test_results_that_cannot_be_written_are_tried_again(
     job = submit(catalogue, admission)
     run(catalogue, settings, f"{job}-0")
     waiting = catalogue.get(job)
-    assert (waiting.state, waiting.activity) == (JobState.running, "waiting for the results' place")
+    assert (waiting.state, waiting.activity) == (JobState.running, "waiting for the object store")
     assert [block.losses for block in catalogue.blocks(job)] == [0]
     assert catalogue.blocks(job)[0].state is BlockState.queued
     (settings.data / "results").unlink()
@@ -136,7 +136,7 @@ def test_nothing_is_computed_while_the_disk_for_results_is_not_mounted(
         compute(catalogue, mounted, claim, threading.Event())
 
     tried()
-    assert catalogue.get(job).activity == "waiting for the results' place"
+    assert catalogue.get(job).activity == "waiting for the object store"
     assert not mounted.running_folder(job).exists()
     mount(disk)
     tried()

@@ -1,4 +1,4 @@
-"""Blocks that are computed in a folder of their own: what others need is in the place for results.
+"""Blocks that are computed in a folder of their own: what others need is in the object store.
 
 Each attempt's folder goes when it ends, as it would with its machine.
 """
@@ -20,8 +20,8 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Block, BlockState, JobState, NewJob, Verdict
 from jointplay.storage.identity import growing_study
 from jointplay.storage.installation import MARK
+from jointplay.storage.object_stores import ObjectStore, StoredObject
 from jointplay.storage.packed.reading import Packed
-from jointplay.storage.places import Place, StoredObject
 from jointplay.storage.reconciliation.leftovers import left_after
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
@@ -148,16 +148,16 @@ def test_workers_that_know_the_service_alone_go_on_from_one_another_in_its_place
             assert work(first, first.away, None) == 1
         (block,) = catalogue.blocks(job)
         assert (block.state, block.checkpoint is not None) == (BlockState.queued, True)
-        assert [*settings.place.list("running/")]
+        assert [*settings.object_store.list("running/")]
         assert not settings.running_folder(job).exists()
         with closing(Connection(url, None)) as second:
             assert work(second, threading.Event(), 0.5) == 1
     ended = catalogue.get(job)
     assert (ended.state, ended.attempt) == (JobState.succeeded, 2)
     assert chunks(settings.sealed_run(job, 2)) == chunks(undisturbed)
-    left = {*settings.place.list("")} - {"installation"}  # whose catalogue it belongs to
+    left = {*settings.object_store.list("")} - {"installation"}  # whose catalogue it belongs to
     assert left == {settings.sealed_run(job, 2).key}
-    settings.place.remove(settings.results_prefix(job))
+    settings.object_store.remove(settings.results_prefix(job))
 
 
 def test_another_machine_goes_on_from_what_a_lost_one_had_sent(
@@ -170,7 +170,9 @@ def test_another_machine_goes_on_from_what_a_lost_one_had_sent(
         attempt(losing, short, f"{job}-0")
     losing.close()
     assert not settings.running_folder(job).exists()
-    assert all("rows/" not in key or "/a1/" in key for key in settings.place.list("running/"))
+    assert all(
+        "rows/" not in key or "/a1/" in key for key in settings.object_store.list("running/")
+    )
     (block,) = catalogue.blocks(job)
     growing = ResultReader(settings.running_run(job, 1), block.watermark)
     expected = ResultReader(undisturbed)
@@ -185,14 +187,14 @@ def test_another_machine_goes_on_from_what_a_lost_one_had_sent(
     assert stored == chunks(undisturbed)
     assert len(stored) > 20
     assert sealed_run(settings, ended).attributes["summary"]["steps"] == ended.steps
-    left = {*settings.place.list("")} - {"installation"}  # whose catalogue it belongs to
+    left = {*settings.object_store.list("")} - {"installation"}  # whose catalogue it belongs to
     assert left == {settings.sealed_run(job, 2).key}
-    settings.place.remove(settings.results_prefix(job))
+    settings.object_store.remove(settings.results_prefix(job))
 
 
-def kept_in(place: Place) -> list[str]:
-    """List the objects of a place but the mark of its installation, which a bucket has."""
-    return [key for key in place.list("") if key != MARK]
+def kept_in(store: ObjectStore) -> list[str]:
+    """List the objects of an object store but the mark of its installation, which a bucket has."""
+    return [key for key in store.list("") if key != MARK]
 
 
 def test_blocks_of_a_study_meet_in_the_place_for_results(
@@ -209,21 +211,21 @@ def test_blocks_of_a_study_meet_in_the_place_for_results(
     reader = StudyReader(Packed(settings.sealed_study(study)))
     reader.verify()
     np.testing.assert_array_equal(reader.peaks("displacement"), growing.peaks("displacement"))
-    assert kept_in(settings.place) == [settings.sealed_study(study).key]
-    settings.place.remove(settings.results_prefix(study))
+    assert kept_in(settings.object_store) == [settings.sealed_study(study).key]
+    settings.object_store.remove(settings.results_prefix(study))
 
 
 def test_what_a_short_run_needs_is_one_object(settings: Settings, catalogue: Catalogue) -> None:
     patient = settings.model_copy(update={"progress_period": 600.0})
     put: list[str] = []
-    place = settings.place
+    store = settings.object_store
     job = submit(catalogue, JOB | {"duration": 4.0})
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(type(place), "replace", lambda *given: put.append(given[1]))
+        patch.setattr(type(store), "replace", lambda *given: put.append(given[1]))
         attempt(catalogue, patient, f"{job}-0")
     assert put == []
-    assert kept_in(place) == [settings.sealed_run(job, 1).key]
-    place.remove(settings.results_prefix(job))
+    assert kept_in(store) == [settings.sealed_run(job, 1).key]
+    store.remove(settings.results_prefix(job))
 
 
 def test_what_a_late_attempt_left_is_found_and_removed(
@@ -240,5 +242,5 @@ def test_what_a_late_attempt_left_is_found_and_removed(
     assert mend is not None
     mend()
     settings.running_files("0" * 26).clear()
-    assert kept_in(settings.place) == [settings.sealed_run(job, 1).key]
-    settings.place.remove(settings.results_prefix(job))
+    assert kept_in(settings.object_store) == [settings.sealed_run(job, 1).key]
+    settings.object_store.remove(settings.results_prefix(job))

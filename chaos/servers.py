@@ -10,25 +10,25 @@ from sqlalchemy import make_url
 
 from jointplay.chaos.gate import Gate
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.places import place_at
+from jointplay.storage.object_stores import object_store_at
 
 _PORT: Final = 5432  # of PostgreSQL, where the address names none
 
 
 class NotEmpty(Exception):
-    """A place that a campaign was given is somebody's, or cannot be reached."""
+    """A server's store that a campaign was given is somebody's, or cannot be reached."""
 
 
 def require_empty(catalogue_url: str, results_url: str) -> None:
-    """Refuse a database that has tables, and a place that has objects, with NotEmpty."""
+    """Refuse a database that has tables, and an object store that has objects, with NotEmpty."""
     if catalogue_url:
         catalogue = Catalogue(catalogue_url)
         found = ", ".join(catalogue.flaws()) or "has tables"
         catalogue.close()
         if not found.startswith("has no tables"):
             raise NotEmpty(f"--catalogue {found}; give the address of an empty database")
-    if results_url and any(True for _ in place_at(results_url).list("")):
-        raise NotEmpty("--results has objects; give the address of an empty place")
+    if results_url and any(True for _ in object_store_at(results_url).list("")):
+        raise NotEmpty("--results has objects; give the address of an empty one")
 
 
 def database_behind_gate(url: str) -> tuple[str, Gate | None]:

@@ -1,4 +1,4 @@
-"""A place for results from outside: one SQLite file, one class and one roster line."""
+"""An object store from outside: one SQLite file, one class and one roster line."""
 
 import math
 import sqlite3
@@ -14,11 +14,12 @@ import xarray
 from jointplay.client import Client
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.places import PLACES, Place
+from jointplay.storage.installation import MARK
+from jointplay.storage.object_stores import OBJECT_STORES, ObjectStore
 from jointplay.storage.settings import Settings
 from tests.seams.conftest import Platform
 from tests.service_in_thread import serving
-from tests.storage.places.contract import PlaceContract
+from tests.storage.object_stores.contract import ObjectStoreContract
 
 SWING = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 2.0}
 SWEEP = {
@@ -96,28 +97,28 @@ class OneDatabase:
         return bytes(rows[0][0])
 
 
-class TestOneDatabase(PlaceContract):
-    """It does what every place must."""
+class TestOneDatabase(ObjectStoreContract):
+    """It does what every object store must."""
 
     @pytest.fixture
-    def place(self, tmp_path: Path) -> Place:
+    def object_store(self, tmp_path: Path) -> ObjectStore:
         return OneDatabase(str(tmp_path / "results.sqlite"))
 
-    def raw_get(self, place: Place, key: str) -> bytes | None:
-        assert isinstance(place, OneDatabase)
-        rows = place.ask("SELECT content FROM objects WHERE key = ?", key)
+    def raw_get(self, object_store: ObjectStore, key: str) -> bytes | None:
+        assert isinstance(object_store, OneDatabase)
+        rows = object_store.ask("SELECT content FROM objects WHERE key = ?", key)
         return rows[0][0] if rows else None
 
-    def raw_set(self, place: Place, key: str, content: bytes) -> None:
-        assert isinstance(place, OneDatabase)
-        place.ask("INSERT OR REPLACE INTO objects VALUES (?, ?)", key, content)
+    def raw_set(self, object_store: ObjectStore, key: str, content: bytes) -> None:
+        assert isinstance(object_store, OneDatabase)
+        object_store.ask("INSERT OR REPLACE INTO objects VALUES (?, ?)", key, content)
 
 
 @pytest.fixture(scope="module")
 def platform(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Platform]:
-    """A service whose settings name the new place."""
+    """A service whose settings name the new object store."""
     data = tmp_path_factory.mktemp("data")
-    PLACES["sqlite"] = OneDatabase
+    OBJECT_STORES["sqlite"] = OneDatabase
     try:
         settings = Settings(data=data, results_url=f"sqlite:{data}/results.sqlite")
         with serving(create_app(settings)) as url, Client(url) as client:
@@ -125,13 +126,13 @@ def platform(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Platform]:
             yield Platform(client, catalogue, settings)
             catalogue.close()
     finally:
-        del PLACES["sqlite"]
+        del OBJECT_STORES["sqlite"]
 
 
 def test_a_simulation_is_stored_there_and_read_from_there(platform: Platform) -> None:
     job = platform.computed(SWING)
     assert job.state == "succeeded"
-    stored = {*platform.settings.place.list("")} - {"installation"}  # whose catalogue it belongs to
+    stored = {*platform.settings.object_store.list("")} - {MARK}
     assert stored == {platform.settings.sealed_run(job.id, 1).key}
     assert not (platform.settings.data / "results").exists()
     window = job.window("rod.theta")
@@ -154,5 +155,5 @@ def test_results_go_with_their_job(platform: Platform) -> None:
     job = platform.computed(SWING | {"duration": 1.0})
     sealed = platform.settings.sealed_run(job.id, 1)
     assert sealed.exists()
-    sealed.place.remove(platform.settings.results_prefix(job.id))
+    sealed.object_store.remove(platform.settings.results_prefix(job.id))
     assert not sealed.exists()

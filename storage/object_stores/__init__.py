@@ -1,9 +1,9 @@
-"""Places for results: where sealed stores are kept, each as one object under a key.
+"""Object stores of results: where sealed stores are kept, each as one object under a key.
 
-A place is a family member with one file and one line in `PLACES`; what it must do is said by
-`Place` and tested by `tests/storage/places/contract.py`. Its verbs are those of an object store:
-objects are put whole, once, and read by ranges; none is renamed or appended to. Only what a running
-job needs is replaced; see `storage.running_files`.
+Each is a family member with one file and one line in `OBJECT_STORES`; what it must do is said by
+`ObjectStore` and tested by `tests/storage/object_stores/contract.py`: objects are put whole, once,
+and read by ranges; none is renamed or appended to. Only what a running job needs is replaced; see
+`storage.running_files`.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, Protocol
 
-from jointplay.storage.places.folder import Folder
-from jointplay.storage.places.s3 import Bucket
+from jointplay.storage.object_stores.folder import Folder
+from jointplay.storage.object_stores.s3 import Bucket
 
 
-class Place(Protocol):
+class ObjectStore(Protocol):
     """Objects by key; keys are names with slashes between them, as those of files."""
 
     @property
@@ -67,7 +67,7 @@ class Place(Protocol):
     def entity_tag(self, key: str) -> str | None:
         """Return what the server says of an object's bytes, in most stores their MD5 in hex.
 
-        None: the place has no server, or no such object.
+        None: the store has no server, or no such object.
         """
         ...
 
@@ -98,60 +98,60 @@ class Place(Protocol):
     def link(self, key: str, endpoint: str, seconds: float) -> str | None:
         """Sign an address below `endpoint` at which anyone may GET an object, for some time.
 
-        None: the place answers no requests.
+        None: the store answers no requests.
         """
         ...
 
     def link_to_put(self, key: str, endpoint: str, seconds: float, size: int) -> str | None:
         """Sign an address at which anyone may PUT an object of so many bytes, and of no others.
 
-        None: the place answers no requests, or cannot sign that.
+        None: the store answers no requests, or cannot sign that.
         """
         ...
 
 
-PLACES: Final[dict[str, Callable[[str], Place]]] = {"file": Folder, "s3": Bucket}
-"""By the scheme of a place's address; called with what follows it."""
+OBJECT_STORES: Final[dict[str, Callable[[str], ObjectStore]]] = {"file": Folder, "s3": Bucket}
+"""By the scheme of an object store's address; called with what follows it."""
 
 
 @lru_cache(maxsize=8)
-def place_at(address: str) -> Place:
-    """Return the place at an address such as ``file:/var/lib/jointplay/results``.
+def object_store_at(address: str) -> ObjectStore:
+    """Return the object store at an address such as ``file:/var/lib/jointplay/results``.
 
     Raises
     ------
     ValueError
-        No place has this scheme.
+        No object store has this scheme.
     """
     scheme, colon, path = address.partition(":")
-    if not colon or scheme not in PLACES:
-        known = ", ".join(f"{name}:" for name in sorted(PLACES))
-        raise ValueError(f"{address!r} is no place for results; addresses begin with {known}")
-    return PLACES[scheme](path)
+    if not colon or scheme not in OBJECT_STORES:
+        known = ", ".join(f"{name}:" for name in sorted(OBJECT_STORES))
+        raise ValueError(f"{address!r} is no object store; addresses begin with {known}")
+    return OBJECT_STORES[scheme](path)
 
 
 @dataclass(frozen=True)
 class StoredObject:
-    """One object of a place by its key, there or not yet."""
+    """One object of an object store by its key, there or not yet."""
 
-    place: Place
+    object_store: ObjectStore
     key: str
 
     def put(self, pieces: Iterable[bytes]) -> None:
-        """See `Place.put`."""
-        self.place.put(self.key, pieces)
+        """See `ObjectStore.put`."""
+        self.object_store.put(self.key, pieces)
 
     def size(self) -> int:
-        """See `Place.size`."""
-        return self.place.size(self.key)
+        """See `ObjectStore.size`."""
+        return self.object_store.size(self.key)
 
     def read(self, start: int, stop: int) -> bytes:
-        """See `Place.read`."""
-        return self.place.read(self.key, start, stop)
+        """See `ObjectStore.read`."""
+        return self.object_store.read(self.key, start, stop)
 
     def version(self) -> str | None:
-        """See `Place.version`."""
-        return self.place.version(self.key)
+        """See `ObjectStore.version`."""
+        return self.object_store.version(self.key)
 
     def exists(self) -> bool:
         """Whether the object is there."""

@@ -1,8 +1,8 @@
 """A bucket of an S3-compatible store: objects are its own, put in one request each.
 
 The store must refuse a PUT of a key that there is (If-None-Match), and list what was put at once;
-`storage.places.fitness` tries it. Its credentials are where other clients of S3 have them, such as
-`AWS_ACCESS_KEY_ID` and `AWS_SECRET_ACCESS_KEY` in the environment.
+`storage.object_stores.fitness` tries it. Its credentials are where other clients of S3 have them,
+such as `AWS_ACCESS_KEY_ID` and `AWS_SECRET_ACCESS_KEY` in the environment.
 """
 
 import mmap
@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Final, Literal
 from urllib.parse import parse_qsl, urlsplit
 
 from jointplay.storage.errors import TooLarge
-from jointplay.storage.places.signing import address_to_put
+from jointplay.storage.object_stores.signing import address_to_put
 
 if TYPE_CHECKING:
     from obstore.store import RetryConfig, S3Store
@@ -28,7 +28,7 @@ _IN_MEMORY: Final = 2**22
 """Bytes of an object that is gathered in memory; of a larger one the system has the pages."""
 _RETRIES: "Final[RetryConfig]" = {"max_retries": 5, "retry_timeout": timedelta(seconds=20)}
 _LIMIT: Final = "120s"
-"""Time for a whole request, but that which puts a large object; see `storage.places.sending`."""
+"""Time for a whole request, but that which puts a large object; see `sending`."""
 _SIGNED: Final = timedelta(hours=1)
 """Time in which such a request must begin."""
 _OPTIONS: Final = {"endpoint", "region"}
@@ -37,7 +37,7 @@ _ADDRESS: Final = "s3://bucket/prefix?endpoint=http://host:8333&region=us-east-1
 
 @dataclass(frozen=True)
 class Bucket:
-    """See `storage.places.Place`.
+    """See `storage.object_stores.ObjectStore`.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ class Bucket:
         return True
 
     def link(self, key: str, endpoint: str, seconds: float) -> str | None:
-        """Sign with the place's own credentials; the store is not asked."""
+        """Sign with the store's own credentials; it is not asked."""
         import obstore
 
         bucket, prefix, options = self._parts
@@ -179,7 +179,7 @@ class Bucket:
                 f" {self.largest / 1e9:g} GB"
             )
         if isinstance(content, mmap.mmap):
-            from jointplay.storage.places.sending import put_at
+            from jointplay.storage.object_stores.sending import put_at
 
             with _answering(key):
                 address = obstore.sign(self._store, "PUT", key, _SIGNED)

@@ -10,13 +10,13 @@ from jointplay.storage.settings import Settings
 from tests.postgresql_server import running_server
 from tests.seaweedfs_server import BUCKET, running_store
 
-PLACES = ["folder", pytest.param("bucket", marks=pytest.mark.long)]
+BACKENDS = ["folder", pytest.param("bucket", marks=pytest.mark.long)]
 """SQLite and a folder; PostgreSQL and a bucket."""
 
 
 @contextmanager
-def places(kind: str) -> Iterator[dict[str, str]]:
-    """Yield the variables that tell a service its places, which are empty."""
+def backends(kind: str) -> Iterator[dict[str, str]]:
+    """Yield the variables that tell a service its catalogue and object store, which are empty."""
     if kind == "folder":
         yield {}
         return

@@ -1,4 +1,4 @@
-"""Jobs whose results the place could not hold are refused before anything is computed."""
+"""Jobs whose results the object store could not hold are refused before anything is computed."""
 
 from pathlib import Path
 

@@ -17,7 +17,7 @@ _NOT_LINKABLE: Final = frozenset({errno.EXDEV, errno.EPERM, errno.EMLINK, errno.
 
 @dataclass(frozen=True)
 class Folder:
-    """See `storage.places.Place`; made when something is put there."""
+    """See `storage.object_stores.ObjectStore`; made when something is put there."""
 
     root: str
 

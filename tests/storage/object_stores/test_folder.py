@@ -6,26 +6,26 @@ from pathlib import Path
 
 import pytest
 
-from jointplay.storage.places import PLACES, Place, place_at
-from jointplay.storage.places.folder import Folder
-from tests.storage.places.contract import CONTENT, KEY, CutOff, PlaceContract, pieces
+from jointplay.storage.object_stores import OBJECT_STORES, ObjectStore, object_store_at
+from jointplay.storage.object_stores.folder import Folder
+from tests.storage.object_stores.contract import CONTENT, KEY, CutOff, ObjectStoreContract, pieces
 
 
-class TestFolder(PlaceContract):
+class TestFolder(ObjectStoreContract):
     """The contract."""
 
     @pytest.fixture
-    def place(self, tmp_path: Path) -> Place:
+    def object_store(self, tmp_path: Path) -> ObjectStore:
         return Folder(str(tmp_path / "results"))
 
-    def raw_get(self, place: Place, key: str) -> bytes | None:
-        assert isinstance(place, Folder)
-        path = Path(place.root) / key
+    def raw_get(self, object_store: ObjectStore, key: str) -> bytes | None:
+        assert isinstance(object_store, Folder)
+        path = Path(object_store.root) / key
         return path.read_bytes() if path.exists() else None
 
-    def raw_set(self, place: Place, key: str, content: bytes) -> None:
-        assert isinstance(place, Folder)
-        path = Path(place.root) / key
+    def raw_set(self, object_store: ObjectStore, key: str, content: bytes) -> None:
+        assert isinstance(object_store, Folder)
+        path = Path(object_store.root) / key
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
 
@@ -90,9 +90,9 @@ def test_the_file_is_on_the_disk_before_its_name_is(
     assert steps[content + 1 :] == ["link", "2R"]
 
 
-def test_an_address_names_its_place(tmp_path: Path) -> None:
-    assert place_at(f"file:{tmp_path}") == Folder(str(tmp_path))
+def test_an_address_names_its_store(tmp_path: Path) -> None:
+    assert object_store_at(f"file:{tmp_path}") == Folder(str(tmp_path))
     for address in ("nowhere", "ftp:/x", ""):
         with pytest.raises(ValueError, match="addresses begin with file:"):
-            place_at(address)
-    assert "file" in PLACES
+            object_store_at(address)
+    assert "file" in OBJECT_STORES
