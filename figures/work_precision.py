@@ -5,6 +5,7 @@ import numpy as np
 from jointplay.figures import colours, log_axis, page
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.records.arrays import Floats
+from jointplay.records.energy_residual import relative_energy_residuals
 from jointplay.records.study import StudySource
 
 _PANEL_HEIGHT = 55.0  # mm
@@ -29,7 +30,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     admitted = np.array([run["admitted"] for run in runs])
     cost = _column(source, "evaluations")
     drawn = {"error": errors}
-    residual = _column(source, "astray")
+    residual = relative_energy_residuals(source)
     if (residual[measured] > 0.0).any():  # of no losses there is no share
         drawn["energy residual / losses"] = residual
     uncertainty = float(errors[references - 1])

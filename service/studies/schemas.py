@@ -184,10 +184,10 @@ class AccuracyPoint(BaseModel):
         "Root mean square over the window, of coordinates and speeds, relative to the "
         "scales that tolerances are relative to; null: the run did not come to its end.",
     )
-    astray: float | None = in_unit(
+    relative_energy_residual: float | None = in_unit(
         "1",
-        "Energy lost track of, as a share of what contacts and friction took; null: "
-        "they took nothing.",
+        "What the energy balance lacks at the end, divided by what contacts and friction took; "
+        "null: they took nothing.",
     )
     steps: int = in_unit("1", "Accepted steps.")
     evaluations: int = in_unit("1", "Of the equations of motion, in attempted steps.")

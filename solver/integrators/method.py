@@ -22,7 +22,7 @@ class Method:
     dense : (stages, degree) dense[i][k] multiplies θ^(k+1) in b_i(θ), 0 <= θ <= 1
     error_order : order of the step's local error estimate plus one: err ~ h^error_order
     dense_order : order of the dense output; its error inside a step is ~ h^(dense_order + 1)
-    largest_tolerance : beyond it, the energy that went astray in a revolution of the press was more
+    largest_tolerance : beyond it, the energy residual of a revolution of the press was more
         than 5 % of what contacts and friction took in one of 16 presses; none with a fixed step
     coarse_error : (stages,) weights of a second estimate E of lower order, if any. It corrects the
         first, e, which alone is far too careful: err = |e|² / sqrt(|e|² + |E|² / 100).

@@ -214,7 +214,7 @@ def accuracy_study(ended=None, *, lossless=False):
     statistics = {
         "error": error,
         "evaluations": 1e3 * order * 10.0 ** (decades / order),
-        "astray": np.full(len(runs), np.nan) if lossless else 0.1 * error,
+        "relative_energy_residual": np.full(len(runs), np.nan) if lossless else 0.1 * error,
     }
     status = np.full(len(runs), PointStatus.done, dtype=np.uint8)
     status[2] = PointStatus.failed

@@ -309,7 +309,7 @@ def test_an_accuracy_study_tells_what_each_run_costs_and_recommends_one(http, fi
         "step": None,
         "admitted": False,
         "error": 1.0,
-        "astray": 1.0,
+        "relative_energy_residual": 1.0,
         "steps": 1002,
         "evaluations": 1,
         "seconds": 1.0,

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from jointplay.records.energy_residual import RELATIVE_ENERGY_RESIDUAL
 from jointplay.solver.integrators import AUTO, COARSE, METHODS
 from jointplay.solver.runs.study.plan import Study
 
@@ -26,7 +27,7 @@ OUTPUTS = {
         " that tolerances are relative to; of the second reference, how far the two are apart",
     ),
     "window": ("s", "time from the start in which the reference is known"),
-    "astray": ("1", "energy lost track of, as a share of what contacts and friction took"),
+    RELATIVE_ENERGY_RESIDUAL: ("1", "energy residual divided by what contacts and friction took"),
     "evaluations": ("1", "evaluations of the equations of motion, in attempted steps"),
     "seconds": ("s", "computing time of one core; not the same when it is measured again"),
 }

@@ -5,6 +5,7 @@ import time
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.records.energy_residual import RELATIVE_ENERGY_RESIDUAL
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -83,7 +84,7 @@ class TimedRun:
         return SimulationFailed("not-finite", sentence, self.bundle.lane(0).time)
 
     def cost(self) -> dict[str, float]:
-        """Return what it cost, and the energy that it lost track of."""
+        """Return what it cost, and its energy residual."""
         found = statistics_of(self.bundle, 0)
         energy = found["energy"]
         damped = max(energy["element_loss"], 0.0)  # elements may drive instead
@@ -92,5 +93,5 @@ class TimedRun:
             "steps": float(found["steps"]),
             "evaluations": float(self.evaluations),
             "seconds": self.seconds,
-            "astray": abs(energy["residual"]) / taken if taken > 0.0 else np.nan,
+            RELATIVE_ENERGY_RESIDUAL: abs(energy["residual"]) / taken if taken > 0.0 else np.nan,
         }

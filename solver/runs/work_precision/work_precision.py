@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from jointplay.records.energy_residual import relative_energy_residuals
 from jointplay.records.study import StudySource
 from jointplay.solver.runs.work_precision.plan import DEFAULT
 
@@ -17,9 +18,9 @@ class Point:
 
     `admitted` : whether jobs may ask for it. `error` : root mean square over the window and the
     coordinates and speeds, each relative to the scale that tolerances are relative to; none where
-    the run did not come to its end, which `failure` then explains. `astray` : energy lost track of,
-    as a share of what contacts and friction took. `seconds` : of computing; of everything here
-    they alone differ when the study is repeated.
+    the run did not come to its end, which `failure` then explains. `relative_energy_residual` :
+    what the energy balance lacks, divided by what contacts and friction took; none of nothing.
+    `seconds` : of computing; of everything here they alone differ when the study is repeated.
     """
 
     method: str
@@ -27,7 +28,7 @@ class Point:
     step: float | None
     admitted: bool
     error: float | None
-    astray: float | None
+    relative_energy_residual: float | None
     steps: int
     evaluations: int
     seconds: float
@@ -99,9 +100,10 @@ class WorkPrecision:
         """Return the study that a store holds."""
         runs, columns = found.attributes["runs"], found.statistics
 
+        residuals = relative_energy_residuals(found)
+
         def number(name: str, point: int) -> float | None:
-            value = columns[name][point] if name in columns else math.nan
-            return float(value) if math.isfinite(value) else None
+            return _finite(columns[name][point]) if name in columns else None
 
         points = [
             Point(
@@ -110,7 +112,7 @@ class WorkPrecision:
                 run["step"],
                 run["admitted"],
                 number("error", point),
-                number("astray", point),
+                _finite(residuals[point]),
                 int(columns["steps"][point]),
                 int(columns["evaluations"][point]),
                 float(columns["seconds"][point]),
@@ -132,3 +134,8 @@ class WorkPrecision:
         """Return the study as JSON has it, with the advice once it is complete."""
         sentence = advice(self.points, self.uncertainty or 0.0) if self.complete else None
         return asdict(self) | {"points": [asdict(one) for one in self.points], "advice": sentence}
+
+
+def _finite(value: float) -> float | None:
+    """Return a number; none for NaN and infinity."""
+    return float(value) if math.isfinite(value) else None

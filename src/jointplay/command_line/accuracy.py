@@ -68,19 +68,20 @@ def accuracy_lines(found: dict[str, Any]) -> Iterator[str]:
             f" reference is known to {found['uncertainty']:.0e}, relative to the scene's scales."
         )
     yield (
-        f"Cost and energy astray, as a share of what contacts and friction take: of"
+        f"Cost, and energy residual divided by what contacts and friction take: of"
         f" {found['duration']:.3g} s."
     )
     yield ""
-    yield "| method | tolerance or step | error | energy astray | steps | evaluations | ms |"
+    yield "| method | tolerance or step | error | energy residual | steps | evaluations | ms |"
     yield "|---|---|---|---|---|---|---|"
     for run in found["points"]:
         how = f"{run['tolerance']:.0e}" if run["tolerance"] else f"{run['step']:.2g} s"
         how += "" if run["admitted"] else " (refused)"
         error = "fails" if run["error"] is None else f"{run['error']:.1e}"
-        astray = "" if run["astray"] is None else f"{run['astray']:.1e}"
+        share = run["relative_energy_residual"]
+        residual = "" if share is None else f"{share:.1e}"
         cost = f"{run['steps']} | {run['evaluations']} | {1e3 * run['seconds']:.1f}"
-        yield f"| {run['method']} | {how} | {error} | {astray} | {cost} |"
+        yield f"| {run['method']} | {how} | {error} | {residual} | {cost} |"
     yield ""
     if found["advice"] is not None:
         yield found["advice"]

@@ -39,6 +39,7 @@ class Collected:
     def __init__(self, study: Study, ends: list[PointEnd]) -> None:
         runs = [run.document() for run in study.runs]
         self.attributes: dict[str, Any] = {"job": study.job, "runs": runs}
+        self.points = study.points
         self.complete = len(ends) == study.points
         self.failures = {end.point: Failed(end.code, end.detail) for end in ends if end.code}
         names = {name for end in ends for name in end.statistics}
