@@ -12,7 +12,7 @@ from jointplay.storage.catalogue.errors import CatalogueError
 from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.reconciliation.leftovers import left_after
 from jointplay.storage.reconciliation.results import damage_of, sealed_results
-from jointplay.storage.reconciliation.rows import contradictions
+from jointplay.storage.reconciliation.rows import inconsistencies
 from jointplay.storage.settings import Settings
 
 _READERS: Final = 8
@@ -112,9 +112,9 @@ def _strangers(catalogue: Catalogue, known: Mapping[str, Job]) -> Iterator[str]:
 
 
 def _leftovers(settings: Settings, catalogue: Catalogue) -> Iterator[str]:
-    """Look for files that nobody will need, and for rows that contradict one another."""
+    """Look for files that nobody will need, and for inconsistent rows of the catalogue."""
     for finding in (
         *left_after(settings, catalogue, grace=0.0),
-        *contradictions(settings, catalogue),
+        *inconsistencies(settings, catalogue),
     ):
         yield f"{finding.subject} {finding.found}"

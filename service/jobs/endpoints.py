@@ -112,14 +112,14 @@ def retry_job(
     return SubmittedJob.of(submitted.job, cached=submitted.cached)
 
 
-@router.post("/{job_id}/contradict", responses=problems(*kinds.OF_A_JOB, kinds.NOT_FINISHED))
-def contradict_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource:
+@router.post("/{job_id}/report-mismatch", responses=problems(*kinds.OF_A_JOB, kinds.NOT_FINISHED))
+def report_mismatch(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource:
     """Note that a repetition of a finished job, as by `jointplay verify`, gave other results.
 
     They can still be read. The job is marked as `damaged`, so that posting its document computes
     it anew.  Asking again changes nothing.
     """
-    return JobResource.of(catalogue.mark_contradicted(job.id))
+    return JobResource.of(catalogue.mark_not_reproduced(job.id))
 
 
 @router.delete("/{job_id}", responses=problems(*kinds.OF_A_JOB, kinds.NOT_FINISHED))

@@ -14,11 +14,11 @@ from jointplay.storage.catalogue import (
     batches,
     census,
     claims,
-    disagreements,
     ending,
     fair_queueing,
     holding,
     idempotency,
+    inconsistencies,
     installation,
     keys,
     labels,
@@ -224,7 +224,7 @@ class Catalogue:
     unsuccessful = reading(retries.unsuccessful)
     delete = durably(upkeep.expire)
     mark_damaged = writing(upkeep.mark_damaged)
-    mark_contradicted = durably(upkeep.mark_contradicted)
+    mark_not_reproduced = durably(upkeep.mark_not_reproduced)
     use_of = reading(use_of)
 
     def every_job(self) -> Iterator[Job]:
@@ -299,8 +299,8 @@ class Catalogue:
     mend_after_setting_back = writing(upkeep.mend_after_setting_back)
     pass_over = writing(usage.pass_over)
     announce_again = writing(upkeep.announce_again)
-    contradicting = reading(disagreements.find)
-    reconcile = writing(disagreements.mend)
+    inconsistent = reading(inconsistencies.find)
+    reconcile = writing(inconsistencies.mend)
     adopt = durably(adoption.adopt)
     newest_event = reading(listing.newest_event)
     known_blocks = reading(listing.known_blocks)

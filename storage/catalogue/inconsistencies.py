@@ -1,4 +1,4 @@
-"""Rows of the catalogue that contradict one another, which no unit of writing leaves behind.
+"""Inconsistent rows of the catalogue, which no unit of writing leaves behind.
 
 They come from a database that was edited, restored from parts, or opened without its rules; and
 from leases that nobody looks after because no relay runs.
@@ -32,27 +32,27 @@ class Patience:
 
 
 @dataclass(frozen=True)
-class Disagreement:
-    """One kind of contradiction: how it is found, and what mends it."""
+class Inconsistency:
+    """One kind of inconsistency: how it is found, and what mends it."""
 
     subject: str
     found: str
     mended: str
     find: Callable[[Unit, Patience], Sequence[str]]
-    """Ids of what contradicts."""
+    """Ids of what is inconsistent."""
     mend: Callable[[Unit, Patience, Sequence[str]], None] | None
     """Called with what was found in the same unit; none: a user has to decide."""
     settles: bool = False
     """It may be about to mend itself: the living need the time for a heartbeat first."""
 
 
-def find(unit: Unit, kind: Disagreement, patience: Patience) -> tuple[str, ...]:
-    """Return the ids of all rows that contradict others in one way."""
+def find(unit: Unit, kind: Inconsistency, patience: Patience) -> tuple[str, ...]:
+    """Return the ids of all rows that are inconsistent in one way."""
     return tuple(kind.find(unit, patience))
 
 
-def mend(unit: Unit, kind: Disagreement, patience: Patience) -> None:
-    """Mend what contradicts others in one way now."""
+def mend(unit: Unit, kind: Inconsistency, patience: Patience) -> None:
+    """Mend what is inconsistent in one way now."""
     if kind.mend is not None:
         kind.mend(unit, patience, kind.find(unit, patience))
 
@@ -157,14 +157,14 @@ def _hopeless(unit: Unit, patience: Patience) -> list[str]:
     return [job for job in idle if job not in settled]
 
 
-DISAGREEMENTS: Final = (
-    Disagreement("rows", "their job or block is not there", "removed", _orphans, _remove_orphans),
-    Disagreement(
+INCONSISTENCIES: Final = (
+    Inconsistency("rows", "their job or block is not there", "removed", _orphans, _remove_orphans),
+    Inconsistency(
         "block", "waits for a worker, and no wake-up is due", "announced", _silent, _announce
     ),
-    Disagreement("wake-up", "of a block that waits for no worker", "removed", _needless, _forget),
-    Disagreement("block", "waits, though its job has ended", "cancelled", _left_behind, _drop),
-    Disagreement(
+    Inconsistency("wake-up", "of a block that waits for no worker", "removed", _needless, _forget),
+    Inconsistency("block", "waits, though its job has ended", "cancelled", _left_behind, _drop),
+    Inconsistency(
         "block",
         "its lease ran out long ago, and no relay took it back",
         "taken back",
@@ -172,14 +172,14 @@ DISAGREEMENTS: Final = (
         _take_back,
         settles=True,
     ),
-    Disagreement(
+    Inconsistency(
         "block",
         "held, or not announced, for longer than can be: the clock was set back",
         "shortened",
         _ahead,
         _shorten,
     ),
-    Disagreement("job", "has not ended, though its blocks have", "settled", _unsettled, _settle),
-    Disagreement("job", "has not ended, and nothing of it will be computed", "", _hopeless, None),
+    Inconsistency("job", "has not ended, though its blocks have", "settled", _unsettled, _settle),
+    Inconsistency("job", "has not ended, and nothing of it will be computed", "", _hopeless, None),
 )
 """In the order in which they are mended: what one leaves may be another's."""

@@ -48,7 +48,7 @@ QUEUES = (RECOVERED_QUEUE, INTERACTIVE_QUEUE, FRESH_QUEUE)
 that came alone, then studies and batches; see `turns` for blocks of several owners."""
 
 
-CONTRADICTED = "a repetition by the same version of the solver gave other results"
+NOT_REPRODUCED = "a repetition by the same version of the solver gave other results"
 """Damage of a job whose results are what was stored, and not what the job gives."""
 
 

@@ -16,7 +16,7 @@ from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.ending import LONGEST_PAUSE, lose
 from jointplay.storage.catalogue.errors import JobNotFinished
 from jointplay.storage.catalogue.labels import labelled_job
-from jointplay.storage.catalogue.records import CONTRADICTED, QUEUES, TERMINAL, BlockState, Job
+from jointplay.storage.catalogue.records import NOT_REPRODUCED, QUEUES, TERMINAL, BlockState, Job
 from jointplay.storage.catalogue.rows import lock_job
 
 _job = tables.job
@@ -196,7 +196,7 @@ def mark_damaged(unit: Unit, job: str, damage: str | None) -> None:
     unit.execute(update(_job).where(finished).values(damaged=damage))
 
 
-def mark_contradicted(unit: Unit, job_id: str) -> Job:
+def mark_not_reproduced(unit: Unit, job_id: str) -> Job:
     """Remember that a repetition of a finished job gave other results: it is found no more.
 
     Raises
@@ -209,7 +209,7 @@ def mark_contradicted(unit: Unit, job_id: str) -> Job:
     if not job.state.terminal:
         raise JobNotFinished(job_id, job.state.value)
     if job.damaged is None:
-        unit.execute(update(_job).where(_job.c.id == job_id).values(damaged=CONTRADICTED))
+        unit.execute(update(_job).where(_job.c.id == job_id).values(damaged=NOT_REPRODUCED))
     return labelled_job(unit, job_id)
 
 

@@ -11,7 +11,7 @@ from jointplay.storage.reconciliation.extent import Counted, Extent
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.leftovers import leftovers
 from jointplay.storage.reconciliation.results import damage
-from jointplay.storage.reconciliation.rows import contradictions, unsound
+from jointplay.storage.reconciliation.rows import inconsistencies, unsound
 from jointplay.storage.reconciliation.solvers import unserved
 from jointplay.storage.reconciliation.surroundings import clock, disk
 from jointplay.storage.settings import Settings
@@ -19,7 +19,7 @@ from jointplay.storage.settings import Settings
 __all__ = ["CHECKS", "Counted", "Extent", "Finding", "findings"]
 
 Check = Callable[[Settings, Catalogue], Iterator[Finding]]
-CHECKS: Final[tuple[Check, ...]] = (disk, clock, unserved, contradictions)
+CHECKS: Final[tuple[Check, ...]] = (disk, clock, unserved, inconsistencies)
 """Checks that are made at once."""
 _READ, _LEFT_OVER = 0.9, 0.99
 """Parts of the time after which results were read, and what is left over was looked for."""

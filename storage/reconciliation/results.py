@@ -7,7 +7,7 @@ from functools import partial
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import JobNotFound
-from jointplay.storage.catalogue.records import CONTRADICTED, BlockState, Job, JobState
+from jointplay.storage.catalogue.records import NOT_REPRODUCED, BlockState, Job, JobState
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.identity import growing_study, require_results_of
 from jointplay.storage.object_stores import StoredObject
@@ -50,8 +50,8 @@ def damage(
             found = damage_of(settings, job) or _unsealed_damage(settings, catalogue, job)
         except JobNotFound:  # its row has gone meanwhile
             return None
-        whole = found is None and job.damaged == CONTRADICTED  # which no look at bytes can tell
-        return job, CONTRADICTED if whole else found
+        whole = found is None and job.damaged == NOT_REPRODUCED  # which no look at bytes can tell
+        return job, NOT_REPRODUCED if whole else found
 
     for done, (_, one) in enumerate(several_at_once(compared, chosen)):
         extent.report(done / len(chosen), f"read {done} of {len(chosen)} results")

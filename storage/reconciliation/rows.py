@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.disagreements import DISAGREEMENTS, Disagreement, Patience
+from jointplay.storage.catalogue.inconsistencies import INCONSISTENCIES, Inconsistency, Patience
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.settings import Settings
 
@@ -23,20 +23,20 @@ def unsound(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
         yield Finding(WHERE, (name,), flaw, advice=_RESTORE if broken else None)
 
 
-def contradictions(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
-    """Look for rows that contradict one another."""
+def inconsistencies(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
+    """Look for inconsistent rows."""
     patience = Patience(settings.lease, settings.republish_after, settings.max_attempts)
-    for kind in DISAGREEMENTS:
-        subjects = catalogue.contradicting(kind, patience)
+    for kind in INCONSISTENCIES:
+        subjects = catalogue.inconsistent(kind, patience)
         if subjects and kind.settles:
             time.sleep(settings.heartbeat + _BEAT)
-            subjects = catalogue.contradicting(kind, patience)
+            subjects = catalogue.inconsistent(kind, patience)
         if subjects:
             yield _finding(catalogue, kind, patience, subjects)
 
 
 def _finding(
-    catalogue: Catalogue, kind: Disagreement, patience: Patience, subjects: tuple[str, ...]
+    catalogue: Catalogue, kind: Inconsistency, patience: Patience, subjects: tuple[str, ...]
 ) -> Finding:
     named = (f"{kind.subject} {subjects[0]}", *subjects[1:])
     if kind.mend is None:

@@ -7,7 +7,7 @@ import pytest
 
 from jointplay.command_line.application import run as command
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import CONTRADICTED, BlockState
+from jointplay.storage.catalogue.records import NOT_REPRODUCED, BlockState
 from jointplay.storage.packed import pack
 from jointplay.storage.packed.ranges import InMemory
 from jointplay.storage.packed.reading import Packed
@@ -272,7 +272,7 @@ def test_a_job_whose_repetition_gives_other_results_can_be_sent_again(
     assert (answer.status_code, answer.json()["id"]) == (200, job.id)
     assert command(["verify", job.id, "--processes", "1", "--url", service.url]) == 1
     (found,) = findings(service.settings, service.catalogue)  # which stays
-    assert (found.found, found.mend) == (CONTRADICTED, None)
+    assert (found.found, found.mend) == (NOT_REPRODUCED, None)
     answer = service.http.post("/v1/jobs", json=document)
     assert answer.status_code == 202
     assert answer.json()["id"] != job.id

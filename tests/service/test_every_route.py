@@ -45,7 +45,7 @@ SCOPE = {
     "/v1/scenes/drag": "jobs:read",
     "/v1/scenes/channels": "jobs:read",
 }
-OF_JOBS = re.compile(r"/v1/(jobs(/{job_id}(/cancel|/retry|/contradict|/events)?)?|batches.*)")
+OF_JOBS = re.compile(r"/v1/(jobs(/{job_id}(/cancel|/retry|/report-mismatch|/events)?)?|batches.*)")
 
 
 def scope_of(method: str, path: str) -> str:

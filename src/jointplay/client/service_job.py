@@ -32,9 +32,9 @@ class ServiceJob(Job):
         """Queue it once more, as `Job.retry` says."""
         return type(self)(self._connection.post(f"{self._path}/retry"), self._connection)
 
-    def contradict(self) -> None:
+    def report_mismatch(self) -> None:
         """Note that a repetition gave other results; it is the answer to no submission any more."""
-        self._connection.post(f"{self._path}/contradict")
+        self._connection.post(f"{self._path}/report-mismatch")
 
     def delete(self) -> None:
         """Delete the finished job with its results; there is no way back."""

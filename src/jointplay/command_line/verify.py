@@ -61,7 +61,7 @@ def _job(results: str, url: str, processes: int | None) -> "Verification":
             with progress("verifying") as report:
                 found = repeat(job, processes, report)
             if found.promised and not found.holds:
-                _contradict(job)
+                _report_mismatch(job)
             return found
     except NotRepeatable as error:
         raise Stopped(str(error)) from None
@@ -70,7 +70,7 @@ def _job(results: str, url: str, processes: int | None) -> "Verification":
         raise Stopped(line, Exit.CHECK_FAILED) from None
 
 
-def _contradict(job: "Job") -> None:
+def _report_mismatch(job: "Job") -> None:
     """Have the service answer no more submissions with a job whose repetition gave other bits."""
     from jointplay.client.errors import ClientError
     from jointplay.client.service_job import ServiceJob
@@ -78,7 +78,7 @@ def _contradict(job: "Job") -> None:
     if not isinstance(job, ServiceJob):
         return
     try:
-        job.contradict()
+        job.report_mismatch()
         line = "the service computes it anew when its document is submitted again"
     except ClientError as error:
         line = f"the service does not note it: {error}; `jointplay submit --anew` computes it again"
