@@ -76,7 +76,7 @@ def cubic_oscillator(damping: float = 0.08, linear: float = 0.0, **forces: Any) 
 
 
 def along_the_slide(coefficients: list[float]) -> dict[str, Any]:
-    """Return a force on the mass that is a polynomial of its place."""
+    """Return a force on the mass that is a polynomial of its position."""
     return {
         "type": "force",
         **ON_THE_MASS,

@@ -2,9 +2,9 @@
 
     python -m benchmarks knots
 
-A block between a spring, a steady force and one over its place passes the knots of a table for
-10 s; the error is that of its place at the end, against tolerance 1e-12. Behind the bar: attempts
-at a step.
+A block between a spring, a steady force and one over its position passes the knots of a table
+for 10 s; the error is that of its position at the end, against tolerance 1e-12. Behind the bar:
+attempts at a step.
 """
 
 from typing import Any
@@ -30,7 +30,7 @@ FORCES: dict[str, dict[str, Any]] = {
 
 
 def job(force: dict[str, Any], tolerance: float) -> dict[str, Any]:
-    """Return a block between a spring, a steady force and one over its place."""
+    """Return a block between a spring, a steady force and one over its position."""
     points = {"points": {"O": [0.0, 0.0]}}
     ends = {"first": "ground.O", "second": "block.O"}
     push = {"type": "force", "magnitude": 2.0, "direction": [1.0, 0.0], "over": {"quantity": "x"}}
@@ -58,7 +58,7 @@ def job(force: dict[str, Any], tolerance: float) -> dict[str, Any]:
 
 
 def reached(force: dict[str, Any], tolerance: float) -> tuple[float, int]:
-    """Return the place of the block at the end, m, and how many steps were attempted."""
+    """Return the position of the block at the end, m, and how many steps were attempted."""
     admission = admit(job(force, tolerance))
     assert isinstance(admission, Admission)
     simulation = Simulation(admission)
@@ -70,9 +70,9 @@ def reached(force: dict[str, Any], tolerance: float) -> tuple[float, int]:
 
 def main() -> None:
     """Print the errors, m."""
-    print(f"{'force over place':34}" + "".join(f"{t:>17.0e}" for t in TOLERANCES))
+    print(f"{'force over position':34}" + "".join(f"{t:>17.0e}" for t in TOLERANCES))
     for name, force in FORCES.items():
         truth, _ = reached(force, 1e-12)
         found = [reached(force, tolerance) for tolerance in TOLERANCES]
-        columns = [f"{abs(place - truth):10.1e} | {attempts:4}" for place, attempts in found]
+        columns = [f"{abs(position - truth):10.1e} | {attempts:4}" for position, attempts in found]
         print(f"{name:34}" + "".join(columns))

@@ -132,7 +132,7 @@ def with_dry_friction(ratio: float, ramp: float) -> dict[str, Any]:
 
 
 def den_hartog(ratio: float) -> tuple[float, float, float]:
-    """Return amplitude, place and speed (m, m/s) where the force is largest, of sliding motion.
+    """Return amplitude, position and speed (m, m/s) where the force is largest, of sliding motion.
 
     From a turning point on, x = f + V cos(r t + phase) + B cos t + C sin t, until it is at the
     other one after half a period.
@@ -148,9 +148,9 @@ def den_hartog(ratio: float) -> tuple[float, float, float]:
     halves = math.floor(at / half)
     t, sign = at - halves * half, (-1.0) ** halves
     turned = ratio * t + phase
-    place = RUBS + response * math.cos(turned) + b * math.cos(t) + c * math.sin(t)
+    position = RUBS + response * math.cos(turned) + b * math.cos(t) + c * math.sin(t)
     speed = -ratio * response * math.sin(turned) - b * math.sin(t) + c * math.cos(t)
-    return amplitude, sign * place, sign * speed
+    return amplitude, sign * position, sign * speed
 
 
 def dry_friction() -> float:

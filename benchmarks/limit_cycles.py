@@ -123,7 +123,7 @@ def known_fold() -> float:
 def known_end() -> float:
     """Return the torque at which the turning pendulum comes to rest upside down.
 
-    Energy over the angle: from the place of rest on, once round, back to it.
+    Energy over the angle: from the position of rest on, once round, back to it.
     """
 
     def short(push: float) -> float:

@@ -51,9 +51,9 @@ def dragged(client: Client, preset: str, point: str) -> Dragged:
         if number == FIRST:
             waits, spent = [], processor_time()
         angle = 2.0 * pi * number / POSES
-        place = [begin[0] + radius * (cos(angle) - 1.0), begin[1] + radius * sin(angle)]
+        position = [begin[0] + radius * (cos(angle) - 1.0), begin[1] + radius * sin(angle)]
         asked = time.perf_counter()
-        pose = client.drag(preset, point, place, pose=pose)
+        pose = client.drag(preset, point, position, pose=pose)
         waits.append(time.perf_counter() - asked)
     return Dragged(waits, processor_time() - spent)
 

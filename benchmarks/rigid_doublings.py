@@ -26,14 +26,14 @@ class Impacts:
         """Find the orbit."""
         steady, impact = one_impact(np.array([speed]), -1.0)
         self.speed, self.impact = speed, float(impact[0])
-        self.place, self.rate = steady[:, 0].tolist()
+        self.position, self.rate = steady[:, 0].tolist()
 
     def steady(self, angle: float) -> Floats:
         """Return displacement and rate of the steady motion, by the drive's angle, rad."""
         sine, cosine = math.sin(angle), math.cos(angle)
         across = self.rate / self.speed
-        place = self.place * cosine + across * sine
-        return np.array([place, self.speed * (across * cosine - self.place * sine)])
+        position = self.position * cosine + across * sine
+        return np.array([position, self.speed * (across * cosine - self.position * sine)])
 
     def after(self, away: Floats) -> Floats:
         """Return how far the next impact is away: angle, rad, and the share of its speed."""

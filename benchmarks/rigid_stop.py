@@ -86,6 +86,6 @@ def _stays(speed: Floats, steady: Floats, impact: Floats) -> Flags:
     for share in shares:
         turn = 2.0 * np.pi * share
         own = (flow(2.0 * np.pi * share / speed) @ after[..., None])[:, 0, 0]
-        place = own + steady[0] * np.cos(turn) + steady[1] / speed * np.sin(turn)
-        found &= place < GAP
+        position = own + steady[0] * np.cos(turn) + steady[1] / speed * np.sin(turn)
+        found &= position < GAP
     return found

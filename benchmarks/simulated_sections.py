@@ -1,9 +1,9 @@
 """The section map next to an orbit by simulations, each a job of its own, and its derivative.
 
-Loops of ideal joints are simulated by the other formulation: its coordinates are places and angles
-of bodies, and loops are held by multipliers as joints of a tree are. States that loops do not allow
-are brought back to those that they do, in another way than the map of the product does, which
-changes no multiplier but zero.
+Loops of ideal joints are simulated by the other formulation: its coordinates are positions and
+angles of bodies, and loops are held by multipliers as joints of a tree are. States that loops do
+not allow are brought back to those that they do, in another way than the map of the product does,
+which changes no multiplier but zero.
 """
 
 import json
@@ -114,13 +114,13 @@ class SimulatedMap:
         start["velocities"] = {}
         for branch in self.tree.branches:
             for name in branch.coordinates:
-                place, rate = section[f"state.{name}"], section[f"rate.{name}"]
+                position, rate = section[f"state.{name}"], section[f"rate.{name}"]
                 if name.endswith(".theta"):
-                    start["angles"][branch.body] = place
+                    start["angles"][branch.body] = position
                     start["angular_velocities"][branch.body] = rate
                 else:
                     x, y = points[branch.parent][branch.parent_point]
-                    start["points"][f"{branch.body}.{branch.body_point}"] = [x + place, y]
+                    start["points"][f"{branch.body}.{branch.body_point}"] = [x + position, y]
                     start["velocities"][branch.body] = [rate, 0.0]
         return start
 

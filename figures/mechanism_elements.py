@@ -21,7 +21,7 @@ _CIRCLE = np.linspace(0.0, 2.0 * math.pi, 121)
 
 @dataclass(frozen=True)
 class Element:
-    """A force element: its type, the places of its points [m], and a force's direction."""
+    """A force element: its type, the positions of its points [m], and a force's direction."""
 
     kind: str
     first: Point
@@ -31,7 +31,7 @@ class Element:
 
 @dataclass(frozen=True)
 class Wheels:
-    """A gear or belt: the places of its joints [m] and its ratio."""
+    """A gear or belt: the positions of its joints [m] and its ratio."""
 
     first: Point
     second: Point
@@ -72,8 +72,8 @@ def wheels(scene: Mapping[str, Any], pose: Pose) -> list[Wheels]:
     found = []
     for gear in (scene.get("gears") or {}).values():
         joints = (scene["joints"][gear[name]] for name in ("first", "second"))
-        places = [world(scene, pose, joint["journal"]) for joint in joints]
-        found.append(Wheels(places[0], places[1], gear["ratio"]))
+        positions = [world(scene, pose, joint["journal"]) for joint in joints]
+        found.append(Wheels(positions[0], positions[1], gear["ratio"]))
     return found
 
 

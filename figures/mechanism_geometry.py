@@ -17,7 +17,7 @@ Pose = Mapping[str, tuple[float, float, float]]
 
 GROUND = "ground"
 WITH_CLEARANCE = "joint with clearance"
-_SAME_PLACE = 1e-6
+_SAME_POSITION = 1e-6
 """Joints closer than this share of the extent are labelled together."""
 _FLAT = 1e-9
 """Twice the area of a triangle that is a line, in squares of the largest distance."""
@@ -30,11 +30,11 @@ _BEARINGS_ACROSS = 6.0
 
 @dataclass(frozen=True)
 class JointMark:
-    """One joint: its sign, its place [m], the direction of its axis if it slides [rad], play."""
+    """One joint: its sign, its position [m], the direction of its axis if it slides [rad], play."""
 
     name: str
     style: str
-    place: Point
+    position: Point
     grounded: bool
     axis: float | None
     bodies: tuple[str, str]
@@ -100,16 +100,16 @@ class Geometry:
             found += [(name, segment) for segment in zip(corners, following, strict=False)]
         return found
 
-    def places(self) -> list[tuple[Point, list[JointMark]]]:
-        """Joints by place: those in the same one together."""
+    def positions(self) -> list[tuple[Point, list[JointMark]]]:
+        """Joints by position: those in the same one together."""
         found: list[tuple[Point, list[JointMark]]] = []
         for joint in self.joints:
-            for place, here in found:
-                if math.dist(place, joint.place) <= _SAME_PLACE * self.size:
+            for position, here in found:
+                if math.dist(position, joint.position) <= _SAME_POSITION * self.size:
                     here.append(joint)
                     break
             else:
-                found.append((joint.place, [joint]))
+                found.append((joint.position, [joint]))
         return found
 
 
@@ -134,7 +134,7 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
             JointMark(
                 name=name,
                 style=_style(joint, name in driven or (marks["turns"] and bodies[1] in moved)),
-                place=world(scene, pose, joint[second]),
+                position=world(scene, pose, joint[second]),
                 grounded=GROUND in bodies,
                 axis=axis,
                 bodies=bodies,
@@ -144,7 +144,8 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
     return Geometry(
         bodies={
             name: {
-                point: placed(pose[name], place) for point, place in body.get("points", {}).items()
+                point: placed(pose[name], position)
+                for point, position in body.get("points", {}).items()
             }
             for name, body in scene["bodies"].items()
         },
@@ -152,7 +153,7 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
         joints=tuple(joints),
         gravity=tuple(scene.get("gravity") or (0.0, 0.0)),
         fixed_points=(
-            *(joint.place for joint in joints if joint.grounded),
+            *(joint.position for joint in joints if joint.grounded),
             *(
                 world(scene, pose, element[end])
                 for element in (scene.get("forces") or {}).values()
@@ -203,7 +204,7 @@ def world(scene: Mapping[str, Any], pose: Pose, reference: str) -> Point:
 
 
 def placed(pose: tuple[float, float, float], point: tuple[float, float]) -> Point:
-    """Return where a point of a body is, m, from its place in the body's axes."""
+    """Return where a point of a body is, m, from its position in the body's axes."""
     x, y, angle = pose
     cosine, sine = math.cos(angle), math.sin(angle)
     return x + cosine * point[0] - sine * point[1], y + sine * point[0] + cosine * point[1]
@@ -235,18 +236,18 @@ def outline(points: list[Point]) -> list[Point]:
     return half(ordered) + half(ordered[::-1])
 
 
-def distance(place: Point, segment: Segment) -> float:
-    """Distance of a place from a segment."""
+def distance(position: Point, segment: Segment) -> float:
+    """Distance of a position from a segment."""
     start, end = np.array(segment[0]), np.array(segment[1])
     along = end - start
     length = float(along @ along)
-    share = 0.0 if length == 0.0 else float(np.clip((place - start) @ along / length, 0.0, 1.0))
-    return float(np.linalg.norm(place - (start + share * along)))
+    share = 0.0 if length == 0.0 else float(np.clip((position - start) @ along / length, 0.0, 1.0))
+    return float(np.linalg.norm(position - (start + share * along)))
 
 
-def among(place: Point, places: list[Point], nearness: float) -> bool:
-    """Tell whether one of the places is no farther than `nearness`."""
-    return any(math.dist(place, other) <= nearness for other in places)
+def among(position: Point, positions: list[Point], nearness: float) -> bool:
+    """Tell whether one of the positions is no farther than `nearness`."""
+    return any(math.dist(position, other) <= nearness for other in positions)
 
 
 def _turn(a: Point, b: Point, c: Point) -> float:

@@ -50,7 +50,7 @@ def guides(scene: Mapping[str, Any], pose: Pose, extent: float) -> list[Guide]:
             if play > _VISIBLE * extent:
                 wall = play + joint["clearance"][marks["size"]]
                 half = 0.5 * _STOP * max(extent, 2.0 * wall)
-                middle, _ = _places(scene, pose, joint, along)
+                middle, _ = _on_the_axis(scene, pose, joint, along)
                 walls = _walls(middle, half * along, wall * across)
                 found.append(Guide(slider.partition(".")[0], np.empty((0, 2)), walls))
             continue
@@ -58,7 +58,7 @@ def guides(scene: Mapping[str, Any], pose: Pose, extent: float) -> list[Guide]:
         larger = max(1.0, _SHORTEST * extent / length)
         half = 0.5 * larger * np.array([length, height])
         wall = half[1] + larger * play
-        middle, centre = _places(scene, pose, joint, along)
+        middle, centre = _on_the_axis(scene, pose, joint, along)
         corners = _CORNERS * half
         found.append(
             Guide(
@@ -70,10 +70,10 @@ def guides(scene: Mapping[str, Any], pose: Pose, extent: float) -> list[Guide]:
     return found
 
 
-def _places(
+def _on_the_axis(
     scene: Mapping[str, Any], pose: Pose, joint: Mapping[str, Any], along: Floats
 ) -> tuple[Floats, Floats]:
-    """Return the place on the axis that is nearest to what slides, and the place of that, m."""
+    """Return the point of the axis that is nearest to what slides, and the centre of that, m."""
     origin, centre = (np.array(world(scene, pose, joint[end])) for end in marks_of(joint)["ends"])
     return origin + along * ((centre - origin) @ along), centre
 

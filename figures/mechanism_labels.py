@@ -23,7 +23,7 @@ _BLOCK_DISTANCE = BLOCK_SIZE / 2.0 + 2.0
 _SIZE = 6.0
 _LINE = 1.2 * _SIZE
 _LINES_ABOVE = {"top": 0.0, "center": 0.5, "bottom": 1.0}
-"""Share of the further lines of a name that are above its place, by its alignment there."""
+"""Share of the further lines of a name that are above its position, by its alignment there."""
 _STYLES: Final = (
     (True, {"color": colours.MARKED, "weight": "bold"}),
     (False, {"color": colours.GEOMETRY}),
@@ -38,7 +38,7 @@ _DIRECTIONS = (_DOWN, _UP, *(math.pi * quarter / 4.0 for quarter in (-1, -3, 1, 
 _BESIDE = (_UP, math.pi, 0.0, *(math.pi * quarter / 4.0 for quarter in (3, 1, -3, -1)))
 """Directions of a block's name from the block."""
 _ALONG = (0.0, 0.15, -0.15, 0.3, -0.3)
-"""Places of a name along its body, from the middle, in lengths of the body."""
+"""Positions of a name along its body, from the middle, in lengths of the body."""
 
 
 _Box = tuple[float, float, float, float]
@@ -46,7 +46,7 @@ _Box = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
-class _Place:
+class _LabelPosition:
     """A name `apart` points from a point [m], in a direction [rad]; `merit` is better if larger."""
 
     point: Point
@@ -82,7 +82,7 @@ def draw_labels(
     metre: float,
     points_per_metre: float,
 ) -> None:
-    """Name every joint, those in one place together, and every body in italics.
+    """Name every joint, those that coincide together, and every body in italics.
 
     Parameters
     ----------
@@ -99,14 +99,14 @@ def draw_labels(
     points = metre * points_per_metre
     frame = (left * points, low * points, right * points, high * points)
 
-    def write(styles: Mapping[str, page.Style], places: Iterator[_Place]) -> None:
-        def merit(place: _Place) -> tuple[int, float]:
-            box = place.box([*styles], points_per_metre)
+    def write(styles: Mapping[str, page.Style], positions: Iterator[_LabelPosition]) -> None:
+        def merit(position: _LabelPosition) -> tuple[int, float]:
+            box = position.box([*styles], points_per_metre)
             faults = sum(_overlap(box, other) for other in written) + (not _within(box, frame))
             faults += sum(_is_crossed(box, line) for line in lines)
-            return -faults, place.merit
+            return -faults, position.merit
 
-        best = max(places, key=merit)
+        best = max(positions, key=merit)
         written.append(best.box([*styles], points_per_metre))
         horizontal, vertical = best.alignment
         x, y = best.apart * math.cos(best.angle), best.apart * math.sin(best.angle)
@@ -126,18 +126,20 @@ def draw_labels(
             note.set_in_layout(False)
             y -= page.in_font(_LINE)
 
-    for point, joints in shape.places():
+    for point, joints in shape.positions():
         names = {
             ", ".join(joint.name for joint in joints if joint.play == play): style
             for play, style in _STYLES
         }
         names.pop("", None)
-        write(names, _joint_places(shape, point, joints))
+        write(names, _joint_positions(shape, point, joints))
     for name in shape.bodies:
-        write({name: {"color": colours.GEOMETRY, "style": "italic"}}, _body_places(shape, name))
+        write({name: {"color": colours.GEOMETRY, "style": "italic"}}, _body_positions(shape, name))
 
 
-def _joint_places(shape: Geometry, point: Point, joints: list[JointMark]) -> Iterator[_Place]:
+def _joint_positions(
+    shape: Geometry, point: Point, joints: list[JointMark]
+) -> Iterator[_LabelPosition]:
     """Around a joint: the farther in angle from bodies, supports and rails, the better."""
     taken = [
         math.atan2(end[1] - point[1], end[0] - point[0])
@@ -156,10 +158,12 @@ def _joint_places(shape: Geometry, point: Point, joints: list[JointMark]) -> Ite
         taken.append(_UP)  # where the block's own name is
     for angle in _DIRECTIONS:
         free = min((_angle_between(angle, other) for other in taken), default=math.pi)
-        yield _Place(point, angle, _BLOCK_DISTANCE if on_block else _DISTANCE, round(free, 6))
+        yield _LabelPosition(
+            point, angle, _BLOCK_DISTANCE if on_block else _DISTANCE, round(free, 6)
+        )
 
 
-def _body_places(shape: Geometry, name: str) -> Iterator[_Place]:
+def _body_positions(shape: Geometry, name: str) -> Iterator[_LabelPosition]:
     """Beside a block and its rail; along a long body on both sides, better far from others."""
     corners = shape.corners_of(name)
     if len(corners) < 2:
@@ -168,7 +172,7 @@ def _body_places(shape: Geometry, name: str) -> Iterator[_Place]:
         for farther, angle in product((0.0, 1.0), _BESIDE):
             free = min((abs(math.sin(angle - rail)) for rail in rails), default=1.0)
             apart = _BLOCK_DISTANCE + farther * page.in_font(_LINE)
-            yield _Place(corners[0], angle, apart, round(free - farther, 6))
+            yield _LabelPosition(corners[0], angle, apart, round(free - farther, 6))
         return
     along = np.subtract(corners[1], corners[0])
     angle = math.atan2(along[1], along[0])
@@ -180,14 +184,14 @@ def _body_places(shape: Geometry, name: str) -> Iterator[_Place]:
             beside = (x + reach * math.cos(side), y + reach * math.sin(side))
             room = min((distance(beside, segment) for segment in others), default=math.inf)
             enough = min(room / shape.size, 2.0 * _NEAR)
-            yield _Place((x, y), side, _DISTANCE, round(enough, 3))
+            yield _LabelPosition((x, y), side, _DISTANCE, round(enough, 3))
 
 
 def _dots(points: Floats) -> Floats:
-    """Return places (n, 2) along a curve, a printer's point from one to the next."""
+    """Return positions (n, 2) along a curve, a printer's point from one to the next."""
     along = np.append(0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T)))
-    places = np.arange(0.0, along[-1], 1.0)
-    return np.stack([np.interp(places, along, one) for one in points.T], axis=1)
+    positions = np.arange(0.0, along[-1], 1.0)
+    return np.stack([np.interp(positions, along, one) for one in points.T], axis=1)
 
 
 def _is_crossed(box: _Box, line: Floats) -> bool:

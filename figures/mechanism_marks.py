@@ -22,7 +22,7 @@ def draw_rails(axes: page.Axes, shape: Geometry, metre: float) -> None:
     for joint in shape.joints:
         if joint.axis is None:
             continue
-        x, y = joint.place
+        x, y = joint.position
         along = np.array([-_RAIL, _RAIL]) * shape.size
         axes.plot(
             (x + along * math.cos(joint.axis)) / metre,
@@ -36,7 +36,7 @@ def draw_rails(axes: page.Axes, shape: Geometry, metre: float) -> None:
 
 def draw_bodies(axes: page.Axes, shape: Geometry, metre: float) -> None:
     """Draw each body through its points, and a dot at every point that no joint marks."""
-    marked = [joint.place for joint in shape.joints]
+    marked = [joint.position for joint in shape.joints]
     for tint, (name, points) in zip(cycle(TINTS), shape.bodies.items(), strict=False):
         corners = np.array(shape.corners_of(name)) / metre
         if len(corners) > 2:
@@ -48,7 +48,11 @@ def draw_bodies(axes: page.Axes, shape: Geometry, metre: float) -> None:
                 )
         else:
             _draw_block(axes, shape, name, tint, metre)
-        loose = [place for place in points.values() if not among(place, marked, 1e-2 * shape.size)]
+        loose = [
+            position
+            for position in points.values()
+            if not among(position, marked, 1e-2 * shape.size)
+        ]
         if loose and len(corners) > 1:
             axes.plot(*(np.array(loose).T / metre), ".", color=EDGE, markersize=2.5, zorder=4)
 
@@ -73,13 +77,13 @@ def draw_joints(axes: page.Axes, shape: Geometry, metre: float) -> None:
                 "fillstyle": "none",
                 "zorder": 1,
             }
-            x, y = joint.place
+            x, y = joint.position
             axes.plot([x / metre], [y / metre], marker=_support(), markeredgewidth=0.6, **style)
     common: page.Style = {"marker": "o", "linestyle": "none", "markeredgewidth": 0.8, "zorder": 5.1}
     for name, style in styles.items():
-        places = [joint.place for joint in shape.joints if joint.style == name]
-        if places:
-            axes.plot(*(np.array(places).T / metre), **(common | style), label=name)
+        positions = [joint.position for joint in shape.joints if joint.style == name]
+        if positions:
+            axes.plot(*(np.array(positions).T / metre), **(common | style), label=name)
 
 
 def draw_gravity(axes: page.Axes, shape: Geometry) -> None:

@@ -35,8 +35,8 @@ class Marks(TypedDict):
     is_journal: bool
     """Whether its contact pair has an eccentricity."""
     parts: dict[str, tuple[float, float]]
-    """Places of its contact pairs by their names: along the axis and across it, in halves of what
-    touches; a single pair has the name ''."""
+    """Positions of its contact pairs by their names: along the axis and across it, in halves of
+    what touches; a single pair has the name ''."""
     picture: Literal["journal", "walls", "surface", ""]
     """Picture of its play, magnified, if there is one."""
     caption: str

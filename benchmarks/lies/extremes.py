@@ -21,9 +21,9 @@ ALLOWED = 1e-6
 """Share of its range by which an extreme may be off."""
 ROUNDED = 4.0
 """Median second differences of samples CLOSER to each other that count as rounding: where a journal
-is as close to its bearing's centre as its place is rounded, the direction of its slip is."""
-PLACE = 2.0**-52
-"""Rounding of places of up to a metre, m."""
+is as close to its bearing's centre as its position is rounded, the direction of its slip is."""
+ROUNDING = 2.0**-52
+"""Rounding of positions of up to a metre, m."""
 CLOSER, ABOUT = 2000, 0.1
 """Factor by which samples are closer about an extreme that none of the others reaches, and how many
 spacings to either side."""
@@ -114,7 +114,7 @@ def direction(finished: Finished, name: str, close: Floats) -> float:
         return 0.0
     parts = ("eccentricity_x", "eccentricity_y", "eccentricity_rate_x", "eccentricity_rate_y")
     x, y, vx, vy = (close[:, finished.names.index(f"{joint}.{one}")] for one in parts)
-    return float((np.hypot(vx, vy) * PLACE / np.maximum(np.hypot(x, y), PLACE)).max())
+    return float((np.hypot(vx, vy) * ROUNDING / np.maximum(np.hypot(x, y), ROUNDING)).max())
 
 
 def beyond(highest: float, sampled: Floats) -> float:

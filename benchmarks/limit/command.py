@@ -92,8 +92,8 @@ def compare(programs: Mapping[int, Program]) -> None:
             program.advance(mechanism(problem.scene), runs)
             found[f"C++, {width} side by side"] = run["y"], int(run["accepted"])
         for who, (state, taken) in found.items():
-            place, speed = (np.abs(half).max() for half in np.split(state - truth, 2))
-            print(f"{tolerance:.0e}  {who:<22}{place:9.1e}{speed:9.1e}{taken:7d}")
+            position, speed = (np.abs(half).max() for half in np.split(state - truth, 2))
+            print(f"{tolerance:.0e}  {who:<22}{position:9.1e}{speed:9.1e}{taken:7d}")
 
 
 def _problem(tolerance: float) -> LaneProblem:

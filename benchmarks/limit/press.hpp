@@ -1,6 +1,6 @@
 // The press with play at both crank pins: four coordinates and, of each pin, journal and bearing.
 //
-// q = (s, theta6, theta2, theta3): the slider's place and the angles of links 6, 2 and 3. With u(a) =
+// q = (s, theta6, theta2, theta3): the slider's position and the angles of links 6, 2 and 3. With u(a) =
 // (cos a, sin a) the slider is D = (s, 0), the joint of the links C = D - L6 u6, and the journals
 // A = C - L2 u2 and B = C - L3 u3. The bearings are the pins of cranks that turn at constant speed.
 #pragma once

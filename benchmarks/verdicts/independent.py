@@ -70,9 +70,9 @@ def pendulum(theta: float, omega: float, numbers: Numbers, periods: int) -> tupl
 
 @njit(cache=True)
 def _flight(
-    place: float, rate: float, time: float, span: float, numbers: Numbers
+    position: float, rate: float, time: float, span: float, numbers: Numbers
 ) -> tuple[float, float]:
-    """Return place and rate a span later, without the stop: in closed form."""
+    """Return position and rate a span later, without the stop: in closed form."""
     spring, damping, radius, speed, _gap, _stop, _loss = numbers
     half = 0.5 * damping
     own = math.sqrt(spring - half * half)
@@ -80,7 +80,7 @@ def _flight(
     turned = response * complex(math.cos(speed * time), math.sin(speed * time))
     later = time + span
     turned_later = response * complex(math.cos(speed * later), math.sin(speed * later))
-    u, y = place - turned.real, rate - (1j * speed * turned).real
+    u, y = position - turned.real, rate - (1j * speed * turned).real
     fade, cosine, sine = math.exp(-half * span), math.cos(own * span), math.sin(own * span)
     moved = fade * (u * (cosine + half / own * sine) + y * sine / own)
     faster = fade * (y * cosine - (half * y + spring * u) / own * sine)
@@ -88,64 +88,68 @@ def _flight(
 
 
 @njit(cache=True)
-def _pushed(place: float, rate: float, time: float, struck: float, numbers: Numbers) -> float:
+def _pushed(position: float, rate: float, time: float, struck: float, numbers: Numbers) -> float:
     """Return the acceleration at the stop, whose force never pulls."""
     spring, damping, radius, speed, gap, stop, loss = numbers
-    depth = max(place - gap, 0.0)
+    depth = max(position - gap, 0.0)
     force = max(stop * depth * math.sqrt(depth) * (1.0 + loss * rate / struck), 0.0)
-    return spring * (radius * math.cos(speed * time) - place) - damping * rate - force
+    return spring * (radius * math.cos(speed * time) - position) - damping * rate - force
 
 
 @njit(cache=True)
-def _impact(place: float, rate: float, time: float, numbers: Numbers) -> tuple[float, float, float]:
-    """Return place, rate and time when the mass has left the stop that it meets at a rate."""
+def _impact(
+    position: float, rate: float, time: float, numbers: Numbers
+) -> tuple[float, float, float]:
+    """Return position, rate and time when the mass has left the stop that it meets at a rate."""
     struck, stop = rate, numbers[5]
     step = 3.2 * (1.0 / (stop * stop * struck)) ** 0.2 / IMPACT
     for _ in range(1000 * IMPACT):
-        a1 = _pushed(place, rate, time, struck, numbers)
+        a1 = _pushed(position, rate, time, struck, numbers)
         v2 = rate + 0.5 * step * a1
-        a2 = _pushed(place + 0.5 * step * rate, v2, time + 0.5 * step, struck, numbers)
+        a2 = _pushed(position + 0.5 * step * rate, v2, time + 0.5 * step, struck, numbers)
         v3 = rate + 0.5 * step * a2
-        a3 = _pushed(place + 0.5 * step * v2, v3, time + 0.5 * step, struck, numbers)
+        a3 = _pushed(position + 0.5 * step * v2, v3, time + 0.5 * step, struck, numbers)
         v4 = rate + step * a3
-        a4 = _pushed(place + step * v3, v4, time + step, struck, numbers)
-        place += step / 6.0 * (rate + 2.0 * v2 + 2.0 * v3 + v4)
+        a4 = _pushed(position + step * v3, v4, time + step, struck, numbers)
+        position += step / 6.0 * (rate + 2.0 * v2 + 2.0 * v3 + v4)
         rate += step / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
         time += step
-        if place <= numbers[4]:
+        if position <= numbers[4]:
             break
-    return place, rate, time
+    return position, rate, time
 
 
 @njit(cache=True)
-def _oscillator_period(place: float, rate: float, numbers: Numbers) -> tuple[float, float]:
+def _oscillator_period(position: float, rate: float, numbers: Numbers) -> tuple[float, float]:
     speed, gap = numbers[3], numbers[4]
     period = 2.0 * math.pi / speed
     step, time = period / LOOKS, 0.0
     while time < period - 1e-12:
         span = min(step, period - time)
-        moved, faster = _flight(place, rate, time, span, numbers)
-        leaves = place > gap and rate < 0.0  # an impact that lasted beyond the last section
+        moved, faster = _flight(position, rate, time, span, numbers)
+        leaves = position > gap and rate < 0.0  # an impact that lasted beyond the last section
         if moved <= gap or leaves:
-            place, rate, time = moved, faster, time + span
+            position, rate, time = moved, faster, time + span
             continue
         low, high = 0.0, span
         for _ in range(60):
             middle = 0.5 * (low + high)
-            if _flight(place, rate, time, middle, numbers)[0] > gap:
+            if _flight(position, rate, time, middle, numbers)[0] > gap:
                 high = middle
             else:
                 low = middle
-        met, struck = _flight(place, rate, time, high, numbers)
-        place, rate, time = _impact(max(met, gap), max(struck, 1e-12), time + high, numbers)
-        place = min(place, gap)
+        met, struck = _flight(position, rate, time, high, numbers)
+        position, rate, time = _impact(max(met, gap), max(struck, 1e-12), time + high, numbers)
+        position = min(position, gap)
     if time > period:  # an impact that lasts beyond the section
-        place, rate = _flight(place, rate, time, period - time, numbers)
-    return place, rate
+        position, rate = _flight(position, rate, time, period - time, numbers)
+    return position, rate
 
 
 @njit(cache=True)
-def oscillator(place: float, rate: float, numbers: Numbers, periods: int) -> tuple[Floats, Floats]:
+def oscillator(
+    position: float, rate: float, numbers: Numbers, periods: int
+) -> tuple[Floats, Floats]:
     """Return (periods, 2) sections and (periods,) logarithms of a neighbour's growth.
 
     numbers : spring, damping, radius and speed of the crank, gap, stop (N/m^1.5) and the factor of
@@ -153,14 +157,14 @@ def oscillator(place: float, rate: float, numbers: Numbers, periods: int) -> tup
     """
     speed = numbers[3]
     sections, growth = np.empty((periods, 2)), np.empty(periods)
-    near, near_rate = place - NEAR, rate
+    near, near_rate = position - NEAR, rate
     for k in range(periods):
-        place, rate = _oscillator_period(place, rate, numbers)
+        position, rate = _oscillator_period(position, rate, numbers)
         near, near_rate = _oscillator_period(near, near_rate, numbers)
-        apart, faster = near - place, (near_rate - rate) / speed
+        apart, faster = near - position, (near_rate - rate) / speed
         distance = max(math.hypot(apart, faster), 1e-300)
         growth[k] = math.log(distance / NEAR)
-        near = place + apart * NEAR / distance
+        near = position + apart * NEAR / distance
         near_rate = rate + faster * NEAR / distance * speed
-        sections[k] = place, rate
+        sections[k] = position, rate
     return sections, growth

@@ -101,8 +101,8 @@ class Oscillator:
         """See `Mechanism`."""
         speed, radius = values
         numbers = (400.0, 2.0, radius, speed, self.gap, 1e9, 0.75 * (1.0 - 0.8**2))
-        place, rate = section
-        sections, growth = independent.oscillator(place + self.gap, rate, numbers, periods)
+        position, rate = section
+        sections, growth = independent.oscillator(position + self.gap, rate, numbers, periods)
         return sections - np.array([self.gap, 0.0]), growth
 
     def scales(self, values: Floats) -> Floats:

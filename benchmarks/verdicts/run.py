@@ -63,9 +63,9 @@ def by_another_program(mechanism: Mechanism, count: int, seed: int) -> Counter[s
         last = apart[-1]
         told = []
         for shift in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)):
-            place = values + BESIDE * np.array(shift) * widths
-            motion = mechanism.motion(place, last, LENGTHS[shift != (0, 0)])
-            told.append(judged(*motion, mechanism.scales(place), turns))
+            position = values + BESIDE * np.array(shift) * widths
+            motion = mechanism.motion(position, last, LENGTHS[shift != (0, 0)])
+            told.append(judged(*motion, mechanism.scales(position), turns))
         (true, right), *beside = told
         found += noted(said, true, right, away=all(one == true for one, _ in beside))
         if said not in ("undecided", *right) and true != UNCLEAR:

@@ -84,7 +84,7 @@ class Follower:
         return touched, np.array([along[1], -along[0]]) / np.hypot(*along)
 
     def draw(self, axes: page.Axes, at: int, pose: Pose) -> None:
-        """Draw it at an instant, the place of the cam where they touch in the middle."""
+        """Draw it at an instant, the point of the cam where they touch in the middle."""
         from matplotlib.patches import Circle
 
         touched, away = self.touched(pose)

@@ -57,7 +57,7 @@ class Journal:
         """Draw it at an instant."""
         from matplotlib.patches import Circle
 
-        centre = self._place(at)
+        centre = self._position(at)
         for middle, radius, style in (
             ((0.0, 0.0), _RING, {"facecolor": WALL, "edgecolor": EDGE}),
             ((0.0, 0.0), 1.0, {"facecolor": "white", "edgecolor": EDGE}),
@@ -66,7 +66,7 @@ class Journal:
         ):
             axes.add_patch(Circle(middle, radius, linewidth=0.6, **style))
         first = max(at - _TRAIL, 0)
-        trail = np.array([self._place(one) for one in range(first, at + 1)])
+        trail = np.array([self._position(one) for one in range(first, at + 1)])
         for part in range(_FADING):
             low, high = (len(trail) * (part + more) // _FADING for more in (0, 1))
             axes.plot(
@@ -81,7 +81,7 @@ class Journal:
         tip = centre + (1.0 - GAP) * away
         arrow(axes, tip, away, self.force(at) / self._strongest)
 
-    def _place(self, at: int) -> Floats:
+    def _position(self, at: int) -> Floats:
         """Return where the journal's centre is drawn at an instant."""
         distance = math.hypot(*self._centre[at])
         if distance == 0.0:

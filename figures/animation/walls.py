@@ -35,7 +35,7 @@ class BetweenWalls:
         joint = scene["joints"][name]
         marks, clearance = marks_of(joint), joint["clearance"]
         self._joint, parts = joint, marks["parts"]
-        self._places = np.array([*parts.values()])
+        self._positions = np.array([*parts.values()])
         self._depth = np.stack([columns[f"{name}.{part}.penetration"] for part in parts])
         self._force = np.stack([columns[f"{name}.{part}.normal_force"] for part in parts])
         self._play = play_of(joint)
@@ -81,11 +81,11 @@ class BetweenWalls:
         }
         if self._is_pin:
             nearest = int(np.argmax(self._depth[:, at]))
-            centre = touching[nearest] - self._half * self._places[nearest]
+            centre = touching[nearest] - self._half * self._positions[nearest]
             axes.add_patch(Circle(tuple(turned(angle, centre)), self._half, **style))
         else:
             axes.fill(*turned(angle, touching).T, **style)
-        outwards = turned(angle, self._places * [0.0, 1.0])
+        outwards = turned(angle, self._positions * [0.0, 1.0])
         for tip, normal, force in zip(
             turned(angle, touching), outwards, self._force[:, at], strict=True
         ):
@@ -96,4 +96,4 @@ class BetweenWalls:
         distances = (self._depth[:, at] + self._play).tolist()
         off = [shown(one, self._play, self._deepest) for one in distances]
         across = self._half + np.array(off)
-        return np.asarray(self._places * np.stack([np.ones(len(off)), across], axis=1))
+        return np.asarray(self._positions * np.stack([np.ones(len(off)), across], axis=1))

@@ -145,7 +145,7 @@ export class FreeMotion {
     if (!point) return;
     event.preventDefault();
     const { scene, view } = this; // the picture may be scaled anew while the point is dragged
-    const move = (next) => this.pulls.want({ scene, point, place: view.place(...pointer(next)) });
+    const move = (next) => this.pulls.want({ scene, point, position: view.position(...pointer(next)) });
     const release = () => {
       removeEventListener("pointermove", move);
       for (const end of ["pointerup", "pointercancel"]) removeEventListener(end, release);
@@ -167,9 +167,9 @@ export class FreeMotion {
     return found.find(({ distance }) => distance < least + TOGETHER).point;
   }
 
-  async pull({ scene, point, place }) {
+  async pull({ scene, point, position }) {
     const from = this.pose;
-    const pose = await dragged(scene, from, point, place, this.signal);
+    const pose = await dragged(scene, from, point, position, this.signal);
     if (from === this.pose) this.put(pose, null); // unless another was put there meanwhile
   }
 }

@@ -2,7 +2,7 @@
 
 import { angleOf, ends, heading, marks, placeOf } from "../mechanism/placing.js";
 
-const DIGITS = 9; // of angles and places: a picture has no more
+const DIGITS = 9; // of angles and positions: a picture has no more
 
 /**
  * Returns the document with the pose as its start, which its drivers then begin at, too.

@@ -12,7 +12,7 @@ const STROKE = 0.01; // m
 // what stands in a pointer beside the name of a body, joint or driver
 const NUMBERS = {
   angles: ["angle", "rad"],
-  points: ["place", "m"],
+  points: ["position", "m"],
   angular_velocities: ["angular_velocity", "rad/s"],
   velocities: ["velocity", "m/s"],
   "joints eccentricity": ["eccentricity", "m"],
@@ -45,7 +45,7 @@ function movedBy({ joint, body }, joints) {
  * Returns by pointer the name and unit of each number, and a range to begin with: `{name, unit, from,
  * to}`; what moves and its speed stand side by side.
  *
- * These are places and speeds of journals in their play, angles and angular velocities of bodies that
+ * These are positions and speeds of journals in their play, angles and angular velocities of bodies that
  * the scene starts at and no driver turns, and positions of drivers. Others can be written in a job's document.
  */
 export function startNumbers(document) {

@@ -22,8 +22,8 @@ export function bearing(clearance, contact, trail, limits) {
   const { radial_clearance: gap, bearing_radius: radius } = clearance;
   const { eccentricity_x: x, eccentricity_y: y, normal_force: force } = contact;
   const journal = BEARING - GAP;
-  const place = (one) => pixels(one, gap, limits);
-  const centre = place([x, y]);
+  const position = (one) => pixels(one, gap, limits);
+  const centre = position([x, y]);
   const size = Math.hypot(x, y) || 1e-300;
   const normal = [x / size, -y / size];
   const shapes = [
@@ -35,7 +35,7 @@ export function bearing(clearance, contact, trail, limits) {
   for (let part = 0; part < FADING; part++) {
     const from = Math.floor((trail.length * part) / FADING);
     const to = Math.floor((trail.length * (part + 1)) / FADING) + 1;
-    const points = trail.slice(from, to).map(place);
+    const points = trail.slice(from, to).map(position);
     const alpha = 0.25 + (0.75 * (part + 1)) / FADING;
     if (points.length > 1) shapes.push(line(points, { colour: "trail", width: 1.3, alpha }));
   }

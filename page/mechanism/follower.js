@@ -55,7 +55,7 @@ function faced(scene, pose, cam, { about, points }) {
   return Math.atan2(y, x);
 }
 
-/** Returns the place on a closed curve `at` so many of its points from the first one on. */
+/** Returns the position on a closed curve `at` so many of its points from the first one on. */
 function on(points, at) {
   const count = points.length - 1;
   const first = Math.floor(at);

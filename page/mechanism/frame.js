@@ -1,4 +1,4 @@
-/** A frame: how places in the world come to pixels of a picture. */
+/** A frame: how positions in the world come to pixels of a picture. */
 
 /** Returns the frame that shows a box `[left, low, right, high]` in a picture of pixels. */
 export function frame(box, width, height, margin = 34) {
@@ -14,8 +14,8 @@ export function frame(box, width, height, margin = 34) {
     pixel: ([x, y, dx = 0, dy = 0]) => [
       width / 2 + (x - middle[0]) * scale + dx, height / 2 - (y - middle[1]) * scale + dy,
     ],
-    /** Returns the place in the world of a pixel. */
-    place: (right, down) => [
+    /** Returns the position in the world of a pixel. */
+    position: (right, down) => [
       middle[0] + (right - width / 2) / scale, middle[1] - (down - height / 2) / scale,
     ],
   };

@@ -22,14 +22,14 @@ export function magnifiable(scene) {
     .map(([name]) => name);
 }
 
-/** Names of the places where the bodies of a joint with play touch: `A`, or `guide.corner_1` …. */
+/** Names of the contact pairs at which the bodies of a joint with play touch: `A`, or `guide.corner_1` …. */
 export function pairs(scene, name) {
   return Object.keys(marks(scene.joints[name]).parts).map((part) => (part ? `${name}.${part}` : name));
 }
 
 function quantities(joint) {
-  const place = marks(joint).is_journal ? ["eccentricity_x", "eccentricity_y"] : ["penetration"];
-  return [...place, "normal_force"];
+  const position = marks(joint).is_journal ? ["eccentricity_x", "eccentricity_y"] : ["penetration"];
+  return [...position, "normal_force"];
 }
 
 function contactPairs(scene) {
@@ -166,7 +166,7 @@ export class Motion {
   }
 }
 
-/** Returns the places of a journal in its bearing from one sample to before another. */
+/** Returns the positions of a journal in its bearing from one sample to before another. */
 function stretch(columns, joint, from, to) {
   const [x, y] = ["x", "y"].map((one) => columns[`${joint}.eccentricity_${one}`]);
   const path = [];

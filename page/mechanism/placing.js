@@ -1,5 +1,5 @@
 /**
- * Places of bodies and points in the world, in m and rad.
+ * Positions of bodies and points in the world, in m and rad.
  *
  * A pose gives by body `[x, y, theta]`: its centre of mass and its angle.
  */
@@ -37,7 +37,7 @@ export function world(pose, body, [x, y]) {
   return [px + c * x - s * y, py + s * x + c * y];
 }
 
-/** Returns the place of a reference such as `rod.crank` in the world. */
+/** Returns the position of a reference such as `rod.crank` in the world. */
 export function placeOf(scene, pose, text) {
   const { body, at } = reference(scene, text);
   return world(pose, body, at);

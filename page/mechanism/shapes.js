@@ -2,7 +2,7 @@
  * A mechanism at a pose as a list of shapes, for a canvas or an SVG file alike.
  *
  * A shape is `{kind, points, …}` with kind `line`, `polygon`, `disc` or `text`. A point is
- * `[x, y, right, down]`: a place in the world in m, and pixels from there. Colours are names of the
+ * `[x, y, right, down]`: a position in the world in m, and pixels from there. Colours are names of the
  * palette, widths and radii pixels.
  */
 
@@ -76,7 +76,7 @@ function rails(scene, pose, size) {
   }));
 }
 
-/** Joints that slide, each with its place and the direction of its axis in the world. */
+/** Joints that slide, each with its position and the direction of its axis in the world. */
 function sliding(scene, pose) {
   return Object.values(scene.joints)
     .filter((joint) => joint[marks(joint).axis])
@@ -158,8 +158,8 @@ function springs(scene, pose) {
     const coils = Array.from({ length: turns * 2 + 1 }, (_, i) => {
       const share = 0.15 + (0.7 * i) / (turns * 2);
       const off = i === 0 || i === turns * 2 ? 0 : i % 2 ? 6 : -6;
-      const place = [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
-      return [...place, off * nx, -off * ny];
+      const position = [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
+      return [...position, off * nx, -off * ny];
     });
     return [{ kind: "line", points: [a, ...coils, b], colour: "edge", width: 1.3 }];
   });
@@ -170,7 +170,7 @@ function joints(scene, pose) {
   const [driven, moved] = ["joint", "body"].map((of) => new Set(drivers.map((driver) => driver[of])));
   const isDriven = (name, joint) =>
     driven.has(name) || (marks(joint).turns && moved.has(ends(joint)[1].split(".")[0]));
-  const around = ([, joint]) => (play(joint) > 0 ? 0 : 1); // rings lie under others in their place
+  const around = ([, joint]) => (play(joint) > 0 ? 0 : 1); // rings lie under others at their position
   const ordered = Object.entries(scene.joints).sort((a, b) => around(a) - around(b));
   return ordered.flatMap(([name, joint]) => {
     if (!marks(joint).sign) return [];

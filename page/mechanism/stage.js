@@ -8,7 +8,7 @@ import { palette } from "./palette.js";
 import { shapes } from "./shapes.js";
 
 export class Stage {
-  /** @param motions one, or several to be compared in the same place */
+  /** @param motions one, or several to be compared in one picture */
   constructor(motions, name) {
     Object.assign(this, { motions, name, labels: false, box: null, seen: new Set() });
     this.canvas = element("canvas", { role: "img", "aria-label": `The mechanism ${name} in motion` });

@@ -34,18 +34,18 @@ export function walls(joint, heading, contacts, limits) {
       line([from, to], { colour: "edge", width: 1.6 }),
     ];
   });
-  const places = Object.values(parts);
-  const touching = places.map(([along, side], i) =>
+  const positions = Object.values(parts);
+  const touching = positions.map(([along, side], i) =>
     [along * SLIDER, side * (half + shown(contacts[i].penetration + gap, gap, limits))]);
   const look = { fill: "tint-0", stroke: "edge", width: 1.4 };
   if (isPin) {
     const nearest = contacts[0].penetration > contacts[1].penetration ? 0 : 1;
-    const centre = turned([0, touching[nearest][1] - places[nearest][1] * half]);
+    const centre = turned([0, touching[nearest][1] - positions[nearest][1] * half]);
     shapes.push(disc(centre, half, look), disc(centre, 3, { fill: "trail" }));
   } else {
     shapes.push(polygon(touching.map(turned), look));
   }
-  places.forEach(([, side], i) => {
+  positions.forEach(([, side], i) => {
     shapes.push(...arrow(turned(touching[i]), turned([0, side]), contacts[i].normal_force, limits));
   });
   const drawn = (isPin ? joint.clearance[size] : height / 2) / half; // m of a px

@@ -28,9 +28,9 @@ function inTurn(address, question, signal) {
   return answer;
 }
 
-/** Returns the pose in which a point `body.point` is pulled to a place `[x, y]` from another pose. */
-export async function dragged(scene, pose, point, place, signal) {
-  return (await post("/v1/scenes/drag", { scene: plain(scene), pose, point, place }, signal)).pose;
+/** Returns the pose in which a point `body.point` is pulled to a position `[x, y]` from another pose. */
+export async function dragged(scene, pose, point, position, signal) {
+  return (await post("/v1/scenes/drag", { scene: plain(scene), pose, point, position }, signal)).pose;
 }
 
 /** Returns a scene without what was declared for it, as its parameters are set, and its curves. */

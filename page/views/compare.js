@@ -1,4 +1,4 @@
-/** Up to four runs in the same plots, and their mechanisms in the same place. */
+/** Up to four runs in the same plots, and their mechanisms in one picture. */
 
 import { ChannelChoice } from "../interface/channel_choice.js";
 import { element, fill } from "../interface/element.js";

@@ -105,7 +105,7 @@ class SceneFindings(BaseModel):
     assemblies: list[dict[str, float]] = Field(
         description="Angles of all bodies, rad, in each way to put them together; the first is run."
     )
-    places: list[dict[str, tuple[float, float]]] = Field(
+    positions: list[dict[str, tuple[float, float]]] = Field(
         description="Centres of mass of all bodies, m, in each of them."
     )
     starts: list[dict[str, Any]] = Field(

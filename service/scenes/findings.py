@@ -13,7 +13,7 @@ from jointplay.solver.scene.overshoots import Overshoot, overshoots
 
 ALIKE = 1e-6
 """Sine of half the difference of two angles, and share of the largest distance from the origin of
-that of two places, up to which they are one."""
+that of two positions, up to which they are one."""
 
 PLACED = ("angles", "points")
 """Fields of a start that tell an assembly."""
@@ -28,7 +28,7 @@ def start_of(scene: AssembledScene, found: Branches, k: int) -> dict[str, Any]:
     """Return the `start` with which one of the assemblies is taken, to nine digits.
 
     It has the angles of all bodies, in the turns that are given or taken, and a point of each that
-    only slides to another place.
+    only slides to another position.
     """
     document = scene.document
     turns = {body: pose[2] for body, pose in scene.pose().items()}
@@ -37,10 +37,10 @@ def start_of(scene: AssembledScene, found: Branches, k: int) -> dict[str, Any]:
         body: turns[body] + math.remainder(angle - turns[body], 2.0 * math.pi)
         for body, angle in found.angles[k].items()
     }
-    first, places = found.places[0], found.places[k]
-    largest = max((math.hypot(*at) for at in [*first.values(), *places.values()]), default=0.0)
+    first, other = found.positions[0], found.positions[k]
+    largest = max((math.hypot(*at) for at in [*first.values(), *other.values()]), default=0.0)
     points = {}
-    for body, (x, y) in places.items():
+    for body, (x, y) in other.items():
         turned = abs(math.sin(0.5 * (angles[body] - found.angles[0][body]))) > ALIKE
         own = document["bodies"][body]["points"]
         if not turned and own and math.dist((x, y), first[body]) > ALIKE * largest:
@@ -78,7 +78,7 @@ def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
             {**taken._asdict(), "kept": taken.off <= assembly.reported} for taken in assembly.given
         ],
         "assemblies": found.angles,
-        "places": found.places,
+        "positions": found.positions,
         "held": found.held,
         "starts": [start_of(scene, found, k) for k in range(len(found.angles))],
         "period": None if admission is None else admission.period,

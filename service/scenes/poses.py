@@ -56,7 +56,7 @@ class Poses(BaseModel):
 
 
 class DraggedPose(BaseModel):
-    """A pose in which a point is as near to a place as the joints let it come."""
+    """A pose in which a point is as near to a position as the joints let it come."""
 
     scene: str
     pose: Pose
@@ -96,5 +96,5 @@ def pose_scene(body: JobBody, poser: Poser) -> Poses:
     responses=_REFUSALS,
 )
 def drag_point(body: JobBody, poser: Poser) -> DraggedPose:
-    """Pull a point of a body to a place; drivers let go, and clearances are closed."""
+    """Pull a point of a body to a position; drivers let go, and clearances are closed."""
     return DraggedPose.model_validate(poser.ask("drag", body))

@@ -48,11 +48,11 @@ class PosesQuestion(Strict):
 
 
 class DragQuestion(Strict):
-    """A scene, and a point of a body that is pulled to a place while the drivers let go."""
+    """A scene, and a point of a body that is pulled to a position while the drivers let go."""
 
     scene: Annotated[dict[str, Any], _GIVEN]
     point: Annotated[PointReference, Field(description="What is pulled, body.point.")]
-    place: Annotated[
+    position: Annotated[
         tuple[Coordinate, Coordinate], Field(strict=False, description="To where, x and y in m.")
     ]
     pose: Annotated[
@@ -109,7 +109,7 @@ def dragged(document: Any) -> dict[str, Any]:
             bodies = ", ".join(scene.bodies)
             raise InvalidInput.at("/pose", f"A pose gives x, y and theta of each of {bodies}.")
         start = np.array([question.pose[name] for name in scene.bodies], np.float64).ravel()
-    found = drag(scene, start, question.point, question.place)
+    found = drag(scene, start, question.point, question.position)
     return {"scene": scene.name, "pose": _by_body(scene, found)}
 
 

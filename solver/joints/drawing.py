@@ -20,8 +20,8 @@ class Drawing(NamedTuple):
     axis: str = ""
     size: str = ""
     block: tuple[str, str] | None = None
-    places: tuple[tuple[float, float], ...] = ((0.0, 0.0),)
-    """Places of its contact pairs, in their order."""
+    positions: tuple[tuple[float, float], ...] = ((0.0, 0.0),)
+    """Positions of its contact pairs, in their order."""
     picture: Literal["journal", "walls", "surface", ""] = ""
     caption: str = ""
 

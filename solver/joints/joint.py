@@ -81,8 +81,8 @@ class Joint(Strict):
     """Whether its bodies do not turn against each other; then the first's angle and `angle` are
     the second's."""
     is_journal: ClassVar[bool] = False
-    """Whether what has play is a journal in a bearing: then its place in the play is a vector, and
-    `start.joints` says where it starts."""
+    """Whether what has play is a journal in a bearing: then its position in the play is a vector,
+    and `start.joints` says where it starts."""
     one_sided: ClassVar[bool] = False
     """Whether a real one only pushes and may lift off: then its channel `normal_force` is below
     zero where it pulls without play, and what starts apart is not carried along."""

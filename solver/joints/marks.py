@@ -27,7 +27,7 @@ def marks(joint: type[Joint]) -> Marks:
         "block": drawing.block,
         "has_curves": joint.curves is not Joint.curves,
         "is_journal": joint.is_journal,
-        "parts": dict(zip(joint.parts, drawing.places, strict=True)),
+        "parts": dict(zip(joint.parts, drawing.positions, strict=True)),
         "picture": drawing.picture,
         "caption": drawing.caption,
     }

@@ -63,7 +63,7 @@ class PinInSlot(Joint):
     drawing: ClassVar[Drawing] = Drawing(
         axis="axis",
         size="pin_radius",
-        places=tuple((0.0, side) for side in WALLS.values()),
+        positions=tuple((0.0, side) for side in WALLS.values()),
         picture="walls",
         caption="Pin of joint {} in its slot",
     )

@@ -34,7 +34,7 @@ from jointplay.solver.quantities.units import (
 
 CORNERS = {"corner_1": (1.0, 1.0), "corner_2": (-1.0, 1.0)}
 CORNERS |= {"corner_3": (-1.0, -1.0), "corner_4": (1.0, -1.0)}
-"""Places of a slider's corners along the axis and across it, in halves of its length and height."""
+"""Positions of a slider's corners along its axis and across it, in halves of length and height."""
 SLIDER = (
     *WALL,
     Rule(
@@ -87,7 +87,7 @@ class Prismatic(Joint):
         axis="axis",
         size="height",
         block=("length", "height"),
-        places=(*CORNERS.values(),),
+        positions=(*CORNERS.values(),),
         picture="walls",
         caption="Slider of joint {} in its guide",
     )

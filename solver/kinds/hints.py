@@ -13,7 +13,7 @@ from jointplay.solver.kinds.start_hints import (
     behind_cams,
     deep_journals,
     driven_from_zero,
-    place_of,
+    position_of,
     reversed_drivers,
 )
 from jointplay.solver.kinds.unit_hints import in_degrees, nearly_turns, too_inert, too_soft
@@ -61,7 +61,9 @@ def _relaxed(name: str, element: ForceElement, scene: Scene, pose: Pose) -> Iter
     """Yield that a spring without a free length pulls as it is drawn."""
     if not isinstance(element, SpringDamper) or not element.stiffness:
         return
-    drawn = math.dist(*(place_of(point, scene, pose) for point in (element.first, element.second)))
+    drawn = math.dist(
+        *(position_of(point, scene, pose) for point in (element.first, element.second))
+    )
     length = float(f"{drawn:.{DIGITS}g}")
     if length > 0.0:
         yield (

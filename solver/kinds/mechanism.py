@@ -185,8 +185,8 @@ def _of_undecided(name: str, scene: Scene) -> Problem:
     first, second = scene.joints[name].points
     return Problem(
         "/scene/start/points",
-        f"'{second}' of joint '{name}' begins in one place with '{first}', and may go to any side"
-        f" of it. Say to which: give a place of '{second}'.",
+        f"'{second}' of joint '{name}' begins where '{first}' is, and may go to any side of it."
+        f" Say to which: give a position of '{second}'.",
     )
 
 
@@ -205,11 +205,11 @@ def _unheld_bodies(scene: Scene, tree: Tree) -> Iterator[Problem]:
 
 
 def _without_direction(scene: Scene, assembly: Assembly) -> Iterator[Problem]:
-    """Yield the forces whose points start in one place."""
+    """Yield the forces whose points coincide at the start."""
     for name in directionless(scene, assembly.pose):
         yield Problem(
             f"/scene/forces/{name}",
-            f"The points of '{name}' start in one place, where its force has no direction; start"
+            f"The points of '{name}' coincide at the start, where its force has no direction; start"
             " them apart, or give no free length.",
         )
 

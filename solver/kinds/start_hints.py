@@ -88,9 +88,11 @@ def behind_cams(scene: Scene, pose: Pose) -> Iterator[Problem]:
         ]
         (u, v), angle = joint.facing, 0.0 if body == WORLD else pose[body][2]
         c, s = math.cos(angle), math.sin(angle)
-        x, y = place_of(joint.points[0], scene, pose)
+        x, y = position_of(joint.points[0], scene, pose)
         for guide in guides:
-            gx, gy = (to - of for to, of in zip(place_of(guide, scene, pose), (x, y), strict=True))
+            gx, gy = (
+                to - of for to, of in zip(position_of(guide, scene, pose), (x, y), strict=True)
+            )
             along = gx * (c * u - s * v) + gy * (s * u + c * v)
             if along < -NEAR * math.hypot(gx, gy) * math.hypot(u, v):
                 yield Problem(
@@ -101,7 +103,7 @@ def behind_cams(scene: Scene, pose: Pose) -> Iterator[Problem]:
                 )
 
 
-def place_of(reference: str, scene: Scene, pose: Pose) -> tuple[float, float]:
+def position_of(reference: str, scene: Scene, pose: Pose) -> tuple[float, float]:
     """Return where a point is, m."""
     body, point = reference.split(".")
     if body == WORLD:

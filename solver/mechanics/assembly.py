@@ -18,7 +18,7 @@ from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, ra
 from jointplay.solver.mechanics.start.centred import centred
 from jointplay.solver.mechanics.start.closings import alike
 from jointplay.solver.mechanics.start.demands import CLOSED, Demands
-from jointplay.solver.mechanics.start.drawing import drawn_places
+from jointplay.solver.mechanics.start.drawing import drawn_positions
 from jointplay.solver.mechanics.start.given import Taken, distance, taken
 from jointplay.solver.mechanics.start.guess import first_angles, first_clocks, first_pose
 from jointplay.solver.mechanics.start.opening import opened, opened_but_for_one, within_play
@@ -122,13 +122,13 @@ def link_lengths(scene: Scene) -> list[float]:
 
 
 def directionless(scene: Scene, pose: Floats) -> list[str]:
-    """Return the force elements that need a direction and whose points start in one place."""
+    """Return the force elements that need a direction and whose points coincide at the start."""
     elements = {name: e for name, e in scene.forces.items() if e.needs_direction}
-    return _in_one_place(scene, pose, {n: (e.first, e.second) for n, e in elements.items()})
+    return _coincident(scene, pose, {n: (e.first, e.second) for n, e in elements.items()})
 
 
 def undecided(scene: Scene) -> list[str]:
-    """Return the joints that hold points apart which begin in one place, and may go to any side.
+    """Return the joints that hold points apart which coincide at the start, and may go to any side.
 
     Those of bodies that `start.points` demands are not among them.
     """
@@ -140,10 +140,10 @@ def undecided(scene: Scene) -> list[str]:
     }
     if not pairs:
         return []
-    return _in_one_place(scene, _guess(Demands.of(scene, shortest_link(scene))), pairs)
+    return _coincident(scene, _guess(Demands.of(scene, shortest_link(scene))), pairs)
 
 
-def _in_one_place(scene: Scene, pose: Floats, pairs: Mapping[str, tuple[str, str]]) -> list[str]:
+def _coincident(scene: Scene, pose: Floats, pairs: Mapping[str, tuple[str, str]]) -> list[str]:
     if not pairs:
         return []
     mechanism = AbsoluteMechanism(scene, view(scene), close_play=False)
@@ -260,7 +260,9 @@ def _posed(demands: Demands) -> _Poses:
 
 def _guess(demands: Demands) -> Floats:
     angles = first_angles(demands.scene)
-    return first_pose(demands.closed, angles, demands.driven, drawn_places(demands.scene, angles))
+    return first_pose(
+        demands.closed, angles, demands.driven, drawn_positions(demands.scene, angles)
+    )
 
 
 def _nearer(demands: Demands, pose: Floats) -> Floats:

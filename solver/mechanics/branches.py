@@ -22,7 +22,7 @@ class Branches(NamedTuple):
     """Sets of start angles that were tried; none of a mechanism with many bodies."""
     held: list[str]
     """Coordinates that were held, for example ``crank.theta``."""
-    places: list[dict[str, tuple[float, float]]]
+    positions: list[dict[str, tuple[float, float]]]
     """Centre of mass of each body in each of them, m."""
 
 

@@ -1,4 +1,4 @@
-"""Dragging: a point of the ideal mechanism pulled to a place, as far as the joints let it.
+"""Dragging: a point of the ideal mechanism pulled to a position, as far as the joints let it.
 
 Levenberg's and Marquardt's iteration on the distance (Levenberg 1944, Marquardt 1963), along the
 directions in which the constraints let the mechanism move; after each step it is closed again.
@@ -23,26 +23,26 @@ NEAR, NEARER = 1e-9, 1e-6
 """Lengths, and share of a distance below one, by which a step comes nearer, or is the last."""
 
 
-def drag(scene: Scene, pose: Floats, point: str, place: tuple[float, float]) -> Floats:
-    """Return the pose in which a point is as near to a place as it comes from a pose.
+def drag(scene: Scene, pose: Floats, point: str, position: tuple[float, float]) -> Floats:
+    """Return the pose in which a point is as near to a position as it comes from a pose.
 
     Drivers let go, clearances are closed. pose : (3 bodies,) x, y (m), theta (rad), near which the
-    mechanism is closed first. point : ``body.point``. place : x, y in m.
+    mechanism is closed first. point : ``body.point``. position : x, y in m.
     """
-    return _Dragging(scene, point, place).dragged(pose)
+    return _Dragging(scene, point, position).dragged(pose)
 
 
 class _Dragging:
-    def __init__(self, scene: Scene, point: str, place: tuple[float, float]) -> None:
+    def __init__(self, scene: Scene, point: str, position: tuple[float, float]) -> None:
         self.mechanism = AbsoluteMechanism(scene, view(scene), close_play=True, driven=False)
         self.clocks = first_clocks(scene)
         self.length = shortest_link(scene)
         self.scale = np.tile([self.length, self.length, 1.0], len(scene.bodies))
         self.still = np.zeros(len(self.scale))
-        self.point, self.place = point, np.array(place)
+        self.point, self.position = point, np.array(position)
 
     def dragged(self, pose: Floats) -> Floats:
-        """Return the pose nearest to the place; see `drag`."""
+        """Return the pose nearest to the position; see `drag`."""
         here = pose.copy()
         jacobian, _ = self._close(here)
         damping = GENTLE * self.length**2
@@ -77,7 +77,7 @@ class _Dragging:
 
     def _gap(self, pose: Floats) -> Floats:
         x, y = self.mechanism.marker(self.point, pose, self.still).position
-        return np.asarray(self.place - (x, y), np.float64)
+        return np.asarray(self.position - (x, y), np.float64)
 
     def _free(self, pose: Floats, jacobian: Floats) -> tuple[Floats, Floats]:
         """Return directions that the joints leave, (freedom, 3 bodies), and what they move.

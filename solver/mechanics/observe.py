@@ -73,7 +73,7 @@ def body_values(body: BodyMotion) -> tuple[Scalar, ...]:
 
 def _ends(numbers: Scene, motion: Motion, joint: Joint) -> Ends:
     """Return how a joint's second point lies against its first, without rates."""
-    places, angles = [], []
+    positions, angles = [], []
     for reference in joint.points:
         body, point = reference.split(".")
         if body == WORLD:
@@ -82,10 +82,10 @@ def _ends(numbers: Scene, motion: Motion, joint: Joint) -> Ends:
         else:
             x, y, _, _ = point_values(numbers, motion, reference)
             angles.append(motion.bodies[body].angle)
-        places.append((x, y))
+        positions.append((x, y))
     (sine, cosine), (other_sine, other_cosine) = map(sine_cosine, angles)
     turned = ((cosine, sine), (other_cosine, other_sine))
-    gap, still = minus(places[1], places[0]), (0.0, 0.0)
+    gap, still = minus(positions[1], positions[0]), (0.0, 0.0)
     return Ends(gap, still, still, turned, (angles[0], angles[1]))
 
 

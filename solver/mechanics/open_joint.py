@@ -8,7 +8,7 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.mechanics.closing import arrays
-from jointplay.solver.mechanics.start.drawing import drawn_places
+from jointplay.solver.mechanics.start.drawing import drawn_positions
 from jointplay.solver.mechanics.start.guess import first_angles, first_clocks, first_pose
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
@@ -38,7 +38,7 @@ def open_joint(scene: Scene) -> OpenJoint:
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
     driven, length = first_clocks(scene), shortest_link(scene)
     angles = first_angles(scene)
-    pose = first_pose(ideal, angles, driven, drawn_places(scene, angles))
+    pose = first_pose(ideal, angles, driven, drawn_positions(scene, angles))
     still, count = np.zeros_like(pose), len(pose)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
     tree = spanning_tree(scene)

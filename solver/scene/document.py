@@ -50,10 +50,10 @@ class Start(Strict):
     """The pose and the velocities at t = 0, as far as they are given.
 
     Journals start concentric unless `joints` says where; sliders, pins in slots and followers in
-    the middle of their play unless `guides` does. Angles, places of points of bodies in the world,
-    and velocities hold if the joints allow it, within their play; what is not given is fitted. What
-    cannot hold all together holds in its order as far as it can, the rest comes as near as it gets,
-    in the nearest of the assemblies.
+    the middle of their play unless `guides` does. Angles, positions of points of bodies in the
+    world, and velocities hold if the joints allow it, within their play; what is not given is
+    fitted. What cannot hold all together holds in its order as far as it can, the rest comes as
+    near as it gets, in the nearest of the assemblies.
     """
 
     angles: Annotated[dict[Name, Angle], Field(max_length=96)] = {}

@@ -1,4 +1,4 @@
-"""Contact pairs: the places where the bodies of a joint with play may touch.
+"""Contact pairs: where the bodies of a joint with play may touch.
 
 Each pair has a gap, a mode, an impact rate, channels and impacts of its own. A journal in its
 bearing is one pair, named after its joint; a slider has one at each corner, ``<joint>.corner_1`` to
@@ -17,7 +17,7 @@ from jointplay.solver.scene.document import Scene
 
 @dataclass(frozen=True)
 class ContactPair:
-    """A place where the bodies of a joint with play may touch."""
+    """Two surfaces of the bodies of a joint with play that may touch."""
 
     joint: str
     part: str

@@ -127,7 +127,7 @@ def _start(scene: Scene) -> Iterator[Problem]:
         elif not scene.joints[name].has_play:
             yield Problem(
                 f"/start/joints/{name}",
-                f"Joint '{name}' has no clearance, so its parts have one place; leave it out.",
+                f"Joint '{name}' has no clearance, so its parts coincide; leave it out.",
             )
         elif not scene.joints[name].is_journal:
             yield Problem(
@@ -149,7 +149,7 @@ def _guided(scene: Scene, pointer: str, name: str, start: GuideStart) -> Iterato
     elif not joint.has_play:
         yield Problem(
             pointer,
-            f"Joint '{name}' has no clearance, so its parts have one place; leave it out.",
+            f"Joint '{name}' has no clearance, so its parts coincide; leave it out.",
         )
     elif not joint.holds_angle:
         for field in ("tilt", "tilt_rate"):

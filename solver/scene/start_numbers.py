@@ -38,7 +38,7 @@ class StartNumber:
 
 NUMBERS: Final = (
     StartNumber("/start/angles/NAME", "bodies", "angle", "rad"),
-    StartNumber("/start/points/POINT", "bodies", "place", "m", is_vector=True),
+    StartNumber("/start/points/POINT", "bodies", "position", "m", is_vector=True),
     StartNumber("/start/angular_velocities/NAME", "bodies", "angular_velocity", "rad/s"),
     StartNumber("/start/velocities/NAME", "bodies", "velocity", "m/s", is_vector=True),
     StartNumber("/start/joints/NAME/eccentricity", "joints", "eccentricity", "m", is_vector=True),

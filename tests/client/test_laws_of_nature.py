@@ -104,7 +104,7 @@ class Seen(NamedTuple):
         return self.channels[name]
 
     def arm(self, reference: str) -> tuple[Floats, Floats]:
-        """Return the vector from a body's centre to one of its points; of the ground its place."""
+        """Return the vector from a body's centre to one of its points; of the ground's from 0."""
         body, point = reference.split(".")
         if body == "ground":
             x, y = self.scene["ground"]["points"][point]
@@ -113,7 +113,7 @@ class Seen(NamedTuple):
         angle = self[f"{body}.theta"]
         return x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)
 
-    def place(self, reference: str) -> tuple[Floats, Floats]:
+    def position(self, reference: str) -> tuple[Floats, Floats]:
         """Return where a point is."""
         body = reference.split(".")[0]
         ax, ay = self.arm(reference)
@@ -172,18 +172,18 @@ def loads(run: Seen) -> dict[str, Load]:
         held = run.channels.get(f"{name}.moment", np.zeros_like(run.time))
         loose = "clearance" in joint
         rubbing = run[f"{name}.friction_force"] if loose else np.zeros_like(run.time)
-        there = run.place(second)
+        there = run.position(second)
         for reference, sign, lever in ((second, 1.0, RADIUS - CLEARANCE), (first, -1.0, RADIUS)):
             body = reference.split(".")[0]
             if body == "ground":
                 continue
             # bodies of an ideal joint meet at the second's point; play has a point for each
-            x, y = run.place(reference) if loose else there
+            x, y = run.position(reference) if loose else there
             at = x - run[f"{body}.x"], y - run[f"{body}.y"]
             found[body].add(at, force, sign)
             found[body].moment = found[body].moment + sign * (held + lever * rubbing)
     found["crank"].moment = found["crank"].moment + run["motor.torque"]
-    (px, py), (qx, qy) = run.place("ground.wall"), run.place("tool.hook")
+    (px, py), (qx, qy) = run.position("ground.wall"), run.position("tool.hook")
     length = np.hypot(qx - px, qy - py)
     pull = run["spring.force"] * (px - qx) / length, run["spring.force"] * (py - qy) / length
     found["tool"].add(run.arm("tool.hook"), pull, 1.0)

@@ -250,7 +250,7 @@ def sensitivity(design="saltelli", rows=64, parameters=3, *, failed=(), constant
         ],
         values=1e-4 + 4e-4 * shares,
         status=status,
-        channels=(Channel("block.x", "m", "place of the block"),),
+        channels=(Channel("block.x", "m", "position of the block"),),
         extremes={"block.x": PeakColumns(-stroke, stroke, stroke, stroke)},
         statistics={"left.contact_share": 1000.0 * stroke - 500.0},
         failures={point: Failure("step-size-underflow", "It failed.", 0.7) for point in failed},

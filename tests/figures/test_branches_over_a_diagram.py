@@ -22,7 +22,7 @@ def seen(unit="m", turns=0.0):
     rows = found.section_values["state.mass.s"] + 2.0 * np.pi * turns
     return replace(
         found,
-        observables=(*found.observables, Channel("mass.x", unit, "place")),
+        observables=(*found.observables, Channel("mass.x", unit, "position")),
         section_values={**found.section_values, "mass.x": rows},
     )
 
@@ -38,7 +38,7 @@ def diagram(parameter="speed", channel="mass.x", unit="m"):
         parameters=(Channel(parameter, "rad/s", parameter),),
         values=SPEEDS[:, None],
         status=np.full(len(SPEEDS), PointStatus.done, np.uint8),
-        observables=(Channel(channel, unit, "place"),),
+        observables=(Channel(channel, unit, "position"),),
         times=np.zeros((len(SPEEDS), 2)),
         section_values={channel: np.repeat(heights[:, None], 2, axis=1)},
     )

@@ -182,7 +182,7 @@ def test_a_mechanism_in_the_editor_is_dragged(browsing, url):
         corner = page.get_by_label(EDITED).bounding_box()
 
         def pin():
-            """Place of the only joint with play, at the end of the crank, once all is answered."""
+            """Position of the only joint with play, at the crank's end, once all is answered."""
             page.evaluate(REDRAWN)  # the pointer's moves are told to the page once a frame
             page.wait_for_function(ANSWERED, arg=EDITED)
             _, right, down = drawn(page, EDITED, "play", 20)

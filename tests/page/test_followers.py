@@ -43,6 +43,6 @@ def test_a_cam_turns_under_its_follower_as_in_the_figure(
         there = cam.get_xy()[: len(outlines[at])] * [1.0, -1.0] * RADIUS / ROLLER
         np.testing.assert_allclose(outlines[at], there, rtol=0.0, atol=1e-9)
         if shape == "roller":
-            (place,), centre = followers[at]["points"], moved.get_center()
+            (position,), centre = followers[at]["points"], moved.get_center()
             expected = np.array(centre) * [1.0, -1.0] * RADIUS / ROLLER
-            np.testing.assert_allclose(place[2:], expected, rtol=0.0, atol=1e-9)
+            np.testing.assert_allclose(position[2:], expected, rtol=0.0, atol=1e-9)

@@ -88,7 +88,7 @@ def test_a_law_that_is_in_no_roster_is_refused_at_its_tag(platform: Platform) ->
 
 @pytest.mark.usefixtures("hertz")
 def test_its_parameters_are_checked_as_its_own(platform: Platform) -> None:
-    place = "/scene/joints/bearing/clearance/contact"
+    pointer = "/scene/joints/bearing/clearance/contact"
     for contact, field, words in (
         ({"law": "hertz", "hardness": -1.0}, "hardness", "greater than 0 N/m^1.5"),
         ({"law": "hertz"}, "hardness", "required"),
@@ -98,7 +98,7 @@ def test_its_parameters_are_checked_as_its_own(platform: Platform) -> None:
         with pytest.raises(Refused) as refused:
             platform.client.submit(thrown(contact))
         (found,) = refused.value.fields
-        assert found.pointer == f"{place}/{field}"
+        assert found.pointer == f"{pointer}/{field}"
         assert words in found.detail
 
 

@@ -95,20 +95,20 @@ def test_an_element_that_is_in_no_roster_is_refused_at_its_type(platform: Platfo
 
 @pytest.mark.usefixtures("winch")
 @pytest.mark.parametrize(
-    ("fields", "place", "words"),
+    ("fields", "pointer", "words"),
     [
         ({"tension": 0.0}, "/tension", "greater than 0 N"),
         ({"first": "ground.pole"}, "/first", "point of 'ground'"),
-        ({"first": "ground.rails"}, "", "start in one place"),
+        ({"first": "ground.rails"}, "", "coincide at the start"),
     ],
 )
 def test_what_is_wrong_with_it_is_said_at_its_fields(
-    platform: Platform, fields: dict[str, Any], place: str, words: str
+    platform: Platform, fields: dict[str, Any], pointer: str, words: str
 ) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(hauled(**fields))
     (field,) = refused.value.fields
-    assert field.pointer == f"/scene/forces/winch{place}"
+    assert field.pointer == f"/scene/forces/winch{pointer}"
     assert words in field.detail
 
 

@@ -66,7 +66,7 @@ def test_a_joint_that_is_in_no_roster_is_refused_at_its_type(platform: Platform)
 
 @pytest.mark.usefixtures("ring_slot")
 @pytest.mark.parametrize(
-    ("fields", "place", "words"),
+    ("fields", "pointer", "words"),
     [
         ({"radius": 0.0}, "/joints/ring/radius", "greater than 0 m"),
         ({"hub": "ground.A"}, "/joints/ring/hub", "point of 'ground'"),
@@ -75,12 +75,12 @@ def test_a_joint_that_is_in_no_roster_is_refused_at_its_type(platform: Platform)
     ],
 )
 def test_what_is_wrong_with_it_is_said_at_its_fields(
-    platform: Platform, fields: dict[str, Any], place: str, words: str
+    platform: Platform, fields: dict[str, Any], pointer: str, words: str
 ) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(circling((0.0, SPEED), **fields))
     (field,) = refused.value.fields
-    assert field.pointer == f"/scene{place}"
+    assert field.pointer == f"/scene{pointer}"
     assert words in field.detail
 
 

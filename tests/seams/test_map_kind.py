@@ -47,7 +47,7 @@ RELIEF: dict[str, Any] = {
 MANY = {"from": 1e-4, "to": 2e-4, "count": 10**6}
 MEAN = "A.normal_force.mean"
 ORDER = coarse_to_fine((3, 4))
-"""Place of each point in the map, row by row."""
+"""Index of each point in the map, row by row."""
 
 
 @pytest.fixture(autouse=True)
@@ -159,7 +159,7 @@ def test_a_block_that_was_cut_short_goes_on_to_the_same_bits(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize(
-    ("change", "place"),
+    ("change", "pointer"),
     [
         ({"by": RELIEF["along"]}, "/by/parameter"),
         ({"along": {"parameter": "slack", "values": [1.0]}}, "/along/parameter"),
@@ -169,11 +169,11 @@ def test_a_block_that_was_cut_short_goes_on_to_the_same_bits(tmp_path: Path) -> 
     ],
 )
 def test_what_is_no_map_is_refused_at_its_field(
-    platform: Platform, change: dict[str, Any], place: str
+    platform: Platform, change: dict[str, Any], pointer: str
 ) -> None:
     with pytest.raises(Refused) as refusal:
         platform.client.submit(RELIEF | change)
-    assert [problem.pointer for problem in refusal.value.fields] == [place]
+    assert [problem.pointer for problem in refusal.value.fields] == [pointer]
 
 
 def test_the_command_line_and_the_client_are_made_of_its_document(

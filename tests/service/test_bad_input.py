@@ -145,13 +145,13 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize(("job", "place"), REFUSED.values(), ids=REFUSED)
+@pytest.mark.parametrize(("job", "expected"), REFUSED.values(), ids=REFUSED)
 def test_a_wrong_job_is_refused_with_the_field_and_what_would_be_right(
-    http: httpx.Client, job: object, place: str
+    http: httpx.Client, job: object, expected: str
 ) -> None:
     problem = refused(http, json.dumps(job).encode(), 422)
     pointers = [error["pointer"] for error in problem["errors"]]
-    assert any(pointer.startswith(place) for pointer in pointers), problem
+    assert any(pointer.startswith(expected) for pointer in pointers), problem
     assert all(len(error["detail"]) >= 15 for error in problem["errors"])
 
 
@@ -187,12 +187,12 @@ MALFORMED = {
 }
 
 
-@pytest.mark.parametrize(("body", "place"), MALFORMED.values(), ids=MALFORMED)
-def test_a_body_that_is_not_json_is_refused_with_the_place(
-    http: httpx.Client, body: bytes, place: str
+@pytest.mark.parametrize(("body", "pointer"), MALFORMED.values(), ids=MALFORMED)
+def test_a_body_that_is_not_json_is_refused_with_the_pointer(
+    http: httpx.Client, body: bytes, pointer: str
 ) -> None:
     problem = refused(http, body, 400)
-    assert [error["pointer"] for error in problem["errors"]] == [place]
+    assert [error["pointer"] for error in problem["errors"]] == [pointer]
 
 
 def test_the_estimate_is_given_when_a_limit_is_exceeded(http: httpx.Client) -> None:

@@ -120,7 +120,7 @@ def test_a_continuation_is_estimated_before_it_is_queued(client):
 
 
 @pytest.mark.parametrize(
-    ("change", "place"),
+    ("change", "pointer"),
     [
         ({"values": {"from": 30.0, "to": 30.0, "count": 3}}, "/values/to"),
         ({"values": [1.0, 2.0]}, "/values"),
@@ -150,23 +150,23 @@ def test_a_continuation_is_estimated_before_it_is_queued(client):
         ({"method": "rk4", "step": 1e-3}, "/method"),
     ],
 )
-def test_what_cannot_be_followed_is_refused_at_its_field(client, change, place):
+def test_what_cannot_be_followed_is_refused_at_its_field(client, change, pointer):
     with pytest.raises(Refused) as refusal:
         client.submit(JOB | change)
-    assert place in [problem.pointer for problem in refusal.value.fields]
+    assert pointer in [problem.pointer for problem in refusal.value.fields]
 
 
 @pytest.mark.parametrize(
-    ("section", "place", "sentence"),
+    ("section", "pointer", "sentence"),
     [
         (None, "/section", "Give a 'section' where a channel crosses a value"),
         ({"channel": "rod.tehta", "value": 0.0}, "/section/channel", "There is no channel"),
     ],
 )
-def test_a_mechanism_that_nothing_drives_needs_a_section(client, section, place, sentence):
+def test_a_mechanism_that_nothing_drives_needs_a_section(client, section, pointer, sentence):
     job = jobs.continuation("pendulum", "mass", {"from": 0.5, "to": 1.0, "count": 3})
     with pytest.raises(Refused) as refusal:
         client.submit(job | {"section": section})
     (problem,) = refusal.value.fields
-    assert problem.pointer == place
+    assert problem.pointer == pointer
     assert sentence in problem.detail

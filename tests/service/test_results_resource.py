@@ -144,9 +144,9 @@ def test_an_unknown_parameter_is_answered_with_those_that_there_are(
 def test_a_scene_that_is_no_object_is_named_and_a_body_without_a_type(http):
     problem = http.post("/v1/scenes/check", json=[1]).json()
     assert (problem["status"], problem["errors"][0]["pointer"]) == (422, "")
-    problem = http.post("/v1/scenes/drag", json={"scene": {}, "point": "a.b", "place": 1}).json()
+    problem = http.post("/v1/scenes/drag", json={"scene": {}, "point": "a.b", "position": 1}).json()
     told = {error["pointer"]: error["detail"] for error in problem["errors"]}
-    assert told["/place"] == "'place' must be a list."
+    assert told["/position"] == "'position' must be a list."
     problem = http.post("/v1/jobs", content=b"{}").json()
     assert problem["detail"].startswith("The body was sent without a Content-Type; send it as")
 

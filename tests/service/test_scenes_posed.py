@@ -84,12 +84,12 @@ def test_it_is_said_where_drivers_stop(http):
 
 def test_a_point_is_dragged_and_dragged_on(http):
     scene = {"preset": "four-bar"}
-    drag = {"scene": scene, "point": "crank.B", "place": [0.1, 0.3]}
+    drag = {"scene": scene, "point": "crank.B", "position": [0.1, 0.3]}
     first = http.post("/v1/scenes/drag", json=drag)
     assert first.status_code == 200
     pose = first.json()["pose"]
     assert pose["crank"][2] == pytest.approx(math.atan2(0.3, 0.1), abs=1e-2)
-    drag |= {"place": [-0.3, 0.1], "pose": pose}
+    drag |= {"position": [-0.3, 0.1], "pose": pose}
     pose = http.post("/v1/scenes/drag", json=drag).json()["pose"]
     assert pose["crank"][2] == pytest.approx(math.atan2(0.1, -0.3), abs=1e-2)
 
@@ -110,13 +110,18 @@ FOUR_BAR = {"preset": "four-bar"}
         ("poses", {"scene": FOUR_BAR, "times": [0.0, 0.2, 0.1]}, "/times/2"),
         ("poses", {"scene": FOUR_BAR, "times": [1e6]}, "/times"),
         ("poses", {"scene": FOUR_BAR, "time": [1.0]}, "/time"),
-        ("drag", {"scene": FOUR_BAR, "point": "crank.B"}, "/place"),
-        ("drag", {"scene": FOUR_BAR, "point": "crank", "place": [0, 0]}, "/point"),
-        ("drag", {"scene": FOUR_BAR, "point": "ground.A", "place": [0, 0]}, "/point"),
-        ("drag", {"scene": FOUR_BAR, "point": "crank.B", "place": [0]}, "/place/1"),
+        ("drag", {"scene": FOUR_BAR, "point": "crank.B"}, "/position"),
+        ("drag", {"scene": FOUR_BAR, "point": "crank", "position": [0, 0]}, "/point"),
+        ("drag", {"scene": FOUR_BAR, "point": "ground.A", "position": [0, 0]}, "/point"),
+        ("drag", {"scene": FOUR_BAR, "point": "crank.B", "position": [0]}, "/position/1"),
         (
             "drag",
-            {"scene": FOUR_BAR, "point": "crank.B", "place": [0, 0], "pose": {"crank": [0, 0, 0]}},
+            {
+                "scene": FOUR_BAR,
+                "point": "crank.B",
+                "position": [0, 0],
+                "pose": {"crank": [0, 0, 0]},
+            },
             "/pose",
         ),
     ],
@@ -127,7 +132,10 @@ def test_what_cannot_be_posed_is_refused_at_its_field(http, resource, document, 
     assert pointer in [one["pointer"] for one in answer.json()["errors"]]
 
 
-def test_a_place_of_one_coordinate_is_too_short(http):
-    document = {"scene": FOUR_BAR, "point": "crank.B", "place": [0]}
+def test_a_position_of_one_coordinate_is_too_short(http):
+    document = {"scene": FOUR_BAR, "point": "crank.B", "position": [0]}
     (problem,) = http.post("/v1/scenes/drag", json=document).json()["errors"]
-    assert problem == {"pointer": "/place/1", "detail": "'place' has 1 entries, and needs more."}
+    assert problem == {
+        "pointer": "/position/1",
+        "detail": "'position' has 1 entries, and needs more.",
+    }

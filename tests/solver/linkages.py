@@ -52,7 +52,7 @@ class Linkage:
     sense: float
     dyads: list[Dyad] = field(default_factory=list)
 
-    def places(self, time: float) -> dict[str, Point]:
+    def positions(self, time: float) -> dict[str, Point]:
         """Return the points at a time: B of the crank, the pin and E of each dyad."""
         found = {"B": cmath.rect(self.length, self.angle + self.sense * time)}
         for dyad in self.dyads:
@@ -95,7 +95,7 @@ class Linkage:
 
     def document(self) -> dict[str, Any]:
         """Return the scene, put together as it stands at the start."""
-        at = self.places(0.0)
+        at = self.positions(0.0)
         ground: dict[str, Point] = {"A": 0j}
         bodies, joints = {}, {}
 
@@ -165,7 +165,7 @@ def _tried(random: np.random.Generator, kind: str) -> Linkage:
         scaled = 1.0 + random.choice([0.0, 1e-3])
         found.dyads.append(Dyad("b", "B", ground * turned, coupler * scaled, rocker, side))
     if kind == "six-bar":
-        place = complex(*random.uniform(-1.5, 1.5, 2))
+        position = complex(*random.uniform(-1.5, 1.5, 2))
         one, two = random.uniform(0.3, 1.5, 2)
-        found.dyads.append(Dyad("b", "aE", place, one, two, random.choice([-1.0, 1.0])))
+        found.dyads.append(Dyad("b", "aE", position, one, two, random.choice([-1.0, 1.0])))
     return found

@@ -41,8 +41,8 @@ def turned(instant: Instant, angle: float) -> Instant:
     scene = instant.scene
     document = scene.model_dump()
     document["gravity"] = turn(scene.gravity, angle)
-    for name, place in scene.ground.points.items():
-        document["ground"]["points"][name] = turn(place, angle)
+    for name, position in scene.ground.points.items():
+        document["ground"]["points"][name] = turn(position, angle)
     driven = dict(instant.driven)
     for name, joint in scene.joints.items():
         side = ground_side(joint)
@@ -74,7 +74,7 @@ def mirrored(instant: Instant) -> Instant:
     document = scene.model_dump()
     document["gravity"] = flip(scene.gravity)
     for owner in (document["ground"], *document["bodies"].values()):
-        owner["points"] = {name: flip(place) for name, place in owner["points"].items()}
+        owner["points"] = {name: flip(position) for name, position in owner["points"].items()}
     driven = dict(instant.driven)
     for name, joint in scene.joints.items():
         changed = document["joints"][name]

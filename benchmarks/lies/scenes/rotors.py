@@ -19,12 +19,12 @@ def rotor(draw: Draw) -> tuple[dict[str, Any], float]:
         "inertia": draw.size(1e-5, 1e-2),
         "points": {"pin": [clearance * draw.even(0.05, 0.65), 0.0]},
     }
-    place = [aside * clearance * math.cos(at), aside * clearance * math.sin(at)]
+    position = [aside * clearance * math.cos(at), aside * clearance * math.sin(at)]
     start = {
         "angles": {"rotor": 0.0},
         "angular_velocities": {"rotor": spin},
         "velocities": {"rotor": [speed * math.cos(heading), speed * math.sin(heading)]},
-        "joints": {"J": {"eccentricity": place}},
+        "joints": {"J": {"eccentricity": position}},
     }
     scene = rotor_in_bearing("rotor", gravity, body, bearing(draw, clearance), start)
     return scene, min(max(1e-2 * clearance / 1e-3, 10.0 / spin), 0.03)

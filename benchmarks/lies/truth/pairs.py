@@ -1,4 +1,4 @@
-"""Places at which the bodies of a joint with play may touch, from its document."""
+"""Pairs of surfaces of a joint with play that may touch, from its document."""
 
 import math
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ CIRCLE, WALL, CAM = range(3)
 
 
 class Pair(NamedTuple):
-    """A place where bodies may touch.
+    """Two surfaces that may touch.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Places and velocities of points of bodies, and forces on them."""
+"""Positions and velocities of points of bodies, and forces on them."""
 
 import math
 

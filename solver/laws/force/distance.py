@@ -1,4 +1,4 @@
-"""Distance of two points: its direction and rate, guarded where they are in one place."""
+"""Distance of two points: its direction and rate, guarded where they coincide."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ from jointplay.solver.laws.force.law import Ends
 from jointplay.solver.quantities.scalars import Scalar, sqrt
 
 COINCIDENT = 1e-300
-"""Added to the square of the distance (m^2), so that points in one place divide by no zero."""
+"""Added to the square of the distance (m^2), so that points that coincide divide by no zero."""
 
 
 CHANNELS = (
@@ -23,7 +23,7 @@ class Distance(NamedTuple):
     length: Scalar
     """The distance, m."""
     direction: tuple[Scalar, Scalar]
-    """Unit vector from the first point to the second; zero where they are in one place."""
+    """Unit vector from the first point to the second; zero where they coincide."""
     rate: Scalar
     """Rate of the distance, m/s; zero there."""
 

@@ -45,7 +45,7 @@ class Effect(NamedTuple):
 
 
 class Over(Strict):
-    """Argument of a strength: time (s), a driver's position, or the places of two points.
+    """Argument of a strength: time (s), a driver's position, or the positions of two points.
 
     Of two points, by default the element's own: `angle` of the second's body less that of the
     first's (rad, whole turns count), `distance`, or `x` and `y` of the second less the first (m,
@@ -95,5 +95,5 @@ class ForceElement(Strict):
 
     @property
     def needs_direction(self) -> bool:
-        """True if the points must not start in one place, for the force has no direction there."""
+        """True if the points must not coincide at the start: the force has no direction there."""
         return False

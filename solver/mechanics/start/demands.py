@@ -9,7 +9,7 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.rows import Row
-from jointplay.solver.mechanics.start.given import Given, Rows, given_places
+from jointplay.solver.mechanics.start.given import Given, Rows, given_positions
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
@@ -47,7 +47,7 @@ class Demands:
             scene,
             closed,
             AbsoluteMechanism(scene, numbers, close_play=False, held=told),
-            given_places(closed, length),
+            given_positions(closed, length),
             {name: clock.start for name, clock in clocks(scene).items()},
             length,
             np.tile([length, length, 1.0], len(closed.bodies)),

@@ -1,7 +1,7 @@
-"""Bodies as drawn: the angles and places that `start.points` gives them, as a first guess.
+"""Bodies as drawn: the angles and positions that `start.points` gives them, as a first guess.
 
 Two points or more of a body give it an angle, by the least squares of their distances from where
-they are drawn; one gives it a place only.
+they are drawn; one gives it a position only.
 """
 
 import numpy as np
@@ -23,7 +23,7 @@ def drawn_angles(scene: Scene) -> dict[str, float]:
     return found
 
 
-def drawn_places(scene: Scene, angles: dict[str, float]) -> dict[str, Floats]:
+def drawn_positions(scene: Scene, angles: dict[str, float]) -> dict[str, Floats]:
     """Return centres of mass of drawn bodies, (2,) m, once their angles, rad, are known."""
     found: dict[str, Floats] = {}
     for body, (own, there) in _drawn(scene).items():
@@ -34,11 +34,11 @@ def drawn_places(scene: Scene, angles: dict[str, float]) -> dict[str, Floats]:
 
 def _drawn(scene: Scene) -> dict[str, tuple[Floats, Floats]]:
     """Return points of each drawn body, (points, 2) m, in its own axes and in the world's."""
-    places: dict[str, list[tuple[list[float], list[float]]]] = {}
-    for reference, place in scene.start.points.items():
+    positions: dict[str, list[tuple[list[float], list[float]]]] = {}
+    for reference, position in scene.start.points.items():
         body, point = reference.split(".")
-        places.setdefault(body, []).append((scene.bodies[body].points[point], place))
+        positions.setdefault(body, []).append((scene.bodies[body].points[point], position))
     return {
         body: (np.array([own for own, _ in pairs]), np.array([there for _, there in pairs]))
-        for body, pairs in places.items()
+        for body, pairs in positions.items()
     }

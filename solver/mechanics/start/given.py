@@ -48,7 +48,7 @@ class Given:
     """Values (n,), in `unit`, at a pose and its rates, and their Jacobian (n, 3 bodies): by the
     pose, or of a rate by the rates."""
     coordinates: tuple[int, ...] = ()
-    """Places of a rate's values among all rates."""
+    """Indices of a rate's values among all rates."""
 
     def rows(self, pose: Floats, velocity: Floats) -> Rows:
         """Return what it is off by, m or m/s."""
@@ -89,7 +89,7 @@ def levers(scene: Scene, least: float) -> dict[str, float]:
     }
 
 
-def given_places(mechanism: AbsoluteMechanism, length: float) -> list[Given]:
+def given_positions(mechanism: AbsoluteMechanism, length: float) -> list[Given]:
     """Return the angles and points that a scene gives, in its order.
 
     length : m, the lever of a body without points.
@@ -106,8 +106,8 @@ def given_places(mechanism: AbsoluteMechanism, length: float) -> list[Given]:
         for body, angle in scene.start.angles.items()
     ]
     points = [
-        Given(f"/start/points/{name}", "m", tuple(place), 1.0, _point(mechanism, name))
-        for name, place in scene.start.points.items()
+        Given(f"/start/points/{name}", "m", tuple(position), 1.0, _point(mechanism, name))
+        for name, position in scene.start.points.items()
     ]
     return [*angles, *points]
 
@@ -146,9 +146,9 @@ def without_rounding(given: list[Given], velocity: Floats, least: float) -> None
     A run may depend on the last bit of how it is thrown.
     """
     for one in given:
-        places = list(one.coordinates)
-        if np.abs(one.lever * (velocity[places] - one.wanted)).max() <= least:
-            velocity[places] = one.wanted
+        indices = list(one.coordinates)
+        if np.abs(one.lever * (velocity[indices] - one.wanted)).max() <= least:
+            velocity[indices] = one.wanted
 
 
 def taken(given: list[Given], pose: Floats, velocity: Floats) -> Iterator[Taken]:

@@ -59,21 +59,21 @@ def first_pose(
     ideal: AbsoluteMechanism,
     angles: Mapping[str, float],
     driven: dict[str, float],
-    places: Mapping[str, Floats] = NOWHERE,
+    centres: Mapping[str, Floats] = NOWHERE,
 ) -> Floats:
     """Return a pose with these angles, rad by body, in which joints are as near as they come.
 
-    Those that need a direction count for nothing, as their points have no places yet.
+    Those that need a direction count for nothing, as their points have no positions yet.
     Slides of which nothing else says where they are begin at their guides' points.
-    places : centres of mass, (2,) m by body, of those that keep theirs.
+    centres : centres of mass, (2,) m by body, of those that keep theirs.
     """
     count = 3 * len(ideal.bodies)
     pose = np.zeros(count)
     positions = np.arange(count) % 3 != 2
     for i, body in enumerate(ideal.bodies):
         pose[3 * i + 2] = angles[body]
-        if body in places:
-            pose[3 * i : 3 * i + 2] = places[body]
+        if body in centres:
+            pose[3 * i : 3 * i + 2] = centres[body]
             positions[3 * i : 3 * i + 2] = False
     rows = ideal.rows(pose.tolist(), [0.0] * count, driven)
     aimless = {name for name, joint in ideal.numbers.joints.items() if joint.needs_direction}
@@ -91,7 +91,7 @@ def _to_guides(
 ) -> Floats:
     """Return how far bodies move, m, until slides that nothing holds are at their guides' points.
 
-    `held` : of the constraints, whose columns are places of the pose, those of `positions`.
+    `held` : of the constraints, whose columns are entries of the pose, those of `positions`.
     """
     rows, count = ideal.slides(pose.tolist(), [0.0] * len(pose)), len(pose)
     away, jacobian = arrays(rows, count)

@@ -95,7 +95,7 @@ def _moves_along(demands: Demands, row: Row) -> bool:
     joint = demands.scene.joints[row.joint]
     if any(body in thrown for body in joint.bodies):
         return False
-    # a follower that is given a place away from its cam is not carried along
+    # a follower that is given a position away from its cam is not carried along
     return not joint.one_sided or bool(abs(row.value) <= KEPT * demands.length)
 
 

@@ -10,7 +10,7 @@ from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
 
-PLACE_OF_JOURNAL = ("eccentricity_x", "eccentricity_y")
+ECCENTRICITY = ("eccentricity_x", "eccentricity_y")
 GAP = "penetration"
 COORDINATES = ("x", "y", "theta")
 HARDLY = 1e-3
@@ -26,11 +26,11 @@ def motion_of(scene: Scene) -> dict[str, str]:
     """Return channels whose errors say how long the trajectory is known, with their units.
 
     Where each joint with play is in it, and where each body is: the range of a body is often
-    many clearances, so that its place says nothing about what touches.
+    many clearances, so that its position says nothing about what touches.
     """
     found: dict[str, str] = {}
     for name, pair in contact_pairs(scene).items():
-        parts = PLACE_OF_JOURNAL if pair.is_journal else (GAP,)
+        parts = ECCENTRICITY if pair.is_journal else (GAP,)
         found |= {f"{name}.{part}": "m" for part in parts}
     for body in scene.bodies:
         found |= {f"{body}.{part}": "rad" if part == "theta" else "m" for part in COORDINATES}
@@ -40,7 +40,7 @@ def motion_of(scene: Scene) -> dict[str, str]:
 def scales_of(values: Floats, names: Sequence[str], units: Sequence[str], scene: Scene) -> Floats:
     """Return what errors are compared with, (channels,), in the channels' units.
 
-    Of places in a joint's play, the clearance from side to side; of all else the range of
+    Of positions in a joint's play, the clearance from side to side; of all else the range of
     `values`, (lanes, instants, channels), where NaN is a lane that did not come so far.
     """
     reached = values[~np.isnan(values).any(axis=(1, 2))]
@@ -54,7 +54,7 @@ def scales_of(values: Floats, names: Sequence[str], units: Sequence[str], scene:
     play = contact_pairs(scene)
     for column, name in enumerate(names):
         part, _, quantity = name.rpartition(".")
-        if part in play and quantity in (*PLACE_OF_JOURNAL, GAP):
+        if part in play and quantity in (*ECCENTRICITY, GAP):
             scales[column] = 2.0 * play[part].play
         elif play and part and quantity in COORDINATES:  # an output may be called so, too
             scales[column] = max(scales[column], finest[column])

@@ -92,9 +92,9 @@ def positions(scene: Scene, time: float) -> dict[str, float]:
 def driven_to(scene: Scene, time: float) -> str:
     """Return where the drivers are at a time, in words."""
     told = []
-    for name, place in positions(scene, time).items():
+    for name, position in positions(scene, time).items():
         if turns(scene, scene.drivers[name]):
-            told.append(f"'{name}' is at {place:.6g} rad ({math.degrees(place):.6g} deg)")
+            told.append(f"'{name}' is at {position:.6g} rad ({math.degrees(position):.6g} deg)")
         else:
-            told.append(f"'{name}' is at {place:.6g} m")
+            told.append(f"'{name}' is at {position:.6g} m")
     return " and ".join(told)

@@ -24,13 +24,13 @@ def state_at_rest(bundle: Bundle, lane: int, scene: Scene, period: float) -> Ite
     """
     if scene.drivers or timed(scene):
         return
-    places, turns = _units(scene)
+    length, angle = _units(scene)
     seconds = period / (2.0 * math.pi)
     names, limits = [], []
     for body in scene.bodies:
         for channel, turning, order in RATES:
             names.append(f"{body}.{channel}")
-            limits.append(RESTING * (turns if turning else places) / seconds**order)
+            limits.append(RESTING * (angle if turning else length) / seconds**order)
     columns = np.array([bundle.kernel.rows.index(name) for name in names], np.int64)
     rates = bundle.observe(lane, bundle.lane(lane).row(), columns)[0]
     if (np.abs(rates) <= np.array(limits)).all():
@@ -38,6 +38,6 @@ def state_at_rest(bundle: Bundle, lane: int, scene: Scene, period: float) -> Ite
 
 
 def _units(scene: Scene) -> tuple[float, float]:
-    """Return what counts as one of a place, m, and of an angle, rad."""
-    place, angle, *_ = start_scales(scene, ("x", ".theta"), 1.0)
-    return float(place), float(angle)
+    """Return what counts as one length, m, and as one angle, rad."""
+    length, angle, *_ = start_scales(scene, ("x", ".theta"), 1.0)
+    return float(length), float(angle)

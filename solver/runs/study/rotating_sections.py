@@ -63,6 +63,6 @@ def principal_plane(states: Floats, coordinates: int) -> Floats:
     centred = states - states.mean(axis=0)
     along = np.column_stack(along_principal_directions(centred, 2))
     first, second = (np.add.reduce(centred * part[:, None], axis=0) for part in along.T)
-    place, speed = slice(0, coordinates), slice(coordinates, 2 * coordinates)
-    clockwise = (first[place] * second[speed] - second[place] * first[speed]).sum() > 0.0
+    position, speed = slice(0, coordinates), slice(coordinates, 2 * coordinates)
+    clockwise = (first[position] * second[speed] - second[position] * first[speed]).sum() > 0.0
     return along * [1.0, -1.0] if clockwise else along

@@ -244,12 +244,12 @@ class Client:
         /,
         scene: Scene,
         point: str,
-        place: Sequence[float],
+        position: Sequence[float],
         *,
         pose: Mapping[str, Sequence[float]] | None = None,
         **parameters: Any,
     ) -> dict[str, list[float]]:
-        """Return the pose in which a point is as near to a place as the joints let it come.
+        """Return the pose in which a point is as near to a position as the joints let it come.
 
         Drivers let go, and clearances are closed.
 
@@ -259,7 +259,7 @@ class Client:
             Name of a preset, a scene document, or the path of one.
         point
             What is pulled, such as ``"crank.pin"``.
-        place
+        position
             To where, x and y, m.
         pose
             From where: x, y (m) and theta (rad) of every body, as a pose of `poses` or of this
@@ -267,7 +267,7 @@ class Client:
         parameters
             Parameters of the scene, in SI units.
         """
-        asked: dict[str, Any] = {"point": point, "place": [float(value) for value in place]}
+        asked: dict[str, Any] = {"point": point, "position": [float(value) for value in position]}
         if pose is not None:
             asked["pose"] = {body: [float(value) for value in at] for body, at in pose.items()}
         found: dict[str, list[float]] = self._about("drag", scene, parameters, asked)["pose"]

@@ -276,7 +276,7 @@ def test_a_torque_spins_one_body_up_against_another(formulation: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("element", "place", "words"),
+    ("element", "pointer", "words"),
     [
         ({"type": None}, "/type", "'type' must be 'spring-damper'"),
         ({"type": "rope"}, "/type", "'spring-damper'"),
@@ -285,16 +285,16 @@ def test_a_torque_spins_one_body_up_against_another(formulation: str) -> None:
         ({"second": "ground.guide"}, "", "a force acts between two bodies"),
         ({"stiffness": -1.0}, "/stiffness", "'stiffness' must be at least 0 N/m, not -1."),
         ({"elasticity": 1.0}, "/elasticity", "no field"),
-        ({"first": "ground.guide"}, "", "start in one place"),
+        ({"first": "ground.guide"}, "", "coincide at the start"),
     ],
 )
 def test_an_element_that_cannot_act_is_refused_at_its_field(
-    element: dict[str, Any], place: str, words: str
+    element: dict[str, Any], pointer: str, words: str
 ) -> None:
     with pytest.raises(InvalidInput) as refused:
         admit({"kind": "simulate", "scene": oscillator(**element), "duration": 1.0})
     (problem,) = refused.value.problems
-    assert problem.pointer == f"/scene/forces/spring{place}"
+    assert problem.pointer == f"/scene/forces/spring{pointer}"
     assert words in problem.detail
 
 
@@ -309,7 +309,7 @@ def test_a_tension_has_no_direction_where_its_points_meet() -> None:
     scene = oscillator()
     ends = {"first": "ground.guide", "second": "mass.eye"}
     scene["forces"] = {"magnet": {"type": "tension", "magnitude": 1.0} | ends}
-    with pytest.raises(InvalidInput, match="start in one place"):
+    with pytest.raises(InvalidInput, match="coincide at the start"):
         admit({"kind": "simulate", "scene": scene, "duration": 1.0})
 
 

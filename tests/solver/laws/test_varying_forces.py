@@ -241,7 +241,7 @@ def test_a_torsion_spring_counts_the_whole_turns_of_a_driven_crank(ideal: bool) 
 
 
 @pytest.mark.parametrize(
-    ("force", "place", "words"),
+    ("force", "pointer", "words"),
     [
         ({"direction": [0.0, 0.0]}, "/direction", "no length"),
         ({"course": {"type": "cosine"}}, "/course/type", "'sinusoidal'"),
@@ -267,7 +267,7 @@ def test_a_torsion_spring_counts_the_whole_turns_of_a_driven_crank(ideal: bool) 
     ],
 )
 def test_what_cannot_vary_so_is_refused_at_its_field(
-    force: dict[str, Any], place: str, words: str
+    force: dict[str, Any], pointer: str, words: str
 ) -> None:
     scene = carried(DRIVE)
     given = {"type": "force", "first": "ground.O", "second": "bob.P", "magnitude": 1.0}
@@ -275,7 +275,7 @@ def test_what_cannot_vary_so_is_refused_at_its_field(
     with pytest.raises(InvalidInput) as refused:
         admit({"kind": "simulate", "scene": scene, "duration": 1.0})
     (problem,) = refused.value.problems
-    assert problem.pointer == f"/scene/forces/push{place}"
+    assert problem.pointer == f"/scene/forces/push{pointer}"
     assert words in problem.detail
 
 

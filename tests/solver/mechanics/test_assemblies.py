@@ -61,8 +61,8 @@ def test_points_of_a_drawing_choose_the_assembly() -> None:
     a, b, c = (np.array(PINS[pin]) for pin in "ABC")
     along = (c - a) / np.linalg.norm(c - a)
     mirrored = a + 2.0 * along * ((b - a) @ along) - (b - a)
-    places = {"coupler.A": a, "coupler.B": mirrored, "rocker.B": mirrored, "rocker.C": c}
-    rough = {name: np.round(place, 2).tolist() for name, place in places.items()}
+    positions = {"coupler.A": a, "coupler.B": mirrored, "rocker.B": mirrored, "rocker.C": c}
+    rough = {name: np.round(position, 2).tolist() for name, position in positions.items()}
     document = scene.model_dump() | {"start": {"points": rough}}
     found = assemble(Scene.model_validate(document))
     angles = dict(zip(scene.bodies, found.pose[2::3], strict=True))
@@ -85,7 +85,7 @@ def test_a_roller_also_closes_on_the_other_side_of_its_cam(drawn_at: float) -> N
     scene = valve(follower("roller", pitch_table()))
     scene["start"] = {"points": {"tappet.F": [0.0, drawn_at]}}
     found = branches(Scene.model_validate(scene))
-    sides = [centre["tappet"][1] - 0.02 for centre in found.places]  # of the roller
+    sides = [centre["tappet"][1] - 0.02 for centre in found.positions]  # of the roller
     reach = RADIUS + ROLLER  # of the pitch circle, whose centre is below that of the shaft
     both = sorted([reach - ECCENTRICITY, -reach - ECCENTRICITY], key=lambda y: abs(y - drawn_at))
     assert sides == pytest.approx(both, abs=1e-6)  # the table's

@@ -74,7 +74,7 @@ def test_both_formulations_agree_and_a_mirror_changes_sides(
     document = instant.scene.model_dump()
     document["gravity"] = flip(instant.scene.gravity)
     for owner in (document["ground"], *document["bodies"].values()):
-        owner["points"] = {name: flip(place) for name, place in owner["points"].items()}
+        owner["points"] = {name: flip(position) for name, position in owner["points"].items()}
     joint = document["joints"]["cam"]
     if shape == "flat":  # of the opposite angle: -sin becomes sin
         joint["normal"] = flip(joint["normal"])
@@ -150,7 +150,7 @@ def test_a_roller_begins_on_the_side_of_its_cam_where_the_point_of_its_guide_is(
     assert (y - 0.02) * side > ECCENTRICITY
 
 
-def test_a_roller_that_begins_at_the_centre_of_its_cam_needs_a_place() -> None:
+def test_a_roller_that_begins_at_the_centre_of_its_cam_needs_a_position() -> None:
     scene = valve(follower("roller", pitch_table()))
     scene["joints"]["guide"]["guide"] = "ground.O"
     job = {"kind": "simulate", "scene": scene, "duration": 0.1}
@@ -160,4 +160,4 @@ def test_a_roller_that_begins_at_the_centre_of_its_cam_needs_a_place() -> None:
         admit(job)
     (problem,) = refused.value.problems
     assert problem.pointer == "/scene/start/points"
-    assert "'tappet.F' of joint 'cam' begins in one place with 'shaft.O'" in problem.detail
+    assert "'tappet.F' of joint 'cam' begins where 'shaft.O' is" in problem.detail

@@ -26,7 +26,7 @@ from tests.solver.readable_mechanics import scene_of
 
 STEP = 1e-7
 DEPTH = 1e-10
-"""m: the surfaces are apart by as much, and so are the two places."""
+"""m: the surfaces are apart by as much, and so are the two positions."""
 LAW = {"law": "lankarani-nikravesh", "stiffness": 1e15, "restitution": 0.5}
 UNDAMPED = 1e6
 """Impact rate, m/s, beside which rates count for nothing, so that no pair lets go."""
@@ -56,7 +56,7 @@ class Trial:
 
 
 POINTS = ([0.03, -0.02], [-0.05, 0.04])
-"""Places of the joint's points on the bodies."""
+"""Positions of the joint's points on the bodies."""
 
 
 def random(low: float, high: float) -> st.SearchStrategy[float]:
@@ -109,7 +109,7 @@ def trials(draw: st.DrawFn, kind: str) -> Trial:
 def scene(joint: dict[str, Any]) -> Scene:
     """Return the scene of two bodies that a joint is between."""
     body = {"mass": 1.0, "inertia": 0.01}
-    points = [{"points": {"P": list(place)}} for place in POINTS]
+    points = [{"points": {"P": list(position)}} for position in POINTS]
     bodies = {"one": body | points[0], "two": body | points[1]}
     return scene_of({"name": "pair", "bodies": bodies, "joints": {"J": joint}})
 
@@ -155,7 +155,7 @@ def slips(trial: Trial) -> Array:
     """Return the slip of the second surface on the first that a rate of each of these gives."""
     found = trial.touch(trial.pose)
     along = LEFT @ found.normal
-    arms = [place - trial.pose[i : i + 2] for i, place in ((0, found[1]), (3, found[2]))]
+    arms = [position - trial.pose[i : i + 2] for i, position in ((0, found[1]), (3, found[2]))]
     (first, second) = ([*along, along @ LEFT @ arm] for arm in arms)
     return np.array([*(-np.array(first)), *second])
 

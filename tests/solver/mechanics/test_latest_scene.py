@@ -44,7 +44,7 @@ def test_changed_copies_of_a_scene_have_facts_of_their_own():
     scene = Scene.model_validate(presets.document("slider-crank"))
     first, pose = shortest_link(scene), assemble(scene).pose
     crank = scene.bodies["crank"]
-    longer = {name: [1.5 * x for x in place] for name, place in crank.points.items()}
+    longer = {name: [1.5 * x for x in position] for name, position in crank.points.items()}
     bodies = scene.bodies | {"crank": crank.model_copy(update={"points": longer})}
     changed = scene.model_copy(update={"bodies": bodies})
     assert shortest_link(changed) != first

@@ -96,11 +96,11 @@ def contact_points(
     return (bearing, r_i + radius * n), (journal, r_j + (radius - clearance) * n)
 
 
-def velocity_of(motion: Motion, body: str, place: np.ndarray) -> np.ndarray:
+def velocity_of(motion: Motion, body: str, position: np.ndarray) -> np.ndarray:
     if body == "ground":
         return np.zeros(2)
     moving = motion.bodies[body]
-    arm = place - moving.position
+    arm = position - moving.position
     return np.array(moving.velocity) + moving.spin * np.array([-arm[1], arm[0]])
 
 
@@ -182,16 +182,16 @@ def test_every_body_obeys_newton_and_euler_under_its_joint_forces(instant: Insta
     scale = largest(motion, "acceleration", "force", "effort")
     for name, joint in scene.joints.items():
         on_second = np.array(motion.joint_force[name])
-        places = (
+        positions = (
             contact_points(instant, motion, name)
             if joint.has_play
             else [point_of(instant, motion, reference) for _, reference in joint.ends]
         )
-        for sense, (body, place) in zip((-1.0, 1.0), places, strict=True):
+        for sense, (body, position) in zip((-1.0, 1.0), positions, strict=True):
             if body == "ground":
                 continue
             force[body] = force[body] + sense * on_second
-            arm = place - motion.bodies[body].position
+            arm = position - motion.bodies[body].position
             moment[body] += sense * (arm[0] * on_second[1] - arm[1] * on_second[0])
             if joint.type != "revolute":
                 unknown_moment.add(body)  # a guide or weld also carries a moment, not a channel

@@ -48,8 +48,8 @@ def test_a_pendulum_on_a_moving_carrier_swings_as_its_equation_says(
     # local errors of 1e-9 of the scales, 300 steps, and a swing that multiplies them a hundredfold
     np.testing.assert_allclose(found["bob.theta"], expected, rtol=0, atol=3e-7)
     moved_as = function(motion).at(found.time)
-    place = "carrier.theta" if kind == "revolute" else "carrier.x"
-    assert found[place] - found[place][0] == pytest.approx(
+    channel = "carrier.theta" if kind == "revolute" else "carrier.x"
+    assert found[channel] - found[channel][0] == pytest.approx(
         moved_as.value - moved_as.value[0], abs=1e-12
     )
     energy = found.statistics["energy"]
@@ -98,7 +98,7 @@ def test_periods_and_scales_of_time_are_those_of_the_motion() -> None:
 
 
 @pytest.mark.parametrize(
-    ("driver", "place", "words"),
+    ("driver", "pointer", "words"),
     [
         ({"motion": {"type": "sine"}}, "/motion/type", "'sinusoidal'"),
         ({"motion": SINE | {"frequency": 0.0}}, "/motion/frequency", "at least 1e-09"),
@@ -109,14 +109,14 @@ def test_periods_and_scales_of_time_are_those_of_the_motion() -> None:
     ],
 )
 def test_a_motion_that_cannot_be_followed_is_refused_at_its_field(
-    driver: dict, place: str, words: str
+    driver: dict, pointer: str, words: str
 ) -> None:
     scene = carried(SINE)
     scene["drivers"]["motor"] = {"joint": "J"} | driver
     with pytest.raises(InvalidInput) as refused:
         admit({"kind": "simulate", "scene": scene, "duration": 1.0})
     (problem,) = refused.value.problems
-    assert problem.pointer == f"/scene/drivers/motor{place}"
+    assert problem.pointer == f"/scene/drivers/motor{pointer}"
     assert words in problem.detail
 
 
@@ -167,7 +167,7 @@ def test_a_body_is_turned_from_the_ground_whatever_its_joint(play: bool, seed: i
 
 
 @pytest.mark.parametrize(
-    ("driver", "place", "words"),
+    ("driver", "pointer", "words"),
     [
         ({"body": "bobb"}, "/body", "'bob'"),
         ({"body": "bob", "joint": "J"}, "/joint", "not both"),
@@ -175,13 +175,13 @@ def test_a_body_is_turned_from_the_ground_whatever_its_joint(play: bool, seed: i
         ({"body": "carrier"}, "/body", "joint 'J' holds it"),
     ],
 )
-def test_a_body_that_cannot_be_turned_is_refused(driver: dict, place: str, words: str) -> None:
+def test_a_body_that_cannot_be_turned_is_refused(driver: dict, pointer: str, words: str) -> None:
     scene = carried(SINE, "prismatic")
     scene["drivers"]["motor"] = {"motion": SINE} | driver
     with pytest.raises(InvalidInput) as refused:
         admit({"kind": "simulate", "scene": scene, "duration": 1.0})
     (problem,) = refused.value.problems
-    assert problem.pointer == f"/scene/drivers/motor{place}"
+    assert problem.pointer == f"/scene/drivers/motor{pointer}"
     assert words in problem.detail
 
 

@@ -53,13 +53,13 @@ def assert_followed(linkage: Linkage) -> None:
     times = np.linspace(0.0, path.end.time, SAMPLES)
     bodies = list(scene.bodies)
     for time, pose in zip(times, path.poses(times), strict=True):
-        places = linkage.places(float(time))
+        positions = linkage.positions(float(time))
         for dyad in linkage.dyads:
             k = 3 * bodies.index(f"{dyad.name}1")
             arm = complex(*scene.bodies[f"{dyad.name}1"].points["pin"])
             found = complex(*pose[k : k + 2]) + arm * np.exp(1j * pose[k + 2])
             # rounding of 1e-16 m, which half the way to a dead point multiplies by 1e6 at its end
-            assert abs(found - places[f"{dyad.name}P"]) < (1e-9 if time < times[-1] else 1e-5)
+            assert abs(found - positions[f"{dyad.name}P"]) < (1e-9 if time < times[-1] else 1e-5)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -103,16 +103,16 @@ def test_loops_that_come_near_their_change_point_together_do_not_flip(
     linkage = changing(pairs)
     document = linkage.document()
     document["recorded"] = [f"{dyad.name}1.E" for dyad in linkage.dyads]
-    channels = [f"{place}.{axis}" for place in document["recorded"] for axis in "xy"]
+    channels = [f"{point}.{axis}" for point in document["recorded"] for axis in "xy"]
     times, rows, failure = ran(document, duration, *channels)
     assert failure is None
     for time, row in zip(times, rows, strict=True):
-        true = linkage.places(float(time))["aE"]
+        true = linkage.positions(float(time))["aE"]
         np.testing.assert_allclose(row, [true.real, true.imag] * pairs, rtol=0, atol=1e-9)
-    for time, place in CHANGING.items():
+    for time, position in CHANGING.items():
         if time in times:
             there = rows[int(np.argmin(np.abs(times - time)))]
-            assert complex(*there[:2]) + A == pytest.approx(place, abs=1e-6)
+            assert complex(*there[:2]) + A == pytest.approx(position, abs=1e-6)
 
 
 @pytest.mark.parametrize("ratio", [1.02, 1.0005, 1.0 + 1e-7])
@@ -238,7 +238,7 @@ def test_a_fast_driver_is_not_skipped_by_a_slow_one() -> None:
     times, rows, failure = ran(document, TURN, "qq1.pin.x", "qq1.pin.y")
     assert failure is None
     for time, row in zip(times, rows, strict=True):
-        true = fast.places(float(time))["qP"]
+        true = fast.positions(float(time))["qP"]
         np.testing.assert_allclose(row, [true.real, true.imag], rtol=0, atol=1e-11)
 
 
@@ -253,12 +253,12 @@ def _joined(first: dict[str, Any], second: dict[str, Any]) -> dict[str, Any]:
         f"q{name}": joint | {end: renamed(joint[end]) for end in ("bearing", "journal")}
         for name, joint in second["joints"].items()
     }
-    points = {f"q{name}": place for name, place in second["ground"]["points"].items()}
+    points = {f"q{name}": position for name, position in second["ground"]["points"].items()}
     driver = second["drivers"]["motor"] | {"joint": "qA"}
     return first | {
         "bodies": first["bodies"] | {f"q{n}": body for n, body in second["bodies"].items()},
         "joints": first["joints"] | joints,
         "ground": {"points": first["ground"]["points"] | points},
         "drivers": first["drivers"] | {"second": driver},
-        "recorded": [renamed(place) for place in second["recorded"]],
+        "recorded": [renamed(point) for point in second["recorded"]],
     }

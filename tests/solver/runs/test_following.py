@@ -203,13 +203,13 @@ def test_a_driven_slider_goes_as_far_as_a_link_and_drivers_come_round_together()
     assert (found.seconds, found.repeats) == (pytest.approx(2 * math.pi / 10**0.5), False)
 
 
-@pytest.mark.parametrize("place", [(0.0, 0.1), (-3.0, -4.0), (0.02, -0.08)])
-def test_an_arm_is_dragged_towards_a_place(place: tuple[float, float]) -> None:
+@pytest.mark.parametrize("position", [(0.0, 0.1), (-3.0, -4.0), (0.02, -0.08)])
+def test_an_arm_is_dragged_towards_a_position(position: tuple[float, float]) -> None:
     scene = resolved_scene(arm(position=0.3, speed=1.0))
-    found = drag(scene, assemble(scene).pose, "arm.E", place)
+    found = drag(scene, assemble(scene).pose, "arm.E", position)
     end = 0.1 * math.cos(found[2]), 0.1 * math.sin(found[2])
-    nearest = abs(math.hypot(*place) - 0.1)
-    assert math.dist(end, place) == pytest.approx(nearest, abs=1e-6)
+    nearest = abs(math.hypot(*position) - 0.1)
+    assert math.dist(end, position) == pytest.approx(nearest, abs=1e-6)
 
 
 def test_a_point_is_dragged_along_the_path_that_the_joints_leave() -> None:
@@ -241,7 +241,9 @@ def test_a_toggle_is_dragged_closed_at_every_step() -> None:
 def test_an_open_mechanism_is_not_torn_further_apart() -> None:
     scene = resolved_scene(four_bar(0.1, 0.1, 0.1, 0.9))
     pose = assemble(scene).pose
-    one, other = (drag(scene, pose, "crank.B", place) for place in ((0.87, 0.77), (-0.9, 0.2)))
+    one, other = (
+        drag(scene, pose, "crank.B", position) for position in ((0.87, 0.77), (-0.9, 0.2))
+    )
     np.testing.assert_array_equal(one, other)
 
 

@@ -68,7 +68,7 @@ def test_parameters_move_the_bouncing_journal() -> None:
 
 
 @pytest.mark.parametrize(
-    ("joints", "place", "advice"),
+    ("joints", "pointer", "advice"),
     [
         ({"A": {"eccentricity": [1e-3, -5.1e-3]}}, "A/eccentricity/1", "whose radius is 0.005 m"),
         ({"C2": {}}, "C2", "has no clearance"),
@@ -78,13 +78,13 @@ def test_parameters_move_the_bouncing_journal() -> None:
     ],
 )
 def test_what_cannot_be_a_start_is_refused_at_its_field(
-    joints: dict[str, Any], place: str, advice: str
+    joints: dict[str, Any], pointer: str, advice: str
 ) -> None:
     job = {"kind": "simulate", "scene": scene("seven-bar-press", joints), "duration": 1.0}
     with pytest.raises(InvalidInput) as refused:
         admit(job)
     problem = refused.value.problems[0]
-    assert problem.pointer == f"/scene/start/joints/{place}"
+    assert problem.pointer == f"/scene/start/joints/{pointer}"
     assert advice in problem.detail
 
 

@@ -1,4 +1,4 @@
-"""Steps end at knots: of clocks, of places, and where a force that acts one way sets in."""
+"""Steps end at knots: of clocks, of positions, and where a force that acts one way sets in."""
 
 from functools import cache
 from itertools import pairwise
@@ -37,7 +37,7 @@ def simulation(**changes: Any) -> Simulation:
 
 @cache
 def completed() -> tuple[Run, np.ndarray, np.ndarray]:
-    """Return a run, when its steps begin and end, s, and the ball's place and speed there."""
+    """Return a run, when its steps begin and end, s, and the ball's position and speed there."""
     running = simulation()
     slices = list(running.slices())
     steps = np.concatenate([piece.steps[:, :-1] for piece in slices])
@@ -65,10 +65,10 @@ def test_every_knot_of_a_clock_is_the_end_of_a_step() -> None:
         assert np.min(np.abs(ends - knot)) <= 1e-11  # a jump is passed 2e-12 s before and behind
 
 
-def test_no_step_passes_a_knot_of_a_place_or_of_a_rate() -> None:
-    place, speed = completed()[2].T
+def test_no_step_passes_a_knot_of_a_position_or_of_a_rate() -> None:
+    position, speed = completed()[2].T
     passed = 0
-    for motion, knots in ((place, WELLS["knots"]), (speed, (0.0, FULL_RATE))):
+    for motion, knots in ((position, WELLS["knots"]), (speed, (0.0, FULL_RATE))):
         for begun, ended in pairwise(motion):
             near = AT_END * abs(ended - begun) + 1e-15  # of rounding
             low, high = min(begun, ended), max(begun, ended)
@@ -77,7 +77,7 @@ def test_no_step_passes_a_knot_of_a_place_or_of_a_rate() -> None:
     assert passed >= 6
 
 
-def test_a_force_of_place_that_acts_one_way_moves_a_ball_as_its_equation_says() -> None:
+def test_a_force_of_position_that_acts_one_way_moves_a_ball_as_its_equation_says() -> None:
     wells = function(WELLS)
 
     def slope(_time: float, state: np.ndarray) -> list[float]:

@@ -74,7 +74,7 @@ def rate_in_contact(tolerance: float) -> float:
 
 
 def test_the_fastest_rate_is_known_where_errors_are_below_the_rounding_of_states() -> None:
-    """At 1e-10 the rod may be 1e-18 m off its place, 0.1 m from the origin: it was 0 there."""
+    """At 1e-10 the rod may be 1e-18 m off its position, 0.1 m from the origin: it was 0 there."""
     known = rate_in_contact(1e-6)
     # a step is 256 roundings, so that differences of two are known to 1/128
     assert rate_in_contact(1e-10) == pytest.approx(known, rel=1 / 128)

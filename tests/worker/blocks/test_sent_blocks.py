@@ -197,7 +197,7 @@ def kept_in(store: ObjectStore) -> list[str]:
     return [key for key in store.list("") if key != MARK]
 
 
-def test_blocks_of_a_study_meet_in_the_place_for_results(
+def test_blocks_of_a_study_meet_in_the_object_store(
     settings: Settings, catalogue: Catalogue
 ) -> None:
     study = submit(catalogue, SWEEP)

@@ -176,11 +176,11 @@ def test_a_device_without_memory_is_told(tmp_path: Path) -> None:
     assert "OUT_OF_MEMORY" in outcome.error.detail
 
 
-@pytest.mark.parametrize("place", REFUSED)
-def test_what_no_device_computes_is_refused(place: str) -> None:
+@pytest.mark.parametrize("pointer", REFUSED)
+def test_what_no_device_computes_is_refused(pointer: str) -> None:
     with pytest.raises(InvalidInput, match="the processor computes it") as refused:
-        lanes_of("cuda:0", admit(dict(REFUSED[place])))
-    assert [problem.pointer for problem in refused.value.problems] == [place]
+        lanes_of("cuda:0", admit(dict(REFUSED[pointer])))
+    assert [problem.pointer for problem in refused.value.problems] == [pointer]
 
 
 def test_the_processor_is_no_device_and_computes_what_none_does() -> None:

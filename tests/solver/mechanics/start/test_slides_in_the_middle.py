@@ -42,12 +42,12 @@ def on_a_rod(slide: dict[str, Any], start: dict[str, Any]) -> dict[str, Any]:
 
 def away(pose: dict[str, Any]) -> float:
     """Return the distance of the block's point from the guide's, m."""
-    places = []
+    positions = []
     for body, (x, y) in (("rod", GUIDE), ("block", (-0.02, 0.0))):
         px, py, angle = pose[body]
         c, s = math.cos(angle), math.sin(angle)
-        places.append((px + c * x - s * y, py + s * x + c * y))
-    return math.dist(*places)
+        positions.append((px + c * x - s * y, py + s * x + c * y))
+    return math.dist(*positions)
 
 
 @pytest.mark.parametrize("kind", SLIDES)
@@ -64,6 +64,8 @@ def test_a_slide_stays_where_a_point_says() -> None:
     angle, shift = pose["rod"][2] + math.atan(0.3), 0.05
     moved = [shift * math.cos(angle), shift * math.sin(angle)]
     x, y, turned = pose["block"]
-    place = np.array([x - 0.02 * math.cos(turned), y - 0.02 * math.sin(turned)]) + moved
-    _, there, _ = put_together(on_a_rod(SLIDES["slide"], {"points": {"block.a": place.tolist()}}))
+    position = np.array([x - 0.02 * math.cos(turned), y - 0.02 * math.sin(turned)]) + moved
+    _, there, _ = put_together(
+        on_a_rod(SLIDES["slide"], {"points": {"block.a": position.tolist()}})
+    )
     assert away(there) == pytest.approx(shift, abs=1e-9)

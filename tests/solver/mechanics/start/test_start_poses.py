@@ -26,7 +26,7 @@ from tests.two_assemblies import arm
 
 def test_the_assembly_nearest_to_a_drawn_point_is_taken() -> None:
     # the knee is drawn within 9 mm of one assembly, 31 cm from another; the ram is not drawn, and
-    # its two places are told apart by its guide, whose middle is nearer to the lower one
+    # its two positions are told apart by its guide, whose middle is nearer to the lower one
     found, pose, _ = put_together(toggle({"rod.K": [-0.06, 0.21]}))
     angle = pose["rod"][2]
     knee = pose["rod"][:2] + 0.15 * np.array([math.cos(angle), math.sin(angle)])
@@ -42,11 +42,11 @@ def test_every_assembly_is_taken_that_its_angles_and_points_are_given_of(k: int)
     scene = Scene.model_validate(toggle({"rod.K": [-0.06, 0.21]}))
     ways = branches(scene)
     document = scene.model_dump(mode="json")
-    place = [round(ways.places[k]["ram"][axis], 3) for axis in (0, 1)]
+    position = [round(ways.positions[k]["ram"][axis], 3) for axis in (0, 1)]
     angles = {body: round(angle, 2) for body, angle in ways.angles[k].items() if body != "crank"}
-    document["start"] = {"angles": angles, "points": {"ram.S": [place[0], place[1] + 0.05]}}
+    document["start"] = {"angles": angles, "points": {"ram.S": [position[0], position[1] + 0.05]}}
     _, pose, _ = put_together(document)
-    for body, (x, y) in ways.places[k].items():
+    for body, (x, y) in ways.positions[k].items():
         np.testing.assert_allclose(pose[body][:2], (x, y), rtol=0, atol=1e-9)
 
 
@@ -113,9 +113,9 @@ def test_one_value_that_cannot_hold_closes_no_play_that_another_needs(stop: str)
     found, pose, _ = put_together(lever(stop, away))
     assert pose["lever"][2] == pytest.approx(0.15, abs=1e-12)
     assert [one.pointer for one in found.misfits] == ["/start/points/lever.b"]
-    place = [math.cos(0.15), math.sin(0.15)]
+    position = [math.cos(0.15), math.sin(0.15)]
     found, pose, _ = put_together(
-        lever(stop, {"angles": {"lever": 0.3}, "points": {"lever.b": place}})
+        lever(stop, {"angles": {"lever": 0.3}, "points": {"lever.b": position}})
     )
     assert pose["lever"][2] == pytest.approx(0.15, abs=1e-9)
     assert [one.pointer for one in found.misfits] == ["/start/angles/lever"]
@@ -154,7 +154,7 @@ def test_a_slider_is_within_its_play_with_its_corners(
 def test_a_roughly_drawn_knee_chooses_its_side(
     crank: float, rod: float, angle: float, side: float
 ) -> None:
-    """A knee of two bars between the ground and a point that is given: circles meet in two places.
+    """A knee of two bars between the ground and a point that is given: circles meet twice.
 
     Both are as far apart as twice the knee's height; a drawing is rough by less than a third of it.
     """
@@ -270,13 +270,13 @@ def test_a_rough_angle_chooses_its_assembly_in_any_turn(turns: int, coupler: flo
     assert put_together(document)[1]["rod"][2] == pytest.approx(wanted, abs=1e-4)
 
 
-@pytest.mark.parametrize("place", [(0.0, 0.2), (0.05, -0.3), (-0.31, 0.02), (-0.5, 0.5)])
+@pytest.mark.parametrize("position", [(0.0, 0.2), (0.05, -0.3), (-0.31, 0.02), (-0.5, 0.5)])
 def test_a_body_points_to_what_it_cannot_reach_and_is_not_wound_up(
-    place: tuple[float, float],
+    position: tuple[float, float],
 ) -> None:
-    scene = arm() | {"drivers": {}, "start": {"points": {"arm.E": list(place)}}}
+    scene = arm() | {"drivers": {}, "start": {"points": {"arm.E": list(position)}}}
     _, pose, _ = put_together(scene)
-    assert pose["arm"][2] == pytest.approx(math.atan2(place[1], place[0]), abs=1e-7)
+    assert pose["arm"][2] == pytest.approx(math.atan2(position[1], position[0]), abs=1e-7)
 
 
 @pytest.mark.parametrize("bodies", [9, 16])

@@ -55,8 +55,8 @@ def test_two_chaotic_attractors_are_told_apart():
     """Below 0.38 N chaos stays in either well: mirror images, half a period apart."""
     one, other = [one for one in chaotic(0.37) if one["name"].startswith("chaotic")]
     assert (one["name"], other["name"]) == ("chaotic A", "chaotic B")
-    places = sorted(found["mean"]["mass.s"] for found in (one, other))
-    assert places == pytest.approx([-0.75, 0.48], abs=0.03)  # by Runge-Kutta 4, 200 periods
+    positions = sorted(found["mean"]["mass.s"] for found in (one, other))
+    assert positions == pytest.approx([-0.75, 0.48], abs=0.03)  # by Runge-Kutta 4, 200 periods
 
 
 def test_one_chaotic_attractor_is_one_however_slowly_it_is_crossed():

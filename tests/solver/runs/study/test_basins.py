@@ -101,9 +101,9 @@ def test_attractors_are_where_the_closed_form_has_them(basins):
     found, _ = basins
     quiet = min(attractors_of(found).found, key=lambda one: one.share)
     response = 0.005 * 400.0 / (400.0 - 28.0**2 + 2.0j * 28.0)
-    place = found.statistics["cycle_mean.mass.s"][quiet.example]
+    position = found.statistics["cycle_mean.mass.s"][quiet.example]
     rate = found.statistics["cycle_mean.mass.s_rate"][quiet.example]
-    assert place == pytest.approx(response.real - 0.01, abs=1e-6)  # the tolerance of the steps
+    assert position == pytest.approx(response.real - 0.01, abs=1e-6)  # the tolerance of the steps
     assert rate == pytest.approx(-28.0 * response.imag, abs=1e-4)
 
 
@@ -132,13 +132,13 @@ def test_a_refined_map_computes_where_attractors_meet_and_has_the_same_labels(ba
     np.testing.assert_array_equal(attractors_of(refined).labels, attractors_of(whole).labels)
 
 
-def place_without_impacts(speed):
+def position_without_impacts(speed):
     """Return where the shaken mass is at crank angle 0, from the stop: x = Re(H a) - 10 mm."""
     return (0.005 * 400.0 / (400.0 - speed**2 + 2.0j * speed)).real - 0.01
 
 
 def over_speed(**fields):
-    """Return basins of the oscillator over speeds at which both motions exist, and its place."""
+    """Return basins of the oscillator over speeds at which both motions exist, and its position."""
     scene = oscillator() | {
         "parameters": {"speed": {"help": "Of the drive.", "targets": [MOTOR_SPEED]}}
     }
@@ -154,7 +154,7 @@ def test_over_a_parameter_attractors_are_those_of_its_neighbours():
     found, _ = computed(over_speed())
     labels = attractors_of(found)
     speed = found.values[:, 1]
-    quiet = np.abs(found.statistics["cycle_mean.mass.s"] - place_without_impacts(speed)) < 1e-5
+    quiet = np.abs(found.statistics["cycle_mean.mass.s"] - position_without_impacts(speed)) < 1e-5
     assert {one.name for one in labels.found} == {"period-1 A", "period-1 B"}
     assert len({*labels.labels[quiet]}) == len({*labels.labels[~quiet]}) == 1
     along = attractor_table(found)["along"]

@@ -23,15 +23,15 @@ def test_two_rods_swing_in_phase_or_opposed() -> None:
         ("forces", "damper", "brake"),
     ):
         scene[field][other] = copy.deepcopy(scene[field][name])
-    scene["bodies"]["pivot"]["points"]["place"] = [3.0, 0.0]
-    scene["joints"]["second"] |= {"bearing": "pivot.place", "journal": "other.pin"}
+    scene["bodies"]["pivot"]["points"]["anchor"] = [3.0, 0.0]
+    scene["joints"]["second"] |= {"bearing": "pivot.anchor", "journal": "other.pin"}
     scene["forces"]["brake"] |= {"second": "other.pin"}
     scene["start"]["angles"] = {"rod": ASIDE - 0.5 * math.pi, "other": 0.0}
-    places = [side * ASIDE - 0.5 * math.pi for side in (1.0, -1.0)]
+    positions = [side * ASIDE - 0.5 * math.pi for side in (1.0, -1.0)]
     basins = {
         "kind": "basins",
         "scene": scene,
-        "along": {"start": "/start/angles/other", "values": places},
+        "along": {"start": "/start/angles/other", "values": positions},
         "by": {"start": "/start/angular_velocities/rod", "values": [0.0]},
         "settle": 250,
         "record": 16,

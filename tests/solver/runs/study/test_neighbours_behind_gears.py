@@ -17,7 +17,7 @@ RECORD = 61
 
 
 def sections_of_neighbours(ratio, **fields):
-    """Return (values, RECORD) places of the mass; but for the first, values follow a neighbour."""
+    """Return (values, RECORD) positions of the mass; values but the first follow a neighbour."""
     job = {
         "kind": "bifurcation",
         "scene": pushed_by_a_wheel(ratio),
@@ -38,8 +38,8 @@ def sections_of_neighbours(ratio, **fields):
 @pytest.mark.parametrize(("ratio", "period"), [(0.5, 2), (2.0 / 3.0, 3), (-1.5, 2), (2.0, 1)])
 def test_motion_goes_on_whichever_turn_the_neighbour_ends_with(ratio, period, angle):
     """Sections are those of the closed form from the first one on: nothing is thrown."""
-    places, periods = sections_of_neighbours(ratio, section={"crank_angle": angle})
+    positions, periods = sections_of_neighbours(ratio, section={"crank_angle": angle})
     known = [section_known(ratio, angle + 2.0 * math.pi * (1 + i))[0] for i in range(RECORD)]
     for k in (1, 2):
-        np.testing.assert_allclose(places[k], known, atol=1e-6, rtol=0.0)
+        np.testing.assert_allclose(positions[k], known, atol=1e-6, rtol=0.0)
         assert periods[k] == period

@@ -29,20 +29,20 @@ DIAGRAM: dict[str, Any] = {
     "observables": ["mass.x"],
     "tolerance": 1e-10,
 }
-PLACES = [
+POSITIONS = [
     ({"crank_angle": 0.0}, ANSWER.real),
     ({"crank_angle": 3.0}, (ANSWER * cmath.exp(3.0j)).real),
     ({"channel": "mass.vx", "value": 0.0, "direction": "up"}, -abs(ANSWER)),
 ]
 
 
-@pytest.mark.parametrize(("section", "place"), PLACES)
-def test_the_motion_goes_on_as_it_was(section: dict[str, Any], place: float) -> None:
+@pytest.mark.parametrize(("section", "position"), POSITIONS)
+def test_the_motion_goes_on_as_it_was(section: dict[str, Any], position: float) -> None:
     """The first point comes to the closed form of a linear motion; the second begins there."""
     found = Computed(DIAGRAM | {"section": section})
     assert len(found.sections(1)) == SECTIONS
     # 150 periods leave exp(-34) of the first point's start; the amplitude grows by 1e-9
-    np.testing.assert_allclose(found.sections(1), place - GAP, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(found.sections(1), position - GAP, rtol=0.0, atol=1e-9)
     assert found.ends[1].time == pytest.approx(found.ends[0].time, abs=2.0 * math.pi / SPEED)
 
 

@@ -7,7 +7,7 @@ from tests.solver.runs.study.test_run import Computed
 
 @pytest.mark.parametrize("ratio", [0.618, 0.93, 1.07, 1.618])
 def test_a_free_oscillation_turns_by_its_frequency_whatever_spreads_most(ratio: float) -> None:
-    # below resonance places spread more than speeds in their scales, above it is the other way
+    # below resonance positions spread more than speeds in their scales, above it is the other way
     # round, and the plane in which sections are seen has its axes exchanged
     rest = {"first": "ground.O", "second": "mass.centre"}
     shaking = {"type": "force", **rest, "magnitude": 0.02, "direction": [1.0, 0.0]}

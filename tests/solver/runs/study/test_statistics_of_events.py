@@ -49,7 +49,7 @@ def test_they_are_of_the_time_until_the_last_event() -> None:
     # errors of the steps of six impacts
     assert math.isclose(found["bearing.contact_share"], share, rel_tol=1e-7)
     assert found["bearing.impacts"] == ONSETS
-    since = (np.linspace(0.0, end, 100_001) + half) % bounce - half  # the last highest place
+    since = (np.linspace(0.0, end, 100_001) + half) % bounce - half  # the last apex
     deep = np.maximum(since - half, 0.0) * rate
     depth = GRAVITY / STIFFNESS * (1.0 - np.cos(deep)) + speed / rate * np.sin(deep)
     height = np.where(since < half, -0.5 * GRAVITY * since**2, -CLEARANCE - depth)
