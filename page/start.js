@@ -1,7 +1,7 @@
 /** The page begins here: the address chooses a view, and the view fills the content. */
 
 import { element, fill } from "./interface/element.js";
-import { address, place } from "./interface/place.js";
+import { address, route } from "./interface/route.js";
 import { trouble } from "./interface/trouble.js";
 import { Unreachable, get, isBusy, onReachable, pause, report } from "./requests/service.js";
 
@@ -30,7 +30,7 @@ async function show() {
   leaving.abort();
   leaving = new AbortController();
   const { signal } = leaving;
-  const here = place();
+  const here = route();
   if (ONE_OF[here.view] && here.parts[0]) {
     location.replace(address([ONE_OF[here.view], ...here.parts], Object.fromEntries(here.query)));
     return;

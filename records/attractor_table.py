@@ -116,8 +116,8 @@ def _example(source: StudySource, point: int) -> dict[str, Any]:
     """Return what is known of one point, and where it lies in a map."""
     row = column = None
     if len(source.shape) == 2:
-        place = int(order_of(source.attributes.get("job", {}), source.shape)[point])
-        row, column = divmod(place, source.shape[1])
+        index = int(order_of(source.attributes.get("job", {}), source.shape)[point])
+        row, column = divmod(index, source.shape[1])
     known = {
         name: float(values[point])
         for name, values in {**source.statistics, **source.indicators}.items()

@@ -27,7 +27,7 @@ from jointplay.records.motion import (
     motions,
     name_of,
 )
-from jointplay.records.scattered import Places, clusters
+from jointplay.records.scattered import MotionFeatures, clusters
 from jointplay.records.share_error import error_of_starts
 from jointplay.records.study import StudySource
 
@@ -69,10 +69,10 @@ class Attractors:
 
 def colour_of_attractor(code: int) -> str:
     """Return the colour of a label, as #rrggbb: neighbours differ more than those of periods do."""
-    turn, place = divmod(code - len(NAMES), len(PERIODS))
+    turn, index = divmod(code - len(NAMES), len(PERIODS))
     if code < len(NAMES) or code == MIXED:
         return colour_of(code)
-    return colour_of(len(NAMES) + turn * len(PERIODS) + 3 * place % len(PERIODS))
+    return colour_of(len(NAMES) + turn * len(PERIODS) + 3 * index % len(PERIODS))
 
 
 def attractors_of(source: StudySource) -> Attractors:
@@ -110,7 +110,7 @@ class _Group:
     code: int
     """Label of their motion."""
     members: Integers
-    place: Floats
+    features: Floats
 
 
 @dataclass
@@ -119,7 +119,7 @@ class _Chain:
 
     code: int
     members: list[Integers]
-    place: Floats
+    features: Floats
     """At the last value where it was found."""
 
 
@@ -165,18 +165,18 @@ def _groups(motion: Labels, cycles: Cycles) -> Iterator[_Group]:
         for _ in range(MOST):
             if not len(left):
                 break
-            place = cycles.places[left[0]]
-            near = (np.abs(cycles.apart(cycles.places[left], place)) <= widths).all(axis=1)
-            yield _Group(code, left[near], place)
+            features = cycles.features[left[0]]
+            near = (np.abs(cycles.apart(cycles.features[left], features)) <= widths).all(axis=1)
+            yield _Group(code, left[near], features)
             left = left[~near]
         if len(left):  # of so many none has a label of its own
-            yield _Group(code, left, cycles.places[left[0]])
+            yield _Group(code, left, cycles.features[left[0]])
     for code in (QUASI_PERIODIC, CHAOTIC):
         points = np.flatnonzero(motion == code)
         if len(points):
             own = cycles.of(points)
-            for members in clusters(Places(own.places, own.scatter(), own.angles)):
-                yield _Group(code, points[members], own.places[members[0]])
+            for members in clusters(MotionFeatures(own.features, own.scatter(), own.angles)):
+                yield _Group(code, points[members], own.features[members[0]])
 
 
 def _carry_on(
@@ -189,11 +189,11 @@ def _carry_on(
     near: list[tuple[float, int, int]] = []
     for code in {group.code for group in found} & {chain.code for chain in chains}:
         before = [c for c, chain in enumerate(chains) if chain.code == code]
-        places = np.array([chains[c].place for c in before])
+        features = np.array([chains[c].features for c in before])
         most = CARRIED if code >= EQUILIBRIUM else np.inf
         for g, group in enumerate(found):
             if group.code == code:
-                away = np.abs(cycles.apart(places, group.place) / ranges).max(axis=1).tolist()
+                away = np.abs(cycles.apart(features, group.features) / ranges).max(axis=1).tolist()
                 near += [(x, g, c) for x, c in zip(away, before, strict=True) if x <= most]
     taken: dict[int, int] = {}
     for _, g, c in sorted(near):
@@ -204,9 +204,9 @@ def _carry_on(
         if g in taken:
             chain = chains[taken[g]]
             chain.members.append(members)
-            chain.place = group.place
+            chain.features = group.features
         else:
-            chains.append(_Chain(group.code, [members], group.place))
+            chains.append(_Chain(group.code, [members], group.features))
 
 
 def _table(labels: Labels, names: Mapping[int, str], starts: Integers) -> list[Attractor]:

@@ -77,9 +77,9 @@ def refined(shape: tuple[int, ...], depth: int) -> Integers:
     return found
 
 
-def tiles(places: Integers, shape: tuple[int, ...]) -> Integers:
+def tiles(indices: Integers, shape: tuple[int, ...]) -> Integers:
     """Return the number of the tile of 64 x 64 points that each lies in, row by row."""
-    y, x = np.divmod(places, shape[1])
+    y, x = np.divmod(indices, shape[1])
     return np.asarray((y >> COARSEST) * (-(-shape[1] >> COARSEST)) + (x >> COARSEST), np.int64)
 
 

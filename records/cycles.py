@@ -27,10 +27,10 @@ attractors are one. It is twice what sections may differ by that recur."""
 
 @dataclass(frozen=True)
 class Cycles:
-    """Where in the states' space points end: means, spreads and covariances over a cycle."""
+    """What cycles are told apart by, of each point that ends on one."""
 
-    places: Floats
-    """(points, 3 states - 1)."""
+    features: Floats
+    """(points, 3 states - 1) means, spreads and covariances."""
     scales: Floats
     """(columns,) what counts as one."""
     angles: Flags
@@ -40,25 +40,25 @@ class Cycles:
 
     def of(self, points: Any) -> "Cycles":
         """Return those of some points."""
-        return Cycles(self.places[points], self.scales, self.angles, self.independent[points])
+        return Cycles(self.features[points], self.scales, self.angles, self.independent[points])
 
-    def apart(self, places: Floats, one: Floats) -> Floats:
-        """Return by how much places differ from one, but for whole turns of angles."""
-        found = places - one
+    def apart(self, features: Floats, one: Floats) -> Floats:
+        """Return by how much features differ from one, but for whole turns of angles."""
+        found = features - one
         return np.asarray(found - 2.0 * np.pi * np.round(found / (2.0 * np.pi)) * self.angles)
 
     def ranges(self) -> Floats:
         """Return the range of each column, at least its scale, of angles at most half a turn."""
         found = np.zeros_like(self.scales)
-        if len(self.places):
-            found = np.nanmax(self.places, axis=0) - np.nanmin(self.places, axis=0)
+        if len(self.features):
+            found = np.nanmax(self.features, axis=0) - np.nanmin(self.features, axis=0)
         found = np.where(self.angles, np.minimum(found, np.pi), found)
         return np.asarray(np.maximum(self.scales, found), np.float64)
 
     def scatter(self) -> Floats:
         """Return (points, columns) standard errors; of covariances nothing is known."""
-        count = (self.places.shape[1] + 1) // 3
-        spread = self.places[:, count : 2 * count]
+        count = (self.features.shape[1] + 1) // 3
+        spread = self.features[:, count : 2 * count]
         errors = spread / np.sqrt(self.independent)[:, None]
         turning = self.angles[: spread.shape[1]]
         # the direction of a mean of unit vectors whose length is 1 - spread^2 / 2

@@ -16,7 +16,7 @@ _ROUNDS: Final = 20
 
 
 @dataclass(frozen=True)
-class Places:
+class MotionFeatures:
     """Means and spreads of motions, with what they scatter by."""
 
     values: Floats
@@ -27,34 +27,34 @@ class Places:
     """(columns,) of which whole turns do not count."""
 
     def apart(self, chosen: Integers, one: Floats) -> Floats:
-        """Return (chosen, columns) by how much motions differ from a place."""
+        """Return (chosen, columns) by how much motions differ from given ones."""
         found = self.values[chosen] - one
         turns = np.round(found / (2.0 * np.pi)) * self.angles
         return np.asarray(found - 2.0 * np.pi * turns, np.float64)
 
     def distances(self, chosen: Integers, one: Floats, error: Floats) -> Floats:
-        """Return (chosen,) largest differences from a place, in standard errors of both."""
+        """Return (chosen,) largest differences from given ones, in standard errors of both."""
         errors = np.hypot(self.errors[chosen], error)
         return np.asarray((np.abs(self.apart(chosen, one)) / errors).max(axis=1), np.float64)
 
 
-def clusters(places: Places) -> list[Integers]:
+def clusters(motions: MotionFeatures) -> list[Integers]:
     """Return groups of motions, of indices each; some may be in none.
 
     One group of all: nothing tells them apart. Those of several groups differ beyond their scatter;
     a motion that lies between groups, or may be of two, is in none.
     """
-    left = every = np.arange(len(places.values))
+    left = every = np.arange(len(motions.values))
     centres = []
     while len(left):
-        centre, error = _centre(places, left)
+        centre, error = _centre(motions, left)
         centres.append((centre, error))
-        beyond = places.distances(left, centre, error) > APART
+        beyond = motions.distances(left, centre, error) > APART
         beyond[0] = False  # whatever its group has become without it
         left = left[beyond]
     if len(centres) < 2:
         return [every]
-    distances = np.stack([places.distances(every, *one) for one in centres])
+    distances = np.stack([motions.distances(every, *one) for one in centres])
     alone = (distances <= APART).sum(axis=0) == 1
     nearest = distances.argmin(axis=0)
     groups = [np.flatnonzero(alone & (nearest == k)) for k in range(len(centres))]
@@ -64,17 +64,17 @@ def clusters(places: Places) -> list[Integers]:
     return groups
 
 
-def _centre(places: Places, left: Integers) -> tuple[Floats, Floats]:
-    """Return the mean place of those that are close to the first, and its error."""
-    centre, error = places.values[left[0]], places.errors[left[0]]
+def _centre(motions: MotionFeatures, left: Integers) -> tuple[Floats, Floats]:
+    """Return the mean of those that are close to the first, and its error."""
+    centre, error = motions.values[left[0]], motions.errors[left[0]]
     near = np.zeros(len(left), np.bool_)
     for _ in range(_ROUNDS):
-        found = places.distances(left, centre, error) <= CLOSE
+        found = motions.distances(left, centre, error) <= CLOSE
         if not found.any() or (found == near).all():
             break
         near = found
-        weights = places.errors[left[near]] ** -2.0
+        weights = motions.errors[left[near]] ** -2.0
         total = np.maximum(weights.sum(axis=0), np.finfo(np.float64).tiny)
-        centre = centre + (weights * places.apart(left[near], centre)).sum(axis=0) / total
+        centre = centre + (weights * motions.apart(left[near], centre)).sum(axis=0) / total
         error = total**-0.5
     return centre, error

@@ -18,7 +18,7 @@ from jointplay.storage.settings import RUNNING, Settings
 
 _PERIOD: Final = 1.0
 """Seconds for which what was found holds: whoever asks, and anyone may, has no more written."""
-_PLACE_PERIOD: Final = 30.0  # s; six requests to another server
+_OBJECT_STORE_PERIOD: Final = 30.0  # s; six requests to another server
 _TRIAL: Final = b"trial"
 _AT_ONCE: Final = 0.0  # s that this process leads: the next one that proves it may write, too
 
@@ -31,7 +31,7 @@ class Readiness:
         self._name = f"{socket.gethostname()}:{os.getpid()}"
         self._proof: asyncio.Future[None] | None = None
         self._proved = 0.0
-        self._place_proved: float | None = None
+        self._object_store_proved: float | None = None
 
     async def proved(self) -> None:
         """Return, or raise, what `prove` does now, or did less than a second ago."""
@@ -79,8 +79,11 @@ class Readiness:
                 raise OSError(errno.EIO, os.strerror(errno.EIO), str(folder))
 
     def _try_object_store(self) -> None:
-        if self._place_proved is None or time.monotonic() > self._place_proved + _PLACE_PERIOD:
+        if (
+            self._object_store_proved is None
+            or time.monotonic() > self._object_store_proved + _OBJECT_STORE_PERIOD
+        ):
             require_own_files(self._settings, self._catalogue)
             if not isinstance(self._settings.object_store, Folder):
                 require_fit(self._settings.object_store, large=False)
-            self._place_proved = time.monotonic()
+            self._object_store_proved = time.monotonic()

@@ -3,7 +3,7 @@
 import { autocompletion, hoverTooltip } from "../vendor/codemirror/codemirror.js";
 import { element } from "../interface/element.js";
 import { MARKS } from "../mechanism/joint_marks.js";
-import { pathAt, siblings } from "./places.js";
+import { pathAt, siblings } from "./pointers.js";
 
 /**
  * Returns the extensions of an editor.

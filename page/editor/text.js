@@ -7,7 +7,7 @@ import {
   setDiagnostics, syntaxHighlighting, tags,
 } from "../vendor/codemirror/codemirror.js";
 import { element } from "../interface/element.js";
-import { rangeAt } from "./places.js";
+import { rangeAt } from "./pointers.js";
 
 const LOOK = EditorView.theme({
   "&": { height: "100%", color: "var(--ink)", backgroundColor: "var(--paper)", fontSize: "14px" },

@@ -2,11 +2,11 @@
 
 const TOKEN = /"(?:[^"\\]|\\.)*"(\s*:)?|[{}]/g;
 
-/** A text that is no document; `places` says where: `{from, to, detail}` of each fault. */
+/** A text that is no document; `faults` says where: `{from, to, detail}` of each. */
 export class NoDocument extends Error {
-  constructor(places) {
-    super(places[0].detail);
-    this.places = places;
+  constructor(faults) {
+    super(faults[0].detail);
+    this.faults = faults;
   }
 }
 
@@ -25,7 +25,7 @@ export function documentIn(text) {
   return document;
 }
 
-/** Returns the places of keys that their object has had before: JSON.parse keeps the last alone. */
+/** Returns the faults of keys that their object has had before: JSON.parse keeps the last alone. */
 function twice(text) {
   const objects = [];
   const found = [];

@@ -3,7 +3,7 @@
 import { deleteJob, mayDelete, retriable, retryJob } from "./acting.js";
 import { element, fill, refill } from "./element.js";
 import { ago, span } from "./numbers.js";
-import { address } from "./place.js";
+import { address } from "./route.js";
 import { progressWords, sceneName, stateMark } from "./state.js";
 import { TERMINAL } from "../requests/following.js";
 import { get, post } from "../requests/service.js";

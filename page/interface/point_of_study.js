@@ -2,7 +2,7 @@
 
 import { element, fill } from "./element.js";
 import { withUnit } from "./numbers.js";
-import { go } from "./place.js";
+import { go } from "./route.js";
 import { sceneOf } from "./scene_of_job.js";
 import { proposedDuration } from "./some_duration.js";
 import { post } from "../requests/service.js";

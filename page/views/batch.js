@@ -3,7 +3,7 @@
 import { element, refill } from "../interface/element.js";
 import { declaredFor, differing } from "../interface/job_words.js";
 import { span } from "../interface/numbers.js";
-import { address, go } from "../interface/place.js";
+import { address, go } from "../interface/route.js";
 import { sceneName, stateMark } from "../interface/state.js";
 import { get, mayPass, pause, post, remove } from "../requests/service.js";
 import { counts } from "./batches.js";

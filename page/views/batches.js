@@ -2,7 +2,7 @@
 
 import { element, fill, refill } from "../interface/element.js";
 import { ago } from "../interface/numbers.js";
-import { address } from "../interface/place.js";
+import { address } from "../interface/route.js";
 import { stateMark } from "../interface/state.js";
 import { get, mayPass, pause } from "../requests/service.js";
 

@@ -3,7 +3,7 @@
 import { ChannelChoice } from "../interface/channel_choice.js";
 import { element, fill } from "../interface/element.js";
 import { declaredFor, differing } from "../interface/job_words.js";
-import { address, go, note } from "../interface/place.js";
+import { address, go, note } from "../interface/route.js";
 import { drawnSceneOf } from "../interface/scene_of_job.js";
 import { sceneName } from "../interface/state.js";
 import { Clock } from "../mechanism/clock.js";

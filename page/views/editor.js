@@ -13,7 +13,7 @@ import { documentIn } from "../editor/written.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { short, typed } from "../interface/numbers.js";
-import { forget, go, note, place } from "../interface/place.js";
+import { forget, go, note, route } from "../interface/route.js";
 import { someDuration } from "../interface/some_duration.js";
 import { onNewColours } from "../mechanism/palette.js";
 import { patiently, untilAnswered } from "../requests/patiently.js";
@@ -39,7 +39,7 @@ async function askedFor(query, signal) {
 
 /** Returns what the address says of a study of the mechanism, and the job if the text is still its scene. */
 function study() {
-  const { preset, ...query } = Object.fromEntries(place().query);
+  const { preset, ...query } = Object.fromEntries(route().query);
   return query;
 }
 
@@ -77,7 +77,7 @@ class Editing {
     this.messages = element("ul", { class: "messages", "aria-live": "polite", "aria-label": "What is wrong" });
     this.facts = element("p", { class: "quiet", role: "status" });
     this.notes = element("ul", { class: "quiet", "aria-label": "What a run does otherwise" });
-    const duration = place().query.get("duration") ?? "";
+    const duration = route().query.get("duration") ?? "";
     this.duration = element("input", { id: "duration", inputmode: "decimal", value: duration });
     this.button = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run");
     this.more = element("button", { type: "button", onclick: () => go(["new"], study()) }, "Vary it …");
@@ -116,7 +116,7 @@ class Editing {
     try {
       this.text.text = pretty(startedIn(documentIn(this.text.text), scene, pose, before));
     } catch (error) {
-      this.tell(error.places ?? [{ pointer: "", detail: error.message }]);
+      this.tell(error.faults ?? [{ pointer: "", detail: error.message }]);
     }
   }
 
@@ -142,7 +142,7 @@ class Editing {
       fill(this.facts);
       fill(this.notes);
       this.estimate.refresh(); // which says that there is none
-      this.tell(error.places);
+      this.tell(error.faults);
       return;
     }
     this.tell([]);

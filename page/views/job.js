@@ -5,7 +5,7 @@ import { element, fill } from "../interface/element.js";
 import { ago, withUnit } from "../interface/numbers.js";
 import { declaredFor, jobWords } from "../interface/job_words.js";
 import { KINDS, kindsOfJobs } from "../interface/kinds_of_job.js";
-import { address, go } from "../interface/place.js";
+import { address, go } from "../interface/route.js";
 import { progressWords, sceneName, stateMark } from "../interface/state.js";
 import { trouble } from "../interface/trouble.js";
 import { whyQueued, workers } from "../interface/workers.js";

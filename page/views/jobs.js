@@ -6,7 +6,7 @@ import {
 import { element, fill } from "../interface/element.js";
 import { JobRow } from "../interface/job_row.js";
 import { listed } from "../interface/listed.js";
-import { address, note } from "../interface/place.js";
+import { address, note } from "../interface/route.js";
 import { whyQueued, workers } from "../interface/workers.js";
 import { trouble } from "../interface/trouble.js";
 import { TERMINAL } from "../requests/following.js";

@@ -9,7 +9,7 @@ import { jobAsText } from "../interface/job_as_text.js";
 import { KINDS, fieldsOf, kindsOfJobs, offers } from "../interface/kinds_of_job.js";
 import { ParameterFields } from "../interface/parameter_fields.js";
 import { withUnit } from "../interface/numbers.js";
-import { go, note, place } from "../interface/place.js";
+import { go, note, route } from "../interface/route.js";
 import { fields as wrongFields } from "../interface/trouble.js";
 import { onNewColours } from "../mechanism/palette.js";
 import { withDefaults, withParameters } from "../mechanism/parameters.js";
@@ -175,7 +175,7 @@ class JobForm {
   /** Returns what the address notes of the form; null of what it noted before, and of another kind. */
   address() {
     const kind = this.kind.value === "simulate" ? null : this.kind.value;
-    const noted = [...place().query.keys()].filter((name) => name !== "job");
+    const noted = [...route().query.keys()].filter((name) => name !== "job");
     return {
       ...Object.fromEntries(noted.map((name) => [name, null])), kind, label: this.label.value.trim(),
       ...this.parameters.values(), ...this.own.values(),

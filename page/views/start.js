@@ -1,7 +1,7 @@
 /** The start: mechanisms as cards, and one of them moving. */
 
 import { element, fill } from "../interface/element.js";
-import { address, go } from "../interface/place.js";
+import { address, go } from "../interface/route.js";
 import { trouble } from "../interface/trouble.js";
 import { onNewColours } from "../mechanism/palette.js";
 import { withParameters } from "../mechanism/parameters.js";

@@ -2,7 +2,7 @@
 
 import { element, fill, refill } from "../interface/element.js";
 import { ago, span } from "../interface/numbers.js";
-import { address } from "../interface/place.js";
+import { address } from "../interface/route.js";
 import { processOf, whyQueued, workers } from "../interface/workers.js";
 import { mayPass, pause } from "../requests/service.js";
 

@@ -22,10 +22,10 @@ def quantiles(sample: Floats, shares: Floats, confidence: float) -> tuple[Floats
     """
     ordered = np.sort(sample)
     count = len(ordered)
-    places = np.ceil(shares * count * (1.0 - _ROUNDING)).astype(np.int64)
+    indices = np.ceil(shares * count * (1.0 - _ROUNDING)).astype(np.int64)
     ends = np.array([_ends(count, share, confidence) for share in shares.tolist()])
     low, high = np.concatenate([[np.nan], ordered, [np.nan]])[ends].T
-    return ordered[places - 1], low, high
+    return ordered[indices - 1], low, high
 
 
 def _ends(count: int, share: float, confidence: float) -> tuple[int, int]:

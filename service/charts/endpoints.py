@@ -105,8 +105,8 @@ def show_point(results: ResultsOfThePath, query: Annotated[CellQuery, Query()]) 
         if index >= size:
             sentence = f"{name} is {index}; the chart has {size} of them, counted from 0."
             raise RequestRefused.of_parameter(name, sentence)
-    place = query.row * width + query.column
-    point = int(np.flatnonzero(study.layout.order == place)[0])
+    cell = query.row * width + query.column
+    point = int(np.flatnonzero(study.layout.order == cell)[0])
     failure = study.failures.get(point)
     numbers = {name: float(values[point]) for name, values in study.indicators.items()}
     found = {}

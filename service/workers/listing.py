@@ -16,7 +16,7 @@ class BlockAtWork(BaseModel):
     """A part of a job that a worker is computing."""
 
     job: str | None = Field(description="Id of the job; null: another owner's.")
-    block: int = Field(ge=0, description="Its place among the blocks of the job, from 0.")
+    block: int = Field(ge=0, description="Its index among the blocks of the job, from 0.")
     attempt: int = Field(ge=1, description="Counts from 1.")
     since: Moment
 

@@ -91,15 +91,15 @@ def spread(
             chains.narrow(level)
         chains.step(cost, level, generation)
         if level <= limit:
-            kept.append(chains.places.copy())
+            kept.append(chains.positions.copy())
             kept_costs.append(chains.costs.copy())
         report((generation + 1) / generations, "what fits equally well")
     first = len(kept) // SETTLING
-    places, costs = np.array(kept[first:]), np.array(kept_costs[first:])
-    within, between = places.var(axis=0).mean(axis=0), places.mean(axis=0).var(axis=0)
+    positions, costs = np.array(kept[first:]), np.array(kept_costs[first:])
+    within, between = positions.var(axis=0).mean(axis=0), positions.mean(axis=0).var(axis=0)
     return EquallyGood(
         limit,
-        places.reshape(-1, places.shape[2]),
+        positions.reshape(-1, positions.shape[2]),
         costs.ravel(),
         chains.taken / (CHAINS * generations),
         chains.tried,
@@ -114,7 +114,7 @@ class _Chains:
         """Begin at the first candidates of the search that could be computed."""
         first = np.flatnonzero(np.isfinite(found.costs))[:CHAINS]
         index = np.resize(generator.permutation(first), CHAINS)
-        self.places: Floats = found.tried[index]
+        self.positions: Floats = found.tried[index]
         """(CHAINS, parameters)."""
         self.costs: Floats = found.costs[index]
         self.taken = self.tried = 0
@@ -124,26 +124,28 @@ class _Chains:
         """Let chains beyond a limit go on from candidates of the search that are within."""
         good, beyond = np.flatnonzero(found.costs <= limit), np.flatnonzero(self.costs > limit)
         index = np.resize(self._generator.permutation(good), len(beyond))
-        self.places[beyond], self.costs[beyond] = found.tried[index], found.costs[index]
+        self.positions[beyond], self.costs[beyond] = found.tried[index], found.costs[index]
 
     def narrow(self, level: float) -> None:
         """Let chains beyond a level go on from those within, each of which is taken as often."""
         good, beyond = np.flatnonzero(self.costs <= level), np.flatnonzero(self.costs > level)
         index = np.resize(self._generator.permutation(good), len(beyond))
-        self.places[beyond], self.costs[beyond] = self.places[index], self.costs[index]
+        self.positions[beyond], self.costs[beyond] = self.positions[index], self.costs[index]
 
     def step(self, cost: Cost, level: float, generation: int) -> None:
         """Let each half try a step, and take it if its cost is within the level."""
         half = CHAINS // 2
         for first in (0, half):
             own, other = slice(first, first + half), slice(half - first, CHAINS - first)
-            proposed = _proposals(self.places[own], self.places[other], generation, self._generator)
+            proposed = _proposals(
+                self.positions[own], self.positions[other], generation, self._generator
+            )
             inside = ((proposed >= 0.0) & (proposed <= 1.0)).all(axis=1)
             costs = np.full(half, np.inf)
             if inside.any():
                 costs[inside] = cost(proposed[inside])
             good = costs <= level
-            self.places[own] = np.where(good[:, None], proposed, self.places[own])
+            self.positions[own] = np.where(good[:, None], proposed, self.positions[own])
             self.costs[own] = np.where(good, costs, self.costs[own])
             self.taken += int(good.sum())
             self.tried += int(inside.sum())

@@ -72,9 +72,9 @@ class BasinStability(AttractorKind[BasinStabilityJob]):
         axes = [
             Axis(
                 start_numbers.name_of(start),
-                _place(start),
+                _pointer(start),
                 one.quantiles(column),
-                lambda _at, start=start: _place(start),  # type: ignore[misc]
+                lambda _at, start=start: _pointer(start),  # type: ignore[misc]
                 start=start,
             )
             for (start, one), column in zip(job.starts.items(), shares.T, strict=True)
@@ -88,11 +88,11 @@ class BasinStability(AttractorKind[BasinStabilityJob]):
         return Points(tuple(axes), written, lambda _point: "/starts")
 
 
-def _place(start: str) -> str:
+def _pointer(start: str) -> str:
     return "/starts/" + start.replace("/", "~1")
 
 
 def _problems(job: BasinStabilityJob) -> Iterator[Problem]:
     for start, one in job.starts.items():
         for field, sentence in one.problems():
-            yield Problem(f"{_place(start)}/{field}", sentence)
+            yield Problem(f"{_pointer(start)}/{field}", sentence)

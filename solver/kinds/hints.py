@@ -46,9 +46,9 @@ def hints(written: Mapping[str, Any], scene: Scene, pose: Pose) -> list[Problem]
     for name, element in scene.forces.items():
         pointer = f"/forces/{name}"
         for field, relaxed in (("free_length", _relaxed), ("free_angle", _untwisted)):
-            place = f"{pointer}/{field}"
-            if field not in given.get(name, {}) and place not in setting:
-                found += [Problem(place, text) for text in relaxed(name, element, scene, pose)]
+            of_field = f"{pointer}/{field}"
+            if field not in given.get(name, {}) and of_field not in setting:
+                found += [Problem(of_field, text) for text in relaxed(name, element, scene, pose)]
         found += [Problem(pointer, text) for text in _idle_moment(name, element, scene)]
     found += [*deep_journals(scene), *idle_widths(written, scene, setting)]
     found += [*other_units(scene), *in_degrees(scene), *too_inert(scene), *nearly_turns(scene)]

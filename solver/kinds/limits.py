@@ -113,6 +113,6 @@ def check_room(admitted: Admission | Study, most: float) -> None:
         pointer, remedy = "/duration", "Choose a shorter duration, or fewer channels."
     raise LimitExceeded.at(
         pointer,
-        f"The results may have {total / 1e9:.3g} GB before compression; the place where this"
-        f" service keeps them takes {most / 1e9:g} GB. {remedy}",
+        f"The results may have {total / 1e9:.3g} GB before compression; the object store of this"
+        f" service takes {most / 1e9:g} GB. {remedy}",
     )

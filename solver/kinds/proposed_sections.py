@@ -11,8 +11,8 @@ from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import common_period
 
-PLACES = {"x": 0, "y": 1, "theta": 2}
-"""Place of a coordinate among those of its body."""
+INDICES = {"x": 0, "y": 1, "theta": 2}
+"""Index of a coordinate among those of its body."""
 
 
 def proposed_sections(scene: Scene) -> list[CrankSection | OnsetSection | ChannelSection]:
@@ -38,12 +38,12 @@ def _crossing(scene: Scene) -> ChannelSection:
     first = next(iter(scene.bodies))
     channel, rate = next(iter(coordinates_with_rates(scene)), (f"{first}.theta", f"{first}.omega"))
     body, _, kind = channel.partition(".")
-    place = 3 * list(scene.bodies).index(body) + PLACES[kind]
+    index = 3 * list(scene.bodies).index(body) + INDICES[kind]
     start = assemble(scene)
     turned = any(isinstance(element, Torque | Motor) for element in scene.forces.values())
-    speed = float(start.velocity[place])
+    speed = float(start.velocity[index])
     if speed or (turned and kind == "theta"):
         direction: Literal["up", "down"] = "down" if speed < 0.0 else "up"
-        value = float(f"{start.pose[place]:.6g}")
+        value = float(f"{start.pose[index]:.6g}")
         return ChannelSection(channel=channel, value=value, direction=direction)
     return ChannelSection(channel=rate, value=0.0)

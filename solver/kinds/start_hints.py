@@ -52,9 +52,9 @@ def driven_from_zero(
     may change.
     """
     for name, driver in scene.drivers.items():
-        place = f"/drivers/{name}/position"
+        pointer = f"/drivers/{name}/position"
         joint = scene.joints.get(driver.joint or "")
-        if "position" in written.get("drivers", {}).get(name, {}) or place in setting:
+        if "position" in written.get("drivers", {}).get(name, {}) or pointer in setting:
             continue
         if driver.body is None and (joint is None or joint.freedom != "turn"):
             continue
@@ -66,7 +66,7 @@ def driven_from_zero(
         driven = float(driver.at(driver.clock_start).value)
         if abs(given - driven) > NEAR:
             yield Problem(
-                place,
+                pointer,
                 f"'{name}' has no position, and so starts at {driven:g} rad, where 'start.angles'"
                 f' says {given:g}. If it shall start there, give "position": {given - driven:.9g}.',
             )

@@ -25,16 +25,16 @@ KNOWN = 1e-4
 
 
 class _Reflection:
-    """I - factor v vᵀ; `vector` has the places and entries of v that are not 0.
+    """I - factor v vᵀ; `vector` has the indices and entries of v that are not 0.
 
     `image` is what becomes of the first of the entries that it reflects; of the others nothing.
     """
 
-    def __init__(self, column: list[float], places: list[int], size: float) -> None:
-        first = column[places[0]]
+    def __init__(self, column: list[float], indices: list[int], size: float) -> None:
+        first = column[indices[0]]
         self.image = -math.copysign(size, first)
-        self.vector = [(i, column[i]) for i in places[1:] if column[i] != 0.0]
-        self.vector.insert(0, (places[0], first - self.image))
+        self.vector = [(i, column[i]) for i in indices[1:] if column[i] != 0.0]
+        self.vector.insert(0, (indices[0], first - self.image))
         self.factor = 1.0 / (size * (size + abs(first)))
 
     def of(self, column: list[Entry]) -> bool:
@@ -103,9 +103,9 @@ class Decomposition:
         rows = [[self._columns[j][i] for j in self._order] for i in range(rank)]
         beyond = list(range(rank, len(self._columns)))
         for k in range(rank - 1, -1, -1) if beyond else ():
-            places = [k, *beyond]
-            size = math.sqrt(_square([rows[k][i] for i in places]))
-            reflection = _Reflection(rows[k], places, size)
+            indices = [k, *beyond]
+            size = math.sqrt(_square([rows[k][i] for i in indices]))
+            reflection = _Reflection(rows[k], indices, size)
             for row in rows[:k]:
                 reflection.of(row)
             rows[k][k] = reflection.image
@@ -145,7 +145,7 @@ class Decomposition:
     def _placed(
         self, reflections: list[_Reflection], x: list[Entry], points: tuple[int, ...] = ()
     ) -> Floats:
-        """Return x in the places of the columns, reflected back."""
+        """Return x in the order of the columns, reflected back."""
         for reflection in reversed(reflections):
             reflection.of(x)
         found = np.empty((len(x), *points))

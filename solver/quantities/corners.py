@@ -61,10 +61,10 @@ def surpass_at_corners(
         start = values[bins, instants, rows], times[bins, instants]
         reach, ends = times[bins, 1] - times[bins, 0], (times[bins, 0], times[bins, -1])
         top, when = narrowed(evaluate, np.take(columns, rows), start, reach, ends, sense)
-        for place in np.argsort(-sense * top, kind="stable"):
-            one = bins[place], rows[place]
-            if sense * top[place] > sense * value[one]:
-                value[one], at[one] = top[place], when[place]
+        for index in np.argsort(-sense * top, kind="stable"):
+            one = bins[index], rows[index]
+            if sense * top[index] > sense * value[one]:
+                value[one], at[one] = top[index], when[index]
 
 
 def _corners(values: Floats, best: Floats, least: Floats) -> NDArray[np.int64]:
@@ -79,7 +79,7 @@ def _corners(values: Floats, best: Floats, least: Floats) -> NDArray[np.int64]:
         before, after = np.pad(rise, ((0, 0), (1, 0))), np.pad(-rise, ((0, 0), (0, 1)))
         beyond = (before >= 0.0) & (after >= 0.0) & sharp
         beyond &= own + np.maximum(before, after) > best[:, row, None]
-        found += [(row, *place) for place in np.argwhere(beyond)]
+        found += [(row, *index) for index in np.argwhere(beyond)]
     return np.array(found, dtype=np.int64).reshape(-1, 3)
 
 

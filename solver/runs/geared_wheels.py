@@ -25,7 +25,7 @@ EXACT = 1e-9
 
 
 def geared_angles(scene: Scene, coordinates: Sequence[str]) -> list[int]:
-    """Return the places of the angles that gears couple among a scene's coordinates."""
+    """Return the indices of the angles that gears couple among a scene's coordinates."""
     bodies = {body for gear in scene.gears.values() for _, body in gear.coupled(scene.joints)}
     return [k for k, name in enumerate(coordinates) if name in {f"{body}.theta" for body in bodies}]
 

@@ -1,8 +1,8 @@
 """The files of a store that is being filled: a few packed ones.
 
 ``documents.zip`` holds the documents and is replaced; ``rows`` has a packed file for the chunks of
-all columns at one place, such as ``history-3.zip``, which is written once, when they are full.
-Chunks of extremes are small: one file has those of several places, such as ``pyramid-64-8-11.zip``.
+all columns at one index, such as ``history-3.zip``, which is written once, when they are full.
+Chunks of extremes are small: one file has several, such as ``pyramid-64-8-11.zip``.
 """
 
 import json
@@ -28,7 +28,7 @@ PARTS: Final = "parts"
 """Folder of what is not stored yet: the journal of a run, the parts of a study's blocks."""
 _PATIENCE: Final = 10_000
 _TOGETHER: Final = {"pyramid": 4}
-"""Places in one file, by the first part of the group's name."""
+"""Chunk indices in one file, by the first part of the group's name."""
 Found = TypeVar("Found")
 
 
@@ -104,7 +104,7 @@ class Running:
             durable.write(path, [source.read_bytes()])
 
     def has(self, key: str) -> bool:
-        """Whether the chunks at the place of a key were written, and the folder is there."""
+        """Whether the chunks of a key's index were written, and the folder is there."""
         return self._source.has(self.file_of(key))
 
     @staticmethod
@@ -120,7 +120,7 @@ class Running:
         LostObject
             One is gone: the one behind it is there.
         """
-        found, step = 0, places_in_file(pattern)
+        found, step = 0, indices_in_file(pattern)
         while self.has(pattern.format(found)):
             found += step
         lost = pattern.format(found)
@@ -250,7 +250,7 @@ class Running:
             except NotAStore as error:  # removed meanwhile
                 raise FileNotFoundError(str(error)) from error
             if any(_name(one) != name for one in packed):
-                raise CorruptStore(f"{found} holds chunks that stand at another place")
+                raise CorruptStore(f"{found} holds chunks of another index")
             known = self._packs[name] = version, packed
         return known[1]
 
@@ -284,16 +284,16 @@ def digest_in(attributes: Mapping[str, Any]) -> str:
     return str(attributes.get("layout") or attributes.get("digest") or "")
 
 
-def places_in_file(key: str) -> int:
-    """Count the places, one behind the other, whose chunks share a file with that of a key."""
+def indices_in_file(key: str) -> int:
+    """Count the chunk indices, one behind the other, that share a file with that of a key."""
     return _TOGETHER.get(key.partition("/")[0], 1)
 
 
 def _name(key: str) -> str:
-    """Name the packed file of a chunk by its group and its place in the grid of chunks."""
-    array, _, place = key.rpartition("/c/")
+    """Name the packed file of a chunk by its group and its index in the grid of chunks."""
+    array, _, index = key.rpartition("/c/")
     group = array.rpartition("/")[0] or "history"
-    if (count := places_in_file(key)) > 1:
-        first = int(place.partition("/")[0]) // count * count
-        place = f"{first}-{first + count - 1}"
-    return f"{group}-{place}.zip".replace("/", "-")
+    if (count := indices_in_file(key)) > 1:
+        first = int(index.partition("/")[0]) // count * count
+        index = f"{first}-{first + count - 1}"
+    return f"{group}-{index}.zip".replace("/", "-")

@@ -26,7 +26,7 @@ _DATE: Final = 0x21  # 1980-01-01, the first there is
 _LOCAL_BEGIN: Final = struct.pack("<4sH", b"PK\3\4", _VERSION)
 _CENTRAL_BEGIN: Final = struct.pack("<4s2H", b"PK\1\2", _VERSION, _VERSION)
 _ABOUT: Final = struct.Struct("<4H3IH")
-_PLACE: Final = struct.Struct("<4H2I")
+_LOCATION: Final = struct.Struct("<4H2I")
 _SHORT: Final = 2**16 - 1
 LONG: Final = 2**32 - 1
 
@@ -50,8 +50,8 @@ def pack(entries: Iterable[tuple[str, bytes]], digest: bytes = b"") -> Iterator[
         yield _local(about, name)
         yield content
         far = struct.pack("<2HQ", 1, 8, offset) if offset >= LONG else b""
-        place = _PLACE.pack(len(far), 0, 0, 0, 0, min(offset, LONG))
-        central.append(b"".join((_CENTRAL_BEGIN, about, place, name, far)))
+        location = _LOCATION.pack(len(far), 0, 0, 0, 0, min(offset, LONG))
+        central.append(b"".join((_CENTRAL_BEGIN, about, location, name, far)))
         offset += LOCAL.size + len(name) + len(content)
     end = b"".join(central)
     count, length = len(central), len(end)

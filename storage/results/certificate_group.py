@@ -33,9 +33,9 @@ def chunks(certificate: CertificateRecord) -> Iterator[tuple[str, bytes]]:
     """Encode the arrays by key; those without values have no chunk."""
     for name, one in certificate.arrays.items():
         if one.values.size:
-            place = "/".join("0" for _ in one.dimensions)
+            index = "/".join("0" for _ in one.dimensions)
             content = shards.compress(one.values.astype(DOUBLE, copy=False))
-            yield f"{CERTIFICATE}/{name}/c/{place}", content
+            yield f"{CERTIFICATE}/{name}/c/{index}", content
 
 
 def read(root: zarr.Group) -> CertificateRecord | None:

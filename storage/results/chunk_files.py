@@ -47,12 +47,12 @@ class ChunkFiles:
 
     def keys(self) -> Iterator[str]:
         """Name them all."""
-        for place in product(*map(range, self._grid)):
-            yield f"{self._path}/c/{'/'.join(map(str, place))}"
+        for index in product(*map(range, self._grid)):
+            yield f"{self._path}/c/{'/'.join(map(str, index))}"
 
-    def has(self, place: str) -> bool:
-        """Whether a place such as ``3/0`` is in the grid."""
-        numbers = place.split("/")
+    def has(self, index: str) -> bool:
+        """Whether an index such as ``3/0`` is in the grid."""
+        numbers = index.split("/")
         return len(numbers) == len(self._grid) and all(
             one.isdecimal() and one == str(int(one)) and int(one) < length
             for one, length in zip(numbers, self._grid, strict=True)
@@ -64,16 +64,16 @@ class ChunkFiles:
         chunks = prod(self._in_file) // max(prod(self._chunk), 1)
         return prod(self._in_file) * self._dtype.itemsize + _OVERHEAD * (chunks + 1)
 
-    def check(self, place: str, content: bytes) -> None:
-        """Raise `CorruptStore` if a file cannot be read as the chunks at a place of the grid."""
+    def check(self, index: str, content: bytes) -> None:
+        """Raise `CorruptStore` if a file cannot be read as the chunks at an index of the grid."""
         if not self._is_shard:
             self._decode(content)
             return
         chunks = prod(self._in_file) // prod(self._chunk)
-        index = shards.unpack_index(content[-shards.index_bytes(chunks) :])
-        rows = self._shape[0] - int(place.partition("/")[0]) * self._in_file[0]
+        entries = shards.unpack_index(content[-shards.index_bytes(chunks) :])
+        rows = self._shape[0] - int(index.partition("/")[0]) * self._in_file[0]
         needed = chunks if len(self._shape) > 1 else min(chunks, ceil(rows / self._chunk[0]))
-        for number, (offset, length) in enumerate(index):
+        for number, (offset, length) in enumerate(entries):
             if length:
                 self._decode(content[offset : offset + length])
             elif number < needed:

@@ -29,7 +29,7 @@ def with_contact_peaks(reader: ResultReader, name: str, bins: Floats, pairs: Flo
         np.isfinite(rows["release"]), 0.5 * (rows["onset"] + rows["release"]), rows["onset"]
     )
     inside = (middle >= bins[0, 0]) & (middle <= bins[-1, 1])
-    place = np.searchsorted(bins[:, 0], middle[inside], side="right") - 1
+    index = np.searchsorted(bins[:, 0], middle[inside], side="right") - 1
     raised = pairs.copy()
-    np.fmax.at(raised[:, 1], place, rows["peak_force"][inside])
+    np.fmax.at(raised[:, 1], index, rows["peak_force"][inside])
     return raised

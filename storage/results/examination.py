@@ -112,14 +112,14 @@ def _entries(files: Packed, expected: Expected | None) -> Iterator[tuple[str, by
             if entry.size > _ABOUT * len(files.entries) + _ABOUT:
                 raise CorruptStore(f"{MANIFEST} of {files.source} is too large")
             continue
-        path, _, place = key.rpartition("/c/")
+        path, _, index = key.rpartition("/c/")
         of_array = arrays.get(path)
         if entry.size > (of_array.largest if of_array else LARGEST_DOCUMENT):
             raise CorruptStore(f"{key} of {files.source} is too large")
         content = files.read(key)
         if expected is not None:
             try:
-                _check(key, content, expected, of_array, place)
+                _check(key, content, expected, of_array, index)
             except CorruptStore as error:
                 raise CorruptStore(f"{key} of {files.source}: {error}") from error
         yield key, content
@@ -138,12 +138,12 @@ def _require_all(files: Packed, expected: Expected, arrays: Mapping[str, ChunkFi
 
 
 def _check(
-    key: str, content: bytes, expected: Expected, of_array: ChunkFiles | None, place: str
+    key: str, content: bytes, expected: Expected, of_array: ChunkFiles | None, index: str
 ) -> None:
     if of_array is not None:
-        if not of_array.has(place):
+        if not of_array.has(index):
             raise CorruptStore("the array has no such chunk")
-        of_array.check(place, content)
+        of_array.check(index, content)
     elif key in expected.others:
         expected.others[key](content)
     elif expected.documents.get(key) != content:

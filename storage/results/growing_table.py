@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.storage.errors import CheckpointMismatch, InvalidAppend
-from jointplay.storage.packed.running import Running, places_in_file
+from jointplay.storage.packed.running import Running, indices_in_file
 from jointplay.storage.results import shards
 from jointplay.storage.results.tables import Table
 
@@ -36,7 +36,7 @@ class GrowingTable:
         self.durable = 0
         self.rows = 0
         self._files = files
-        self._file_shards = places_in_file(self.shard_keys(0)[0])
+        self._file_shards = indices_in_file(self.shard_keys(0)[0])
         self._file_rows = table.shard_rows * self._file_shards
 
     @cached_property

@@ -64,12 +64,12 @@ class LiveStore:
 
     def in_file(self, key: str) -> bool:
         """Whether a chunk is of rows that are in shards, so that its file must be there."""
-        path, _, place = key.rpartition("/c/")
+        path, _, index = key.rpartition("/c/")
         table, _, name = path.rpartition("/")
-        if name not in self._columns.get(table, ()) or not place.isdecimal():
+        if name not in self._columns.get(table, ()) or not index.isdecimal():
             return False
         shard_rows, _ = shape_of(self._members[path])
-        return int(place) < self._waiting[table].durable // shard_rows
+        return int(index) < self._waiting[table].durable // shard_rows
 
     def chunk(self, key: str) -> bytes | None:
         """Make the file of a chunk that is not on the disk yet, or None if it has no row.
@@ -77,15 +77,15 @@ class LiveStore:
         Its chunks are where `shards.loose` says, in every version of it, so that a client that
         has read the index of an earlier one reads right.
         """
-        path, _, place = key.rpartition("/c/")
+        path, _, index = key.rpartition("/c/")
         table, _, name = path.rpartition("/")
         names = self._columns.get(table, ())
-        if path not in self._members or name not in names or not place.isdecimal():
+        if path not in self._members or name not in names or not index.isdecimal():
             return None
         waiting = self._waiting[table]
         array = self._members[path]
         shard_rows, chunk_rows = shape_of(array)
-        if int(place) != waiting.durable // shard_rows or waiting.rows == waiting.durable:
+        if int(index) != waiting.durable // shard_rows or waiting.rows == waiting.durable:
             return None
         rows = waiting.columns[names.index(name)]
         if shard_rows == chunk_rows:

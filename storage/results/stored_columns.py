@@ -85,7 +85,7 @@ class StoredColumns:
             return shards.decompress(self._files.read(key), self._dtype, rows)[first:last]
         begin, end = first // rows, -(-last // rows)
         index = self._index(key)[begin * self._columns + column : end * self._columns :]
-        chunks = [self._chunk(key, *place) for place in index[:: self._columns]]
+        chunks = [self._chunk(key, *entry) for entry in index[:: self._columns]]
         return np.concatenate(chunks)[first - begin * rows : last - begin * rows]
 
     def _index(self, key: str) -> Index:

@@ -147,8 +147,8 @@ class StudyBlock:
             path.unlink(missing_ok=True)
 
     def _add_rows(self, rows: SectionRows) -> int:
-        place = self._row(rows.point)
-        count, known = len(rows.time), int(self._part.counts[place])
+        index = self._row(rows.point)
+        count, known = len(rows.time), int(self._part.counts[index])
         width = len(self._layout.observables)
         if rows.values.shape != (count, width):
             raise InvalidAppend(f"sections need shape {(count, width)}, not {rows.values.shape}")
@@ -157,7 +157,7 @@ class StudyBlock:
                 f"point {rows.point} has {known} of {self._layout.record} sections; sections"
                 f" {rows.first} to {rows.first + count - 1} do not follow"
             )
-        if self._part.status[place] in ENDED:
+        if self._part.status[index] in ENDED:
             raise InvalidAppend(f"point {rows.point} has ended and takes no more sections")
         points, sections = self._layout.chunk
         row, within = divmod(rows.point, points)
@@ -171,23 +171,23 @@ class StudyBlock:
             chunk[:-1, within, start : start + step] = rows.values[taken : taken + step].T
             chunk[-1, within, start : start + step] = rows.time[taken : taken + step]
             taken += step
-        self._part.counts[place] = known + count
+        self._part.counts[index] = known + count
         return row
 
     def _add_end(self, end: PointEnd) -> int:
-        place = self._row(end.point)
-        if self._part.status[place] in ENDED:
+        index = self._row(end.point)
+        if self._part.status[index] in ENDED:
             raise InvalidAppend(f"point {end.point} ended before")
         if end.code:
             self._part.failures[end.point] = Failure(end.code, end.detail, float(end.time))
-        self._part.status[place] = PointStatus.failed if end.code else PointStatus.done
+        self._part.status[index] = PointStatus.failed if end.code else PointStatus.done
         if end.peaks.size:
-            self._part.peaks[place] = end.peaks
+            self._part.peaks[index] = end.peaks
         for group, numbers in ((STATISTICS, end.statistics), (INDICATORS, end.indicators)):
             for name, value in numbers.items():
                 if name in self._layout.coordinates:
                     raise InvalidAppend(f"{name!r} is an axis of the map, and no number of a point")
-                self._part.column(f"{group}/{name}")[place] = value
+                self._part.column(f"{group}/{name}")[index] = value
         if end.reason:
             self._part.reasons[end.point] = end.reason
         if end.document is not None:
@@ -273,12 +273,12 @@ def lost(files: Running, index: int, key: tuple[int, int]) -> LostObject:
 
 
 def path_of(key: tuple[int, int]) -> str:
-    """Return the key of some array's chunk at a place of the grid."""
+    """Return the key of some array's chunk at an index of the grid."""
     return f"sections/{TIME}/c/{key[0]}/{key[1]}"
 
 
 def paths_at(layout: StudyLayout, key: tuple[int, int]) -> list[str]:
-    """Return the keys of the chunks of all arrays at a place of the grid."""
+    """Return the keys of the chunks of all arrays at an index of the grid."""
     names = [*(spec.name for spec in layout.observables), TIME]
     return [f"sections/{name}/c/{key[0]}/{key[1]}" for name in names]
 

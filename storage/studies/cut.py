@@ -17,13 +17,13 @@ SIDE: Final = 256
 
 
 class Band(NamedTuple):
-    """One row of chunks: its place along the first axis, and the points in it."""
+    """One row of chunks: its number along the first axis, and the points in it."""
 
     row: int
     points: tuple[slice, ...]
     """Runs of consecutive points: one along one axis, of a map one of each level."""
-    places: Integers
-    """Place of each of these points in the band, row by row."""
+    indices: Integers
+    """Index of each of these points in the band, row by row."""
 
 
 def chunk_shape(layout: StudyLayout, width: int = 1) -> list[int]:
@@ -46,19 +46,19 @@ def bands(layout: StudyLayout, width: int = 1) -> Iterator[Band]:
             yield Band(row, (slice(begin, begin + count),), np.arange(count))
         return
     whole, across = layout.shape
-    of_band, places = np.divmod(layout.order, height * across)
+    of_band, indices = np.divmod(layout.order, height * across)
     by_band = np.argsort(of_band, kind="stable")  # in each, the points in their order
     ends = np.minimum(np.arange(1, -(-whole // height) + 1) * height, whole) * across
     for row, members in enumerate(np.split(by_band, ends[:-1])):
         runs = np.split(members, np.flatnonzero(np.diff(members) > 1) + 1)
         points = tuple(slice(int(run[0]), int(run[-1]) + 1) for run in runs)
-        yield Band(row, points, places[members])
+        yield Band(row, points, indices[members])
 
 
 def chunks(
     layout: StudyLayout, band: Band, numbers: NDArray[Any], width: int = 1
 ) -> Iterator[tuple[str, NDArray[Any]]]:
-    """Yield the place, such as ``3`` or ``3/0``, and the numbers of each chunk of a band.
+    """Yield the index, such as ``3`` or ``3/0``, and the numbers of each chunk of a band.
 
     `numbers` : (points of the band, ...), in the order of the points.
     """
@@ -68,7 +68,7 @@ def chunks(
     _, across = layout.shape
     _, step = chunk_shape(layout, width)
     table = np.empty_like(numbers)
-    table[band.places] = numbers
+    table[band.indices] = numbers
     table = table.reshape(-1, across, *numbers.shape[1:])
     for column, begin in enumerate(range(0, across, step)):
         yield f"{band.row}/{column}", table[:, begin : begin + step]

@@ -71,8 +71,8 @@ def sealed(
     return _documents(layout, _values(layout, names) | _sections(layout) | arrays, attributes)
 
 
-def places_of_values(layout: StudyLayout, names: Sequence[str]) -> list[str]:
-    """Return before which names the values of parameters stand: in each group of a map's numbers.
+def prefixes_of_values(layout: StudyLayout, names: Sequence[str]) -> list[str]:
+    """Return what the values of parameters have before their names: each group of a map's numbers.
 
     So each group has its coordinates, whichever of them is opened.
     """
@@ -92,10 +92,10 @@ def _values(layout: StudyLayout, names: Sequence[str]) -> dict[str, Document]:
             for spec in layout.parameters
         }
     return {
-        place + axis: metadata.array(
+        prefix + axis: metadata.array(
             values.shape, values.shape, DOUBLE, [axis], {**spec.attributes, "parameter": spec.name}
         )
-        for place in places_of_values(layout, names)
+        for prefix in prefixes_of_values(layout, names)
         for axis, (spec, values) in layout.coordinates.items()
     }
 

@@ -112,8 +112,8 @@ def _require_chunks(files: Running, found: Part, layout: StudyLayout) -> None:
         if sorted(there) != sorted(paths_at(layout, key)):
             raise CorruptStore(f"chunks at {path_of(key)} are not those of the job")
         for path, content in there.items():
-            array, _, place = path.rpartition("/c/")
-            arrays[array].check(place, content)
+            array, _, index = path.rpartition("/c/")
+            arrays[array].check(index, content)
 
 
 def _sections(layout: StudyLayout) -> dict[str, ChunkFiles]:

@@ -122,7 +122,7 @@ class StudyLayout:
 
     @cached_property
     def order(self) -> Integers:
-        """(points,) place of each point of a map in arrays over (y, x), row by row."""
+        """(points,) index of each point of a map in arrays over (y, x), row by row."""
         return order_of(self.attributes.get("job", {}), self.shape)
 
     @cached_property

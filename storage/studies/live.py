@@ -57,22 +57,22 @@ class LiveStudy:
 
     def in_file(self, key: str) -> bool:
         """Whether a chunk was written, so that its file must be there."""
-        path, _, place = key.partition("/c/")
+        path, _, index = key.partition("/c/")
         of_sections = path.startswith("sections/") and not self._reader.sealed
-        return of_sections and place in self._reader.written
+        return of_sections and index in self._reader.written
 
     def chunk(self, key: str) -> bytes | None:
         """Make the file of a chunk, or None if no array has it."""
-        path, _, place = key.rpartition("/c/")
+        path, _, index = key.rpartition("/c/")
         array = self._documents.get(f"{path}/{FILE}")
-        if array is None or array["node_type"] != "array" or not place:
+        if array is None or array["node_type"] != "array" or not index:
             return None
-        position = [int(one) for one in place.split("/")]
+        cell = [int(one) for one in index.split("/")]
         shape: list[int] = array["shape"]
         chunk: list[int] = array["chunk_grid"]["configuration"]["chunk_shape"]
-        if len(position) != len(shape):
+        if len(cell) != len(shape):
             return None
-        begin = [index * size for index, size in zip(position, chunk, strict=True)]
+        begin = [nth * size for nth, size in zip(cell, chunk, strict=True)]
         if any(first >= size for first, size in zip(begin, shape, strict=True)):
             return None
         dtype = np.dtype(array["data_type"])

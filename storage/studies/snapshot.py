@@ -121,7 +121,7 @@ class StudySnapshot(StoreReader):
 
     @cached_property
     def written(self) -> frozenset[str]:
-        """Places, such as ``3/0``, of the chunks of sections that are in files by now."""
+        """Indices, such as ``3/0``, of the chunks of sections that are in files by now."""
         return frozenset(
             f"{row}/{column}"
             for one in self._parts.values()

@@ -215,15 +215,15 @@ def _columns(
     shape = chunk_shape(layout)
     for band in bands(layout):
         for name, column in numbers(band).items():
-            for place, chunk in chunks(layout, band, column):
-                yield f"{name}/c/{place}", _encoded(chunk, shape)
+            for index, chunk in chunks(layout, band, column):
+                yield f"{name}/c/{index}", _encoded(chunk, shape)
     if width:
         shape = [*chunk_shape(layout, width), width]
         for band in bands(layout, width):
             peaks = np.concatenate([window(run).peaks for run in band.points])
             for position, name in enumerate(PEAK):
-                for place, chunk in chunks(layout, band, peaks[:, :, position], width):
-                    yield f"peaks/{name}/c/{place}/0", _encoded(chunk, shape)
+                for index, chunk in chunks(layout, band, peaks[:, :, position], width):
+                    yield f"peaks/{name}/c/{index}/0", _encoded(chunk, shape)
 
 
 def _as_json(failures: dict[int, Failure]) -> dict[str, tuple[str, str, float | None]]:
@@ -254,9 +254,9 @@ def _boundary_chunks(
 
 def _values(layout: StudyLayout, names: Sequence[str] = ()) -> Iterator[tuple[str, bytes]]:
     """Give every chunk of the values of parameters; `names` are those of the points' numbers."""
-    for place in documents.places_of_values(layout, names):
+    for prefix in documents.prefixes_of_values(layout, names):
         for axis, (_, values) in layout.coordinates.items():
-            yield f"{place}{axis}/c/0", _encoded(values.astype("<f8"), [len(values)])
+            yield f"{prefix}{axis}/c/0", _encoded(values.astype("<f8"), [len(values)])
     for position, spec in enumerate(() if layout.coordinates else layout.parameters):
         for band in bands(layout):
             column = layout.values[band.points[0], position].astype("<f8")

@@ -170,8 +170,8 @@ def test_a_variable_that_is_nearly_a_setting_is_told(jointplay, tmp_path, monkey
 def test_several_faults_are_a_line_each(jointplay, tmp_path):
     (tmp_path / "job.json").write_text('{"kind": "simulate", "durations": 1}')
     lines = jointplay("run", tmp_path / "job.json", "-o", tmp_path / "OUT").lines()
-    places = ["/scene", "/duration", "/durations"]
-    assert [line.split(":")[1].strip() for line in lines] == places
+    pointers = ["/scene", "/duration", "/durations"]
+    assert [line.split(":")[1].strip() for line in lines] == pointers
     refused = client.Refused(
         "Two.", fields=[client.FieldProblem("/a", "One."), client.FieldProblem("", "Other.")]
     )
@@ -259,9 +259,18 @@ def test_a_scene_of_ones_own_is_checked_like_a_preset(jointplay, tmp_path):
 
 def test_exit_codes_are_of_exceptions_that_there_are():
     """They are named and not imported: a name that nothing has would never be met."""
-    places = (builtins, client, failure, strict_json, processes, figures, errors, of_the_catalogue)
-    places += (table_columns, table_files)
-    unknown = [name for name in EXITS if not any(hasattr(place, name) for place in places)]
+    modules = (
+        builtins,
+        client,
+        failure,
+        strict_json,
+        processes,
+        figures,
+        errors,
+        of_the_catalogue,
+    )
+    modules += (table_columns, table_files)
+    unknown = [name for name in EXITS if not any(hasattr(module, name) for module in modules)]
     assert unknown == []
 
 

@@ -42,7 +42,7 @@ class RingSlot(Joint):
     called: ClassVar[str] = "a pin in a ring"
     end_fields: ClassVar[tuple[str, str]] = ("hub", "pin")
     drawing: ClassVar[Drawing] = Drawing(
-        size="pin_radius", places=tuple((0.0, s) for s in SIDES.values())
+        size="pin_radius", positions=tuple((0.0, s) for s in SIDES.values())
     )
     parts: ClassVar[tuple[str, ...]] = (*SIDES,)
     type: Literal["ring-slot"]

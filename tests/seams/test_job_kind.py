@@ -15,7 +15,7 @@ from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
 from tests.seams.conftest import Platform
 
 
-def _place(_index: int) -> str:
+def _pointer(_index: int) -> str:
     return "/count"
 
 
@@ -40,11 +40,11 @@ class Line(SectionStudy[LineJob]):
     def points(self, job: LineJob) -> Points:
         written = np.arange(job.count)
         axes = [
-            Axis(name, f"/start/{name}", np.linspace(start, job.stop[name], job.count), _place)
+            Axis(name, f"/start/{name}", np.linspace(start, job.stop[name], job.count), _pointer)
             for name, start in job.start.items()
         ]
         index = np.tile(written[:, None], (1, len(axes)))
-        return Points(tuple(axes), index, _place)
+        return Points(tuple(axes), index, _pointer)
 
 
 @pytest.fixture

@@ -148,7 +148,7 @@ def test_who_has_the_files_of_no_catalogue_is_not_ready(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As where the disk with the data folder is not mounted."""
-    monkeypatch.setattr(readiness, "_PLACE_PERIOD", 0.0)
+    monkeypatch.setattr(readiness, "_OBJECT_STORE_PERIOD", 0.0)
     mark, away = tmp_path / MARK, tmp_path / "away"
     with (
         serving(create_app(Settings(data=tmp_path))) as url,

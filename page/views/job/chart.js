@@ -5,7 +5,7 @@ import { ChartMap } from "../../charts/map.js";
 import { Tiles } from "../../charts/tiles.js";
 import { element, fill } from "../../interface/element.js";
 import { short, unitText, withUnit } from "../../interface/numbers.js";
-import { note } from "../../interface/place.js";
+import { note } from "../../interface/route.js";
 import { offer, sceneWith } from "../../interface/point_of_study.js";
 import { whenThere } from "../../interface/when_there.js";
 import { get } from "../../requests/service.js";

@@ -2,7 +2,7 @@
 
 import { element, fill } from "../../interface/element.js";
 import { typed, unitText, withError } from "../../interface/numbers.js";
-import { note } from "../../interface/place.js";
+import { note } from "../../interface/route.js";
 import { offer } from "../../interface/point_of_study.js";
 import { prepared } from "../../mechanism/canvas.js";
 import { onNewColours, palette } from "../../mechanism/palette.js";

@@ -1,7 +1,7 @@
 /** Poincaré sections: two channels once in every period, of a run or of all points of a study. */
 
 import { element, fill } from "../../interface/element.js";
-import { note } from "../../interface/place.js";
+import { note } from "../../interface/route.js";
 import { whenThere } from "../../interface/when_there.js";
 import { Plane, firstPlane } from "../../plots/plane.js";
 import { intoATurn } from "../../plots/turns.js";

@@ -3,7 +3,7 @@
 import { element, fill } from "../../interface/element.js";
 import { freshFigure } from "../../interface/fresh_figure.js";
 import { short, typed, unitText, withUnit } from "../../interface/numbers.js";
-import { note } from "../../interface/place.js";
+import { note } from "../../interface/route.js";
 import { table } from "../../interface/table.js";
 import { whenThere } from "../../interface/when_there.js";
 import { get } from "../../requests/service.js";

@@ -2,7 +2,7 @@
 
 import { element, fill } from "../../interface/element.js";
 import { short, withUnit } from "../../interface/numbers.js";
-import { note } from "../../interface/place.js";
+import { note } from "../../interface/route.js";
 import { offer } from "../../interface/point_of_study.js";
 import { Quantities } from "../../interface/quantities.js";
 import { whenThere } from "../../interface/when_there.js";

@@ -5,7 +5,7 @@ import { gaps, spansInWords } from "../../interface/converged.js";
 import { historyAsCsv } from "../../interface/csv.js";
 import { element, fill } from "../../interface/element.js";
 import { saving } from "../../interface/saving.js";
-import { note } from "../../interface/place.js";
+import { note } from "../../interface/route.js";
 import { drawnSceneOf } from "../../interface/scene_of_job.js";
 import { Clock } from "../../mechanism/clock.js";
 import { Insets } from "../../mechanism/insets.js";

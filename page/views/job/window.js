@@ -2,7 +2,7 @@
 
 import { element, fill } from "../../interface/element.js";
 import { withUnit } from "../../interface/numbers.js";
-import { note } from "../../interface/place.js";
+import { note } from "../../interface/route.js";
 import { instants } from "../../plots/instants.js";
 import { Plane, firstPlane } from "../../plots/plane.js";
 import { SpectrumPlot } from "../../plots/spectrum_plot.js";

@@ -143,9 +143,9 @@ def histogram(values: Floats, time: Floats) -> tuple[Floats, Floats, Floats]:
     low, high = whole.min(axis=(0, 1)), whole.max(axis=(0, 1))
     width = np.where(high > low, high - low, 1.0)
     bins = np.minimum((BINS * (whole - low) / width).astype(np.int64), BINS - 1)
-    places = bins * channels + np.arange(channels)
-    each = np.broadcast_to(weights[:, None], places.shape[1:]).ravel()
-    counts = [np.bincount(at.ravel(), each, BINS * channels) for at in places]
+    indices = bins * channels + np.arange(channels)
+    each = np.broadcast_to(weights[:, None], indices.shape[1:]).ravel()
+    counts = [np.bincount(at.ravel(), each, BINS * channels) for at in indices]
     shares = np.array(counts).reshape(lanes, BINS, channels) / weights.sum()
     edges = low + (high - low) * np.linspace(0.0, 1.0, BINS + 1)[:, None]
     return edges, shares.mean(axis=0), shares.std(axis=0, ddof=1 if lanes > 1 else 0)

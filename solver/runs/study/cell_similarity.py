@@ -67,7 +67,7 @@ def _cycles_apart(states: Mapping[str, Any], corners: Sequence[PointEnd]) -> boo
     names = corners[0].statistics
     numbers = {name: np.array([end.statistics[name] for end in corners]) for name in names}
     cycles = cycles_of(states, numbers, len(corners))
-    apart = np.abs(cycles.apart(cycles.places, cycles.places[0]))
+    apart = np.abs(cycles.apart(cycles.features, cycles.features[0]))
     return bool((apart > SAME * cycles.scales).any())
 
 

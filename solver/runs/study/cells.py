@@ -14,19 +14,19 @@ import numpy as np
 from jointplay.records.arrays import Flags, Integers
 
 Differ = Callable[[Integers], Flags]
-"""From (cells, 4) places of corners to (cells,) whether they differ."""
+"""From (cells, 4) indices of corners to (cells,) whether they differ."""
 
 
 @dataclass(frozen=True)
 class Cells:
-    """Decisions on cells by the points that are known; a place is y * width + x."""
+    """Decisions on cells by the points that are known; an index is y * width + x."""
 
     missing: tuple[int, ...]
     """Indices of points that must be known next; none: every cell is decided."""
     computed: frozenset[int]
     """Indices of points whose own results count, but for the origins of the coarsest cells."""
     inherited: dict[int, int]
-    """From the places of points to that of the origin whose results they have."""
+    """From the indices of points to that of the origin whose results they have."""
 
 
 def decided(
@@ -41,11 +41,11 @@ def decided(
     Parameters
     ----------
     origins
-        (cells,) places of the origins of cells with 2^depth points on a side.
+        (cells,) indices of the origins of cells with 2^depth points on a side.
     shape
         (height, width) of the map. A cell that reaches beyond it has corners at its edge.
     known
-        Whether the point at a place is known.
+        Whether the point at an index is known.
     differ
         Which cells' corners differ.
     """
@@ -68,7 +68,7 @@ def decided(
 
 
 def _corners(origins: Integers, side: int, shape: tuple[int, ...]) -> Integers:
-    """Return (cells, 4) places of corners, the origin first."""
+    """Return (cells, 4) indices of corners, the origin first."""
     height, width = shape
     y, x = np.divmod(origins, width)
     above, right = np.minimum(y + side, height - 1), np.minimum(x + side, width - 1)
@@ -76,7 +76,7 @@ def _corners(origins: Integers, side: int, shape: tuple[int, ...]) -> Integers:
 
 
 def _points(origin: int, side: int, step: int, shape: tuple[int, ...]) -> Integers:
-    """Return places of every `step`-th point of a cell, as far as it is on the map."""
+    """Return indices of every `step`-th point of a cell, as far as it is on the map."""
     height, width = shape
     y, x = divmod(origin, width)
     rows = np.arange(y, min(y + side, height), step)

@@ -22,9 +22,9 @@ def end_of_start(study: Study, point: int) -> PointEnd | None:
     return PointEnd(point, "start-not-held", sentence, 0.0, peaks, {"steps": 0.0}, {})
 
 
-def concerns(given: Taken, place: str) -> bool:
-    """Return whether what a scene gives of its start is, or has, the number at a place."""
-    return f"{place}/".startswith(f"{given.pointer}/")
+def concerns(given: Taken, pointer: str) -> bool:
+    """Return whether what a scene gives of its start is, or has, the number at a pointer."""
+    return f"{pointer}/".startswith(f"{given.pointer}/")
 
 
 def obstacle(scene: Scene, varied: Iterable[str]) -> str:
@@ -32,10 +32,10 @@ def obstacle(scene: Scene, varied: Iterable[str]) -> str:
 
     varied : JSON pointers to these numbers.
     """
-    places, assembly = [*varied], assemble(scene)
+    pointers, assembly = [*varied], assemble(scene)
     if assembly.residual / shortest_link(scene) > ASSEMBLED:
         return "The mechanism does not close at this start."
     for one in assembly.misfits:
-        if any(concerns(one, place) for place in places):
+        if any(concerns(one, pointer) for pointer in pointers):
             return one.sentence
     return ""

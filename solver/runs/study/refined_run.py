@@ -35,7 +35,7 @@ class RefinedRun(StudyRun):
         first, count = study.blocks[block]
         self._order = order_of(study.job, study.shape)
         self._known: dict[int, PointEnd] = {}
-        """Ends by place, of points of this block and others; of the coarse grid none is kept."""
+        """Ends by flat index of points, the block's and others; of the coarse grid none is kept."""
         self._told: set[int] = set()
         """Indices of those among them that were results of the block."""
         coarse = coarse_points(study.shape, study.refine)
@@ -52,13 +52,13 @@ class RefinedRun(StudyRun):
 
     def checkpoint(self) -> bytes:
         """Return a restart point; valid between slices."""
-        known = [[place, facts_of_end(end)] for place, end in self._known.items()]
+        known = [[index, facts_of_end(end)] for index, end in self._known.items()]
         facts = {"known": known, "told": sorted(self._told)}
         return encode(_KIND, SOLVER_VERSION, facts, {"run": packed(super().checkpoint())})
 
     def _restore(self, checkpoint: bytes) -> None:
         found = decode(checkpoint, _KIND, SOLVER_VERSION)
-        self._known = {place: end_of_facts(end) for place, end in found.facts["known"]}
+        self._known = {index: end_of_facts(end) for index, end in found.facts["known"]}
         self._told = set(found.facts["told"])
         self._cells = self._decided()
         super()._restore(found.content("run"))
@@ -99,37 +99,37 @@ class RefinedRun(StudyRun):
             self.study.refine,
             self._known.__contains__,
             lambda corners: self._similarity.differ(
-                [[self._known[place] for place in cell] for cell in corners.tolist()]
+                [[self._known[index] for index in cell] for cell in corners.tolist()]
             ),
         )
 
-    def _runs(self, places: Sequence[int]) -> list[PointRun]:
-        points = [int(self._point_at[place]) for place in places]
+    def _runs(self, indices: Sequence[int]) -> list[PointRun]:
+        points = [int(self._point_at[index]) for index in indices]
         return [PointRun(point, point, 0) for point in points]
 
     def _untold(self) -> Iterator[PointEnd]:
         """Yield the ends of points that were computed for other cells, before theirs was split."""
-        for place in sorted(self._cells.computed - self._told):
-            yield self._known[place]
+        for index in sorted(self._cells.computed - self._told):
+            yield self._known[index]
 
     def _inherited(self) -> Iterator[PointEnd]:
         """Yield the ends of points that have the results of a cell's origin."""
-        for place, origin in self._cells.inherited.items():
+        for index, origin in self._cells.inherited.items():
             end = self._known[origin]
             statistics = {**end.statistics, INHERITED: 1.0, "steps": 0.0}
-            yield replace(end, point=int(self._point_at[place]), statistics=statistics)
+            yield replace(end, point=int(self._point_at[index]), statistics=statistics)
 
 
 @lru_cache(1)  # a million points take 8 MB, and a device computes many blocks at once
 def _points_at(study: Study) -> Integers:
-    """Return (points,) the point at each place."""
+    """Return (points,) the point at each index."""
     order = order_of(study.job, study.shape)
     found = np.empty_like(order)
     found[order] = np.arange(len(order))
     return found
 
 
-def _origins(places: Integers, shape: tuple[int, ...], side: int) -> Integers:
-    """Return places of the origins of the cells that points lie in."""
-    y, x = np.divmod(places, shape[1])
+def _origins(indices: Integers, shape: tuple[int, ...], side: int) -> Integers:
+    """Return indices of the origins of the cells that points lie in."""
+    y, x = np.divmod(indices, shape[1])
     return np.unique(y // side * side * shape[1] + x // side * side)

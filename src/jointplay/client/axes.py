@@ -70,10 +70,10 @@ def _axes(
     cells = int(np.prod(sizes)) if sizes else 0
     told = {one.name: _told(one) for one in study.parameters}
     if cells and study.points in (cells, 2 * cells):
-        places = np.ravel_multi_index([inverse for _, inverse in found], sizes)
+        indices = np.ravel_multi_index([inverse for _, inverse in found], sizes)
         turns = study.points // cells
-        order = np.lexsort((np.arange(study.points), places))
-        if np.array_equal(np.bincount(places, minlength=cells), np.full(cells, turns)):
+        order = np.lexsort((np.arange(study.points), indices))
+        if np.array_equal(np.bincount(indices, minlength=cells), np.full(cells, turns)):
             coordinates: dict[str, tuple[Any, ...]] = {
                 name: ([name], values, told[name])
                 for name, (values, _) in zip(names, found, strict=True)

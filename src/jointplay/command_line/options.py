@@ -109,12 +109,12 @@ def refused_as_typed(*names: str) -> Iterator[None]:
     """Say which of these options is refused; a figure's own name needs no word before."""
     from jointplay.client import FieldProblem, Refused
 
-    places = {"name": ""} | {name: f"--{name.replace('_', '-')}" for name in names}
+    options = {"name": ""} | {name: f"--{name.replace('_', '-')}" for name in names}
     try:
         yield
     except Refused as error:
         error.fields = tuple(
-            FieldProblem(places.get(place, place), detail) for place, detail in error.fields
+            FieldProblem(options.get(field, field), detail) for field, detail in error.fields
         )
         raise
 

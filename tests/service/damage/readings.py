@@ -96,8 +96,8 @@ def _announced(root: dict[str, Any]) -> Iterator[str]:
         if node["node_type"] == "array":
             chunk = node["chunk_grid"]["configuration"]["chunk_shape"]
             cuts = [-(-size // step) for size, step in zip(node["shape"], chunk, strict=True)]
-            for place in np.ndindex(*cuts):
-                yield "/".join([path, "c", *map(str, place)])
+            for index in np.ndindex(*cuts):
+                yield "/".join([path, "c", *map(str, index)])
 
 
 def _get(

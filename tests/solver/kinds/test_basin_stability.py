@@ -6,7 +6,7 @@ import pytest
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.kinds import admit, parse
 
-PLACE = "/start/joints/stop/eccentricity/0"
+ECCENTRICITY = "/start/joints/stop/eccentricity/0"
 RATE = "/start/joints/stop/rate/0"
 PHASE = "/drivers/motor/position"
 
@@ -19,7 +19,7 @@ def job(starts=None, **fields):
     return {
         "kind": "basin-stability",
         "scene": {"preset": "impact-oscillator"},
-        "starts": starts or {PLACE: uniform(0.17, 0.2), PHASE: uniform(0.0, 6.0)},
+        "starts": starts or {ECCENTRICITY: uniform(0.17, 0.2), PHASE: uniform(0.0, 6.0)},
         "samples": 50,
         "settle": 5,
         "record": 6,
@@ -84,11 +84,11 @@ def test_any_distribution_may_be_drawn():
 )
 def test_what_cannot_be_drawn_is_refused_where_it_stands(fields, pointer, words):
     found = problems(job() | fields)
-    assert any(pointer in place and words in detail for place, detail in found), found
+    assert any(pointer in at and words in detail for at, detail in found), found
 
 
 def test_too_many_starts_are_refused_before_they_are_drawn():
     along = {"parameter": "speed", "values": {"from": 20.0, "to": 30.0, "count": 1000}}
-    ((place, detail),) = problems(job(samples=5000, along=along), LimitExceeded)
-    assert place == "/samples"
+    ((pointer, detail),) = problems(job(samples=5000, along=along), LimitExceeded)
+    assert pointer == "/samples"
     assert "5000000 points" in detail

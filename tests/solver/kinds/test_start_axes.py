@@ -81,7 +81,7 @@ def test_a_place_of_a_body_is_that_of_one_of_its_points():
             by="/start/velocities/mass/0",
         )
     )
-    assert study.parameters[1] == "mass.centre.place_x"
+    assert study.parameters[1] == "mass.centre.position_x"
     assert study.parameter_units[1] == "m"
     starts = [study.point_scene(point).start.points["mass.centre"] for point in range(2)]
     assert sorted(starts) == [[-0.25, 0.0], [0.5, 0.0]]

@@ -101,6 +101,6 @@ def test_an_ideal_mechanism_has_the_extremes_of_the_rest(turns: float) -> None:
 def test_settling_for_all_of_a_run_is_refused(settle: float) -> None:
     with pytest.raises(InvalidInput) as refused:
         admit(PRESS | {"settle": settle})
-    ((place, sentence),) = refused.value.problems
-    assert place == "/settle"
+    ((pointer, sentence),) = refused.value.problems
+    assert pointer == "/settle"
     assert "must be shorter" in sentence

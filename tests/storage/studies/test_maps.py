@@ -44,7 +44,7 @@ def chunks_of(growing):
             continue
         chunk = node["chunk_grid"]["configuration"]["chunk_shape"]
         grid = [-(-size // step) for size, step in zip(node["shape"], chunk, strict=True)]
-        keys = ("/".join([name, "c", *map(str, place)]) for place in np.ndindex(*grid))
+        keys = ("/".join([name, "c", *map(str, index)]) for index in np.ndindex(*grid))
         yield from (key for key in keys if not growing.in_file(key))
 
 
@@ -150,8 +150,8 @@ def test_every_point_is_in_one_chunk_and_narrow_maps_have_few(shape, width):
     found = list(bands(layout, width))
     for band in found:
         own = np.concatenate([numbers[run] for run in band.points])
-        for place, chunk in chunks(layout, band, own, width):
-            row, column = (int(one) for one in place.split("/"))
+        for index, chunk in chunks(layout, band, own, width):
+            row, column = (int(one) for one in index.split("/"))
             at = row * height, column * across
             laid[at[0] : at[0] + len(chunk), at[1] : at[1] + chunk.shape[1]] = chunk
     np.testing.assert_array_equal(laid.ravel()[layout.order], numbers)

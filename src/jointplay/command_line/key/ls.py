@@ -1,6 +1,6 @@
 """``jointplay key ls``: the keys of a service."""
 
-from jointplay.command_line.key.place import DATA, HERE, catalogue_at, shown
+from jointplay.command_line.key.catalogue import DATA, HERE, catalogue_at, shown
 from jointplay.command_line.options import AS_JSON
 from jointplay.command_line.output import aligned, print_result
 

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line.exits import Stopped
-from jointplay.command_line.key.place import DATA, HERE, catalogue_at, shown
+from jointplay.command_line.key.catalogue import DATA, HERE, catalogue_at, shown
 from jointplay.command_line.options import AS_JSON
 from jointplay.command_line.output import print_result
 

@@ -17,7 +17,7 @@ def disc(shape=SHAPE, centre=(31.3, 64.2), radius=21.7):
 
 
 def filled_in(labels, origins):
-    """Return labels as cells tell them, places that counted, and places that were looked at."""
+    """Return labels as cells tell them, indices that counted, and indices that were looked at."""
     shape, flat = labels.shape, labels.ravel()
     known = set()
 
@@ -31,11 +31,11 @@ def filled_in(labels, origins):
         assert known.isdisjoint(found.missing)
         known |= set(found.missing)
     table = np.full(labels.size, -1)
-    for place in found.computed:
-        table[place] = flat[place]
-    for place, origin in found.inherited.items():
-        assert table[place] == -1
-        table[place] = flat[origin]
+    for index in found.computed:
+        table[index] = flat[index]
+    for index, origin in found.inherited.items():
+        assert table[index] == -1
+        table[index] = flat[origin]
     return table, found.computed, known
 
 
@@ -81,7 +81,7 @@ def test_every_point_is_computed_inherits_or_is_of_the_coarse_grid(shape):
 def test_corners_of_a_cell_are_the_next_origins_or_the_last_points_of_the_map():
     def missing(origin):
         cells = decided(np.array([origin]), SHAPE, DEPTH, lambda _: False, lambda _: np.zeros(0))
-        return [divmod(place, SHAPE[1]) for place in cells.missing]
+        return [divmod(index, SHAPE[1]) for index in cells.missing]
 
     assert missing(0) == [(0, 0), (0, 8), (8, 0), (8, 8)]
     assert missing(72 * SHAPE[1] + 128) == [(72, 128), (72, 129), (74, 128), (74, 129)]

@@ -1,7 +1,7 @@
 /** Where the reader is: the view and what it shows, as the address says after `#`. */
 
 /** Returns the view, its further parts and its query: `#/job/ID?time=0.3`. */
-export function place(hash = location.hash) {
+export function route(hash = location.hash) {
   const [path, query] = hash.replace(/^#\/?/, "").split("?");
   const [view, ...parts] = path.split("/").map(decoded);
   return { view: view || "start", parts, query: new URLSearchParams(query ?? "") };
@@ -16,7 +16,7 @@ export function address(parts, query = {}) {
 
 /** Notes something in the address without leaving the view, or an entry in the browser's history. */
 export function note(query) {
-  const here = place();
+  const here = route();
   for (const [name, value] of Object.entries(query)) {
     if (value === null || value === undefined || value === "") here.query.delete(name);
     else here.query.set(name, value);
@@ -27,7 +27,7 @@ export function note(query) {
 
 /** Forgets all that the address notes of the view. */
 export function forget() {
-  note(Object.fromEntries([...place().query.keys()].map((name) => [name, null])));
+  note(Object.fromEntries([...route().query.keys()].map((name) => [name, null])));
 }
 
 /** Goes to a view. */

@@ -1,4 +1,4 @@
-/** Places in a JSON text: from a position to its JSON pointer, and back, by the syntax tree. */
+/** JSON pointers of a text: from a position to its pointer, and back, by the syntax tree. */
 
 import { syntaxTree } from "../vendor/codemirror/codemirror.js";
 
@@ -9,7 +9,7 @@ export function pathAt(state, position) {
   const keys = [];
   for (; node; node = node.parent) {
     if (node.name === "Property") keys.unshift(keyOf(state, node));
-    else if (node.parent?.name === "Array") keys.unshift(placeIn(node));
+    else if (node.parent?.name === "Array") keys.unshift(indexOf(node));
   }
   return { keys, atName };
 }
@@ -53,16 +53,16 @@ function property(state, node, name) {
   return { value, from: value.name === "Object" ? key.from : value.from, to: value.name === "Object" ? key.to : value.to };
 }
 
-function element(node, place) {
+function element(node, index) {
   if (node?.name !== "Array") return null;
-  const value = children(node).filter((one) => !"[],".includes(one.name))[place];
+  const value = children(node).filter((one) => !"[],".includes(one.name))[index];
   return value ? { value, from: value.from, to: value.to } : null;
 }
 
-function placeIn(node) {
-  let place = 0;
-  for (let one = node.prevSibling; one; one = one.prevSibling) if (!"[],".includes(one.name)) place += 1;
-  return String(place);
+function indexOf(node) {
+  let index = 0;
+  for (let one = node.prevSibling; one; one = one.prevSibling) if (!"[],".includes(one.name)) index += 1;
+  return String(index);
 }
 
 function children(node, name) {
