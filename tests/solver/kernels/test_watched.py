@@ -29,7 +29,6 @@ def test_what_another_process_has_compiled_is_loaded(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(module, "cache_folder", lambda: tmp_path)
-    monkeypatch.setattr(module, "_loaded", {})
     monkeypatch.setattr(machine_code, "_loaded", set())
     monkeypatch.setattr(module, "compiled", None)  # nothing can be compiled here
     before = cache.SPENT.elsewhere
