@@ -126,7 +126,7 @@ LOOPS: dict[str, Draw] = {
 def _preset(
     random: np.random.Generator, name: str, **ranges: tuple[float, float]
 ) -> dict[str, Any]:
-    """Return a preset whose contacts have laws of the roster, its speed the parameter."""
+    """Return a preset whose contacts have laws of the registry, its speed the parameter."""
     values = {one: random.uniform(*ends) for one, ends in ranges.items()}
     study = admit({"kind": "poincare", "scene": {"preset": name, "parameters": values}})
     assert isinstance(study, Study)

@@ -39,7 +39,7 @@ def rubbing(random: np.random.Generator) -> dict[str, Any]:
 
 
 def striking(random: np.random.Generator) -> dict[str, Any]:
-    """Return an impact oscillator whose stop has a law of the roster."""
+    """Return an impact oscillator whose stop has a law of the registry."""
     stop = 10.0 ** random.uniform(5.0, 9.0)
     found = impact_oscillator(stop)
     contact = found["joints"]["stop"]["clearance"]["contact"]
@@ -58,7 +58,7 @@ OSCILLATORS: dict[str, Draw] = {
 
 
 def drawn_dissipation(random: np.random.Generator, damping: float) -> dict[str, Any]:
-    """Return a law of the roster for a contact of about 1 kg; `damping` in N s/m at most."""
+    """Return a law of the registry for a contact of about 1 kg; `damping` in N s/m at most."""
     sizes = {
         "restitution": random.uniform(0.3, 0.95),
         "damping": damping * random.uniform(0.01, 0.3),
@@ -70,7 +70,7 @@ def drawn_dissipation(random: np.random.Generator, damping: float) -> dict[str, 
 
 
 def drawn_friction(random: np.random.Generator, most: float) -> dict[str, Any]:
-    """Return a friction law of the roster whose coefficient is `most` at most."""
+    """Return a friction law of the registry whose coefficient is `most` at most."""
     sliding = most * random.uniform(0.2, 0.8)
     sizes = {
         "coefficient": sliding,
@@ -90,8 +90,8 @@ def with_strength(found: dict[str, Any], force: str, field: str, unit: str) -> d
 
 
 def _law(
-    random: np.random.Generator, roster: Mapping[str, type[BaseModel]], sizes: dict[str, float]
+    random: np.random.Generator, registry: Mapping[str, type[BaseModel]], sizes: dict[str, float]
 ) -> dict[str, Any]:
-    name = str(random.choice([law for law in roster if law != "none"]))
-    fields = {one: size for one, size in sizes.items() if one in roster[name].model_fields}
+    name = str(random.choice([law for law in registry if law != "none"]))
+    fields = {one: size for one, size in sizes.items() if one in registry[name].model_fields}
     return {"law": name} | fields

@@ -1,6 +1,6 @@
 """Figures of runs and studies, as a journal would print them, in every form from the same code.
 
-A family: one figure a file, and a line in a roster below. Every figure takes a
+A family: one figure a file, and a line in a registry below. Every figure takes a
 `records.run.Source`, or a `records.study.StudySource`, a `Selection` and `Options`. Importing this
 package does not load matplotlib; drawing does, without pyplot or a change of the caller's settings.
 
@@ -60,8 +60,8 @@ from jointplay.records.study import StudySource
 
 __all__ = [
     "FORMS",
-    "ROSTER",
-    "STUDY_ROSTER",
+    "RUN_FIGURES",
+    "STUDY_FIGURES",
     "FigureError",
     "FigureKind",
     "Form",
@@ -83,7 +83,7 @@ __all__ = [
     "select",
 ]
 
-ROSTER: Final[dict[str, RunFigure]] = {
+RUN_FIGURES: Final[dict[str, RunFigure]] = {
     figure.name: figure
     for figure in (
         OUTPUTS,
@@ -103,7 +103,7 @@ ROSTER: Final[dict[str, RunFigure]] = {
     )
 }
 """Figures of one run, in the order of lists."""
-STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
+STUDY_FIGURES: Final[dict[str, StudyFigure]] = {
     figure.name: figure
     for figure in (
         BIFURCATION,
@@ -145,13 +145,13 @@ class Listed(NamedTuple):
 def available(source: Source | StudySource) -> tuple[Listed, ...]:
     """List what can be drawn of these results without any selection.
 
-    The figures of the roster whose channels were stored, then, of a run, each declared output by
+    The figures of the registry whose channels were stored, then, of a run, each declared output by
     its name. Besides these, the name of any stored channel is a figure: its time history, its
     bifurcation diagram, or its extremes over the parameters; and so is a statistic of a sweep, and
     an output of a sensitivity.
     """
-    roster = _roster(source).values()
-    listed = [Listed(kind.name, kind.title) for kind in roster if _drawable(kind, source)]
+    registry = _registry(source).values()
+    listed = [Listed(kind.name, kind.title) for kind in registry if _drawable(kind, source)]
     if not is_study(source):
         named = by_name(source.channels)
         listed += [Listed(name, named[name].long_name) for name in scene_facts.outputs(source)]
@@ -187,7 +187,7 @@ def draw(
     source
         The results.
     name
-        A figure of the roster, or a stored channel for its own picture.
+        A figure of the registry, or a stored channel for its own picture.
     selection
         Channels, joints, window of time or points; by default all.
     options
@@ -220,14 +220,14 @@ def _find(
     source: Source | StudySource, name: str, selection: Selection | None
 ) -> tuple[FigureKind[Any], Selection]:
     selection = selection or Selection()
-    roster = _roster(source)
-    if name in roster:
-        roster[name].check(selection)
-        return roster[name], selection
+    registry = _registry(source)
+    if name in registry:
+        registry[name].check(selection)
+        return registry[name], selection
     of_channels = _of_channels(source)
     found = next((kind for kind, names in of_channels if name in names), None)
     if found is None:
-        offered = [one for one, kind in roster.items() if _offered(kind, source)]
+        offered = [one for one, kind in registry.items() if _offered(kind, source)]
         raise UnknownFigure(name, offered, [one for _, names in of_channels for one in names])
     if selection.channels:
         raise NotDrawable(f"The figure {name!r} is of one channel; leave channels out.", "channels")
@@ -246,8 +246,8 @@ def _of_channels(source: Source | StudySource) -> list[tuple[FigureKind[Any], Co
     return [(BIFURCATION, diagram), (SWEEP, over_points)]
 
 
-def _roster(source: Source | StudySource) -> Mapping[str, FigureKind[Any]]:
-    return STUDY_ROSTER if is_study(source) else ROSTER
+def _registry(source: Source | StudySource) -> Mapping[str, FigureKind[Any]]:
+    return STUDY_FIGURES if is_study(source) else RUN_FIGURES
 
 
 def _offered(kind: FigureKind[Any], source: Source | StudySource) -> bool:

@@ -86,7 +86,7 @@ class Selection:
 
 @dataclass(frozen=True)
 class FigureKind(Generic[Results]):
-    """One figure of a roster.
+    """One figure of a registry.
 
     Parameters
     ----------

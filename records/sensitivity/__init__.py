@@ -1,6 +1,6 @@
 """Sensitivity of a number to parameters that were drawn, from what the points of a design gave.
 
-One file a design, named by this roster; `analysis` asks one of them about one output.
+One file a design, named by this registry; `analysis` asks one of them about one output.
 """
 
 from jointplay.records.sensitivity.design import Design

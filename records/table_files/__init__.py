@@ -1,4 +1,4 @@
-"""Tables as files: one file a form, named by this roster.
+"""Tables as files: one file a form, named by this registry.
 
 Each module has ``SUFFIXES`` (the first is the usual one), ``MEDIA_TYPE``, ``NEEDS`` (a package that
 comes with an extra, or None) and ``encode(columns, complete)``, which returns the file's bytes.

@@ -1,4 +1,4 @@
-"""Distributions of parameters: one file a distribution; this roster names them."""
+"""Distributions of parameters: one file a distribution; this registry names them."""
 
 from jointplay.solver.distributions.distribution import Distribution
 from jointplay.solver.distributions.log_normal import LogNormal

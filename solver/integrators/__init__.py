@@ -1,4 +1,4 @@
-"""Integration methods: one file each, as data; this roster names them as jobs do."""
+"""Integration methods: one file each, as data; this registry names them as jobs do."""
 
 from jointplay.solver.integrators.bogacki_shampine3 import BOGACKI_SHAMPINE3
 from jointplay.solver.integrators.dormand_prince853 import DORMAND_PRINCE853

@@ -1,4 +1,4 @@
-"""Joints between bodies: one file a type; this roster names them. Gears couple two that turn."""
+"""Joints between bodies: one file a type; this registry names them. Gears couple two that turn."""
 
 from jointplay.solver.joints.fixed import Fixed
 from jointplay.solver.joints.flat_follower import FlatFollower

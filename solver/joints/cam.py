@@ -29,7 +29,7 @@ from jointplay.solver.laws.function import Derivatives, Function
 from jointplay.solver.laws.function.uses import Prescribed
 from jointplay.solver.laws.function.whole_turn import TURN, whole_turn
 from jointplay.solver.quantities.frames import Pair, dot, plus, scaled
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine, sqrt
 from jointplay.solver.quantities.units import PointReference, RadialClearance, Rule
 

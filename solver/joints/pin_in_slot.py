@@ -19,7 +19,7 @@ from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.laws.function import Derivatives
 from jointplay.solver.quantities.frames import scaled
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import (
     Direction,

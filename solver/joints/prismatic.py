@@ -20,7 +20,7 @@ from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.laws.function import Derivatives
 from jointplay.solver.quantities.frames import Pair, left, plus, scaled, turned, unit
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
 from jointplay.solver.quantities.units import (
     Angle,

@@ -26,7 +26,7 @@ from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.laws.function import Derivatives
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.scalars import Scalar, select_positive, sqrt
 from jointplay.solver.quantities.units import PointReference, RadialClearance, Radius, Rule
 

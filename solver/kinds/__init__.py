@@ -1,4 +1,4 @@
-"""The kinds of jobs: one file a kind, named by this roster.
+"""The kinds of jobs: one file a kind, named by this registry.
 
 A job document is checked whole and filled in before anything is queued (`admit`); a worker makes
 the same plan of the stored, filled-in document (`parse`) without checking it again.

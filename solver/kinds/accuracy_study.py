@@ -15,7 +15,7 @@ from jointplay.solver.kinds.limits import LONGEST_ACCURACY_STUDY
 from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import Points, one_point
 from jointplay.solver.kinds.studies import PlacedPoints, Spans, StudyKind, make_study
-from jointplay.solver.quantities.roster import NameIn
+from jointplay.solver.quantities.registry import NameIn
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.work_precision.plan import (

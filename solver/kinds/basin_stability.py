@@ -16,7 +16,7 @@ from jointplay.solver.kinds.motion_map import MotionsJob
 from jointplay.solver.kinds.perturbed import seed_of
 from jointplay.solver.kinds.points import Axis, Points
 from jointplay.solver.kinds.values import axis, count
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.scene import start_numbers
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from jointplay.solver.integrators import AUTO, COARSE, METHODS, STIFF
-from jointplay.solver.quantities.roster import NameIn
+from jointplay.solver.quantities.registry import NameIn
 from jointplay.solver.quantities.units import Name, Strict, quantity
 from jointplay.solver.runs.admission import STANDARD_TOLERANCE
 from jointplay.solver.scene.document import Scene

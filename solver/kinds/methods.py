@@ -3,7 +3,7 @@
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.integrators import AUTO, METHODS, method_for
 from jointplay.solver.kinds.job import ACCURACIES, Job
-from jointplay.solver.quantities.roster import quoted
+from jointplay.solver.quantities.registry import quoted
 
 
 def chosen(job: Job) -> tuple[str, float | None]:

@@ -16,7 +16,7 @@ from jointplay.solver.kinds.limits import MOST_POINTS
 from jointplay.solver.kinds.mechanism import declared
 from jointplay.solver.kinds.perturbed import seed_of
 from jointplay.solver.kinds.points import Axis, Points
-from jointplay.solver.quantities.roster import MemberOf, NameIn
+from jointplay.solver.quantities.registry import MemberOf, NameIn
 from jointplay.solver.quantities.units import Name, quantity
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.document import Parameter

@@ -9,7 +9,7 @@ from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.kinds.idle_fields import check_idle
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATISTICS
-from jointplay.solver.quantities.roster import NameIn
+from jointplay.solver.quantities.registry import NameIn
 from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.pairs import pairs_of

@@ -1,4 +1,4 @@
-"""Catalogue of the laws in the rosters, as documents: for the API, the command line, readers."""
+"""Catalogue of the laws in the registries, as documents: for the API, the command line, readers."""
 
 import inspect
 import re
@@ -17,7 +17,7 @@ from jointplay.solver.laws.force import ELEMENTS as FORCE
 from jointplay.solver.laws.friction import LAWS as FRICTION
 from jointplay.solver.laws.function import FUNCTIONS as FUNCTION
 from jointplay.solver.laws.stiffness import LAWS as STIFFNESS
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.units import Strict
 
 FAMILIES: dict[str, Mapping[str, type[Strict]]] = {
@@ -55,7 +55,7 @@ class DeliveredRestitution(BaseModel):
 
 
 class Law(BaseModel):
-    """A member of a roster."""
+    """A member of a registry."""
 
     family: Literal["contact", "stiffness", "dissipation", "friction", "force", "function"]
     name: str
@@ -119,15 +119,15 @@ def _parameters(model: type[Strict]) -> Iterator[LawParameter]:
             continue
         extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
         bounds = {key: _bound(field, key) for key in ("ge", "gt", "le", "lt")}
-        rosters = [item for item in field.metadata if isinstance(item, MemberOf)]
+        registries = [item for item in field.metadata if isinstance(item, MemberOf)]
         literals = (field.annotation, *get_args(field.annotation))
         words = (get_args(one) for one in literals if get_origin(one) is Literal)
         choices = [str(word) for word in next(words, ())] or None
-        help_of_roster = f"a law of the family '{name}'" if rosters else ""
+        help_of_registry = f"a law of the family '{name}'" if registries else ""
         yield LawParameter(
             name=name,
             unit=str(extra.get("unit", "")),
-            help=field.description or help_of_roster,
+            help=field.description or help_of_registry,
             required=field.is_required(),
             default=None if field.is_required() else field.default,
             minimum=bounds["ge"],

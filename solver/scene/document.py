@@ -11,7 +11,7 @@ from pydantic import Field
 from jointplay.solver.joints import JOINTS, Gear, Joint
 from jointplay.solver.joints.starts import GuideStart, JournalStart
 from jointplay.solver.laws.force import ELEMENTS, ForceElement
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.units import (
     Acceleration,
     Angle,

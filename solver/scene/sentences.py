@@ -11,7 +11,7 @@ from pydantic_core import ErrorDetails
 from jointplay.records.failure import Problem
 from jointplay.records.strict_json import INTEGER_DIGITS
 from jointplay.records.suggestions import did_you_mean, instead
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.scene import start_numbers
 from jointplay.solver.scene.unions import is_form
 
@@ -242,7 +242,7 @@ def _directly(annotations: list[Any]) -> Iterator[type[BaseModel]]:
         if isinstance(item, type) and issubclass(item, BaseModel):
             yield item
         elif isinstance(item, MemberOf):
-            yield from item.roster.values()
+            yield from item.registry.values()
         else:
             inside = [*getattr(item, "__args__", ()), *getattr(item, "__metadata__", ())]
             yield from _directly(inside)

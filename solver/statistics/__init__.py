@@ -1,8 +1,8 @@
 """Statistics over a stretch of time, kept up while it is computed: flat memory, always one order.
 
-One file a member, named by these two rosters: statistics of channels on a uniform grid, and of the
-contacts of pairs. A member takes what became known a few rows at a time, and its
-result has the same bits however the rows were cut.
+One file a member, named by these two registries: statistics of channels on a uniform grid, and of
+the contacts of pairs. A member takes what became known a few rows at a time, and its result has the
+same bits however the rows were cut.
 """
 
 from collections import ChainMap

@@ -155,8 +155,8 @@ def test_a_figure_with_a_fault_is_left_out_of_lists_and_logged(monkeypatch, capl
         return np.concatenate([])
 
     listed = [one.name for one in figures.available(MOTION)]
-    faulty = replace(figures.ROSTER["orbit"], channels=fault)
-    monkeypatch.setitem(figures.ROSTER, "orbit", faulty)
+    faulty = replace(figures.RUN_FIGURES["orbit"], channels=fault)
+    monkeypatch.setitem(figures.RUN_FIGURES, "orbit", faulty)
     assert [one.name for one in figures.available(MOTION)] == [n for n in listed if n != "orbit"]
     assert "orbit" in caplog.text
     assert "concatenate" in caplog.text

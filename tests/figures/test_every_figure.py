@@ -29,7 +29,7 @@ MOTION = closed_form_motion()
 CHOICES = {
     name: Selection(channels=("block.x", "left.normal_force")) for name in ("time-history", "xy")
 }
-OF_RUNS = {name: (MOTION, name, CHOICES.get(name)) for name in figures.ROSTER}
+OF_RUNS = {name: (MOTION, name, CHOICES.get(name)) for name in figures.RUN_FIGURES}
 OF_STUDIES = {
     "bifurcation": (bifurcation(points=60), "bifurcation", None),
     "with verdicts": (

@@ -25,7 +25,7 @@ def motion():
     return closed_form_motion()
 
 
-@pytest.fixture(params=figures.ROSTER)
+@pytest.fixture(params=figures.RUN_FIGURES)
 def name(request):
     return request.param
 
@@ -66,7 +66,7 @@ def test_one_sample_is_drawn(name):
     assert_short_is_drawn(name, 1)
 
 
-@pytest.mark.parametrize("name", sampled(figures.ROSTER, 4))
+@pytest.mark.parametrize("name", sampled(figures.RUN_FIGURES, 4))
 def test_two_samples_are_drawn(name):
     assert_short_is_drawn(name, 2)
 
@@ -80,7 +80,7 @@ def assert_short_is_drawn(name, samples):
     assert drawn(short, name).axes
 
 
-@pytest.mark.parametrize("name", sampled(figures.ROSTER, 5))
+@pytest.mark.parametrize("name", sampled(figures.RUN_FIGURES, 5))
 def test_values_that_were_not_computed_leave_a_gap(motion, name):
     values = {key: np.where(motion.time > 1.0, np.nan, v) for key, v in motion.values.items()}
     assert figures.render(replace(motion, values=values), name, "png", CHOICES.get(name))
@@ -91,7 +91,7 @@ def long_history():
     return closed_form_motion(samples=200_000, periods=30_000)
 
 
-@pytest.mark.parametrize("name", sampled(figures.ROSTER, 4))
+@pytest.mark.parametrize("name", sampled(figures.RUN_FIGURES, 4))
 def test_a_long_history_makes_no_large_file(long_history, name):
     assert len(figures.render(long_history, name, "svg", CHOICES.get(name))) < 1_500_000
 

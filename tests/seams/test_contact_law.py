@@ -78,7 +78,7 @@ def hertz() -> Iterator[None]:
     del LAWS["hertz"]
 
 
-def test_a_law_that_is_in_no_roster_is_refused_at_its_tag(platform: Platform) -> None:
+def test_a_law_that_is_in_no_registry_is_refused_at_its_tag(platform: Platform) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(thrown({"law": "hertz", "hardness": HARDNESS}))
     (field,) = refused.value.fields

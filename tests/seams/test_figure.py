@@ -1,4 +1,4 @@
-"""A figure from outside: the speed of a body, one object and one roster line."""
+"""A figure from outside: the speed of a body, one object and one registry line."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ SWING = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.2}
 
 @pytest.fixture
 def speed() -> Iterator[None]:
-    figures.ROSTER[SPEED.name] = SPEED
+    figures.RUN_FIGURES[SPEED.name] = SPEED
     yield
-    del figures.ROSTER[SPEED.name]
+    del figures.RUN_FIGURES[SPEED.name]
 
 
 @pytest.fixture(scope="module")

@@ -85,7 +85,7 @@ def winch() -> Iterator[None]:
     del ELEMENTS["winch"]
 
 
-def test_an_element_that_is_in_no_roster_is_refused_at_its_type(platform: Platform) -> None:
+def test_an_element_that_is_in_no_registry_is_refused_at_its_type(platform: Platform) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(hauled())
     (field,) = refused.value.fields

@@ -119,7 +119,7 @@ def bristles() -> Iterator[None]:
     del LAWS["bristle"]
 
 
-def test_a_law_that_is_in_no_roster_is_refused_at_its_tag(platform: Platform) -> None:
+def test_a_law_that_is_in_no_registry_is_refused_at_its_tag(platform: Platform) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(SIMULATE | {"scene": thrown()})
     (field,) = refused.value.fields

@@ -62,7 +62,7 @@ def parabola() -> Iterator[None]:
     del FUNCTIONS["parabola"]
 
 
-def test_a_function_that_is_in_no_roster_is_refused_at_its_type(platform: Platform) -> None:
+def test_a_function_that_is_in_no_registry_is_refused_at_its_type(platform: Platform) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(turned())
     (field,) = refused.value.fields

@@ -56,7 +56,7 @@ def ring_slot() -> Iterator[None]:
     del JOINTS["ring-slot"], MARKS["ring-slot"]
 
 
-def test_a_joint_that_is_in_no_roster_is_refused_at_its_type(platform: Platform) -> None:
+def test_a_joint_that_is_in_no_registry_is_refused_at_its_type(platform: Platform) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(circling((0.0, SPEED)))
     (field,) = refused.value.fields

@@ -1,4 +1,4 @@
-"""An explicit method from outside: the pair of Heun and Euler, one object and one roster line."""
+"""An explicit method from outside: the pair of Heun and Euler, one object and one registry line."""
 
 from collections.abc import Iterator
 
@@ -44,7 +44,7 @@ def test_it_meets_the_specification_of_all_methods() -> None:
     specification.test_the_estimated_error_falls_with_its_order(HEUN_EULER)
 
 
-def test_a_job_is_refused_by_a_name_that_is_in_no_roster(platform: Platform) -> None:
+def test_a_job_is_refused_by_a_name_that_is_in_no_registry(platform: Platform) -> None:
     with pytest.raises(Refused) as refused:
         platform.client.submit(SWING | {"kind": "simulate", "method": "heun-euler"})
     assert [field.pointer for field in refused.value.fields] == ["/method"]

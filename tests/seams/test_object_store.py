@@ -1,4 +1,4 @@
-"""An object store from outside: one SQLite file, one class and one roster line."""
+"""An object store from outside: one SQLite file, one class and one registry line."""
 
 import math
 import sqlite3

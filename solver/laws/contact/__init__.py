@@ -1,4 +1,4 @@
-"""Normal contact laws: one file a law; this roster names them, the default first."""
+"""Normal contact laws: one file a law; this registry names them, the default first."""
 
 from jointplay.solver.laws.contact.adams_impact import AdamsImpact
 from jointplay.solver.laws.contact.lankarani_nikravesh import LankaraniNikravesh

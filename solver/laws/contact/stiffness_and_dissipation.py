@@ -8,7 +8,7 @@ from jointplay.solver.laws.dissipation import Dissipation, Elastic
 from jointplay.solver.laws.fit import Fit
 from jointplay.solver.laws.stiffness import LAWS as STIFFNESS_LAWS
 from jointplay.solver.laws.stiffness import Stiffness
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.scalars import Scalar, positive_part
 from jointplay.solver.quantities.units import Rule
 

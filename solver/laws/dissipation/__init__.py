@@ -1,4 +1,4 @@
-"""Dissipation laws: what the rate adds in a contact; one file a law, this roster names them."""
+"""Dissipation laws: what the rate adds in a contact; one file a law, this registry names them."""
 
 from jointplay.solver.laws.dissipation.exact import Exact
 from jointplay.solver.laws.dissipation.flores import Flores

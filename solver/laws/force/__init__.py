@@ -1,4 +1,4 @@
-"""Force elements between two points: one file an element; this roster names them."""
+"""Force elements between two points: one file an element; this registry names them."""
 
 from jointplay.solver.laws.force.force import Force
 from jointplay.solver.laws.force.law import Effect, Ends, ForceElement, Over

@@ -1,4 +1,4 @@
-"""Friction laws: one file a law; this roster names them, the default first."""
+"""Friction laws: one file a law; this registry names them, the default first."""
 
 from jointplay.solver.laws.friction.bengisu_akay import BengisuAkay
 from jointplay.solver.laws.friction.brown_mcphee import BrownMcPhee

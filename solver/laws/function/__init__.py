@@ -1,4 +1,4 @@
-"""Functions of one argument: one file a function; this roster names them.
+"""Functions of one argument: one file a function; this registry names them.
 
 They prescribe motions and vary forces. What is evaluated is one of these, never a text.
 """

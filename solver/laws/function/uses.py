@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import AfterValidator
 
 from jointplay.solver.laws.function import FUNCTIONS, Function
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.registry import MemberOf
 
 Prescribed = Annotated[
     Function,

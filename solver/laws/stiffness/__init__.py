@@ -1,4 +1,4 @@
-"""Stiffness laws: the elastic part of a contact; one file a law, this roster names them."""
+"""Stiffness laws: the elastic part of a contact; one file a law, this registry names them."""
 
 from jointplay.solver.laws.stiffness.dubowsky_freudenstein import DubowskyFreudenstein
 from jointplay.solver.laws.stiffness.esdu_78035 import Esdu78035

@@ -13,7 +13,7 @@ METHOD = "method"
 
 
 def methods() -> list[str]:
-    """Return the methods in the order of their numbers; stores keep it, for rosters grow."""
+    """Return the methods in the order of their numbers; stores keep it, for registries grow."""
     return sorted(METHODS)
 
 

@@ -8,8 +8,8 @@ from jointplay.solver.laws.catalogue import FAMILIES, laws
 LAWS = laws()
 
 
-def test_every_member_of_every_roster_is_there_and_describes_itself() -> None:
-    members = [(family, name) for family, roster in FAMILIES.items() for name in roster]
+def test_every_member_of_every_registry_is_there_and_describes_itself() -> None:
+    members = [(family, name) for family, registry in FAMILIES.items() for name in registry]
     assert [(law.family, law.name) for law in LAWS] == members
     for law in LAWS:
         assert law.formula

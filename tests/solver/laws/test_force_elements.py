@@ -102,7 +102,7 @@ class TestTorsionSpring(ElementSpecification):
     )
 
 
-def test_every_element_in_the_roster_is_specified() -> None:
+def test_every_element_in_the_registry_is_specified() -> None:
     specified = {each.model for each in ElementSpecification.__subclasses__()}
     assert set(ELEMENTS.values()) <= specified
 

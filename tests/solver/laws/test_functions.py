@@ -235,7 +235,7 @@ def test_a_refused_argument_is_not_a_number(model: str) -> None:
     assert evaluate(traced, {"x": 1.0}, {}) == pytest.approx(function.at(1.0).value)
 
 
-def test_every_function_in_the_roster_is_specified() -> None:
+def test_every_function_in_the_registry_is_specified() -> None:
     specified = {each.model for each in FunctionSpecification.__subclasses__()}
     assert specified == set(FUNCTIONS.values())
 

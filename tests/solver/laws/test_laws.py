@@ -1,4 +1,4 @@
-"""Every law in the rosters: the specification of its family, and what it alone promises."""
+"""Every law in the registries: the specification of its family, and what it alone promises."""
 
 import math
 from typing import ClassVar
@@ -53,7 +53,7 @@ PAIRS = [
 
 
 class TestStiffnessAndDissipation(ContactSpecification):
-    """Promises that any two of the rosters share with other contact laws, on some of them."""
+    """Promises that any two of the registries share with other contact laws, on some of them."""
 
     model = StiffnessAndDissipation
     laws = st.sampled_from(
@@ -147,7 +147,7 @@ class TestLuGre(FrictionSpecification):
     )
 
 
-def test_every_law_in_a_roster_is_specified_and_is_the_law_it_is_listed_as() -> None:
+def test_every_law_in_a_registry_is_specified_and_is_the_law_it_is_listed_as() -> None:
     specified = {
         TestLankaraniNikravesh.model,
         TestStiffnessAndDissipation.model,
@@ -163,8 +163,8 @@ def test_every_law_in_a_roster_is_specified_and_is_the_law_it_is_listed_as() -> 
         TestLuGre.model,
     }
     assert {*CONTACT_LAWS.values(), *FRICTION_LAWS.values()} == specified
-    for roster in (CONTACT_LAWS, FRICTION_LAWS):
-        for name, law in roster.items():
+    for registry in (CONTACT_LAWS, FRICTION_LAWS):
+        for name, law in registry.items():
             assert law.model_fields["law"].default == name
 
 
@@ -204,7 +204,7 @@ def test_equation_9_gives_the_stiffness_that_the_literature_prints() -> None:
     assert stiffness == pytest.approx(4.0 / 3.0 * effective * math.sqrt(radius), rel=1e-12)
 
 
-def test_the_law_of_the_paper_is_a_pair_of_the_rosters() -> None:
+def test_the_law_of_the_paper_is_a_pair_of_the_registries() -> None:
     damping = {"law": "lankarani-nikravesh", "restitution": 0.7}
     for given_one, stiffness in (
         ({}, {"law": "hertz-spheres"}),

@@ -1,4 +1,4 @@
-"""Demands on every member of a roster of laws: it is documented; draws of it share no examples.
+"""Demands on every member of a registry of laws: it is documented; draws of it share no examples.
 
 A family's specification is a class: a law passes it by a subclass that draws the law.
 """

@@ -1,7 +1,7 @@
-"""Fields of documents that choose a member of a roster, as the roster is when they are read.
+"""Fields of documents that choose a member of a registry, as the registry is when they are read.
 
-A roster is a mutable mapping: who adds a member to it, from whatever file, has it admitted by name
-and described in JSON Schemas, without a change anywhere else.
+A registry is a mutable mapping: who adds a member to it, from whatever file, has it admitted by
+name and described in JSON Schemas, without a change anywhere else.
 """
 
 from collections.abc import Mapping
@@ -14,15 +14,15 @@ JsonSchema = dict[str, Any]
 
 
 class NameIn:
-    """Annotation of a string that must be a name in a roster, or one of some further words."""
+    """Annotation of a string that must be a name in a registry, or one of some further words."""
 
-    def __init__(self, roster: Mapping[str, Any], *further: str) -> None:
-        self.roster, self.further = roster, further
+    def __init__(self, registry: Mapping[str, Any], *further: str) -> None:
+        self.registry, self.further = registry, further
 
     @property
     def names(self) -> list[str]:
         """Every string that is allowed by now."""
-        return [*self.further, *self.roster]
+        return [*self.further, *self.registry]
 
     def __get_pydantic_core_schema__(self, _source: Any, _: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self._check)
@@ -37,16 +37,16 @@ class NameIn:
 
 
 class MemberOf:
-    """Annotation of an object whose tag names the model of a roster that it is.
+    """Annotation of an object whose tag names the model of a registry that it is.
 
-    Without a tag it is the roster's first member, unless a tag is `required`. Errors lie at the
+    Without a tag it is the registry's first member, unless a tag is `required`. Errors lie at the
     member's own fields, as if there were no choice.
     """
 
     def __init__(
-        self, roster: Mapping[str, type[BaseModel]], tag: str, *, required: bool = False
+        self, registry: Mapping[str, type[BaseModel]], tag: str, *, required: bool = False
     ) -> None:
-        self.roster, self.tag, self.required = roster, tag, required
+        self.registry, self.tag, self.required = registry, tag, required
 
     def __get_pydantic_core_schema__(self, _source: Any, _: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self._chosen)
@@ -54,24 +54,24 @@ class MemberOf:
     def __get_pydantic_json_schema__(
         self, _: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchema:
-        members = {name: _referred(model) for name, model in self.roster.items()}
+        members = {name: _referred(model) for name, model in self.registry.items()}
         return handler(core_schema.tagged_union_schema(members, self.tag))
 
     def _chosen(self, value: Any) -> BaseModel:
-        fallback = None if self.required else next(iter(self.roster))
+        fallback = None if self.required else next(iter(self.registry))
         if isinstance(value, Mapping):
             name = value.get(self.tag, fallback)
         else:
             name = getattr(value, self.tag, fallback)
-        if not isinstance(name, str) or name not in self.roster:
+        if not isinstance(name, str) or name not in self.registry:
             error = InitErrorDetails(
                 type="literal_error",
                 loc=(self.tag,),
                 input=name,
-                ctx={"expected": quoted(list(self.roster))},
+                ctx={"expected": quoted(list(self.registry))},
             )
             raise ValidationError.from_exception_data(self.tag, [error])
-        return self.roster[name].model_validate(value)
+        return self.registry[name].model_validate(value)
 
 
 def _referred(model: type[BaseModel]) -> CoreSchema:
