@@ -1,4 +1,4 @@
-"""Readable results of one run: named channels over time, from whatever place, or in memory."""
+"""Readable results of one run: named channels over time, wherever they are stored, or in memory."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,6 +1,6 @@
 """Readable results of a study: values, status, sections and peaks of many points.
 
-They come from whatever place, or are in memory.
+They are stored anywhere, or are in memory.
 """
 
 from collections.abc import Mapping, Sequence

@@ -47,8 +47,8 @@ def require_own_files(settings: Settings, catalogue: Catalogue) -> None:
         if found != known:
             raise OtherFiles(
                 f"{where} {'is of another catalogue' if found else 'is new to this catalogue'},"
-                f" whose jobs have their files elsewhere; give the same store to all that share a"
-                f" catalogue. If its files were moved or restored here, write {known} into"
+                f" whose jobs have their files elsewhere; give all that share a catalogue the same"
+                f" folder and results. If its files were moved or restored here, write {known} into"
                 f" {where}/{MARK}"
             )
 

@@ -7,7 +7,7 @@ from jointplay.records.figure_form import Form
 from jointplay.records.strict_json import parse
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 from jointplay.service.questions import answer_or_refuse
-from jointplay.service.scenes.findings import branches_of, findings_of
+from jointplay.service.scenes.findings import assemblies_of, findings_of
 from jointplay.solver.kinds.assembled import AssembledScene, assembled_scene
 
 _IDLE = 60.0  # s
@@ -17,7 +17,7 @@ def look(body: bytes, form: Form | None, page: dict[str, Any]) -> object:
     """Return findings of a scene, or its drawing if a form is given."""
     scene = assembled_scene(_scene_in(body), is_whole=True)
     if form is None:
-        return findings_of(scene, branches_of(scene))
+        return findings_of(scene, assemblies_of(scene))
     return _drawing(scene, form, page)
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from jointplay.figures.scene_facts import clearances
 from jointplay.solver.kinds.assembled import AssembledScene
-from jointplay.solver.mechanics.branches import Branches, branches
+from jointplay.solver.mechanics.assemblies import Assemblies, assemblies
 from jointplay.solver.runs.ideal.dead_point import positions
 from jointplay.solver.runs.ideal.turn import in_words, turn
 from jointplay.solver.scene.document import Scene
@@ -19,12 +19,12 @@ PLACED = ("angles", "points")
 """Fields of a start that tell an assembly."""
 
 
-def branches_of(scene: AssembledScene) -> Branches:
+def assemblies_of(scene: AssembledScene) -> Assemblies:
     """Return the ways to put the scene together; seconds for a large one."""
-    return branches(Scene.model_validate(scene.document))
+    return assemblies(Scene.model_validate(scene.document))
 
 
-def start_of(scene: AssembledScene, found: Branches, k: int) -> dict[str, Any]:
+def start_of(scene: AssembledScene, found: Assemblies, k: int) -> dict[str, Any]:
     """Return the `start` with which one of the assemblies is taken, to nine digits.
 
     It has the angles of all bodies, in the turns that are given or taken, and a point of each that
@@ -61,7 +61,7 @@ def overshoots_of(scene: AssembledScene) -> list[Overshoot]:
     return overshoots(Scene.model_validate(scene.document))
 
 
-def findings_of(scene: AssembledScene, found: Branches) -> dict[str, Any]:
+def findings_of(scene: AssembledScene, found: Assemblies) -> dict[str, Any]:
     """Return what a check tells, as JSON has it; `problems` say why it cannot be run."""
     assembly, admission = scene.assembly, scene.admission
     return {

@@ -112,7 +112,9 @@ def test_a_client_that_takes_its_answer_slowly_gets_it(
         one.sendall(asked(LONG, 2))
         taken = 0
         while taken < LONG // 2:  # beside the answer itself the system would keep the other
-            taken += len(one.recv(16_000))
+            piece = one.recv(16_000)
+            assert piece, f"closed after {taken} bytes"
+            taken += len(piece)
             time.sleep(0.1)
 
 

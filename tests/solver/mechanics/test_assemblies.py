@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from jointplay.solver.mechanics.assemblies import assemblies
 from jointplay.solver.mechanics.assembly import assemble
-from jointplay.solver.mechanics.branches import branches
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
 from tests.solver.cams import ECCENTRICITY, RADIUS, ROLLER, follower, pitch_table, valve
@@ -44,7 +44,7 @@ def test_a_drawing_needs_no_start_angles() -> None:
 
 
 def test_a_four_bar_closes_in_two_ways_mirrored_in_its_diagonal() -> None:
-    found = branches(drawn())
+    found = assemblies(drawn())
     assert found.held == []
     first, second = found.angles
     a, b, c = (np.array(PINS[pin]) for pin in "ABC")
@@ -67,13 +67,13 @@ def test_points_of_a_drawing_choose_the_assembly() -> None:
     found = assemble(Scene.model_validate(document))
     angles = dict(zip(scene.bodies, found.pose[2::3], strict=True))
     assert found.residual <= 1e-15
-    _, second = branches(scene).angles
+    _, second = assemblies(scene).angles
     for body in ("coupler", "rocker"):
         assert math.remainder(angles[body] - second[body], 2.0 * math.pi) == pytest.approx(0.0)
 
 
 def test_what_moves_is_held_where_it_starts() -> None:
-    found = branches(Scene.model_validate(presets.document("andrews-squeezer")))
+    found = assemblies(Scene.model_validate(presets.document("andrews-squeezer")))
     assert found.held == ["K1.theta"]
     assert {round(angles["K1"], 12) for angles in found.angles} == {-0.061713890014}
     # K4 with K5, and K6 with K7, each close in two ways
@@ -84,7 +84,7 @@ def test_what_moves_is_held_where_it_starts() -> None:
 def test_a_roller_also_closes_on_the_other_side_of_its_cam(drawn_at: float) -> None:
     scene = valve(follower("roller", pitch_table()))
     scene["start"] = {"points": {"tappet.F": [0.0, drawn_at]}}
-    found = branches(Scene.model_validate(scene))
+    found = assemblies(Scene.model_validate(scene))
     sides = [centre["tappet"][1] - 0.02 for centre in found.positions]  # of the roller
     reach = RADIUS + ROLLER  # of the pitch circle, whose centre is below that of the shaft
     both = sorted([reach - ECCENTRICITY, -reach - ECCENTRICITY], key=lambda y: abs(y - drawn_at))

@@ -11,7 +11,7 @@ from jointplay.command_line.scene.assembled import assemble_scene
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds.assembled import AssembledScene
-    from jointplay.solver.mechanics.branches import Branches
+    from jointplay.solver.mechanics.assemblies import Assemblies
 
 
 def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None:
@@ -21,10 +21,10 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
 
     Example: `jointplay scene check mine.json --set clearance=1e-4`
     """
-    from jointplay.service.scenes.findings import branches_of, findings_of
+    from jointplay.service.scenes.findings import assemblies_of, findings_of
 
     scene = assemble_scene(source, settings or ())
-    found = branches_of(scene)
+    found = assemblies_of(scene)
     document = findings_of(scene, found)
     lines = [*_lines(scene, document, found), *_overshoots(document)]
     lines += [f"{'parameter':22} {one}" for one in scene.replaced]
@@ -36,7 +36,7 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
         raise scene.refusal
 
 
-def _lines(scene: "AssembledScene", document: dict[str, Any], found: "Branches") -> Iterator[str]:
+def _lines(scene: "AssembledScene", document: dict[str, Any], found: "Assemblies") -> Iterator[str]:
     assembly, admission = scene.assembly, scene.admission
     lines = {
         "scene": scene.document["name"],

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from jointplay.solver.mechanics.branches import branches
+from jointplay.solver.mechanics.assemblies import assemblies
 from jointplay.solver.scene.document import Scene
 from tests.solver.mechanics.start.mechanisms import (
     ELASTIC,
@@ -40,7 +40,7 @@ def test_the_assembly_nearest_to_a_drawn_point_is_taken() -> None:
 @pytest.mark.parametrize("k", range(4))
 def test_every_assembly_is_taken_that_its_angles_and_points_are_given_of(k: int) -> None:
     scene = Scene.model_validate(toggle({"rod.K": [-0.06, 0.21]}))
-    ways = branches(scene)
+    ways = assemblies(scene)
     document = scene.model_dump(mode="json")
     position = [round(ways.positions[k]["ram"][axis], 3) for axis in (0, 1)]
     angles = {body: round(angle, 2) for body, angle in ways.angles[k].items() if body != "crank"}

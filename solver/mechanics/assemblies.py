@@ -13,7 +13,7 @@ from jointplay.solver.mechanics.start.demands import Demands
 from jointplay.solver.scene.document import Scene
 
 
-class Branches(NamedTuple):
+class Assemblies(NamedTuple):
     """Assemblies that were found; of one that moves, with some coordinates held where it starts."""
 
     angles: list[dict[str, float]]
@@ -26,7 +26,7 @@ class Branches(NamedTuple):
     """Centre of mass of each body in each of them, m."""
 
 
-def branches(scene: Scene) -> Branches:
+def assemblies(scene: Scene) -> Assemblies:
     """Seek the assemblies of a scene; there may be more than are found."""
     length = shortest_link(scene)
     demands, start = Demands.of(scene, length), assemble(scene).pose
@@ -47,7 +47,7 @@ def branches(scene: Scene) -> Branches:
         for p in poses
     ]
     kept = [name for name, is_held in zip(names, held, strict=True) if is_held]
-    return Branches(found, tried(demands), kept, centres)
+    return Assemblies(found, tried(demands), kept, centres)
 
 
 def _held(ideal: AbsoluteMechanism, pose: Floats, driven: dict[str, float], scale: Floats) -> Flags:
