@@ -196,9 +196,9 @@ def measured(side: int, count: int, folder: Path) -> None:
     told("doubling, from the scene's start", distances("doubling", once, every, amplitudes), every)
     speeds = every[np.linspace(0, side - 1, count).round().astype(int)]
     for direction, curve in (("forward", "grazing"), ("backward", "fold")):
-        place = folder / direction
-        seconds, _ = computed(rows(side, speeds, direction), place)
-        strikes, once = classes(load(place).dataset)
+        output = folder / direction
+        seconds, _ = computed(rows(side, speeds, direction), output)
+        strikes, once = classes(load(output).dataset)
         print(f"{count} rows {direction}: {seconds / 60.0:.1f} core-minutes")
         told(f"{curve}, {direction}", distances(curve, strikes, speeds, amplitudes), speeds)
         away = distances("doubling", once, speeds, amplitudes)

@@ -49,7 +49,7 @@ def equations_of(kernel: Kernel) -> Callable[..., tuple[Any, Any, Any]]:
     equations, known = kernel.equations, operations()
     gaps = [one for pair in equations.gaps for one in pair]
     ordered = reachable([*equations.accelerations, *gaps])
-    fixed = {slot: place for place, slot in enumerate(kernel.fixed.slots)}
+    fixed = {slot: index for index, slot in enumerate(kernel.fixed.slots)}
 
     def slope(t: Any, y: Any, mode: Any, rate: Any, numbers: Any) -> tuple[Any, Any, Any]:
         values: dict[int, Any] = {}

@@ -70,14 +70,14 @@ def _largest(derivative: Floats, count: int) -> Floats:
     return np.asarray(found[np.argsort(-np.abs(found))][:count])
 
 
-def _matched(places: Floats, like: Floats) -> Floats:
-    """Return places in the order of those that they are next to."""
-    _, order = linear_sum_assignment(np.abs(like[:, None] - places))
-    return np.asarray(places[order])
+def _matched(multipliers: Floats, like: Floats) -> Floats:
+    """Return multipliers in the order of those that they are next to."""
+    _, order = linear_sum_assignment(np.abs(like[:, None] - multipliers))
+    return np.asarray(multipliers[order])
 
 
-def _apart(places: Floats, others: Floats) -> float:
-    return float(np.abs(_matched(places, others) - others).max())
+def _apart(multipliers: Floats, others: Floats) -> float:
+    return float(np.abs(_matched(multipliers, others) - others).max())
 
 
 def table(families: dict[str, Draw], orbits: int, seed: int) -> None:

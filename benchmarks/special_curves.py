@@ -51,12 +51,12 @@ def apart(found: Branch) -> tuple[Floats, Floats]:
 
 def print_generalised(curves: list[Branch]) -> None:
     """Print where doubling turns from hard to soft, of each stiffness, and of a rigid stop."""
-    places = []
+    points = []
     for one in (one for found in curves for one in found.special if one.label == "GPD"):
-        places.append(np.array([one.value, 1e3 * (one.second or 0.0)]))
-        print(f"      GPD {one.value:.5f} +- {one.bound:.0e} rad/s, {places[-1][1]:.5f} mm", end="")
+        points.append(np.array([one.value, 1e3 * (one.second or 0.0)]))
+        print(f"      GPD {one.value:.5f} +- {one.bound:.0e} rad/s, {points[-1][1]:.5f} mm", end="")
         print(f": {one.note}")
-    soft, hard = places
+    soft, hard = points
     limit, known = hard + (hard - soft) / (10.0**0.4 - 1.0), generalised_doubling()
     print(f"      in the limit {limit[0]:.5f} rad/s, {limit[1]:.5f} mm; ", end="")
     print(f"of impacts on a rigid stop {known[0]:.5f} rad/s, {1e3 * known[1]:.5f} mm")

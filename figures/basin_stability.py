@@ -42,16 +42,16 @@ def _in_all(found: Attractors) -> page.Figure:
     shown = [found.found[k] for k in _most(found)]
     height = max(_ROW * len(shown), _LEAST) + page.AXIS_HEIGHT + page.caption_height(_CAPTION)
     figure, ((axes,),) = page.panels(1, 1, height)
-    places = range(len(shown))
+    rows = range(len(shown))
     axes.barh(
-        places,
+        rows,
         [one.share for one in shown],
         0.7,
         xerr=[one.error for one in shown],
         color=[colour_of_attractor(one.code) for one in shown],
         error_kw={"elinewidth": 0.6, "capsize": 1.2},
     )
-    axes.set_yticks(places, [one.name for one in shown])
+    axes.set_yticks(rows, [one.name for one in shown])
     axes.set_ylim(len(shown) - 0.5, -0.5)
     axes.tick_params(axis="y", which="both", length=0.0)
     axes.set_xlim(0.0, 1.0)

@@ -53,21 +53,21 @@ class ChartMap:
     def draw(self, figure: page.Figure, axes: page.Axes) -> None:
         """Draw the cells, and give the panel their axes."""
         source, name, across, up = self._source, self._name, self.across, self.up
-        places = tuple(np.searchsorted(axis.values, axis.shown) for axis in (up, across))
+        cells = tuple(np.searchsorted(axis.values, axis.shown) for axis in (up, across))
         shape = len(up.values), len(across.values)
         stride = -(-max(shape) // _MOST_CELLS)
         axes.set_facecolor(colours.UNKNOWN)
         edges = _edges(across, stride), _edges(up, stride)
         known = np.zeros(shape, np.bool_)
-        known[places] = has_ended(source.status)
+        known[cells] = has_ended(source.status)
         if name in LABELS:
             table = np.full(shape, WAITING, np.uint8)
-            table[places] = self._labelled.labels
+            table[cells] = self._labelled.labels
             filled = in_majority(filled_in(table, known), stride)
             _paint_labels(axes, edges, filled, self._labelled.colour_of)
         else:
             values = np.full(shape, np.nan)
-            values[places] = _values(source, name)
+            values[cells] = _values(source, name)
             filled_values = averaged(filled_in(values, known), stride)
             _paint_values(figure, axes, edges, filled_values, _described(source, name))
         if across.logarithmic:
@@ -159,10 +159,10 @@ def _paint_labels(
     codes = codes[codes != WAITING]
     if not len(codes):
         return
-    places = np.ma.masked_array(np.searchsorted(codes, table), mask=table == WAITING)
+    cells = np.ma.masked_array(np.searchsorted(codes, table), mask=table == WAITING)
     shades = ListedColormap([colour_of(int(code)) for code in codes])
     norm = BoundaryNorm(np.arange(len(codes) + 1) - 0.5, len(codes))
-    axes.pcolormesh(*edges, places, cmap=shades, norm=norm, rasterized=True)
+    axes.pcolormesh(*edges, cells, cmap=shades, norm=norm, rasterized=True)
 
 
 def _paint_values(

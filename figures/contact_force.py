@@ -86,8 +86,8 @@ def _missed(rows: NDArray[Any], time: Floats, force: Floats, beside: int) -> Fla
     """
     first = np.searchsorted(time, rows["onset"], side="left")
     behind = np.searchsorted(time, rows["release"], side="right")
-    places = zip(np.maximum(first - beside, 0), behind + beside, strict=True)
-    highest = [force[a:b].max(initial=0.0) for a, b in places]
+    spans = zip(np.maximum(first - beside, 0), behind + beside, strict=True)
+    highest = [force[a:b].max(initial=0.0) for a, b in spans]
     return np.asarray(np.array(highest) < _REACHED * rows["peak_force"], dtype=bool)
 
 

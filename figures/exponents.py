@@ -29,7 +29,7 @@ def draw_exponents(
     Parameters
     ----------
     across
-        (points,) places on the horizontal axis.
+        (points,) positions on the horizontal axis.
     groups
         Points of one colour.
     """

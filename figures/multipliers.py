@@ -25,24 +25,24 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     found = [one for one in known_branches(source, selection) if not one.of]
     if not found:
         raise NotDrawable("No orbit of a branch has been found.")
-    places = np.concatenate([_multipliers(one) for one in found])
+    multipliers = np.concatenate([_multipliers(one) for one in found])
     parameter = source.parameters[0]
     values = np.concatenate([one.column(VALUE) for one in found])
     across = scale(parameter.unit, values)
-    far = np.abs(places) > _FARTHEST
-    shown = np.isfinite(places) & ~far
-    sentence = _sentence(int(far.any(axis=1).sum()), len(places))
-    real, imaginary = _limits(places.real[shown]), _limits(places.imag[shown])
+    far = np.abs(multipliers) > _FARTHEST
+    shown = np.isfinite(multipliers) & ~far
+    sentence = _sentence(int(far.any(axis=1).sum()), len(multipliers))
+    real, imaginary = _limits(multipliers.real[shown]), _limits(multipliers.imag[shown])
     plane = _WIDTH * (imaginary[1] - imaginary[0]) / (real[1] - real[0])
     height = _HEIGHT + plane + page.caption_height(sentence)
     figure, ((axes,),) = page.panels(1, 1, height)
     page.caption(figure, sentence)
     axes.plot(np.cos(_CIRCLE), np.sin(_CIRCLE), color=colours.GEOMETRY, linewidth=0.7)
     drawn = axes.scatter(
-        places.real[shown],
-        places.imag[shown],
+        multipliers.real[shown],
+        multipliers.imag[shown],
         s=4.0,
-        c=np.broadcast_to(values[:, None], places.shape)[shown] / across.factor,
+        c=np.broadcast_to(values[:, None], multipliers.shape)[shown] / across.factor,
         cmap=colours.MAP,
         linewidths=0.0,
         zorder=2.0,

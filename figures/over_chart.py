@@ -18,12 +18,12 @@ _HEIGHT = 70.0  # mm
 
 
 class OverChart:
-    """A panel with the map of a chart, on which orbits of a continuation have their places."""
+    """A panel with the map of a chart, on which orbits of a continuation have their positions."""
 
     def __init__(self, source: StudySource, over: StudySource) -> None:
         """Find which parameter is along which axis.
 
-        NotDrawable: the chart has another axis, or the place along one is not known.
+        NotDrawable: the chart has another axis, or the position along one is not known.
         """
         if over.kind not in KINDS:
             sentence = (
@@ -64,7 +64,7 @@ class OverChart:
         """
         found, seen = [], False
         for branch in branches:
-            across, up = self._places(branch)
+            across, up = self._positions(branch)
             (left, *_, right), (low, *_, high) = self._map.across.edges, self._map.up.edges
             within = (left <= across) & (across <= right) & (low <= up) & (up <= high)
             seen = seen or bool(within.any())
@@ -75,8 +75,8 @@ class OverChart:
             raise NotDrawable(sentence, "over")
         return found
 
-    def _places(self, branch: Branch) -> tuple[Floats, Floats]:
-        """Return (orbits,) places of a branch's orbits along both axes."""
+    def _positions(self, branch: Branch) -> tuple[Floats, Floats]:
+        """Return (orbits,) positions of a branch's orbits along both axes."""
         values = {name: np.full(len(branch.column(VALUE)), at) for name, at in self._fixed.items()}
         for name, column in zip(self._names, (VALUE, SECOND), strict=False):
             values[name] = branch.column(column)

@@ -20,7 +20,7 @@ _HEIGHT, _SINGLE_HEIGHT = 40.0, 65.0  # mm
 
 
 class OverDiagram:
-    """Panels with the sections of a diagram, on which orbits have their places."""
+    """Panels with the sections of a diagram, on which orbits have their positions."""
 
     def __init__(self, source: StudySource, over: StudySource, names: tuple[str, ...]) -> None:
         """Choose the channels, of `names` or of those that both have.

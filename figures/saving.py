@@ -55,14 +55,14 @@ def _spread_numbers(figure: page.Figure) -> None:
     for axes in figure.axes:
         if axes.name == "polar":  # its directions are in a circle
             continue
-        while len(places := _crowded(axes.xaxis, gap)) > 1:
-            axes.xaxis.set_major_locator(FixedLocator(places[::2]))
+        while len(ticks := _crowded(axes.xaxis, gap)) > 1:
+            axes.xaxis.set_major_locator(FixedLocator(ticks[::2]))
             engine.execute(figure)
     figure.set_layout_engine("none")
 
 
 def _crowded(axis: page.Axis, gap: float) -> list[float]:
-    """Give the places of an axis's numbers if two of them touch, else none."""
+    """Give the positions along an axis of its numbers if two of them touch, else none."""
     axis.get_tightbbox(None)  # brings the numbers up to date with the page
     low, high = sorted(axis.get_view_interval())
     shown = sorted(
@@ -73,4 +73,4 @@ def _crowded(axis: page.Axis, gap: float) -> list[float]:
         for box in (label.get_window_extent(),)
     )
     touch = any(right[0] - left[1] < gap for left, right in pairwise(shown))
-    return [place for _, _, place in shown] if touch else []
+    return [position for _, _, position in shown] if touch else []

@@ -40,12 +40,12 @@ def name_special(axes: page.Axes, found: Sequence[Placed]) -> None:
         for one in branch.special
         if one.label != _UNNAMED
     ]
-    for place, _ in named:
-        axes.plot(*place, "o", color=colours.MARKED, markersize=2.5, zorder=3.0)
+    for position, _ in named:
+        axes.plot(*position, "o", color=colours.MARKED, markersize=2.5, zorder=3.0)
     written: list[Floats] = []
-    for place, text in _together(axes, named, _TOGETHER * (high - low)):
+    for position, text in _together(axes, named, _TOGETHER * (high - low)):
         size = page.in_font(_SIZE) * _LETTER * (len(text), 1.0)
-        (at,) = _printed(axes, place[None])
+        (at,) = _printed(axes, position[None])
         boxes = [np.array([near := at + o, near + np.sign(o) * size]) for o in _OFFSETS]
         boxes = [np.sort(box, axis=0) for box in boxes]
         faults = [
@@ -61,7 +61,7 @@ def name_special(axes: page.Axes, found: Sequence[Placed]) -> None:
         x, y = _OFFSETS[best]
         axes.annotate(
             text,
-            (place[0], place[1]),
+            (position[0], position[1]),
             xytext=(x, y),
             textcoords="offset points",
             horizontalalignment="left" if x > 0.0 else "right",
@@ -72,22 +72,22 @@ def name_special(axes: page.Axes, found: Sequence[Placed]) -> None:
 
 
 def _together(axes: page.Axes, named: list[Named], reach: Floats) -> list[tuple[Floats, str]]:
-    """Return places and names, one for the labels within `reach`, points, of a place."""
+    """Return positions and names, one for the labels within `reach`, points, of a position."""
     groups: list[tuple[Floats, list[str]]] = []
-    for place, label in named:
+    for position, label in named:
         for other, labels in groups:
-            first, second = _printed(axes, np.array([place, other]))
+            first, second = _printed(axes, np.array([position, other]))
             if (abs(first - second) < reach).all():
                 labels += [] if label in labels else [label]
                 break
         else:
-            groups.append((place, [label]))
-    return [(place, ", ".join(labels)) for place, labels in groups]
+            groups.append((position, [label]))
+    return [(position, ", ".join(labels)) for position, labels in groups]
 
 
-def _printed(axes: page.Axes, places: Floats) -> Floats:
-    """Return (n, 2) places on the page, points, as far as it is laid out."""
-    shown: Floats = axes.transData.transform(places) * 72.0 / axes.figure.dpi
+def _printed(axes: page.Axes, positions: Floats) -> Floats:
+    """Return (n, 2) positions on the page, points, as far as it is laid out."""
+    shown: Floats = axes.transData.transform(positions) * 72.0 / axes.figure.dpi
     return shown
 
 

@@ -40,7 +40,7 @@ STEPS: Final = {"clearance_mm": 0.005, "omega_over_pi": 0.01}
 
 @dataclass(frozen=True)
 class Run:
-    """One job and its place among the results; `weight` is about its seconds on one core."""
+    """One job and its number among the results; `weight` is about its seconds on one core."""
 
     name: str
     job: dict[str, Any]

@@ -30,7 +30,7 @@ class Cell:
 class Row:
     """One printed number, or several that belong together, beside ours.
 
-    `pointers` are the places of the numbers in `reported_values.json`; `causes` name sections of
+    `pointers` are the locations of the numbers in `reported_values.json`; `causes` name sections of
     the report that say why ours may differ.
     """
 

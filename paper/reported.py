@@ -1,4 +1,4 @@
-"""Printed values: the publication's numbers, their places, and the parameters of each."""
+"""Printed values: the publication's numbers, their locations, and the parameters of each."""
 
 import json
 import math

@@ -22,7 +22,7 @@ class InvalidInput(Exception):
 
     @classmethod
     def at(cls, pointer: str, detail: str) -> Self:
-        """Return the refusal of one place; see `Problem`."""
+        """Return the refusal of one field; see `Problem`."""
         return cls([Problem(pointer, detail)])
 
 

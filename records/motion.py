@@ -88,8 +88,8 @@ def colour_of(code: int) -> str:
     """Return the colour of a code, as #rrggbb."""
     if code in COLOURS:
         return COLOURS[code]
-    turn, place = divmod(code - len(NAMES), len(PERIODS))
+    turn, index = divmod(code - len(NAMES), len(PERIODS))
     if not turn:
-        return PERIODS[place]
-    parts = (255 - (255 - part) * 3 // 5 for part in bytes.fromhex(PERIODS[place][1:]))
+        return PERIODS[index]
+    parts = (255 - (255 - part) * 3 // 5 for part in bytes.fromhex(PERIODS[index][1:]))
     return "#" + bytes(parts).hex()

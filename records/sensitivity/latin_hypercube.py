@@ -44,7 +44,7 @@ def _ranks(columns: Floats) -> Floats:
     """Return the rank of each value in its column from -1/2 to 1/2, equal values sharing theirs."""
     found = np.empty(columns.shape)
     for index, column in enumerate(columns.T):
-        _, place, counts = np.unique(column, return_inverse=True, return_counts=True)
+        _, inverse, counts = np.unique(column, return_inverse=True, return_counts=True)
         middle = np.cumsum(counts) - 0.5 * (counts + 1)
-        found[:, index] = middle[place] / max(len(column) - 1, 1) - 0.5
+        found[:, index] = middle[inverse] / max(len(column) - 1, 1) - 0.5
     return found

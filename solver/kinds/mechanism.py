@@ -158,21 +158,23 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
 def _open(scene: Scene) -> list[Problem]:
     """Return why a mechanism does not close: because of where its joints start, or anyway."""
     start = scene.start
-    places = {
+    offsets = {
         f"joints/{name}/eccentricity": any(one.eccentricity) for name, one in start.joints.items()
     }
     for name, guided in start.guides.items():
-        places |= {f"guides/{name}/{field}": getattr(guided, field) for field in ("offset", "tilt")}
+        offsets |= {
+            f"guides/{name}/{field}": getattr(guided, field) for field in ("offset", "tilt")
+        }
     centred = start.model_copy(update={"joints": {}, "guides": {}})
-    if any(places.values()) and closes(scene.model_copy(update={"start": centred})):
+    if any(offsets.values()) and closes(scene.model_copy(update={"start": centred})):
         return [
             Problem(
-                f"/scene/start/{place}",
+                f"/scene/start/{pointer}",
                 "The mechanism closes with its play centred, but does not reach this"
-                f" {place.rpartition('/')[2]}; give a smaller one, or another direction.",
+                f" {pointer.rpartition('/')[2]}; give a smaller one, or another direction.",
             )
-            for place, off in places.items()
-            if off
+            for pointer, offset in offsets.items()
+            if offset
         ]
     sentence = (
         f"The mechanism does not close: {_left_open(scene)}. Check lengths and driver positions,"

@@ -107,7 +107,7 @@ def solve_semidefinite(
     follows from the others. That is measured against the diagonal of the rows of the same kind,
     which have the same unit.
     """
-    entries = {place: value for place, value in matrix.items() if not is_zero(value)}
+    entries = {index: value for index, value in matrix.items() if not is_zero(value)}
     sums: dict[str, Scalar] = {}
     for i, kind in enumerate(kinds):
         sums[kind] = sums.get(kind, 0.0) + entries.get((i, i), 0.0)

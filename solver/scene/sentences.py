@@ -90,11 +90,11 @@ def _out_of_form(field: str, keys: list[str], root: type[BaseModel], document: o
     return f"There is no field '{field}' here; {instead(field, known)}"
 
 
-Place = tuple[list[FieldInfo], list[type[BaseModel]]]
-"""The last fields on the way to a place of a document, and the models that are meant there."""
+Location = tuple[list[FieldInfo], list[type[BaseModel]]]
+"""The last fields on the way to a location of a document, and the models that are meant there."""
 
 
-def _sentence(item: ErrorDetails, field: str, unit: str, place: Place) -> str:
+def _sentence(item: ErrorDetails, field: str, unit: str, location: Location) -> str:
     """Return what is wrong with a field; `unit` has a space before."""
     kind, context = item["type"], item.get("ctx", {})
     if kind not in SENTENCES:
@@ -111,13 +111,13 @@ def _sentence(item: ErrorDetails, field: str, unit: str, place: Place) -> str:
     elif r"\." in pattern:
         kind = "reference"
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
-    units |= {"of_pairs": _of_pairs(place[0]), "with_fields": _with_fields(place[1])}
+    units |= {"of_pairs": _of_pairs(location[0]), "with_fields": _with_fields(location[1])}
     more = units | {"meant": _meant_number(item) if kind == "int_type" else _meant_word(item)}
     return SENTENCES[kind].format(field=field, given=item["input"], **more, **context)
 
 
 def _of_pairs(fields: Sequence[FieldInfo]) -> str:
-    """Return what a list must be of, where fields hold pairs of numbers: places, directions."""
+    """Return what a list must be of, where fields hold pairs of numbers: positions, directions."""
     inside: list[Any] = [*fields]
     while inside:
         part = inside.pop()
@@ -189,7 +189,7 @@ def _unit(keys: Sequence[str], root: type[BaseModel], document: object) -> str:
     return "" if unit == "1" else f" {unit}"
 
 
-def _reached(keys: Sequence[str], root: type[BaseModel], document: object) -> Place:
+def _reached(keys: Sequence[str], root: type[BaseModel], document: object) -> Location:
     """Return the last fields on the way along keys, and the models that a document means there."""
     models, value, is_key = [root], document, False
     fields: list[FieldInfo] = []

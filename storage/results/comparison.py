@@ -21,7 +21,7 @@ _OF_THE_PROGRAM: Final = ("solver_version", "layout")
 
 @dataclass(frozen=True)
 class Compared:
-    """One array of two stores; where they differ, the first such place and the largest distance."""
+    """One array of two stores; where they differ, the first such index and the largest distance."""
 
     name: str
     values: int
@@ -71,16 +71,16 @@ def compared_values(name: str, stored: NDArray[Any], again: NDArray[Any]) -> Com
     if (stored.shape, stored.dtype) != (again.shape, again.dtype):
         most = max(stored.size, again.size)
         return Compared(name, most, most)
-    places = np.argwhere(_bits(stored) != _bits(again))
-    if not len(places):
+    indices = np.argwhere(_bits(stored) != _bits(again))
+    if not len(indices):
         return Compared(name, stored.size)
-    first = tuple(places[0].tolist())
+    first = tuple(indices[0].tolist())
     with np.errstate(invalid="ignore"):  # of infinities
         distance = np.abs(stored.astype(np.float64) - again.astype(np.float64))
     return Compared(
         name,
         stored.size,
-        len(places),
+        len(indices),
         first,
         float(stored[first]),
         float(again[first]),
@@ -95,7 +95,7 @@ def _compared(name: str, stored: zarr.Array[Any], again: zarr.Array[Any]) -> Com
         part = compared_values(name, np.asarray(stored[window]), np.asarray(again[window]))
         if part.first is None:
             continue
-        at = tuple(side.start + place for side, place in zip(window, part.first, strict=True))
+        at = tuple(side.start + index for side, index in zip(window, part.first, strict=True))
         if found.first is None or at < found.first:
             found = replace(found, first=at, stored=part.stored, again=part.again)
         found = replace(

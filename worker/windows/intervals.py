@@ -66,10 +66,12 @@ class Intervals:
             samples = columns[name][-len(times) :]
             pairs = self._stored.read(name, first, last)
             for sense, k in ((1.0, 0), (-1.0, 1)):
-                places = _places(sense * samples, sense * pairs[:, k], np.ptp(pairs, axis=1), times)
+                instants = _instants(
+                    sense * samples, sense * pairs[:, k], np.ptp(pairs, axis=1), times
+                )
                 best = _lowest(sense * pairs[:, k], begin[chosen], end[chosen])
                 found[chosen, c, 2 * k] = pairs[best, k]
-                found[chosen, c, 2 * k + 1] = places[best]
+                found[chosen, c, 2 * k + 1] = instants[best]
         return found
 
 
@@ -82,7 +84,7 @@ def _lowest(values: Floats, begin: NDArray[np.intp], end: NDArray[np.intp]) -> N
     return np.asarray(np.minimum.reduceat(np.where(values[flat] > least, end[-1], flat), offsets))
 
 
-def _places(samples: Floats, least: Floats, wide: Floats, times: Floats) -> Floats:
+def _instants(samples: Floats, least: Floats, wide: Floats, times: Floats) -> Floats:
     """Return when intervals (k,) are lowest, s: at the lower sample, unless it is lower inside."""
     before, after = samples[:-1], samples[1:]
     middle = 0.5 * (times[:-1] + times[1:])

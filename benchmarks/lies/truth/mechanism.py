@@ -95,11 +95,11 @@ def has_play(joint: Mapping[str, Any]) -> bool:
 def read(scene: Mapping[str, Any]) -> Named:
     """Return the mechanism of a filled-in document."""
     bodies = list(scene["bodies"])
-    place: dict[str, int] = {}
+    index: dict[str, int] = {}
     body, arm = list[int](), list[Sequence[float]]()
     for owner, held in (("ground", scene["ground"]), *scene["bodies"].items()):
         for point, coordinates in held["points"].items():
-            place[f"{owner}.{point}"] = len(body)
+            index[f"{owner}.{point}"] = len(body)
             body.append(bodies.index(owner) if owner != "ground" else -1)
             arm.append(coordinates)
     pins = {
@@ -117,7 +117,7 @@ def read(scene: Mapping[str, Any]) -> Named:
     for name, joint in scene["joints"].items():
         if has_play(joint):
             continue
-        first, second = (place[joint[end]] for end in ENDS[joint["type"]])
+        first, second = (index[joint[end]] for end in ENDS[joint["type"]])
         driver, moved = driven.get(name, ("", {"position": 0.0, "speed": 0.0}))
         given = _motion(moved)
         ux, uy = joint.get("axis", (1.0, 0.0))
@@ -143,7 +143,7 @@ def read(scene: Mapping[str, Any]) -> Named:
         joints += [joint] * len(found)
     seconds = []
     for pair in play:  # a corner is a point of its own
-        second = place[pair.second]
+        second = index[pair.second]
         seconds.append(len(body) if any(pair.arm) else second)
         if any(pair.arm):
             body.append(body[second])
@@ -163,17 +163,17 @@ def read(scene: Mapping[str, Any]) -> Named:
         np.array(row, np.int64).reshape(-1, 3),
         np.array(motion, np.float64).reshape(-1, 7),
         np.array(
-            [[place[p.first], second] for p, second in zip(play, seconds, strict=True)], np.int64
+            [[index[p.first], second] for p, second in zip(play, seconds, strict=True)], np.int64
         ).reshape(-1, 2),
         np.array([pair.wall for pair in play], np.float64).reshape(-1, 5),
         np.array([pair.cam for pair in play], np.float64).reshape(-1, 4),
         np.array(_laws(scene, play, joints), np.float64).reshape(-1, 11),
-        _ends(motors, place),
+        _ends(motors, index),
         _numbers(motors, "stall_torque", "no_load_speed"),
-        _ends(springs, place),
+        _ends(springs, index),
         _numbers(springs, "stiffness", "damping", "free_length"),
     )
-    sliders = [place[pair.second] for pair in play]
+    sliders = [index[pair.second] for pair in play]
     names = [pair.name for pair in play]
     return Named(mechanism, rows, names, drivers, sliders, list(motors), list(springs))
 
@@ -187,8 +187,8 @@ def _motion(driver: Mapping[str, Any]) -> tuple[float, ...]:
     return (driver["position"] + swing["offset"], 0.0, *(swing[field] for field in fields))
 
 
-def _ends(elements: Mapping[str, Any], place: Mapping[str, int]) -> Integers:
-    points = [[place[one["first"]], place[one["second"]]] for one in elements.values()]
+def _ends(elements: Mapping[str, Any], index: Mapping[str, int]) -> Integers:
+    points = [[index[one["first"]], index[one["second"]]] for one in elements.values()]
     return np.array(points, np.int64).reshape(-1, 2)
 
 

@@ -44,19 +44,19 @@ def steepness(
     """
     row = companions.bundle.kernel.row
     own = companions.dense(TWIN)
-    places, moved = [], []
+    states, moved = [], []
     for lane in TOWARDS:
         theirs = companions.dense(lane)
         both = np.flatnonzero(wanted[: min(len(own), len(theirs))])
         apart = safety * (row.states(theirs[both]) - row.states(own[both]))
         for sense in (1.0, -1.0):
-            places.append(both)
+            states.append(both)
             moved.append(own[both])
             row.states(moved[-1])[:] += sense * apart
     found = _observed(companions.bundle, np.concatenate(moved), columns)
-    ends = np.cumsum([len(both) for both in places])
+    ends = np.cumsum([len(both) for both in states])
     largest = np.zeros_like(values)
-    for both, there in zip(places, np.split(found, ends[:-1]), strict=True):
+    for both, there in zip(states, np.split(found, ends[:-1]), strict=True):
         largest[both] = np.fmax(largest[both], np.abs(there - values[both]))
     return largest
 

@@ -43,7 +43,7 @@ class PointScenes:
     base: Scene
     """Checked in full; every leaf is present in it."""
     leaves: tuple[Leaf, ...]
-    """Places in the document that change from point to point; none twice."""
+    """Pointers in the document that change from point to point; none twice."""
     values: Floats
     """(points, parameters) in the unit of each."""
 
@@ -99,7 +99,7 @@ class PointScenes:
 def leaves_of(
     scene: Scene, parameters: Sequence[str], echo: Mapping[str, float | str | None]
 ) -> tuple[Leaf, ...]:
-    """Return the places that varied parameters reach, a later declaration overriding an earlier.
+    """Return the pointers that varied parameters reach, a later declaration overriding an earlier.
 
     `echo` has the values of the parameters that do not vary; one that is none overrides nothing.
     """

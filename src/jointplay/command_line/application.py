@@ -83,9 +83,9 @@ def _before_any_command(
 def _add(name: str) -> None:
     """Add a command, or, where what an extra brings is not there, one that says so."""
     extra = EXTRAS.get(name)
-    place = f"jointplay.command_line.{name}" if extra is None else f"jointplay.{extra}.command"
+    module = f"jointplay.command_line.{name}" if extra is None else f"jointplay.{extra}.command"
     try:
-        application.command(name)(getattr(import_module(place), name))
+        application.command(name)(getattr(import_module(module), name))
     except ModuleNotFoundError as error:
         if extra is None:
             raise
@@ -131,7 +131,7 @@ EXITS: Final = {
 """By class of exception; by its name, so that nothing is loaded only to be compared with."""
 
 SET_VALUE: Final = re.compile(r"(?:/scene)?/parameters/([^/]+)/default")
-"""Place of a value that `--set` gave, in a scene given whole."""
+"""Pointer of a value that `--set` gave, in a scene given whole."""
 
 PLAINLY: Final = {
     "Value error, ": "",
@@ -204,16 +204,16 @@ def _lines_of(error: Exception, arguments: Sequence[str] = ()) -> list[str]:
         return [] if error.filename is None else [f"{error.filename}: {error.strerror}."]
     kinds = ("problems", "flaws", "fields")
     problems = next((found for kind in kinds if (found := getattr(error, kind, ()))), ())
-    typed = [(_option_of(place, arguments), detail) for place, detail in problems]
-    listed = [f"{place}: {detail}" if place else detail for place, detail in typed]
+    typed = [(_option_of(pointer, arguments), detail) for pointer, detail in problems]
+    listed = [f"{pointer}: {detail}" if pointer else detail for pointer, detail in typed]
     return [_as_typed(line) for line in listed or [str(error)]]
 
 
-def _option_of(place: str, arguments: Sequence[str]) -> str:
-    """Return the option by which a refused value was typed; where none was, its place."""
-    found = SET_VALUE.fullmatch(place)
+def _option_of(pointer: str, arguments: Sequence[str]) -> str:
+    """Return the option by which a refused value was typed; where none was, its pointer."""
+    found = SET_VALUE.fullmatch(pointer)
     typed = " ".join(arguments).replace("--set=", "--set ")
-    return f"--set {found[1]}" if found and f"--set {found[1]}=" in typed else place
+    return f"--set {found[1]}" if found and f"--set {found[1]}=" in typed else pointer
 
 
 def _as_typed(line: str) -> str:

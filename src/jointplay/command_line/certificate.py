@@ -37,8 +37,8 @@ def _numbers(name: str, value: Any) -> Iterator[tuple[str, str]]:
         for key, one in value.items():
             yield from _numbers(f"{name}.{key}" if name else key, one)
     elif isinstance(value, list) and any(isinstance(one, dict) for one in value):
-        for place, one in enumerate(value):
-            yield f"{name}.{place}", ", ".join(f"{key} {_word(part)}" for key, part in one.items())
+        for index, one in enumerate(value):
+            yield f"{name}.{index}", ", ".join(f"{key} {_word(part)}" for key, part in one.items())
     elif isinstance(value, list):
         yield name, ", ".join(map(_word, value)) or "none"
     else:

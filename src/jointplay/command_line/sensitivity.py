@@ -76,21 +76,21 @@ def sensitivity_lines(found: dict[str, Any]) -> Iterator[str]:
             [
                 head,
                 *(
-                    [parameter, *(_cell(one, place) for one in measures.values())]
-                    for place, parameter in enumerate(found["parameters"])
+                    [parameter, *(_cell(one, index) for one in measures.values())]
+                    for index, parameter in enumerate(found["parameters"])
                 ),
             ]
         )
     if (quantiles := found["quantiles"]) is not None:
         yield ""
         shares = [f"{share:.0%}" for share in quantiles["shares"]]
-        cells = [_cell(quantiles, place) for place in range(len(shares))]
+        cells = [_cell(quantiles, index) for index in range(len(shares))]
         yield from aligned([["quantile", found["output"] + unit], *zip(shares, cells, strict=True)])
 
 
-def _cell(columns: dict[str, list[float | None]], place: int) -> str:
+def _cell(columns: dict[str, list[float | None]], index: int) -> str:
     """Return a number with its interval."""
-    value, low, high = (columns[name][place] for name in ("values", "low", "high"))
+    value, low, high = (columns[name][index] for name in ("values", "low", "high"))
     if value is None:
         return "unknown"
     if low is None and high is None:

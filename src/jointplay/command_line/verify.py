@@ -122,8 +122,8 @@ def _row(one: "Compared") -> tuple[str, ...]:
     share = f"{one.differing} of {one.values}"
     if one.first is None:
         return one.name, share, "another shape, or missing", "", "", ""
-    place = ", ".join(map(str, one.first))
-    return one.name, share, f"[{place}]", repr(one.stored), repr(one.again), f"{one.largest:.3g}"
+    index = ", ".join(map(str, one.first))
+    return one.name, share, f"[{index}]", repr(one.stored), repr(one.again), f"{one.largest:.3g}"
 
 
 def _verdict(found: "Verification") -> str:

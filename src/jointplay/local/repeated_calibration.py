@@ -19,26 +19,26 @@ def compared_findings(
     arrays: list[Compared] = []
     others: list[str] = []
     results = [{key: one[key] for key in one if key != _SOLVER} for one in (stored, again)]
-    for place, one, other in _leaves("", *results):
+    for path, one, other in _leaves("", *results):
         if all(isinstance(leaf, np.ndarray) for leaf in (one, other)):
-            arrays.append(compared_values(place, one, other))
+            arrays.append(compared_values(path, one, other))
         elif one != other:
-            others.append(place)
+            others.append(path)
     return tuple(arrays), tuple(others)
 
 
-def _leaves(place: str, stored: Any, again: Any) -> Iterator[tuple[str, Any, Any]]:
-    """Yield by place tables of numbers, as arrays, and whatever is not made of others."""
+def _leaves(path: str, stored: Any, again: Any) -> Iterator[tuple[str, Any, Any]]:
+    """Yield by path tables of numbers, as arrays, and whatever is not made of others."""
     tables = _table(stored), _table(again)
     if all(one is not None for one in tables):
-        yield place, *tables
+        yield path, *tables
         return
     pairs = [dict(enumerate(one)) if isinstance(one, list) else one for one in (stored, again)]
     if not all(isinstance(one, Mapping) for one in pairs):
-        yield place, stored, again
+        yield path, stored, again
         return
     for key in dict.fromkeys([*pairs[0], *pairs[1]]):
-        yield from _leaves(f"{place}/{key}".lstrip("/"), *(one.get(key) for one in pairs))
+        yield from _leaves(f"{path}/{key}".lstrip("/"), *(one.get(key) for one in pairs))
 
 
 def _table(value: Any) -> NDArray[np.float64] | None:
