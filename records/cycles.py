@@ -27,7 +27,7 @@ attractors are one. It is twice what sections may differ by that recur."""
 
 @dataclass(frozen=True)
 class Cycles:
-    """What cycles are told apart by, of each point that ends on one."""
+    """Numbers by which cycles are told apart, of each point that ends on one."""
 
     features: Floats
     """(points, 3 states - 1) means, spreads and covariances."""
