@@ -21,8 +21,10 @@ class CellSimilarity:
     """Compares points of a study: by their label, and beyond that by what tells motions apart.
 
     The label is the verdict, the period, the impacts in it, and how many attractors there are; of a
-    failed point it is the reason. What does not recur is apart by its exponent; the exponents of
-    periodic motions vary smoothly, with errors far below that: they are no reason to split a cell.
+    failed point it is the reason. Chaos, and what is undecided, is apart by its exponent. Those of
+    periodic motions vary smoothly, with errors far below that, and so do those of what is carried
+    along by drives without a common period; others of quasi-periodic motions are zero, but for the
+    length of the record: they are no reason to split a cell, nor are two that are negative.
     Where the study compares cycles, what recurs is apart by means and spreads of its states.
     """
 
@@ -78,9 +80,17 @@ def _number(end: PointEnd, name: str) -> float:
 
 
 def _apart(one: PointEnd, other: PointEnd) -> bool:
-    """Return whether two exponents differ by three errors; unknown ones do not."""
-    values, errors = (
-        [end.indicators.get(name, np.nan) for end in (one, other)]
-        for name in ("lyapunov", "lyapunov_error")
+    """Return whether two exponents differ by three errors; unknown ones do not.
+
+    Nor do two that are negative, or two that do not differ from zero.
+    """
+    if one.indicators.get("verdict") == VERDICTS["quasi-periodic"]:
+        return False
+    first, second = (
+        [end.indicators.get(name, np.nan) for name in ("lyapunov", "lyapunov_error")]
+        for end in (one, other)
     )
-    return abs(values[0] - values[1]) > APART * hypot(*errors)
+    signs = [np.sign(value) * (abs(value) > APART * error) for value, error in (first, second)]
+    if signs[0] == signs[1] < 1.0:
+        return False
+    return bool(abs(first[0] - second[0]) > APART * hypot(first[1], second[1]))

@@ -10,6 +10,9 @@ from jointplay.solver.runs.study.cell_similarity import CellSimilarity
 
 PERIODIC = {"verdict": 1.0, "period": 1.0, "lyapunov": -1.0, "lyapunov_error": 1e-9}
 CHAOTIC = {"verdict": 3.0, "period": 0.0, "lyapunov": 2.0, "lyapunov_error": 0.1}
+QUASI_PERIODIC = {"verdict": 2.0, "period": 0.0, "lyapunov": -0.1, "lyapunov_error": 1e-4}
+UNDECIDED = QUASI_PERIODIC | {"verdict": 0.0}
+NEUTRAL = {"lyapunov": -2e-3, "lyapunov_error": 1e-3}
 
 
 def end(indicators, code="", **statistics):
@@ -35,6 +38,14 @@ def differ(one, other, record=10, cycles=False):
         (end(CHAOTIC), end(CHAOTIC | {"lyapunov": 2.5}), True),
         (end(CHAOTIC), end(CHAOTIC | {"lyapunov": float("nan")}), False),
         (end(CHAOTIC | {"period": float("nan")}), end(CHAOTIC), False),
+        (end(QUASI_PERIODIC), end(QUASI_PERIODIC | {"lyapunov": -0.2}), False),
+        (end(QUASI_PERIODIC), end(QUASI_PERIODIC | NEUTRAL), False),
+        (end(QUASI_PERIODIC), end(UNDECIDED), True),
+        (end(UNDECIDED), end(UNDECIDED | {"lyapunov": -0.2}), False),
+        (end(UNDECIDED), end(UNDECIDED | {"lyapunov": 0.2}), True),
+        (end(UNDECIDED), end(UNDECIDED | NEUTRAL), True),
+        (end(UNDECIDED | NEUTRAL), end(UNDECIDED | NEUTRAL | {"lyapunov": 2.9e-3}), False),
+        (end(UNDECIDED | {"lyapunov": 0.1}), end(UNDECIDED | {"lyapunov": 0.2}), True),
         (end({}, "a"), end({}, "a"), False),
         (end({}, "a"), end({}, "b"), True),
         (end({}, "a"), end(PERIODIC), True),

@@ -6,6 +6,7 @@ import pytest
 from jointplay.solver.computations import computation_of
 from jointplay.solver.kinds import admit
 from jointplay.solver.runs.study import blocks
+from tests.solver.runs.study.test_drives_out_of_step import ROOT, TURN, shaken
 
 RANGE = ("from", "to", "count")
 WHOLE = {
@@ -116,3 +117,24 @@ def test_a_rectangle_alone_has_the_bits_of_the_chart_in_its_cells(chart):
     inside = {place: found for place, found in part.items() if place[1] < x[32] and place[0] < y[8]}
     assert len(inside) == 8 * 32
     assert inside == {place: chart[place] for place in inside}
+
+
+def test_what_drives_without_a_common_period_carry_along_splits_no_cell():
+    """A linear oscillator moves alike everywhere; its exponent is minus half the damping."""
+    ranges = {"damping": (0.2, 0.4, 9), "stiffness": (2.0, 4.0, 9)}
+    parameters = {
+        name: {"help": name, "unit": unit, "default": 0.3}
+        | {"targets": [{"path": f"/forces/spring/{name}", "factor": 1.0}]}
+        for name, unit in (("damping", "N s/m"), ("stiffness", "N/m"))
+    }
+    along, by = (
+        {"parameter": name, "values": dict(zip(RANGE, values, strict=True))}
+        for name, values in ranges.items()
+    )
+    scene = shaken(1.0, ROOT, period=TURN) | {"parameters": parameters}
+    job = {"kind": "chart", "scene": scene, "along": along, "by": by, "refine": 2}
+    found = computed(job | {"settle": 5, "record": 16})
+    exponents = {place[1]: one[1]["lyapunov"] for place, one in found.items() if not inherits(one)}
+    assert sum(not inherits(one) for one in found.values()) == 9
+    for damping, exponent in exponents.items():
+        assert exponent == pytest.approx(-0.5 * damping, rel=0.05)
