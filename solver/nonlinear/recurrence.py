@@ -53,6 +53,42 @@ def recurrence_period(
     return 0
 
 
+FAR_CLOSER, SAME = 0.03, 1e-3
+"""Shares of the tolerance within which chaos hardly recurs by chance, in however few sections, and
+within which it does not even if neighbours seem to part, as in steady rotation."""
+PARTING = 1.5
+"""Factor by which distances of points a period apart grow, from the first half of a record to the
+last, as they do in chaos that passes an unstable orbit; noise of few points may do so, too."""
+
+
+PARTED = 0.5
+"""Logarithm of the growth over whole orbits from which on neighbours part, even if their exponent
+is too uncertain to tell: chaos that comes back for a while has more, a stable orbit has none."""
+
+
+def may_recur_by_chance(
+    points: Floats, period: int, tolerance: float, growth: float | None = None
+) -> bool:
+    """Return whether (n, d) points that have a period within a tolerance may be chaotic.
+
+    Where chaos comes close to where it was, or passes an unstable orbit, sections recur for a
+    while: of some thousands of short records one does. Then neighbours part. `growth` is the
+    logarithm of that over the last whole orbits; None: not known. Then points must not part, by the
+    medians of distances over the first and the last half, and three turns must show that. Points
+    within 3 % of the tolerance do not recur by chance.
+    """
+    extent = largest_extent(points, period)
+    if growth is not None:
+        return growth > PARTED and extent > SAME * tolerance
+    if extent <= FAR_CLOSER * tolerance:
+        return False
+    if len(points) < 3 * period:
+        return True
+    apart = np.abs(points[period:] - points[:-period]).max(axis=1)
+    half = (len(apart) + 1) // 2
+    return bool(np.median(apart[-half:]) > PARTING * np.median(apart[:half]))
+
+
 SLOWEST = 0.99
 """Largest q, of changes over a third of a record: more is indistinguishable from noise."""
 KEPT = 0.1

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from jointplay.solver.nonlinear.lyapunov import confirmed, contradicts
 from jointplay.solver.nonlinear.zero_one import FEWEST_TELLING
+from jointplay.solver.scene.periods import InStep
 
 UNDECIDED, PERIODIC, QUASI_PERIODIC, CHAOTIC, EQUILIBRIUM = range(5)
 VERDICTS = {
@@ -69,16 +70,17 @@ def grounds(found: Mapping[str, float]) -> str:
         return RESTS.reason
     period = found.get("period", math.nan)
     recurrence = int(period) if math.isfinite(period) else None
-    if recurrence is None and found["verdict"] == CHAOTIC:
-        recurrence = 0  # looked for, and not kept
     lyapunov, zero_one, rotation = (
         _kept(found, name) for name in ("lyapunov", "zero_one", "rotation")
     )
+    if "period" not in found and lyapunov is not None and lyapunov.exceeds(0.0):
+        recurrence = 0  # looked for, and not kept, by earlier versions
     if rotation is None and "rotation" in found:
         rotation = UNKNOWN
     verdict = decide(lyapunov, zero_one, recurrence, rotation)
     if verdict.code != found["verdict"] == QUASI_PERIODIC:
-        verdict = decide(lyapunov, zero_one, recurrence, rotation, repeats=False)
+        beside = InStep(back=True, others=1)
+        verdict = decide(lyapunov, zero_one, recurrence, rotation, drives=beside)
     if verdict.code == found["verdict"]:
         return verdict.reason
     seen = "" if lyapunov is None else f": it is {lyapunov} 1/s"
@@ -97,24 +99,26 @@ def decide(
     rotation: Estimate | None = None,
     finer: Estimate | None = None,
     *,
-    repeats: bool | None = None,
+    drives: InStep | None = None,
     leaves: bool = False,
+    by_chance: bool = False,
 ) -> Verdict:
     """Return the verdict on a motion from the indicators of the whole system.
 
     lyapunov : largest exponent, 1/s, other than the zero along an autonomous flow. zero_one : K.
     period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
     number; not finite where the section is no closed curve. finer : the exponent in far smaller
-    steps. repeats : whether what drives the mechanism does so from section to section. leaves :
-    whether sections leave an unstable orbit. None: not known. An exponent that is not finite, and a
-    K with an error of 0.5 or more (too few sections), are as good as none.
+    steps. drives : which are in step with sections. leaves : whether sections leave an unstable
+    orbit. by_chance : whether chaos may recur as they do. None: not known. An exponent that is not
+    finite, and a K with an error of 0.5 or more (too few sections), are as good as none.
 
     chaotic : the exponent exceeds zero by more than three errors, in smaller steps too, nothing
         recurs, and K > 0.9. Where there is no K, an exponent will do that does not drift, if
         it is known that nothing recurs, and sections leave no orbit: neighbours of an unstable one
         part, too.
     periodic : every p-th section is the same and the exponent is not positive. An exponent near
-        zero and K > 0.9 contradict that; a clearly negative exponent overrules K.
+        zero and K > 0.9 contradict that, or that sections may recur by chance; a clearly negative
+        exponent overrules both.
     quasi-periodic : exponent within three errors of zero, K < 0.1, a closed curve with a rotation
         number, and no recurrence. Where what drives the mechanism does not repeat, neighbours may
         converge to such a motion: the exponent that is zero is that of the drive.
@@ -138,14 +142,17 @@ def decide(
         )
     exponent = "" if lyapunov is None else f"the exponent is {_told(lyapunov, finer)}"
     if period:
-        return _recurrent(lyapunov, zero_one, period, exponent)
+        return _recurrent(lyapunov, zero_one, period, exponent, by_chance=by_chance)
     if lyapunov is None:
         return _without_exponent(zero_one, period)
     if lyapunov.exceeds(0.0):
         return _diverging(lyapunov, zero_one, finer, _unstable(period, leaves=leaves))
     if lyapunov.falls_below(0.0):
-        carried = _carried_along(exponent, zero_one, rotation)
-        return carried if repeats is False else _converging(exponent, period, repeats=repeats)
+        if drives is not None and drives.others:
+            verdict = _carried_along(exponent, zero_one, rotation, drives)
+        else:
+            verdict = _converging(exponent, period, repeats=drives is not None)
+        return verdict
     return _neutral(exponent, zero_one, period, rotation)
 
 
@@ -158,7 +165,12 @@ def _told(lyapunov: Estimate, finer: Estimate | None) -> str:
 
 
 def _recurrent(
-    lyapunov: Estimate | None, zero_one: Estimate | None, period: int, exponent: str
+    lyapunov: Estimate | None,
+    zero_one: Estimate | None,
+    period: int,
+    exponent: str,
+    *,
+    by_chance: bool,
 ) -> Verdict:
     recurs = f"every section recurs after {period}"
     if lyapunov is not None and lyapunov.exceeds(0.0):
@@ -172,6 +184,12 @@ def _recurrent(
     if zero_one is not None and zero_one.value > IRREGULAR:
         return _undecided(
             f"{recurs}, yet the 0-1 test sees chaos, K is {zero_one}: {SMALLER} or {MORE}"
+        )
+    if by_chance:
+        told = f"; {exponent}" if exponent else ", or add the indicator 'lyapunov'"
+        return _undecided(
+            f"{recurs}, but for a while chaos may do so, too, where it passes an unstable orbit:"
+            f" {MORE} or {LONGER}{told}"
         )
     if lyapunov is None:
         return Verdict(PERIODIC, period, f"{recurs}; the exponent is not known")
@@ -230,7 +248,10 @@ def _neutral(
 ) -> Verdict:
     neutral = f"{exponent}, not different from zero"
     if zero_one is None:
-        return _undecided(f"{neutral}, and there is no telling 0-1 test: {SMALLER}, or {TEST}")
+        recur = f", or {RECUR}" if period is None else ""
+        return _undecided(
+            f"{neutral}, and there is no telling 0-1 test: {SMALLER}, or {TEST}{recur}"
+        )
     if zero_one.value >= REGULAR:
         return _undecided(
             f"{neutral}, but the 0-1 test sees no regular motion, K is {zero_one}: {SMALLER} or"
@@ -260,7 +281,7 @@ def _neutral(
     )
 
 
-def _converging(exponent: str, period: int | None, *, repeats: bool | None) -> Verdict:
+def _converging(exponent: str, period: int | None, *, repeats: bool) -> Verdict:
     """Return the verdict where neighbours converge and nothing is seen to recur."""
     converge = f"neighbours converge, {exponent}, but"
     if period is None:
@@ -272,7 +293,9 @@ def _converging(exponent: str, period: int | None, *, repeats: bool | None) -> V
     )
 
 
-def _carried_along(exponent: str, zero_one: Estimate | None, rotation: Estimate | None) -> Verdict:
+def _carried_along(
+    exponent: str, zero_one: Estimate | None, rotation: Estimate | None, drives: InStep
+) -> Verdict:
     """Return the verdict where neighbours converge to what a drive that does not repeat makes."""
     drive = f"neighbours converge, {exponent}, and what drives the motion does not repeat"
     drive += " from section to section"
@@ -286,8 +309,7 @@ def _carried_along(exponent: str, zero_one: Estimate | None, rotation: Estimate 
         )
     if not math.isfinite(rotation.value):
         return _undecided(
-            f"{drive}, K is {zero_one}, but the section is no closed curve: take sections at the"
-            f" period of one of two drives, {LONGER} or {MORE}"
+            f"{drive}, K is {zero_one}, but the section is no closed curve: {_on_a_curve(drives)}"
         )
     if not rotation.error < LOOSE:
         return _undecided(
@@ -299,6 +321,14 @@ def _carried_along(exponent: str, zero_one: Estimate | None, rotation: Estimate 
         f"{drive}, K is {zero_one}, and the section is a closed curve"
         f" with rotation number {rotation}",
     )
+
+
+def _on_a_curve(drives: InStep) -> str:
+    """Return what to try where sections of drives without a common period lie on no curve."""
+    if drives.back + drives.others > 2:
+        return f"only two drives make one, here are more; {LONGER} or {MORE}"
+    one = "" if drives.back else "take sections at the period of one of two drives, "
+    return f"{one}{LONGER} or {MORE}"
 
 
 def _undecided(reason: str) -> Verdict:

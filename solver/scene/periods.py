@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from typing import NamedTuple
 
 from jointplay.solver.laws.force import ForceElement
 from jointplay.solver.laws.force.varying import Varying
@@ -101,19 +102,37 @@ def moves_in_time(scene: Scene) -> bool:
     return bool(_moving(scene))
 
 
-def out_of_step(scene: Scene, interval: float) -> bool:
-    """Return whether something that moves a scene in time repeats, but not with an interval, s.
+class InStep(NamedTuple):
+    """How an interval compares with the periods of what moves a scene in time."""
+
+    back: bool
+    """Whether it is a multiple of any."""
+    others: int
+    """How many there are of which it is none, and which have no common period with each other."""
+
+
+def in_step(scene: Scene, interval: float) -> InStep:
+    """Return how an interval, s, compares with the periods of what moves a scene in time.
 
     What never repeats, such as a start-up, says nothing: behind it, what it drives may recur.
     """
-    periods = _moving(scene).values()
-    return any(math.isfinite(one) and not _back_after(interval, one) for one in periods)
+    periods = sorted({one for one in _moving(scene).values() if math.isfinite(one)})
+    out = [one for one in periods if not _back_after(interval, one)]
+    apart: list[float] = []
+    for one in out:
+        pairs = [(2.0 * math.pi / one, 2.0 * math.pi / other) for other in apart]
+        if all(period_of(pair).seconds is None for pair in pairs):
+            apart.append(one)
+    return InStep(len(out) < len(periods), len(apart))
 
 
 def _back_after(interval: float, period: float) -> bool:
-    """Return whether an interval is a number of whole periods, none of them 0."""
+    """Return whether an interval is a number of whole periods, none of them 0.
+
+    However many they are, they may end a millionth of one period before or behind it.
+    """
     times = interval / period
-    return round(times) > 0 and math.isclose(times, round(times), rel_tol=AGREEING)
+    return round(times) > 0 and abs(times - round(times)) <= AGREEING
 
 
 def _moving(scene: Scene) -> dict[str, float]:

@@ -14,7 +14,12 @@ from jointplay.solver.nonlinear.lyapunov import (
     exponent_from_growth,
     in_smaller_steps,
 )
-from jointplay.solver.nonlinear.recurrence import creep_to_come, leaves_an_orbit, recurrence_period
+from jointplay.solver.nonlinear.recurrence import (
+    creep_to_come,
+    leaves_an_orbit,
+    may_recur_by_chance,
+    recurrence_period,
+)
 from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
 from jointplay.solver.nonlinear.verdict import Verdict, decide
 from jointplay.solver.nonlinear.whole_turns import unwound
@@ -24,10 +29,12 @@ from jointplay.solver.runs.study.rotating_sections import (
     rotation_of,
     with_unit_vectors,
 )
+from jointplay.solver.scene.periods import InStep
 
 RECURS = 1e-3
 """Sections closer than this share are the same: of what counts as one in a state, or of its range
 in the record if that is more, as rates have that impacts make. Far above the solver's error."""
+IN_STEP = InStep(back=True, others=0)
 MOST_SECTIONS = 5000
 """That indicators look at: the first ones of the record."""
 FEWEST_FOR_SPECTRUM, FEWEST_FOR_RECURRENCE = 16, 4
@@ -60,7 +67,7 @@ def indicators_of(
     settled: int,
     *,
     compared: bool = False,
-    repeats: bool = True,
+    drives: InStep = IN_STEP,
 ) -> tuple[dict[str, float], Verdict]:
     """Return the chosen indicators, each with its error, and the verdict that they allow.
 
@@ -71,7 +78,7 @@ def indicators_of(
     the same behind the record, in far smaller steps. period : s. settled : periods of the vector
     before the record. compared : whether cycles are compared with those of other points: then one
     that still creeps does not recur, for it would be another attractor than that it comes to.
-    repeats : whether what drives the mechanism does so from section to section.
+    drives : which are in step with sections; by default all are.
     """
     by_period = len(sections.states) == len(log_growth)
     states = unwound(sections.states[:MOST_SECTIONS], sections.angles) / sections.scales
@@ -93,7 +100,7 @@ def indicators_of(
             zero_one = zero_one_test(whole, resolution=RECURS)
         found |= {"zero_one": zero_one.value, "zero_one_error": zero_one.error}
     if "recurrence" in chosen:
-        found["period"] = math.nan if recurrence is None else float(recurrence)
+        found["period"] = _number(recurrence)
     if "rotation" in chosen:
         if len(states) > 2:
             rotation = rotation_of(states, sections.scales, sections.angles, sections.coordinates)
@@ -105,9 +112,11 @@ def indicators_of(
     leaves = False
     if lyapunov is not None and lyapunov.exceeds(0.0):
         recurrence = seen  # neighbours of an unstable orbit part, too, whatever was asked for
+        found["period"] = _number(seen)
         leaves = leaves_an_orbit(states)
+    by_chance = _by_chance(states, recurrence, log_growth if by_period else None)
     evidence = lyapunov, zero_one, recurrence, rotation, finer
-    verdict = decide(*evidence, repeats=repeats, leaves=leaves)
+    verdict = decide(*evidence, drives=drives, leaves=leaves, by_chance=by_chance)
     return found | {"verdict": float(verdict.code)}, verdict
 
 
@@ -119,6 +128,24 @@ def _spectrum(states: Floats, sections: Sections) -> dict[str, float]:
     spectrum = power_spectrum(along, sections.interval)
     frequency, share = strongest_line(spectrum)
     return {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
+
+
+def _number(period: int | None) -> float:
+    return math.nan if period is None else float(period)
+
+
+def _by_chance(states: Floats, period: int | None, log_growth: Floats | None) -> bool:
+    """Return whether chaos may recur as these sections do for a while.
+
+    log_growth : (periods,) as in `indicators_of`, of sections once a period; None: of others.
+    """
+    if not period:
+        return False
+    widths = np.maximum(np.ptp(states, axis=0), 1.0)
+    growth = None
+    if log_growth is not None and len(log_growth) and _known(log_growth):
+        growth = float(_by_orbit(log_growth, period).sum())
+    return may_recur_by_chance(states / widths, period, RECURS, growth)
 
 
 def _recurrence(states: Floats, *, compared: bool) -> int | None:

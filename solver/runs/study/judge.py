@@ -25,7 +25,7 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.problem import scales_of
 from jointplay.solver.runs.study.verdict_limits import limits
-from jointplay.solver.scene.periods import out_of_step
+from jointplay.solver.scene.periods import in_step
 
 
 def looks_again(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
@@ -87,7 +87,7 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     apart = float(np.diff(moments).mean()) if len(moments) > 1 else period
     sections = Sections(states, scales, angles, len(kernel.coordinates), apart)
     compared = study.compares_cycles or study.starts > 1
-    repeats = not out_of_step(study.point_scene(run.point), period)
+    drives = in_step(study.point_scene(run.point), period)
     found, verdict = indicators_of(
         study.indicators,
         sections,
@@ -95,7 +95,7 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
         period,
         run.settled,
         compared=compared,
-        repeats=repeats,
+        drives=drives,
     )
     if run.rest:
         states, verdict = np.stack(run.rest), RESTS

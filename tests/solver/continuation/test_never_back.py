@@ -43,6 +43,10 @@ def wave(frequency: float) -> dict[str, Any]:
             shaken(wave(1.0), wave(math.sqrt(2.0)), period=TURN),
             "4.44288294 s, and the scene's period of 6.28318531 s is no multiple",
         ),
+        (
+            shaken(wave(1.0), wave(5000.002), period=TURN),  # five thousand turns and 0.002
+            "and the scene's period of 6.28318531 s is no multiple",
+        ),
     ],
 )
 def test_what_moves_in_time_and_is_not_back_after_a_period_is_refused(

@@ -1,6 +1,8 @@
 """Periods, by recurrence of the section."""
 
 import math
+from collections.abc import Iterator
+from functools import cache
 
 import numpy as np
 import pytest
@@ -10,10 +12,13 @@ from hypothesis import strategies as st
 from jointplay.solver.nonlinear.recurrence import (
     creep_to_come,
     largest_extent,
+    longest_in,
+    may_recur_by_chance,
     recurrence_period,
 )
 from tests.solver.nonlinear.textbook import (
     HENON,
+    Map,
     circle,
     delayed_logistic,
     impact_oscillator,
@@ -208,3 +213,96 @@ def test_noise_does_not_creep() -> None:
     assert creep_to_come(np.ones((8, 2)), 1) == 0.0
     drift = np.column_stack([noise[:, 0], 0.9 ** np.arange(48.0)])
     assert creep_to_come(drift, 1) == pytest.approx(0.9**47)
+
+
+CHAOS = {"one band": logistic(3.9), "two bands": logistic(3.65)}
+
+
+@cache
+def returns_of_chaos(name: str) -> list[tuple[np.ndarray, int, float]]:
+    """Return records of 4 to 8 sections that recur, their periods and growths over whole orbits.
+
+    At these numbers both maps are chaotic.
+    """
+    system = CHAOS[name]
+    orbit = system.orbit(60_000, 100)
+    scale, found = np.ptp(orbit, axis=0), []
+    for count in (4, 5, 6, 8):
+        for period in range(1, count // 2 + 1):
+            near = (np.abs(orbit[period:] - orbit[:-period]) <= 1e-3 * scale).all(axis=1)
+            runs = np.lib.stride_tricks.sliding_window_view(near, count - period).all(axis=1)
+            for start in np.flatnonzero(runs):
+                record = orbit[start : start + count]
+                if recurrence_period(record, scale, 1e-3) == period:
+                    found.append((record / scale, period, growth_of(system, record, period)))
+    return found
+
+
+def growth_of(system: Map, record: np.ndarray, period: int) -> float:
+    """Return the logarithm by which a vector grows over the last whole orbits of a record."""
+    turns = len(record) // period * period
+    vector = np.linspace(1.0, 0.3, record.shape[1])
+    vector /= np.sqrt((vector * vector).sum())
+    for state in record[len(record) - turns :]:
+        vector = system.jacobian(state) @ vector
+    return float(np.log(np.sqrt((vector * vector).sum())))
+
+
+@pytest.mark.parametrize("name", CHAOS)
+def test_chaos_that_comes_back_for_a_while_may_do_so_by_chance(name: str) -> None:
+    records = returns_of_chaos(name)
+    assert len(records) > 50
+    seen = [may_recur_by_chance(record, period, 1e-3) for record, period, _ in records]
+    assert sum(seen) >= 0.9 * len(records)
+    known = [
+        may_recur_by_chance(record, period, 1e-3, growth) for record, period, growth in records
+    ]
+    assert sum(known) >= 0.97 * len(records)
+
+
+def periodic_records() -> Iterator[tuple[np.ndarray, int, float]]:
+    """Yield settled records of stable orbits of the logistic map of 1 to 16 sections."""
+    for period, low, high in STABLE:
+        for rate in np.linspace(low, high, 20):
+            system = logistic(rate)
+            orbit = system.orbit(4 * period, 3000)
+            if np.ptp(orbit[::period]) < 1e-9:
+                for count in {2 * period, 3 * period, 4 * period} - {2, 3}:
+                    record = orbit[:count]
+                    yield record, period, growth_of(system, record, period)
+
+
+STABLE = [
+    (1, 2.0, 2.95),
+    (2, 3.05, 3.4),
+    (3, 3.829, 3.841),
+    (4, 3.46, 3.54),
+    (5, 3.7383, 3.7411),
+    (6, 3.6266, 3.6303),
+    (8, 3.5445, 3.564),
+    (16, 3.5645, 3.5685),
+]
+"""Periods, and rates between which they are stable."""
+
+
+def test_what_is_periodic_is_so_however_short_its_record() -> None:
+    periods = set()
+    for record, period, growth in periodic_records():
+        scale = np.maximum(np.ptp(record, axis=0), 0.1)
+        if longest_in(len(record)) < period:
+            continue
+        assert recurrence_period(record, scale, 1e-3) == period
+        assert not may_recur_by_chance(record / scale, period, 1e-3)
+        assert not may_recur_by_chance(record / scale, period, 1e-3, growth)
+        periods.add(period)
+    assert periods == {1, 2, 3, 4, 5, 6, 8, 16}
+
+
+def test_what_closes_in_is_no_chance_and_what_parts_may_be() -> None:
+    k = np.arange(12.0)[:, None]
+    assert not may_recur_by_chance(5e-4 * 0.8**k, 1, 1e-3)
+    assert may_recur_by_chance(5e-4 * 0.8 ** (11.0 - k), 1, 1e-3)
+    assert not may_recur_by_chance(5e-4 * 0.8 ** (11.0 - k), 1, 1e-3, -1.0)
+    assert may_recur_by_chance(5e-4 * 0.8**k, 1, 1e-3, 2.0)
+    assert not may_recur_by_chance(1e-5 * 0.8 ** (11.0 - k), 1, 1e-3)
+    assert not may_recur_by_chance(1e-7 * 0.8 ** (11.0 - k), 1, 1e-3, 2.0)

@@ -79,6 +79,7 @@ def test_codes_keep_their_meaning() -> None:
         (ZERO, BETWEEN, 0, TURNING, UNDECIDED, "sees no regular motion"),
         (ZERO, IRREGULAR, 0, TURNING, UNDECIDED, "sees no regular motion"),
         (ZERO, None, 0, TURNING, UNDECIDED, "no telling 0-1 test"),
+        (ZERO, None, None, None, UNDECIDED, "'zero_one', or record four sections or more with"),
         (None, IRREGULAR, 0, None, UNDECIDED, "no short period is seen (K is 0.99"),
         (UNKNOWN, UNKNOWN, 0, None, UNDECIDED, "may not have settled, or have a longer"),
         (None, None, None, None, UNDECIDED, "without an exponent"),

@@ -12,7 +12,7 @@ from jointplay.solver.nonlinear.estimate import UNKNOWN
 from jointplay.solver.nonlinear.verdict import QUASI_PERIODIC, UNDECIDED, VERDICTS, decide, grounds
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import out_of_step
+from jointplay.solver.scene.periods import InStep, in_step
 from tests.solver.nonlinear.test_verdict import BETWEEN, HESITANT, NEGATIVE, REGULAR, TURNING
 
 DAMPING = 0.2
@@ -77,6 +77,20 @@ def test_sections_at_the_period_of_neither_force_lie_on_no_curve() -> None:
     assert "take sections at the period of one of two drives" in end.reason
 
 
+def test_sections_in_step_with_a_drive_are_not_asked_to_be() -> None:
+    """Of three drives without a common period sections lie on no curve, wherever they are taken."""
+    lost = REGULAR, 0, UNKNOWN
+    one = decide(NEGATIVE, *lost, drives=InStep(back=True, others=1))
+    assert "no closed curve: settle for longer or record more sections" in one.reason
+    golden = shaken(1.0, ROOT, 0.5 + 0.5 * math.sqrt(5.0), period=TURN)
+    three = in_step(Scene.model_validate(golden), TURN)
+    assert three == InStep(back=True, others=2)
+    assert "only two drives make one" in decide(NEGATIVE, *lost, drives=three).reason
+    double = Scene.model_validate(shaken(1.0, ROOT, 2.0 * ROOT, period=TURN))
+    assert in_step(double, TURN) == InStep(back=True, others=1)
+    assert in_step(double, 1.0) == InStep(back=False, others=2)
+
+
 def test_forces_with_a_common_period_recur() -> None:
     end = judged(shaken(1.0, 1.5), "zero_one", "rotation", record=16)
     assert end.indicators["verdict"] == VERDICTS["periodic"]
@@ -98,10 +112,10 @@ def test_a_refusal_says_that_the_scene_may_give_a_period() -> None:
     ],
 )
 def test_evidence_beside_such_drives_is_weighed(zero_one, rotation, code, said) -> None:
-    verdict = decide(NEGATIVE, zero_one, 0, rotation, repeats=False)
+    verdict = decide(NEGATIVE, zero_one, 0, rotation, drives=InStep(back=True, others=1))
     assert verdict.code == code
     assert said in verdict.reason
-    unsettled = decide(NEGATIVE, zero_one, 0, rotation, repeats=True)
+    unsettled = decide(NEGATIVE, zero_one, 0, rotation, drives=InStep(back=True, others=0))
     assert unsettled.code == UNDECIDED
 
 
@@ -110,11 +124,17 @@ def test_what_never_repeats_is_not_out_of_step() -> None:
     scene = shaken(1.0, period=TURN)
     begins = {"type": "ramp", "start": 0.0, "end": 1.0, "length": 3.0}
     scene["forces"]["load"] = scene["forces"]["push0"] | {"course": begins}
-    assert not out_of_step(Scene.model_validate(scene), TURN)
-    assert out_of_step(Scene.model_validate(scene), 1.0)
+    assert in_step(Scene.model_validate(scene), TURN).others == 0
+    assert in_step(Scene.model_validate(scene), 1.0).others == 1
     both = Scene.model_validate(shaken(1.0, ROOT, period=TURN))
-    assert out_of_step(both, TURN)
-    assert not out_of_step(Scene.model_validate(shaken(1.0, 1.5)), 2.0 * TURN)
+    assert in_step(both, TURN).others == 1
+    assert in_step(Scene.model_validate(shaken(1.0, 1.5)), 2.0 * TURN).others == 0
+
+
+def test_a_fast_drive_is_out_of_step_by_its_own_turns() -> None:
+    """It is 0.72 degrees farther at each section, which is 4e-7 of its 5000 turns."""
+    assert in_step(Scene.model_validate(shaken(1.0, 5000.002, period=TURN)), TURN).others == 1
+    assert in_step(Scene.model_validate(shaken(1.0, 5000.0, period=TURN)), TURN).others == 0
 
 
 def test_curves_are_seen_at_whole_periods_rather_than_at_events() -> None:

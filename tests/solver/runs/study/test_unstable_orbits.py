@@ -13,7 +13,7 @@ from jointplay.solver.nonlinear.recurrence import leaves_an_orbit
 from jointplay.solver.nonlinear.verdict import VERDICTS, grounds
 from jointplay.solver.runs.study.indicators import Sections, indicators_of
 from jointplay.solver.runs.study.run import StudyRun
-from tests.solver.nonlinear.textbook import HENON
+from tests.solver.nonlinear.textbook import HENON, logistic
 
 SHAKEN, SPEED, DRAG = 0.1, 2.0, 0.05
 """m, rad/s and N m s, of a pendulum of 1 kg and 1 m whose weight is 1 N."""
@@ -105,6 +105,35 @@ def test_chaos_is_seen_by_its_exponent_alone() -> None:
         growth = HENON.exponent + 0.1 * generator.standard_normal(58)
         told, _ = indicators_of(["lyapunov"], sections, growth[:50], growth[50:], 1.0, 100)
         assert told["verdict"] == VERDICTS["chaotic"]
+
+
+@pytest.mark.parametrize("indicators", [["recurrence"], ["lyapunov", "recurrence"]])
+def test_chaos_that_comes_back_for_a_while_is_undecided(indicators) -> None:
+    """The logistic map at 3.9 comes within 3e-5 of its unstable orbit of two points."""
+    chaos = logistic(3.9)
+    root = math.sqrt((3.9 + 1.0) * (3.9 - 3.0))
+    states = [np.array([(3.9 + 1.0 + root) / (2.0 * 3.9) + 3e-5])]
+    for _ in range(16):
+        states.append(chaos.step(states[-1]))
+    orbit = np.array(states)
+    growth = np.log(np.abs([chaos.jacobian(x)[0, 0] for x in orbit]))
+    growth = growth if "lyapunov" in indicators else growth[:0]
+    sections = Sections(orbit[:4], np.full(1, 0.1), np.zeros(1, np.bool_), 1, 1.0)
+    told, verdict = indicators_of(indicators, sections, growth[:4], growth[4:8], 1.0, 100)
+    assert told["period"] == 2.0
+    assert told["verdict"] == VERDICTS["undecided"], verdict.reason
+    assert "for a while chaos may do so, too" in verdict.reason
+    assert "record more sections" in verdict.reason
+
+
+def test_an_exponent_alone_keeps_the_period_that_was_looked_for() -> None:
+    """From what is kept it was said that whether sections recur is not known."""
+    end = judged(0.0, "lyapunov")
+    assert end.indicators["period"] == 1.0
+    assert "every section recurs after 1" in grounds(end.indicators)
+    earlier = {name: one for name, one in end.indicators.items() if name != "period"}
+    assert "its sections" in grounds(earlier)
+    assert "not known" not in grounds(earlier)
 
 
 def test_points_that_spiral_away_leave_an_orbit() -> None:
