@@ -82,7 +82,8 @@ def _outcome(calibration: Calibration, found: Found, good: EquallyGood, every: M
     values = every(np.concatenate([[exact, space.rounded(exact)], space.values(around), members]))
     costs = goals.costs(values)
     row = 1 if costs[1] <= COARSER * costs[0] else 0
-    near, far = values[2 : 2 + NEIGHBOURS], values[2 + NEIGHBOURS :]
+    near = values[2 : 2 + NEIGHBOURS]
+    far = np.concatenate([values[row : row + 1], values[2 + NEIGHBOURS :]])
     return Outcome(
         calibration,
         found,

@@ -117,8 +117,8 @@ class Outcome:
                 "quantiles": {
                     f"{q:g}": float(at) for q, at in zip(QUANTILES, quantiles[:, k], strict=True)
                 },
-                "lowest": float(ends[0, k]),
-                "highest": float(ends[1, k]),
+                "lowest": float(min(ends[0, k], self.best[k])),
+                "highest": float(max(ends[1, k], self.best[k])),
                 "open_ends": self.open_ends(k),
             }
             for k, name in enumerate(space.names)

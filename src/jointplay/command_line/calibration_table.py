@@ -6,6 +6,7 @@ from typing import Any
 
 from jointplay.command_line.output import aligned
 from jointplay.records.calibration_coverage import coverage
+from jointplay.records.calibration_misfit import best_at, misfits
 
 ROUGH = 0.5  # tolerances: more than that between neighbours is no place for a fit
 TOGETHER = 0.8  # correlation from which parameters are said to make up for one another
@@ -16,7 +17,8 @@ def calibration_lines(document: dict[str, Any]) -> Iterator[str]:
     targets, parameters = document["targets"], document["parameters"]
     yield from aligned([_TARGET_HEAD, *map(_target_row, targets)])
     yield ""
-    yield from aligned([_PARAMETER_HEAD, *map(_parameter_row, parameters)])
+    rows = [(*_parameter_row(one), _ends(document, one)) for one in parameters]
+    yield from aligned([_PARAMETER_HEAD, *rows])
     yield ""
     yield from _notes(document)
 
@@ -60,15 +62,22 @@ _PARAMETER_HEAD = ("parameter", "fitted", "unit", "5 % to 95 %", "lowest to high
 
 def _parameter_row(parameter: dict[str, Any]) -> tuple[str, ...]:
     quantiles = parameter["quantiles"]
-    ends = " and ".join(parameter["open_ends"])
     return (
         parameter["name"],
         f"{parameter['best']:g}",
         parameter["unit"],
         f"{quantiles['0.05']:.3g} to {quantiles['0.95']:.3g}",
         f"{parameter['lowest']:.3g} to {parameter['highest']:.3g}",
-        f"reaches its {ends}: the targets set no end there" if ends else "",
     )
+
+
+def _ends(document: dict[str, Any], parameter: dict[str, Any]) -> str:
+    """Return what is to be said of the ends of a parameter's range."""
+    best = best_at(document, parameter)
+    if best:
+        return f"best at its {best}: better ones may lie beyond"
+    ends = " and ".join(parameter["open_ends"])
+    return f"reaches its {ends}: the targets set no end there" if ends else ""
 
 
 def _notes(document: dict[str, Any]) -> Iterator[str]:
@@ -105,7 +114,12 @@ def _notes(document: dict[str, Any]) -> Iterator[str]:
 
 def _coverage(document: dict[str, Any]) -> Iterator[str]:
     share = coverage(document)
-    if share is not None:
+    if misfits(document):
+        yield (
+            "nothing fits: these misses are larger than errors of the tolerances' size explain; the"
+            " model, a tolerance or the range of a parameter is not right"
+        )
+    elif share is not None:
         yield (
             "these are no confidence intervals: where tolerances are standard deviations of"
             " readings whose errors are independent, 'lowest to highest' has the true value"

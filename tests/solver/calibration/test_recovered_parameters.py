@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from jointplay.command_line.calibration_table import calibration_lines
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.calibration.calibrate import NothingFits, calibrate, costs_of
 from jointplay.solver.calibration.fitted_scene import fitted_scene
@@ -178,3 +179,18 @@ def test_the_numbers_that_a_source_reports_become_cases_but_for_the_ideal_ones()
     assert sum(len(case["targets"]) for case in cases) == len(expected)
     document = bounce(scene={"preset": "seven-bar-press"}, cases=cases)
     assert admit_calibration(document).cases[0].duration == 2.0
+
+
+def test_what_lies_beyond_a_range_is_said_to():
+    """The true stiffness is five times the largest; it was said to lie in the range."""
+    free = {"stiffness": {"minimum": 1e8, "maximum": 1e9, "spacing": "log"}}
+    short = {"generations": 20}
+    found = computed(ELASTIC | {"parameters": free, "spread": short}).document()
+    (row,) = found["parameters"]
+    assert row["lowest"] <= row["best"] <= row["highest"]
+    shown = found["targets"][0]
+    assert shown["lowest"] <= shown["fitted"] <= shown["highest"]
+    told = "\n".join(calibration_lines(found))
+    assert "best at its maximum: better ones may lie beyond" in told
+    assert "nothing fits" in told
+    assert "the true value" not in told
