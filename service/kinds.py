@@ -84,5 +84,4 @@ def list_kinds() -> KindList:
 @cache
 def _list(names: tuple[str, ...]) -> KindList:
     described = description()
-    kinds = {name: described[name] | {"results": KINDS[name].results} for name in names}
-    return KindList.model_validate({"kinds": kinds})
+    return KindList.model_validate({"kinds": {name: described[name] for name in names}})

@@ -9,6 +9,7 @@ from typing import Annotated, Any, TypeVar
 
 from fastapi import Depends, Request
 
+from jointplay.records.kinds_with import kinds_with
 from jointplay.service.access import CallerDependency
 from jointplay.service.dependencies import (
     CatalogueDependency,
@@ -57,10 +58,11 @@ class ResultsOfJob:
         """Refuse with 404 what a job of this kind does not have."""
         if result not in self._names:
             addresses = ", ".join(f"/v1/jobs/{self.job.id}/{name}" for name in self._names)
+            others = kinds_with({name: kind.results for name, kind in KINDS.items()}, result)
             raise RequestRefused(
                 kinds.WRONG_KIND,
-                f"Job {self.job.id} is of kind {self.job.kind} and has no {result}; "
-                f"it has {addresses}.",
+                f"Job {self.job.id} is of kind {self.job.kind} and has no {result}{others}. "
+                f"It has {addresses}.",
             )
 
     def committed(self) -> tuple[int, int]:

@@ -39,7 +39,8 @@ def description() -> dict[str, Any]:
     ``varied`` may name, the usual first, if that is not a parameter alone; ``own`` fields are those
     of no other kind's documents.  A kind that can be asked for by one option of a command line has
     its ``option``: the ``fields`` that it stands for, the ``form`` in which they are typed, and its
-    ``name`` if that is not the kind's.
+    ``name`` if that is not the kind's.  ``results`` are the parts of a job's address where its
+    results are.
     """
     found: dict[str, Any] = {}
     for name, kind in KINDS.items():
@@ -59,6 +60,7 @@ def description() -> dict[str, Any]:
             "help": schema["description"],
             **({} if option is None else {"option": option | named}),
             "fields": fields,
+            "results": list(kind.results),
         }
     return found
 

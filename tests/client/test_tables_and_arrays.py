@@ -129,6 +129,30 @@ def test_what_a_job_of_another_kind_has_is_not_found(client, finished_job, finis
         _ = client.job(finished_job).certificate
 
 
+def test_who_asks_a_job_of_another_kind_is_told_which_kinds_have_it(
+    client, finished_job, finished_sweep
+):
+    asked = [
+        (
+            finished_job,
+            "dataset",
+            "has no dataset; jobs of kind bifurcation, sweep, .*calibration do",
+        ),
+        (finished_job, "accuracy", "has no accuracy; jobs of kind accuracy-study do"),
+        (finished_job, "attractors", "jobs of kind basins or basin-stability do"),
+        (
+            finished_sweep,
+            "history",
+            "is of kind sweep and has no history; jobs of kind simulate do",
+        ),
+        (finished_sweep, "branch", "jobs of kind continuation do"),
+        (finished_sweep, "poincare", "of kind simulate, bifurcation, .*poincare or ensemble do"),
+    ]
+    for job, name, words in asked:
+        with pytest.raises(NotFound, match=words):
+            getattr(client.job(job), name)
+
+
 def test_a_running_job_is_opened_anew_each_time(client, worker):
     job_id = worker.submit(**BIFURCATION)
     job = client.job(job_id)

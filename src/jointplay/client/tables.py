@@ -13,7 +13,9 @@ import numpy as np
 from jointplay.client.errors import MissingExtra, NotFound, ResultsNotReady
 from jointplay.client.job_record import JobRecord, read_job
 from jointplay.client.results import Results, Store
+from jointplay.job_fields import KINDS
 from jointplay.records.impact import IMPACT_UNITS
+from jointplay.records.kinds_with import kinds_with
 from jointplay.records.peak import PEAK
 from jointplay.records.point import PointStatus
 from jointplay.records.point_numbers import meanings_of
@@ -60,7 +62,7 @@ class TabledJob(JobRecord, ABC):
         """
         from jointplay.client.axes import on_axes
 
-        self._insist_on_points()
+        self._insist_on_points("dataset")
         study = self.results.study(None, None, None)
         try:
             return on_axes(study)
@@ -164,11 +166,12 @@ class TabledJob(JobRecord, ABC):
     def _insist(self, what: str, *results: str) -> None:
         """Raise `NotFound` if jobs of this kind have none of these results."""
         if not self.links.keys() & {*results}:
-            sentence = f"Job {self.id} is of kind {self.kind} and has no {what}."
+            others = kinds_with({name: one["results"] for name, one in KINDS.items()}, *results)
+            sentence = f"Job {self.id} is of kind {self.kind} and has no {what}{others}."
             raise NotFound(sentence, problem="wrong-kind")
 
-    def _insist_on_points(self) -> None:
-        self._insist("points", "points")
+    def _insist_on_points(self, what: str = "points") -> None:
+        self._insist(what, "points")
 
     def _open(self, store: Store, group: str) -> "xr.Dataset":
         from jointplay.client.attributes import in_netcdf

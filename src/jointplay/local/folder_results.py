@@ -10,6 +10,7 @@ from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.results import Impacts, Names, Peak, Seconds, Shown, Store
 from jointplay.client.window import Window
 from jointplay.figures import Options, Pace
+from jointplay.job_fields import KINDS
 from jointplay.local.exact_windows import exact_peaks, exact_window, window_of
 from jointplay.records.attractor_table import attractor_table
 from jointplay.records.branch import branch_document
@@ -17,6 +18,7 @@ from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.figure_form import Form
 from jointplay.records.impact import IMPACT_UNITS
+from jointplay.records.kinds_with import kinds_with
 from jointplay.records.resolution import of_samples
 from jointplay.records.sensitivity.analysis import NoSuchOutput, Question, Side, sensitivity
 from jointplay.records.window_query import WindowQuery
@@ -24,6 +26,9 @@ from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
+
+_MARKS = {"accuracy": "runs", "attractors": "states", "branch": "labels"}
+"""Attributes of studies that have a result which several kinds may have."""
 
 
 class FolderResults:
@@ -121,23 +126,17 @@ class FolderResults:
 
     def accuracy(self) -> dict[str, Any]:
         """Return what every method and tolerance costs and buys."""
-        study = self.study(None, None, None)
-        if "runs" not in study.attributes:
-            raise NotFound(f"{self._store} is of a {study.kind}; it has points and no accuracy.")
+        study = self._study_with("accuracy")
         return WorkPrecision.of(study).document()
 
     def attractors(self) -> dict[str, Any]:
         """Return the attractors of a map of basins, or of starts that were drawn."""
-        study = self.study(None, None, None)
-        if "states" not in study.attributes:
-            raise NotFound(f"{self._store} is of a {study.kind}; it has no attractors.")
+        study = self._study_with("attractors")
         return attractor_table(study)
 
     def calibration(self) -> dict[str, Any]:
         """Return what a calibration found."""
-        study = self.study(None, None, None)
-        if study.kind != "calibration":
-            raise NotFound(f"{self._store} is of a {study.kind}; it found no parameters.")
+        study = self._study_with("calibration")
         if 0 not in study.documents:
             raise NotFound(f"The search in {self._store} did not end.")
         return dict(study.documents[0])
@@ -146,9 +145,7 @@ class FolderResults:
         self, output: str | None, limit: float | None, failing: Side, confidence: float
     ) -> dict[str, Any]:
         """Return what one output owes to each parameter."""
-        study = self.study(None, None, None)
-        if study.kind != "sensitivity":
-            raise NotFound(f"{self._store} is of a {study.kind}; it has points and no sensitivity.")
+        study = self._study_with("sensitivity")
         if failing not in get_args(Side):
             raise _refused("failing", f"failing is {failing!r}; it is 'above' or 'below'.")
         if not 0.5 <= confidence <= 0.999:
@@ -160,9 +157,7 @@ class FolderResults:
 
     def branch(self) -> dict[str, Any]:
         """Return the branches of a continuation."""
-        study = self.study(None, None, None)
-        if "labels" not in study.attributes:
-            raise NotFound(f"{self._store} is of a {study.kind}; it has no branch.")
+        study = self._study_with("branch")
         return branch_document(study)
 
     def study(
@@ -171,7 +166,7 @@ class FolderResults:
         """Return the points of a study: all there is, whatever was asked for."""
         if isinstance(self._reader, StudyReader):
             return self._reader
-        raise NotFound(f"{self._store} is of a simulation; it has a history and no points.")
+        raise self._absent("points")
 
     def source(self, query: WindowQuery) -> ResultReader:
         """Return a simulation: all there is, whatever was asked for."""
@@ -206,7 +201,24 @@ class FolderResults:
     def _reader_of(self, what: str) -> ResultReader:
         if isinstance(self._reader, ResultReader):
             return self._reader
-        raise NotFound(f"{self._store} is of a study; it has points and no {what}.")
+        raise self._absent(what, "history")
+
+    def _study_with(self, result: str) -> StudyReader:
+        """Return the points of a study that has a result of its kind, or `NotFound`."""
+        study = self._reader
+        if isinstance(study, StudyReader) and (
+            study.kind == result or _MARKS.get(result) in study.attributes
+        ):
+            return study
+        raise self._absent(result)
+
+    def _absent(self, what: str, result: str | None = None) -> NotFound:
+        """Return the refusal of what a job of this kind does not have, as it lacks a result."""
+        kind = self._reader.attributes["job"]["kind"]
+        every = {name: one["results"] for name, one in KINDS.items()}
+        others = kinds_with(every, what if result is None else result)
+        sentence = f"{self._store} is of kind {kind} and has no {what}{others}."
+        return NotFound(sentence, problem="wrong-kind")
 
 
 def _chosen(channels: Names, reader: ResultReader) -> list[str]:

@@ -90,6 +90,14 @@ def test_what_cannot_be_is_refused_as_by_a_service(job, study):
     ):
         with pytest.raises(NotFound):
             ask()
+    for asked, name, kinds in (
+        (job, "accuracy", "accuracy-study"),
+        (job, "attractors", "basins or basin-stability"),
+        (study, "branch", "continuation"),
+        (study, "statistics", "simulate"),
+    ):
+        with pytest.raises(NotFound, match=f"has no {name}; jobs of kind {kinds} do"):
+            getattr(asked, name)
 
 
 def test_a_run_that_fails_raises_and_keeps_what_it_computed():
