@@ -19,6 +19,10 @@ from jointplay.solver.kernels.watched import CompilationTooLong, attend
 FOR_RUNS, FOR_WINDOWS = "runs", "windows"
 """Parts of the loop: what every run needs, and what makes stored steps again."""
 PARTS = (FOR_RUNS, FOR_WINDOWS)
+_REMEDY = (
+    "It is the same for every scene, and compiled once: `python -m"
+    " jointplay.solver.kernels.compile_loop` does that, then submit the job again"
+)
 
 
 def path_of(part: str) -> Path:
@@ -48,7 +52,7 @@ def wait_for(compiling: subprocess.Popen[bytes]) -> None:
     RuntimeError
         It failed.
     """
-    attend(compiling)
+    attend(compiling, "the integration loop", _REMEDY)
     if compiling.returncode < 0:
         raise CompilationTooLong(
             "compile-memory",

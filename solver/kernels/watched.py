@@ -120,8 +120,15 @@ OUT_OF_MEMORY = 3
 """Exit status of a compiling process that ran out of memory and could still say so."""
 
 
-def attend(process: subprocess.Popen[bytes]) -> None:
-    """Wait until a process that compiles ends; raise what `watched` does, and leave it running."""
+def attend(
+    process: subprocess.Popen[bytes],
+    what: str = "the equations of this scene",
+    remedy: str = "Use fewer bodies",
+) -> None:
+    """Wait until a process that compiles ends; raise what `watched` does, and leave it running.
+
+    `what` it compiles, and the `remedy` where that takes too long, are told.
+    """
     watch = _watch.get()
     if watch is None:
         process.wait()
@@ -139,6 +146,6 @@ def attend(process: subprocess.Popen[bytes]) -> None:
         if time.monotonic() > until:
             raise CompilationTooLong(
                 "compile-time",
-                f"Compiling the equations of this scene takes more than {watch.seconds:g} s, the"
-                " limit (JOINTPLAY_LONGEST_COMPILATION). Use fewer bodies.",
+                f"Compiling {what} takes more than {watch.seconds:g} s, the limit"
+                f" (JOINTPLAY_LONGEST_COMPILATION). {remedy}.",
             )

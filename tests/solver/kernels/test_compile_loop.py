@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from jointplay.solver.kernels import compile_loop, loop_code
+from jointplay.solver.kernels import compile_loop, loop_code, watched
 from jointplay.solver.kernels.emit import machine_code, slots
 from jointplay.solver.kernels.entry_point import EntryPoint
 from jointplay.solver.kernels.loop import entry_points
@@ -93,6 +93,21 @@ def test_a_loop_that_is_not_compiled_is_told_and_not_begun_again(
     with pytest.raises(kind, match=words):
         loop_code.address_in("anything", "jointplay.advance")
     assert begun == ["anything"]
+
+
+def test_a_loop_that_takes_too_long_to_compile_is_not_blamed_on_the_scene() -> None:
+    compiling = subprocess.Popen(["sleep", "1000"])
+    with (
+        compiling,
+        pytest.raises(CompilationTooLong, match="Compiling the integration loop") as ended,
+        watched.watched(lambda: None, 0.0),
+    ):
+        try:
+            loop_code.wait_for(compiling)
+        finally:
+            compiling.kill()
+    assert "kernels.compile_loop`" in str(ended.value)
+    assert "bodies" not in str(ended.value)
 
 
 def test_a_part_that_is_loaded_is_not_compiled_again(
