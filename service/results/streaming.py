@@ -6,13 +6,13 @@ from typing import Any, Final
 
 import numpy as np
 from fastapi import Response
-from fastapi.responses import StreamingResponse
 from numpy.typing import NDArray
 from pydantic import BaseModel
 from pydantic_core import to_json
 from starlette.types import Receive, Scope, Send
 
 from jointplay.service.pieces import BUDGET, LONGEST
+from jointplay.service.streamed import Streamed
 
 LEAST: Final = 50_000
 """Values: fewer are one piece anyway."""
@@ -42,7 +42,7 @@ class Parts:
 Column = NDArray[Any] | Parts
 
 
-class _Streamed(StreamingResponse):
+class _Streamed(Streamed):
     """An answer for which room must be found first."""
 
     def __init__(self, pieces: Iterator[bytes], held: int, headers: Mapping[str, str] | None):

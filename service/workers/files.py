@@ -1,15 +1,16 @@
 """``/v1/worker/blocks/{block}/{attempt}/files``: what a worker reads and writes of a block."""
 
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager
+from itertools import chain
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
-from fastapi.responses import StreamingResponse
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.streamed import Streamed
 from jointplay.service.workers.dependencies import HeldBlock, JobOfBlock
 from jointplay.service.workers.file_body import LARGEST_FILE, arrived, length_of
 from jointplay.service.workers.handed_in import HandedIn
@@ -40,7 +41,7 @@ def read_file(settings: SettingsDependency, held: HeldBlock, name: Name) -> Resp
         raise _no_file(name, error) from error
     except FileNotFoundError:
         raise RequestRefused(kinds.NOT_FOUND, f"The block has no file {name!r}.") from None
-    return StreamingResponse(_rest(first, pieces), media_type="application/octet-stream")
+    return Streamed(chain((first,), pieces), media_type="application/octet-stream")
 
 
 @router.put("/{name:path}", status_code=204)
@@ -90,12 +91,6 @@ def _naming(name: str) -> Iterator[None]:
             raise
         sentence = "The disk of the service is full."
         raise RequestRefused(kinds.DISK_FULL, sentence, headers={"Retry-After": "30"}) from fault
-
-
-def _rest(first: bytes, pieces: Iterator[bytes]) -> Iterator[bytes]:
-    yield first
-    with suppress(FileNotFoundError):  # removed meanwhile: the answer ends too early
-        yield from pieces
 
 
 def _no_file(name: str, error: Exception) -> RequestRefused:

@@ -1,13 +1,12 @@
 """``/v1/jobs/{id}/zarr.zip``: a job's sealed store in one file, from here or its bucket."""
 
 from collections.abc import Iterator
-from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, Final
 
 from fastapi import APIRouter, Request, Response
-from fastapi.responses import RedirectResponse, StreamingResponse
+from fastapi.responses import RedirectResponse
 
 from jointplay.service import entity_tags
 from jointplay.service.access.signed import SIGNED
@@ -15,6 +14,7 @@ from jointplay.service.dependencies import SettingsDependency
 from jointplay.service.fields import BINARY
 from jointplay.service.problems import RequestRefused, header, kinds, problems
 from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
+from jointplay.service.streamed import Streamed
 from jointplay.service.zarr import ranges
 from jointplay.storage.errors import LostObject
 from jointplay.storage.object_stores import StoredObject
@@ -99,7 +99,7 @@ def show_whole(
         return Response(b"", status, headers, _TYPE)
     source = _held(sealed)
     Packed(source).check(start, stop)  # whose directory is checked, too
-    return StreamingResponse(_pieces(source, start, stop), status, headers, _TYPE)
+    return Streamed(_pieces(source, start, stop), status, headers, _TYPE)
 
 
 def _sealed_version(results: ResultsOfJob) -> str:
@@ -127,6 +127,5 @@ def _held(sealed: StoredObject) -> Ranges:
 
 
 def _pieces(source: Ranges, start: int, stop: int) -> Iterator[bytes]:
-    with suppress(FileNotFoundError):  # removed from a bucket: the answer ends too early
-        for begin in range(start, stop, _PIECE):
-            yield source.read(begin, min(begin + _PIECE, stop))
+    for begin in range(start, stop, _PIECE):
+        yield source.read(begin, min(begin + _PIECE, stop))

@@ -1,9 +1,11 @@
 """The store of a job in one file: from the API, and from a bucket to which the API leads."""
 
+import logging
 import subprocess
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
+from typing import Any
 from zipfile import ZipFile
 
 import httpx
@@ -17,10 +19,12 @@ from jointplay.service.app import create_app
 from jointplay.service.zarr import whole
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.packed import Packed
+from jointplay.storage.places import StoredObject
 from jointplay.storage.settings import Settings
 from tests.seaweedfs_server import BUCKET, running_store
 from tests.service.guarded import Guarded
 from tests.service_in_thread import serving
+from tests.waiting import until
 from tests.worker_by_hand import Worker
 
 get = partial(httpx.get, trust_env=False)
@@ -74,6 +78,51 @@ def test_a_file_is_sent_to_its_end_though_its_job_is_deleted_meanwhile(
             file.write_bytes(content)
     finally:
         file.write_bytes(content)
+
+
+@pytest.mark.parametrize(
+    "fault", [ConnectionError("the store is away"), FileNotFoundError("it was removed")]
+)
+def test_a_file_that_cannot_be_read_to_its_end_is_cut_off_with_a_line_in_the_log(
+    fault: OSError,
+    http: httpx.Client,
+    finished_job: str,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    """The client sees that bytes are missing; the log had tracebacks."""
+    (size, held) = (int(http.head(address(finished_job)).headers["Content-Length"]), whole._held)
+
+    class OfBucket:
+        """A sealed store, of which nothing can be read any more once a piece of it was sent."""
+
+        def __init__(self, sealed: StoredObject) -> None:
+            self.source, self.sent = held(sealed), False
+
+        def __getattr__(self, name: str) -> Any:
+            return getattr(self.source, name)
+
+        def read(self, start: int, stop: int) -> bytes:
+            if self.sent:
+                raise fault
+            self.sent = (start, stop) == (0, 1000)
+            return self.source.read(start, stop)
+
+    monkeypatch.setattr(whole, "_held", OfBucket)
+    monkeypatch.setattr(whole, "_PIECE", 1000)
+    for log in ("uvicorn.error", "jointplay"):
+        monkeypatch.setattr(logging.getLogger(log), "handlers", [caplog.handler])
+    with pytest.raises(httpx.RemoteProtocolError, match=f"received 1000 bytes, expected {size}"):
+        http.get(address(finished_job))
+    until(lambda: "without completing" in caplog.text)  # uvicorn's own line
+    assert f"zarr.zip: the answer ended too early: {fault}" in caplog.text
+    assert "Traceback" not in caplog.text
+    monkeypatch.undo()
+    assert len(http.get(address(finished_job)).content) == size
+
+
+def address(job_id: str) -> str:
+    return f"/v1/jobs/{job_id}/zarr.zip"
 
 
 def test_the_file_and_its_ranges(guarded: Guarded, tmp_path: Path) -> None:
