@@ -39,7 +39,7 @@ export class JobRow {
     this.element.style.transform = `translateY(${top}px)`;
     const submitted = ago(job.created);
     if (this.when.textContent !== submitted) this.when.textContent = submitted;
-    const now = `${job.state} ${job.progress.fraction}`;
+    const now = `${job.state} ${job.progress.fraction} ${job.activity}`;
     if (now === this.shown) return;
     this.shown = now;
     fill(this.mark, stateMark(job.state));

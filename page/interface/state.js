@@ -17,7 +17,8 @@ export function progressWords({ state, activity, progress, job }) {
   const reached = job?.kind === "simulate" && progress?.time
     ? `, ${withUnit(progress.time, "s")} of ${withUnit(job.duration, "s")} simulated`
     : "";
-  return activity && !progress?.fraction ? activity : `${percent}${reached}`;
+  if (activity && !progress?.fraction) return activity;
+  return `${percent}${reached}${activity ? `, ${activity}` : ""}`;
 }
 
 /** Returns the name of the mechanism of a job's document. */

@@ -53,6 +53,23 @@ def test_jobs_are_listed_by_what_they_are_and_deleted(jointplay, at, worker):
     assert "expired or was deleted" in again.line()
 
 
+def test_what_a_job_waits_for_is_listed_and_shown(jointplay, at, worker, catalogue):
+    waiting = worker.submit(label="stored later")
+    worker.start(waiting)
+    (block,) = catalogue.blocks(waiting)
+    catalogue.put_off(block.id, block.attempt, "waiting for the results' place")
+    row, *_ = jointplay("ls", "-n", "1", *at).out.splitlines()
+    assert waiting in row
+    assert row.endswith("stored later  (waiting for the results' place)")
+    shown = jointplay("show", waiting, *at).out
+    assert "state     running, t = 0 s (0%), waiting for the results' place\n" in shown
+    again = worker.start(waiting).block
+    catalogue.record_progress(again.id, again.attempt, 60.0, time=0.4, fraction=0.4)
+    row, *_ = jointplay("ls", "-n", "1", *at).out.splitlines()
+    assert row.endswith("  stored later")
+    assert jointplay("cancel", waiting, *at).code == 0
+
+
 def test_an_identical_job_is_computed_again_only_if_that_is_asked_for(jointplay, at):
     job = ["submit", "pendulum", "--duration", "0.8125", *at]
     first = jointplay(*job).out

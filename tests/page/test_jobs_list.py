@@ -57,6 +57,20 @@ def test_rows_say_how_long_ago_it_is_by_now(browsing, service_url, worker):
         expect(page.locator(".row .when")).to_have_text("10 min ago")
 
 
+def test_a_job_that_only_waits_for_something_says_so(browsing, service_url, worker, catalogue):
+    """It said 41 %, as if it went on."""
+    waiting = worker.submit(label="stored later")
+    block = worker.start(waiting).block
+    catalogue.record_progress(block.id, block.attempt, 60.0, time=0.4, fraction=0.41)
+    words = re.compile("^41 %.*, waiting for the results' place$")
+    with browsing.page(f"{service_url}/#/jobs?label=stored+later") as page:
+        expect(page.locator(".row .parameters")).to_contain_text("41 %")
+        catalogue.put_off(block.id, block.attempt, "waiting for the results' place")
+        expect(page.locator(".row .parameters")).to_have_text(words)
+        page.goto(f"{service_url}/#/job/{waiting}")
+        expect(page.get_by_text(words)).to_be_visible()
+
+
 @pytest.mark.parametrize("width", [360, 1280])
 def test_of_400_jobs_those_are_drawn_that_are_seen(browsing, http, service_url, artifacts, width):
     jobs = [JOB | {"label": f"number {i} of {width}"} for i in range(400)]

@@ -37,6 +37,8 @@ def ls(
 ) -> None:
     """List the jobs of a service, newest first: id, state, progress, when, kind, label.
 
+    In brackets is what a job waits for, or is busy with before it advances.
+
     Example: `jointplay ls -n 50 --state failed --scene seven-bar-press`
     """
     chosen = {"state": state, "kind": kind, "label": label, "scene": scene}
@@ -55,4 +57,5 @@ def _row(job: "Job") -> str:
     created = job.created.astimezone().strftime("%Y-%m-%d %H:%M:%S")
     done = f"{job.progress.fraction:.0%}"
     row = f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:15}"
-    return f"{row}  {visible(', '.join(job.labels) or job.scene_name, kept='')}"
+    row += f"  {visible(', '.join(job.labels) or job.scene_name, kept='')}"
+    return row if job.is_finished or job.activity is None else f"{row}  ({job.activity})"

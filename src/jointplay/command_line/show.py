@@ -51,7 +51,8 @@ def _lines(job: "Job", found: dict[str, Any]) -> Iterator[str]:
     from jointplay.command_line.summary import result_lines
 
     yield f"{job.id}  {job.kind}  {job.label or ''}".rstrip()
-    yield f"state     {job.state}, {job.done_so_far}"
+    busy = "" if job.is_finished or job.activity is None else f", {job.activity}"
+    yield f"state     {job.state}, {job.done_so_far}{busy}"
     yield f"attempt   {job.attempt}"
     yield f"created   {job.created.astimezone():%Y-%m-%d %H:%M:%S}"
     if job.seconds is not None:
