@@ -96,16 +96,13 @@ def test_a_loop_that_is_not_compiled_is_told_and_not_begun_again(
 
 
 def test_a_loop_that_takes_too_long_to_compile_is_not_blamed_on_the_scene() -> None:
-    compiling = subprocess.Popen(["sleep", "1000"])
-    with (
-        compiling,
-        pytest.raises(CompilationTooLong, match="Compiling the integration loop") as ended,
-        watched.watched(lambda: None, 0.0),
-    ):
-        try:
+    with subprocess.Popen(["sleep", "1000"]) as compiling:
+        with (
+            pytest.raises(CompilationTooLong, match="Compiling the integration loop") as ended,
+            watched.watched(lambda: None, 0.0),
+        ):
             loop_code.wait_for(compiling)
-        finally:
-            compiling.kill()
+        compiling.kill()
     assert "kernels.compile_loop`" in str(ended.value)
     assert "bodies" not in str(ended.value)
 
