@@ -10,10 +10,13 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+from jointplay.service.processor_time import processor_time
+
 _LARGEST_LOG = 10_000_000  # bytes; a larger log is set aside when its process starts
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.2, 10.0  # seconds before a process is started again
 _STEADY = 30.0  # a process that ran this long was well: its failures are forgotten
 _BOUND = Path(__file__).with_name("bound.py")
+_LONGER = 5  # times of the patience for which a process that computes is waited for
 _POLL = 0.02
 _LITTLE = 2**16  # bytes that are free on a disk on which nothing can be started
 
@@ -109,8 +112,13 @@ class Child:
     def await_answer(
         self, answers: Callable[[], bool], patience: float, pause: Callable[[float], object]
     ) -> None:
-        """Wait until the process answers; StartFailed if it ended, or after `patience` seconds."""
-        deadline = time.monotonic() + patience
+        """Wait until the process answers; StartFailed if it ended, or comes no further.
+
+        That is when it has computed nothing for `patience` seconds, or after many times as long: on
+        a machine with much else to do it starts slowly.
+        """
+        begun = moved = time.monotonic()
+        computed = None
         while not answers():
             if not self.alive:
                 last = self.log.read_text(errors="replace").splitlines()[-12:]
@@ -118,8 +126,12 @@ class Child:
                 if shutil.disk_usage(self.log.parent).free < _LITTLE:  # which the log cannot tell
                     told.append(f"the disk with {self.log.parent} is full")
                 raise StartFailed("\n".join([f"the {self.name} ended at once:", *told]))
-            if time.monotonic() > deadline:
-                raise StartFailed(f"the {self.name} did not answer in {patience:g} s: {self.log}")
+            now, before = time.monotonic(), computed
+            computed = None if self.pid is None else processor_time(self.pid)
+            moved = moved if computed == before else now
+            if now - moved > patience or now - begun > _LONGER * patience:
+                waited = f"{now - begun:.0f} s"
+                raise StartFailed(f"the {self.name} did not answer in {waited}: {self.log}")
             pause(_POLL)
 
     def terminate(self) -> None:

@@ -1,6 +1,5 @@
 """Everything `jointplay serve` runs: broker, API, relay with reaper, workers; kept running."""
 
-import http.client
 import logging
 import os
 import select
@@ -9,7 +8,7 @@ import socket
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, closing, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager
 from functools import partial
 from pathlib import Path
 from types import FrameType
@@ -21,10 +20,11 @@ from jointplay.records.log_lines import begin
 from jointplay.service.processes.broker import Broker, answers
 from jointplay.service.processes.child import Child, StartFailed, WrongSetting
 from jointplay.service.processes.folder_lock import holding
+from jointplay.service.processes.health import Health
 from jointplay.service.processes.writable import require_writable
 from jointplay.storage.settings import Settings
 
-_START_PATIENCE = 60.0  # seconds until the API answers; a cold disk is slow
+_START_PATIENCE = 60.0  # seconds in which the API neither answers nor computes; a cold disk is slow
 _STOP_PATIENCE = 20.0  # seconds a worker has to store a restart point and give its block back
 _LOOK_AGAIN = 0.2
 _log = logging.getLogger(__name__)
@@ -151,11 +151,12 @@ class Supervisor:
 
     def _await_api(self, listener: socket.socket, wake: int) -> None:
         api = next(child for child in self._children if child.name == "API")
-        api.await_answer(
-            lambda: self._stop_asked or _healthy(listener),
-            _START_PATIENCE,
-            partial(self._pause, wake),
-        )
+        with closing(Health(listener)) as health:
+            api.await_answer(
+                lambda: self._stop_asked or health.is_good(),
+                _START_PATIENCE,
+                partial(self._pause, wake),
+            )
         api.add("--again")
 
     def _pause(self, wake: int, seconds: float = _LOOK_AGAIN) -> None:
@@ -212,17 +213,3 @@ def settings_of(data: Path | None = None) -> Settings:
 def _variable(name: object) -> str:
     """Return the variable of a field; what is no field is named as it was in a file."""
     return f"JOINTPLAY_{name}".upper() if name in Settings.model_fields else str(name).upper()
-
-
-def _healthy(listener: socket.socket) -> bool:
-    """Return whether the API behind this socket answers on /healthz."""
-    host, port = listener.getsockname()[:2]
-    if host in ("0.0.0.0", "::"):  # noqa: S104 - compared, not bound
-        host = "localhost"
-    with (
-        suppress(OSError, http.client.HTTPException),
-        closing(http.client.HTTPConnection(host, port, timeout=1.0)) as connection,
-    ):
-        connection.request("GET", "/healthz")
-        return connection.getresponse().status == http.client.OK
-    return False
