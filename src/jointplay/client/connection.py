@@ -63,6 +63,7 @@ class Connection:
             )
             raise ClientError(sentence)
         self._longest_answer = timeout
+        self._longest_connect = min(timeout, LONGEST_PAUSE)
         self.headers = {} if key is None else {"Authorization": f"Bearer {key}"}
         try:
             # a proxy from the environment cannot reach this machine's own addresses
@@ -70,7 +71,7 @@ class Connection:
             self.network = network(
                 base_url=self.url,
                 headers=self.headers,
-                timeout=httpx.Timeout(timeout, connect=min(timeout, LONGEST_PAUSE)),
+                timeout=httpx.Timeout(timeout, connect=self._longest_connect),
                 trust_env=self.trusts_environment,
             )
         except httpx.InvalidURL as error:
@@ -146,7 +147,10 @@ class Connection:
             return None, error
 
     def _unreachable(self, error: httpx.TransportError | None) -> Unreachable:
-        if isinstance(error, httpx.ConnectError | httpx.ConnectTimeout):
+        if isinstance(error, httpx.ConnectTimeout):
+            sentence = f"{self.url} took no connection in {self._longest_connect:g} s"
+            return Unreachable(f"{sentence}; it is very busy, or cannot be reached from here.")
+        if isinstance(error, httpx.ConnectError):
             sentence = "start one with `jointplay serve` or give its URL."
             return Unreachable(f"No service answers at {self.url}; {sentence}")
         broke = f"The connection to {self.url} broke ({type(error).__name__})"
