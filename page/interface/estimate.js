@@ -3,7 +3,7 @@
 import { element, fill } from "./element.js";
 import { bytes, short, span } from "./numbers.js";
 import { patiently, untilAnswered } from "../requests/patiently.js";
-import { pause, post } from "../requests/service.js";
+import { Unreachable, isBusy, pause, post } from "../requests/service.js";
 
 const QUIET = 600; // ms without a change before it is asked
 
@@ -25,6 +25,10 @@ export class Estimate {
   /** Says why there is none. */
   none(reason) {
     this.asking.abort();
+    this.say(reason);
+  }
+
+  say(reason) {
     fill(this.element, "No estimate: ", reason);
   }
 
@@ -38,7 +42,12 @@ export class Estimate {
       const slow = setTimeout(() => !signal.aborted && fill(this.element,
         "Estimating the cost … (equations are compiled the first time they are met)"), 1500);
       signal.addEventListener("abort", () => clearTimeout(slow));
-      const ask = () => patiently(() => post("/v1/estimates", job, signal), signal);
+      const ask = () => patiently(() => post("/v1/estimates", job, signal), signal, isBusy)
+        .catch((error) => {
+          clearTimeout(slow);
+          if (error instanceof Unreachable) this.say("it comes when the service answers again.");
+          throw error;
+        });
       const found = await untilAnswered(ask, signal, { away: true }).finally(() => clearTimeout(slow));
       fill(this.element, words(found));
       this.onWrong([]);

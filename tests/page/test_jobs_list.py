@@ -232,6 +232,16 @@ def test_a_service_that_comes_back_is_noticed(browsing, tmp_path):
             page.get_by_role("link", name="second").wait_for()
 
 
+def test_no_cost_is_said_to_be_estimated_while_the_service_is_away(browsing, service_url):
+    with browsing.page(f"{service_url}/#/new/pendulum", expected=CUT) as page:
+        page.get_by_text("of one core").wait_for()
+        page.route("**/v1/estimates", lambda route: route.abort())
+        page.get_by_label("Duration").fill("0.25")
+        page.get_by_text("No estimate: it comes when the service answers again.").wait_for()
+        page.unroute("**/v1/estimates")
+        page.get_by_text("of one core").wait_for()
+
+
 def test_a_key_is_asked_for_where_one_is_needed(browsing, tmp_path):
     folder = tmp_path / "data"
     with serving(create_app(Settings(data=folder, keys="required"))) as url:
