@@ -11,6 +11,7 @@ import typer
 
 from jointplay.command_line import key, scene
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.help_form import Command
 from jointplay.worker.transient_faults import is_full
 
 COMMANDS: Final = (
@@ -85,7 +86,7 @@ def _add(name: str) -> None:
     extra = EXTRAS.get(name)
     module = f"jointplay.command_line.{name}" if extra is None else f"jointplay.{extra}.command"
     try:
-        application.command(name)(getattr(import_module(module), name))
+        application.command(name, cls=Command)(getattr(import_module(module), name))
     except ModuleNotFoundError as error:
         if extra is None:
             raise

@@ -2,6 +2,7 @@
 
 import typer
 
+from jointplay.command_line.help_form import Command
 from jointplay.command_line.key import ls, new, revoke
 
 application = typer.Typer(
@@ -9,6 +10,6 @@ application = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode="markdown",
 )
-application.command("new")(new.new)
-application.command("ls")(ls.ls)
-application.command("revoke")(revoke.revoke)
+application.command("new", cls=Command)(new.new)
+application.command("ls", cls=Command)(ls.ls)
+application.command("revoke", cls=Command)(revoke.revoke)

@@ -2,6 +2,7 @@
 
 import typer
 
+from jointplay.command_line.help_form import Command
 from jointplay.command_line.scene import check, draw, presets, schema
 
 application = typer.Typer(
@@ -9,8 +10,8 @@ application = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode="markdown",
 )
-application.command("list")(presets.list_presets)
-application.command("show")(presets.show)
-application.command("check")(check.check)
-application.command("draw")(draw.draw)
-application.command("schema")(schema.schema)
+application.command("list", cls=Command)(presets.list_presets)
+application.command("show", cls=Command)(presets.show)
+application.command("check", cls=Command)(check.check)
+application.command("draw", cls=Command)(draw.draw)
+application.command("schema", cls=Command)(schema.schema)
