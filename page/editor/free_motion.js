@@ -1,8 +1,10 @@
-/** A mechanism before it is run: moved by its drivers, or dragged with the pointer. */
+/** A mechanism before it is run: moved by its drivers, or dragged with the pointer or by arrow keys. */
 
+import { PulledByKeys } from "./pulled_by_keys.js";
 import { element, fill } from "../interface/element.js";
 import { short, typed } from "../interface/numbers.js";
 import { bounds } from "../mechanism/bounds.js";
+import { palette } from "../mechanism/palette.js";
 import { withParameters } from "../mechanism/parameters.js";
 import { placeOf } from "../mechanism/placing.js";
 import { drawn, instants } from "../mechanism/sketch.js";
@@ -23,6 +25,7 @@ export class FreeMotion {
   constructor(shown, begun, signal) {
     Object.assign(this, { shown, signal, scene: null });
     this.canvas = element("canvas", { role: "img", "aria-label": "The mechanism as the text describes it" });
+    this.keys = new PulledByKeys(this.canvas, (...pull) => this.nudge(...pull), () => this.draw());
     this.slider = element("input", {
       type: "range", min: 0, max: STEPS, value: 0, id: "sweep", disabled: true,
       oninput: () => this.go(),
@@ -42,7 +45,7 @@ export class FreeMotion {
         element("label", { for: "sweep" }, "Drivers at t ="), this.now,
         element("label", { for: "until" }, "of"), this.until, "s",
         element("button", { type: "button", onclick: () => this.begin() }, "To the start"),
-        this.here),
+        this.here, this.keys.element),
       this.slider,
       this.said);
     this.scenes = new Newest((scene) => this.take(scene));
@@ -72,6 +75,7 @@ export class FreeMotion {
     });
     if (!found.poses.length) return;
     this.scene = { ...scene, curves: found.curves };
+    this.keys.offer(this.scene);
     Object.assign(this, { found, box: bounds(this.scene, found.poses) });
     const { drivers_time: own } = found;
     this.slider.disabled = this.until.disabled = own === null;
@@ -91,7 +95,8 @@ export class FreeMotion {
   /** Forgets the drivers' motion: it is asked for again when it is wanted. */
   forget() {
     this.swept = null;
-    const hint = "Drag a point to move what is free; the drivers let go meanwhile.";
+    const hint = "Drag a point, or press arrow keys on the picture, to move what is free; the drivers let go"
+      + " meanwhile.";
     fill(this.said, this.slider.disabled ? `Nothing is driven. ${hint}` : hint);
   }
 
@@ -134,6 +139,19 @@ export class FreeMotion {
     const now = bounds(this.scene, [this.pose]);
     this.box = [0, 1, 2, 3].map((i) => Math[i < 2 ? "min" : "max"](this.box[i], now[i]));
     this.view = drawn(this.canvas, this.scene, this.pose, this.box, { margin: MARGIN, labels: true });
+    this.keys.mark((point) => this.pixelOf(point), palette().accent);
+  }
+
+  /** Returns where a point `body.name` is drawn, px. */
+  pixelOf(point) {
+    return this.view.pixel(placeOf(this.scene, this.pose, point));
+  }
+
+  /** Pulls a point by some pixels from where it is. */
+  nudge(point, right, down) {
+    if (!this.scene || !this.view) return;
+    const [x, y] = this.pixelOf(point);
+    this.pulls.want({ scene: this.scene, point, place: this.view.place(x + right, y + down) });
   }
 
   /** Takes hold of the nearest point of a body; drivers let go meanwhile. */
@@ -159,7 +177,7 @@ export class FreeMotion {
   nearest([right, down]) {
     const found = Object.entries(this.scene.bodies).flatMap(([body, { points = {} }]) =>
       Object.keys(points).map((name) => {
-        const [x, y] = this.view.pixel(placeOf(this.scene, this.pose, `${body}.${name}`));
+        const [x, y] = this.pixelOf(`${body}.${name}`);
         return { point: `${body}.${name}`, distance: Math.hypot(x - right, y - down) };
       }));
     const least = Math.min(...found.map(({ distance }) => distance));

@@ -15,7 +15,7 @@ from jointplay.solver.mechanics.closing import arrays
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.runs.ideal.following import follow
 from jointplay.solver.scene import presets
-from tests.page.browsing import expect
+from tests.page.browsing import barriers, expect
 from tests.page.test_own_mechanism import paste
 from tests.two_assemblies import arm, five_bar, link, revolute, toggle
 
@@ -203,6 +203,33 @@ def test_what_nothing_drives_is_dragged_only(page) -> None:
     shown(page, presets.document("pendulum"))
     page.get_by_text("Nothing is driven.").wait_for()
     expect(page.locator("#sweep")).to_be_disabled()
+
+
+def test_a_point_is_pulled_and_kept_as_the_start_without_a_pointer(
+    browsing: Any, service_url: str
+) -> None:
+    """A mechanism that nothing drives could be moved with a pointer only."""
+    document = presets.document("pendulum") | {"parameters": {}}  # whose angle is one of them
+    body, point = "rod", "tip"
+    with browsing.page(f"{service_url}/#/editor") as page:
+        page.locator(CANVAS).wait_for()
+        start = shown(page, document)["poses"][0]
+        page.get_by_label("Arrow keys move").select_option(f"{body}.{point}")
+        page.locator(CANVAS).focus()
+        before = start
+        for key in ("ArrowUp", "ArrowUp", "ArrowLeft", "Shift+ArrowUp"):
+            page.keyboard.press(key)
+            page.wait_for_function(f"pose => !({DRAWN})(pose)", arg=before)
+            before = drawn(page)
+        assert misfit(document, before) < 1e-9
+        assert abs(before[body][2] - start[body][2]) > 0.02
+        expect(page.locator(CANVAS)).to_be_focused()
+        assert page.evaluate("scrollY") == 0  # arrow keys move the point, not the page
+        assert barriers(page) == []
+        page.get_by_role("button", name="Start here").focus()
+        with page.expect_response(posed) as answer:
+            page.keyboard.press("Enter")
+        assert flat(answer.value.json()["poses"][0]) == pytest.approx(flat(before), abs=1e-7)
 
 
 def pixel_of(page: Any, scene: dict[str, Any], pose: Any, body: str, at: list[float]) -> Any:
