@@ -6,6 +6,7 @@ given up. Longer ones share `MOST_TOGETHER` bytes until their requests are answe
 
 import asyncio
 import tempfile
+import time
 from collections.abc import Awaitable, Callable
 from typing import Annotated, Final
 
@@ -25,11 +26,11 @@ SHORT: Final = 64 * 1024
 MOST_TOGETHER: Final = 128 * 1024 * 1024
 """Bytes of all longer bodies."""
 PATIENCE: Final = 15.0
-"""Seconds that any body may take."""
+"""Seconds that any body may take, and by which one that arrives may be behind."""
 PATIENCE_OF_WORD: Final = 5.0
 """Seconds that one of a worker may take: those that hold its block have few turns."""
 SLOWEST: Final = 100_000.0
-"""Bytes a second that a longer one must arrive with: 1 Mbit/s."""
+"""Bytes a second that a longer one must arrive with, however long it is said to be: 1 Mbit/s."""
 BUDGET: Final = ByteBudget(MOST_TOGETHER, "Many large bodies are arriving; send this one again.")
 
 
@@ -39,16 +40,19 @@ async def _bounded(request: Request, largest: int, patience: float) -> bytes:
     What is beyond the limit is read and dropped, up to `MOST_DROPPED`: a client that is still
     sending when the connection closes never sees why.
     """
-    told = request.headers.get("content-length", "")
-    length = min(int(told), largest) if told.isdecimal() else largest
-    limit = patience + length / SLOWEST
+    begun, loop = time.monotonic(), asyncio.get_running_loop()
     try:
-        async with asyncio.timeout(limit):
-            return await _arrived(request, largest)
+        async with asyncio.timeout(patience) as limit:
+            until = loop.time() + patience
+
+            def keeps_up(received: int) -> None:
+                limit.reschedule(until + received / SLOWEST)
+
+            return await _arrived(request, largest, keeps_up)
     except TimeoutError:
         raise RequestRefused(
             kinds.BODY_TOO_SLOW,
-            f"The body did not arrive within {limit:.0f} s.",
+            f"The body did not arrive within {time.monotonic() - begun:.0f} s.",
             headers={"Connection": "close"},
         ) from None
     except OSError as fault:
@@ -64,11 +68,13 @@ def _not_kept(fault: OSError) -> RequestRefused:
     return unavailable("The body could not be kept while it arrived.", RETRY)
 
 
-async def _arrived(request: Request, largest: int) -> bytes:
+async def _arrived(request: Request, largest: int, keeps_up: Callable[[int], None]) -> bytes:
+    """Return the body; `keeps_up` is told how many bytes are here whenever some came."""
     received = 0
     with tempfile.SpooledTemporaryFile(SHORT) as body:
         async for chunk in request.stream():
             received += len(chunk)
+            keeps_up(min(received, largest))
             if received <= largest:
                 if received > SHORT:
                     BUDGET.take(request.scope, len(chunk))

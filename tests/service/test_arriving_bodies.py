@@ -81,3 +81,40 @@ def test_a_word_of_a_worker_holds_its_turn_for_some_seconds_whatever_it_says_of_
         asyncio.run(asyncio.wait_for(word(request), 3600.0))
     assert refused.value.kind is kinds.BODY_TOO_SLOW
     assert refused.value.detail == "The body did not arrive within 5 s."
+
+
+@pytest.mark.parametrize("told", [[(b"content-length", b"8000000")], []], ids=["told", "chunked"])
+def test_a_body_holds_its_turn_as_long_as_it_keeps_up_whatever_its_length_is_said_to_be(
+    monkeypatch: pytest.MonkeyPatch, told: list[tuple[bytes, bytes]]
+) -> None:
+    """One that was said to have 8 MB, or no length, could send nothing for 95 s."""
+    monkeypatch.setattr(body, "SLOWEST", 1e4)
+    read = body._json_body(body.LARGEST_BODY, 0.2)
+    sent: list[int] = []
+
+    async def dripping() -> Message:
+        if len(sent) == 3:
+            await asyncio.Event().wait()
+        sent.append(1000)  # for which it has a tenth of a second more
+        return {"type": "http.request", "body": b" " * 1000, "more_body": True}
+
+    headers = [(b"content-type", b"application/json"), *told]
+    request = Request({"type": "http", "method": "POST", "headers": headers}, dripping)
+    with pytest.raises(RequestRefused) as refused:
+        asyncio.run(asyncio.wait_for(read(request), 30.0))
+    assert refused.value.kind is kinds.BODY_TOO_SLOW
+
+
+def test_a_long_body_that_keeps_up_may_take_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(body, "SLOWEST", 1.0)
+    read, length = body._json_body(body.LARGEST_BODY, 0.05), 1000
+    pieces = iter([b" "] * length)
+
+    async def steady() -> Message:
+        await asyncio.sleep(0.001)
+        piece = next(pieces, b"")
+        return {"type": "http.request", "body": piece, "more_body": bool(piece)}
+
+    headers = [(b"content-type", b"application/json")]
+    request = Request({"type": "http", "method": "POST", "headers": headers}, steady)
+    assert asyncio.run(read(request)) == b" " * length
