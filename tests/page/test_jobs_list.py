@@ -3,8 +3,9 @@
 import re
 import subprocess
 import sys
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime, timedelta
+from threading import Event, Thread
 from urllib.parse import urlsplit
 
 import pytest
@@ -175,22 +176,40 @@ def test_a_batch_is_retried_and_deleted(browsing, http, service_url):
     assert http.get(f"/v1/batches/{batch}").status_code == 404
 
 
+@contextmanager
+def heard_of(catalogue, name, solver):
+    """A worker that is heard of again and again, however long a busy browser takes."""
+    ended = Event()
+
+    def note():
+        while not ended.wait(1.0):
+            catalogue.note_worker(name, solver)
+
+    catalogue.note_worker(name, solver)
+    noting = Thread(target=note)
+    noting.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        noting.join()
+
+
 def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, worker, catalogue):
     job_id = worker.submit(label="watched")
     with browsing.page(f"{service_url}/#/job/{job_id}") as page:
         page.get_by_text("Nothing is computed yet").wait_for()
         page.get_by_text("No worker is alive: ").wait_for()
         assert barriers_everywhere(page) == {}
-        catalogue.note_worker("test", Solver("1", "zen4"))
-        page.get_by_text("1 of 1 workers has nothing to do").wait_for()
-        claim = worker.start(job_id)
-        catalogue.note_worker("test", Solver("1", "zen4"))  # a worker is heard of again and again
-        page.get_by_text("running", exact=True).wait_for()
-        page.get_by_role("link", name="Document").click()
-        page.get_by_role("heading", name="Who computes it").wait_for()
-        page.get_by_role("cell", name="zen4").wait_for()
-        page.get_by_role("link", name="Workers").click()
-        page.get_by_text(f"{job_id}: block 0, for").wait_for()
+        with heard_of(catalogue, "test", Solver("1", "zen4")):
+            page.get_by_text("1 of 1 workers has nothing to do").wait_for()
+            claim = worker.start(job_id)
+            page.get_by_text("running", exact=True).wait_for()
+            page.get_by_role("link", name="Document").click()
+            page.get_by_role("heading", name="Who computes it").wait_for()
+            page.get_by_role("cell", name="zen4").wait_for()
+            page.get_by_role("link", name="Workers").click()
+            page.get_by_text(f"{job_id}: block 0, for").wait_for()
         assert barriers(page) == []
         page.goto(f"{service_url}/#/job/{job_id}/document")
         worker.store(claim, complete=False)
