@@ -2,6 +2,7 @@
 
 import asyncio
 import tempfile
+import time
 from base64 import b64encode
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -17,7 +18,8 @@ from jointplay.worker.transient_faults import is_full
 
 LARGEST_FILE: Final = 2**34
 PATIENCE: Final = 30.0
-"""Seconds that any file may take."""
+"""Seconds that any file may take, and by which one that arrives may be behind: when a machine is
+lost, nobody closes its connection."""
 SLOWEST: Final = 20_000.0
 """Bytes a second that it must arrive with beyond them."""
 
@@ -42,17 +44,17 @@ async def arrived(request: Request, folder: Path, kept: Kept) -> AsyncIterator[I
     kept
         Room that was kept for it.
     """
-    length = length_of(request)
-    patience = PATIENCE + length / SLOWEST
+    length_of(request)
+    begun = time.monotonic()
     with tempfile.TemporaryFile(dir=folder) as content:
         try:
-            async with asyncio.timeout(patience):
-                digest = await _received(request, content, kept)
+            async with asyncio.timeout(PATIENCE) as limit:
+                digest = await _received(request, content, kept, limit)
             content.flush()
         except TimeoutError:
             raise RequestRefused(
                 kinds.BODY_TOO_SLOW,
-                f"The file did not arrive within {patience:.0f} s.",
+                f"The file did not arrive within {time.monotonic() - begun:.0f} s.",
                 headers={"Connection": "close"},
             ) from None
         except OSError as fault:
@@ -70,9 +72,14 @@ async def arrived(request: Request, folder: Path, kept: Kept) -> AsyncIterator[I
         yield content
 
 
-async def _received(request: Request, content: IO[bytes], kept: Kept) -> bytes:
-    digest = sha256()
+async def _received(
+    request: Request, content: IO[bytes], kept: Kept, limit: asyncio.Timeout
+) -> bytes:
+    digest, received = sha256(), 0
+    until = asyncio.get_running_loop().time() + PATIENCE
     async for piece in request.stream():  # no more than its length: see `service.targets`
+        received += len(piece)
+        limit.reschedule(until + received / SLOWEST)
         digest.update(piece)
         content.write(piece)
         kept.wrote(len(piece))

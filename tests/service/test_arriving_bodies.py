@@ -13,6 +13,8 @@ from starlette.types import Message
 
 from jointplay.service import body
 from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.workers import file_body
+from jointplay.service.workers.uploads import Kept
 
 JSON = {"Content-Type": "application/json"}
 LONG = b" " * (4 * body.SHORT)
@@ -118,3 +120,28 @@ def test_a_long_body_that_keeps_up_may_take_its_time(monkeypatch: pytest.MonkeyP
     headers = [(b"content-type", b"application/json")]
     request = Request({"type": "http", "method": "POST", "headers": headers}, steady)
     assert asyncio.run(read(request)) == b" " * length
+
+
+def test_a_file_of_a_worker_whose_machine_was_lost_is_given_up(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Its room was kept, and its turn held, for as long as its length would have allowed: hours."""
+    monkeypatch.setattr(file_body, "PATIENCE", 0.1)
+    sent: list[bytes] = []
+
+    async def lost() -> Message:
+        if sent:
+            await asyncio.Event().wait()
+        sent.append(b"first bytes")
+        return {"type": "http.request", "body": sent[0], "more_body": True}
+
+    headers = [(b"content-length", b"500000000")]
+    request = Request({"type": "http", "method": "PUT", "headers": headers}, lost)
+
+    async def taken() -> None:
+        async with file_body.arrived(request, tmp_path, Kept(500_000_000)):
+            raise AssertionError
+
+    with pytest.raises(RequestRefused) as refused:
+        asyncio.run(asyncio.wait_for(taken(), 30.0))
+    assert refused.value.kind is kinds.BODY_TOO_SLOW
