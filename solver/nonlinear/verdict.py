@@ -29,6 +29,8 @@ LONGER, SMALLER, MORE = "settle for longer", "choose a smaller tolerance", "reco
 RECUR = "record four sections or more with the indicator 'recurrence'"
 TEST = f"record {FEWEST_TELLING} sections with the indicator 'zero_one'"
 """Remedies where nothing is decided."""
+BY_CHANCE, CREEPS = "by chance", "creeps"
+"""Doubts in that sections which recur do so for good."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +103,7 @@ def decide(
     *,
     drives: InStep | None = None,
     leaves: bool = False,
-    by_chance: bool = False,
+    doubt: str = "",
 ) -> Verdict:
     """Return the verdict on a motion from the indicators of the whole system.
 
@@ -109,8 +111,9 @@ def decide(
     period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
     number; not finite where the section is no closed curve. finer : the exponent in far smaller
     steps. drives : which are in step with sections. leaves : whether sections leave an unstable
-    orbit. by_chance : whether chaos may recur as they do. None: not known. An exponent that is not
-    finite, and a K with an error of 0.5 or more (too few sections), are as good as none.
+    orbit. doubt : in that they recur for good, BY_CHANCE or CREEPS. None: not known. An exponent
+    that is not finite, and a K with an error of 0.5 or more (too few sections), are as good as
+    none.
 
     chaotic : the exponent exceeds zero by more than three errors, in smaller steps too, nothing
         recurs, and K > 0.9. Where there is no K, an exponent will do that does not drift, if
@@ -118,7 +121,7 @@ def decide(
         part, too.
     periodic : every p-th section is the same and the exponent is not positive. An exponent near
         zero and K > 0.9 contradict that, or that sections may recur by chance; a clearly negative
-        exponent overrules both.
+        exponent overrules both. Sections that creep say nothing of where they come to.
     quasi-periodic : exponent within three errors of zero, K < 0.1, a closed curve with a rotation
         number, and no recurrence. Where what drives the mechanism does not repeat, neighbours may
         converge to such a motion: the exponent that is zero is that of the drive.
@@ -142,7 +145,7 @@ def decide(
         )
     exponent = "" if lyapunov is None else f"the exponent is {_told(lyapunov, finer)}"
     if period:
-        return _recurrent(lyapunov, zero_one, period, exponent, by_chance=by_chance)
+        return _recurrent(lyapunov, zero_one, period, exponent, doubt)
     if lyapunov is None:
         return _without_exponent(zero_one, period)
     if lyapunov.exceeds(0.0):
@@ -169,8 +172,7 @@ def _recurrent(
     zero_one: Estimate | None,
     period: int,
     exponent: str,
-    *,
-    by_chance: bool,
+    doubt: str,
 ) -> Verdict:
     recurs = f"every section recurs after {period}"
     if lyapunov is not None and lyapunov.exceeds(0.0):
@@ -179,23 +181,34 @@ def _recurrent(
             f" as the same, or an unstable orbit not yet left; {LONGER}, {SMALLER}, or start"
             " elsewhere"
         )
-    if lyapunov is not None and lyapunov.falls_below(0.0):
+    fades = lyapunov is not None and lyapunov.falls_below(0.0)
+    if doubt == CREEPS or (doubt and not fades):
+        return _undecided(f"{recurs}, but {_doubtful(doubt, exponent)}")
+    if fades:
         return Verdict(PERIODIC, period, f"{recurs} and {exponent}")
     if zero_one is not None and zero_one.value > IRREGULAR:
         return _undecided(
             f"{recurs}, yet the 0-1 test sees chaos, K is {zero_one}: {SMALLER} or {MORE}"
-        )
-    if by_chance:
-        told = f"; {exponent}" if exponent else ", or add the indicator 'lyapunov'"
-        return _undecided(
-            f"{recurs}, but for a while chaos may do so, too, where it passes an unstable orbit:"
-            f" {MORE} or {LONGER}{told}"
         )
     if lyapunov is None:
         return Verdict(PERIODIC, period, f"{recurs}; the exponent is not known")
     near = "close to a bifurcation, known too poorly to tell it from zero, or along the motion"
     near += " of a scene that nothing drives, where it is zero"
     return Verdict(PERIODIC, period, f"{recurs}; {exponent}, {near}")
+
+
+def _doubtful(doubt: str, exponent: str) -> str:
+    if doubt == CREEPS:
+        return (
+            "they creep, and if they go on so they leave what counts as the same: the motion has"
+            " not settled, or passes where an orbit is about to appear, as intermittent chaos does;"
+            f" {LONGER}, or {MORE}"
+        )
+    told = f"; {exponent}" if exponent else ", or add the indicator 'lyapunov'"
+    return (
+        "for a while chaos may do so, too, where it passes an unstable orbit:"
+        f" {MORE} or {LONGER}{told}"
+    )
 
 
 def _without_exponent(zero_one: Estimate | None, period: int | None) -> Verdict:

@@ -21,7 +21,7 @@ from jointplay.solver.nonlinear.recurrence import (
     recurrence_period,
 )
 from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
-from jointplay.solver.nonlinear.verdict import Verdict, decide
+from jointplay.solver.nonlinear.verdict import BY_CHANCE, CREEPS, Verdict, decide
 from jointplay.solver.nonlinear.whole_turns import unwound
 from jointplay.solver.nonlinear.zero_one import zero_one_test
 from jointplay.solver.runs.study.rotating_sections import (
@@ -114,9 +114,9 @@ def indicators_of(
         recurrence = seen  # neighbours of an unstable orbit part, too, whatever was asked for
         found["period"] = _number(seen)
         leaves = leaves_an_orbit(states)
-    by_chance = _by_chance(states, recurrence, log_growth if by_period else None)
+    doubt = _doubt(states, recurrence, log_growth if by_period else None)
     evidence = lyapunov, zero_one, recurrence, rotation, finer
-    verdict = decide(*evidence, drives=drives, leaves=leaves, by_chance=by_chance)
+    verdict = decide(*evidence, drives=drives, leaves=leaves, doubt=doubt)
     return found | {"verdict": float(verdict.code)}, verdict
 
 
@@ -134,18 +134,20 @@ def _number(period: int | None) -> float:
     return math.nan if period is None else float(period)
 
 
-def _by_chance(states: Floats, period: int | None, log_growth: Floats | None) -> bool:
-    """Return whether chaos may recur as these sections do for a while.
+def _doubt(states: Floats, period: int | None, log_growth: Floats | None) -> str:
+    """Return why sections that recur may not do so for good, as `decide` takes it.
 
     log_growth : (periods,) as in `indicators_of`, of sections once a period; None: of others.
     """
     if not period:
-        return False
-    widths = np.maximum(np.ptp(states, axis=0), 1.0)
+        return ""
+    whole = states / np.maximum(np.ptp(states, axis=0), 1.0)
+    if len(states) >= 3 * period and creep_to_come(whole, period) > RECURS:
+        return CREEPS
     growth = None
     if log_growth is not None and len(log_growth) and _known(log_growth):
         growth = float(_by_orbit(log_growth, period).sum())
-    return may_recur_by_chance(states / widths, period, RECURS, growth)
+    return BY_CHANCE if may_recur_by_chance(whole, period, RECURS, growth) else ""
 
 
 def _recurrence(states: Floats, *, compared: bool) -> int | None:

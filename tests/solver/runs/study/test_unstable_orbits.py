@@ -126,6 +126,25 @@ def test_chaos_that_comes_back_for_a_while_is_undecided(indicators) -> None:
     assert "record more sections" in verdict.reason
 
 
+@pytest.mark.parametrize("indicators", [["recurrence"], ["lyapunov", "recurrence"]])
+def test_intermittent_chaos_that_passes_where_an_orbit_will_be_creeps(indicators) -> None:
+    """Below 1 + root 8 the logistic map is chaotic; above, it has an orbit of three sections."""
+    rate = 1.0 + math.sqrt(8.0) - 1e-5
+    chaos = logistic(rate)
+    orbit = chaos.orbit(4000, 100)
+    growth = np.log(np.abs([chaos.jacobian(x)[0, 0] for x in orbit]))
+    recurring = wrong = 0
+    for start in range(0, 3900, 13):
+        states, grown = orbit[start : start + 50], growth[start : start + 58]
+        sections = Sections(states, np.full(1, 0.1), np.zeros(1, np.bool_), 1, 1.0)
+        grown = grown if "lyapunov" in indicators else grown[:0]
+        told, _ = indicators_of(indicators, sections, grown[:50], grown[50:], 1.0, 100)
+        recurring += told["period"] == 3.0
+        wrong += told["verdict"] == VERDICTS["periodic"]
+    assert recurring > 60
+    assert wrong < 0.2 * recurring
+
+
 def test_an_exponent_alone_keeps_the_period_that_was_looked_for() -> None:
     """From what is kept it was said that whether sections recur is not known."""
     end = judged(0.0, "lyapunov")
