@@ -103,12 +103,12 @@ def moves_in_time(scene: Scene) -> bool:
 
 
 class InStep(NamedTuple):
-    """How an interval compares with the periods of what moves a scene in time."""
+    """Comparison of an interval with the periods of what moves a scene in time."""
 
     back: bool
     """Whether it is a multiple of any."""
     others: int
-    """How many there are of which it is none, and which have no common period with each other."""
+    """Number of those of which it is none, and which have no common period with each other."""
 
 
 def in_step(scene: Scene, interval: float) -> InStep:

@@ -78,7 +78,7 @@ def test_sections_at_the_period_of_neither_force_lie_on_no_curve() -> None:
 
 
 def test_sections_in_step_with_a_drive_are_not_asked_to_be() -> None:
-    """Of three drives without a common period sections lie on no curve, wherever they are taken."""
+    """Sections of three drives without a common period lie on no curve, wherever they are taken."""
     lost = REGULAR, 0, UNKNOWN
     one = decide(NEGATIVE, *lost, drives=InStep(back=True, others=1))
     assert "no closed curve: settle for longer or record more sections" in one.reason
