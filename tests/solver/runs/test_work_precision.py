@@ -9,6 +9,7 @@ import pytest
 
 import jointplay.solver.runs.work_precision.run
 import jointplay.solver.runs.work_precision.timed_run
+from jointplay.records.energy_residual import RELATIVE_ENERGY_RESIDUAL
 from jointplay.records.point import PointEnd
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import Study, admit
@@ -19,6 +20,7 @@ from jointplay.solver.runs.work_precision.work_precision import (
     advice,
     cheapest,
 )
+from jointplay.solver.scene.presets import document
 
 PRESS = {"kind": "accuracy-study", "scene": {"preset": "seven-bar-press"}}
 FEW = PRESS | {"duration": 0.003, "methods": ["tsitouras", "rk4"], "tolerances": [1e-4, 1e-8]}
@@ -184,3 +186,24 @@ def test_a_method_that_takes_too_many_evaluations_is_given_up(
     assert points[2].evaluations > 150
     assert points[2].failure is not None
     assert points[2].failure.startswith("Given up at t =")
+
+
+def test_a_reference_that_is_given_up_says_nothing_of_looser_tolerances(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.timed_run, "BUDGET", 10)
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "MOST_REFERENCES", 0.0)
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "FEWEST", 50.0)
+    found = measured(FEW | {"methods": ["dormand-prince-853"]})
+    assert found.failures[1].code == "given-up"
+    assert all(failure.code != "left-out" for failure in found.failures.values())
+
+
+@pytest.mark.parametrize("direction", [-1.0, 1.0])
+def test_energy_that_an_element_gives_is_none_that_was_taken(direction: float) -> None:
+    scene = document("slider-crank")
+    push = {"type": "force", "magnitude": 1e4, "direction": [direction, 0.0]}
+    scene["forces"] = {"push": push | {"first": "ground.O", "second": "slider.pin"}}
+    job = PRESS | {"scene": scene, "duration": 0.004, "methods": ["tsitouras"]}
+    found = measured(job | {"tolerances": [1e-6]})
+    assert np.isfinite(found.statistics[RELATIVE_ENERGY_RESIDUAL]).all()
