@@ -39,6 +39,8 @@ WHOLE = 1e-9
 """Mismatch within which a turn is a whole number of a profile's periods."""
 POINTED = 10.0
 """A cam whose profile is no larger than that many lashes is a point."""
+ROUNDING = 1e-9
+"""Share of a profile by which the radius of a cam that is a point may be below zero."""
 CENTRED = 1e-300
 """Added to a distance (m), so that a roller in the cam's centre divides by no zero."""
 CAPTION = "Follower of joint {} on its cam"
@@ -100,7 +102,9 @@ class CamJoint(Joint):
 
     @abstractmethod
     def unreached(self, angles: Floats, profile: Derivatives) -> Iterator[tuple[str, str]]:
-        """Yield why the follower does not reach the cam all around: a field, and the sentence.
+        """Yield why the follower, with its lash, does not reach the cam all around.
+
+        A field, and the sentence.
 
         `profile` : (angles,) its values, m, and their derivatives, above zero.
         """

@@ -14,7 +14,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.solver.joints.cam import CAPTION, FOLLOWER, CamJoint, Lift
+from jointplay.solver.joints.cam import CAPTION, FOLLOWER, ROUNDING, CamJoint, Lift
 from jointplay.solver.joints.contact import ContactGeometry
 from jointplay.solver.joints.drawing import ANGLES, Curve, Drawing
 from jointplay.solver.joints.holding import Distance
@@ -110,15 +110,22 @@ class FlatFollower(CamJoint):
         yield Curve(1, np.array([[y, -x], [-y, x]]))
 
     def unreached(self, angles: Floats, profile: Derivatives) -> Iterator[tuple[str, str]]:
-        """Yield where the cam is not convex."""
+        """Yield where the cam is not convex, or would not be a lash inside of its profile."""
         radius = profile.value + profile.curvature
         least = int(radius.argmin())
+        lash = self.slack.play if self.slack else 0.0
         if radius[least] <= 0.0:
             yield (
                 "profile",
                 f"At {angles[least]:.3g} rad the cam is not convex (radius of curvature"
                 f" {radius[least]:.4g} m), so that a flat face does not reach it; enlarge the base"
                 " radius, or lift more slowly.",
+            )
+        elif lash > radius[least] * (1.0 + ROUNDING):
+            yield (
+                "clearance/lash",
+                f"A lash of {lash:g} m leaves no convex cam: at {angles[least]:.3g} rad the"
+                f" profile's radius of curvature is {radius[least]:.4g} m; it must not be larger.",
             )
 
     def _face(self, between: Ends) -> Pair:

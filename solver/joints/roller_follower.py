@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.solver.joints.cam import CAPTION, CENTRED, CamJoint, Lift
+from jointplay.solver.joints.cam import CAPTION, CENTRED, ROUNDING, CamJoint, Lift
 from jointplay.solver.joints.contact import ContactGeometry
 from jointplay.solver.joints.drawing import Curve, Drawing, circle
 from jointplay.solver.joints.holding import Distance
@@ -86,15 +86,32 @@ class RollerFollower(CamJoint):
         yield Curve(1, circle(self.roller_radius))
 
     def unreached(self, angles: Floats, profile: Derivatives) -> Iterator[tuple[str, str]]:
-        """Yield where the roller is too large for the bends of its path."""
+        """Yield where nothing of the cam is left inside of the roller and the lash."""
         value, slope, curvature = profile
         bends = value**2 + 2.0 * slope**2 - value * curvature
         bends /= (value**2 + slope**2) ** 1.5
-        most = int(bends.argmax())
+        most, lowest = int(bends.argmax()), int(value.argmin())
+        lash = self.slack.play if self.slack else 0.0
+        inside, exact = self.roller_radius + lash, 1.0 + ROUNDING
+        wide = f"a roller of {self.roller_radius:g} m"
         if bends[most] * self.roller_radius >= 1.0:
             yield (
                 "roller_radius",
                 f"At {angles[most]:.3g} rad the path of the roller's centre has a radius of"
-                f" {1.0 / bends[most]:.4g} m, within which a roller of {self.roller_radius:g} m"
+                f" {1.0 / bends[most]:.4g} m, within which {wide}"
                 " cuts the cam away; make it smaller, or enlarge the base radius.",
+            )
+        elif self.roller_radius > value[lowest] * exact:
+            yield (
+                "roller_radius",
+                f"The profile is {value[lowest]:.4g} m at {angles[lowest]:.3g} rad, where {wide}"
+                " covers the cam's centre; make it smaller, or enlarge the base radius.",
+            )
+        elif inside > value[lowest] * exact or bends[most] * inside > exact:
+            sharp = bends[most] * value[lowest] > 1.0
+            at, room = (most, 1.0 / bends[most]) if sharp else (lowest, value[lowest])
+            yield (
+                "clearance/lash",
+                f"A lash of {lash:g} m leaves nothing of the cam at {angles[at]:.3g} rad, where"
+                f" {wide} leaves it {room - self.roller_radius:.4g} m; it must not be larger.",
             )

@@ -41,6 +41,7 @@ LAW = "lankarani-nikravesh"
 GUIDE = {"type": "prismatic", "guide": "ground.O", "slider": "crank.a", "axis": [1.0, 0.0]}
 SLOT = {"type": "pin-in-slot", "slot": "ground.O", "pin": "crank.a", "axis": [1.0, 0.0]}
 WAVE = {"type": "sinusoidal", "offset": 0.03, "amplitude": 0.01, "frequency": 1.0}
+TWO_LOBES = WAVE | {"frequency": 2.0, "phase": 1.5707963267948966}
 FACE = {
     "type": "flat-follower",
     "cam": "crank.a",
@@ -273,6 +274,40 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
         {"/joints/cam": FACE | {"clearance": {"lash": 0.03, "contact": WALLS["contact"]}}},
         "/joints/cam/clearance/lash",
         ["A lash of 0.03 m leaves nothing", "whose profile is 0.02 m at 4.71 rad", "larger"],
+    ),
+    "a lash that leaves no cam inside of a roller": (
+        {
+            "/joints/cam": ROLLER
+            | {
+                "profile": {"type": "constant", "value": 0.01},
+                "roller_radius": 0.0098,
+                "clearance": {"lash": 5e-4, "contact": WALLS["contact"]},
+            }
+        },
+        "/joints/cam/clearance/lash",
+        ["A lash of 0.0005 m leaves nothing", "a roller of 0.0098 m leaves it 0.0002 m", "larger"],
+    ),
+    "a lash that leaves no convex cam": (
+        {
+            "/joints/cam": FACE
+            | {
+                "profile": TWO_LOBES | {"offset": 0.02, "amplitude": 0.0066},
+                "clearance": {"lash": 5e-4, "contact": WALLS["contact"]},
+            }
+        },
+        "/joints/cam/clearance/lash",
+        ["A lash of 0.0005 m leaves no convex cam", "radius of curvature is 0.0002 m", "larger"],
+    ),
+    "a cam that its roller cuts in two": (
+        {
+            "/joints/cam": ROLLER
+            | {
+                "profile": TWO_LOBES | {"offset": 0.01, "amplitude": 0.006},
+                "roller_radius": 0.005,
+            }
+        },
+        "/joints/cam/roller_radius",
+        ["The profile is 0.004 m at 1.57 rad", "a roller of 0.005 m covers the cam's centre"],
     ),
     "a cam whose law needs radii": (
         {"/joints/cam": FACE | {"clearance": {"lash": 1e-4, "contact": {"law": LAW}}}},
