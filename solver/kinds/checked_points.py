@@ -33,7 +33,8 @@ from jointplay.solver.scene.parameters import POINTER, set_parameters
 from jointplay.solver.scene.sizes import ill_sized
 
 LASH = "/clearance/lash"
-"""Place of numbers of which the largest is looked at: it may leave nothing of its cam."""
+"""Place of numbers of which the largest with each geometry is looked at: it may leave nothing of
+its cam."""
 
 
 def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
@@ -56,8 +57,6 @@ def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
     _check_effect(points, scenes, scene, echo)
     columns = {leaf.path: scenes.column(leaf) for leaf in scenes.leaves}
     suspects = inadmissible(scenes) | ill_sized(base, columns, points.count)
-    for path, column in columns.items():
-        suspects[column.argmax()] |= path.endswith(LASH)
     one.refuse(suspects)
     placed = PlacedPoints(points, scene, scenes, kept, of_parameters(echo, points))
     _check_mechanisms(job, one, scenes, placed.structure)
@@ -159,11 +158,10 @@ def _check_mechanisms(
         driven = (leaf for leaf in scenes.leaves if leaf.path.startswith("/drivers/"))
         shapes += [scenes.column(leaf) for leaf in driven]
     group = distinct([structure.astype(np.float64), *shapes], count)
-    _, representatives = np.unique(group, return_index=True)
-    _check_geometries(one.points, len(representatives))
+    _check_geometries(one.points, int(group.max()) + 1)
     failed: dict[int, list[Problem]] = {}
     found: set[int] = set()
-    for point in sorted(representatives.tolist()):
+    for point in _representatives(scenes, group):
         try:
             _check_mechanism(job, one.scene(point), new=int(structure[point]) not in found)
             found.add(int(structure[point]))
@@ -179,6 +177,18 @@ def _check_mechanisms(
         everywhere = not found and alike and (len(failed) > 1 or not varies)
         problems = next(iter(failed.values()))
         raise InvalidInput(problems if everywhere else one.at_values(failed, len(failed)))
+
+
+def _representatives(scenes: PointScenes, group: Integers) -> list[int]:
+    """Return a point of each group: the first, or those with the largest lash of each cam."""
+    lashes = [scenes.column(leaf) for leaf in scenes.leaves if leaf.path.endswith(LASH)]
+    if not lashes:
+        return sorted(np.unique(group, return_index=True)[1].tolist())
+    found: set[int] = set()
+    for lash in lashes:
+        order = np.lexsort((-lash, group))  # the first of several alike
+        found |= set(order[np.diff(group[order], prepend=-1) != 0].tolist())
+    return sorted(found)
 
 
 def _check_mechanism(job: MechanismJob, scene: Scene, *, new: bool) -> None:

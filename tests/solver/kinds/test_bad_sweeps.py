@@ -115,6 +115,19 @@ def test_the_largest_lash_of_a_sweep_leaves_something_of_its_cam() -> None:
     assert_refused(job, "/grid/lash/1", "leaves nothing of a cam")
 
 
+def test_the_largest_lash_of_each_cam_of_a_sweep_leaves_something_of_it() -> None:
+    scene = valve(follower("flat", {"type": "constant", "value": 0.005}))
+    paths = {"base": "/joints/cam/profile/value", "lash": "/joints/cam/clearance/lash"}
+    scene["parameters"] = {
+        name: {"help": "Length.", "unit": "m", "targets": [{"path": path}]}
+        for name, path in paths.items()
+    }
+    grid = {"base": [0.005, 0.0015], "lash": [0.001, 0.002]}  # 2 mm leave nothing of 1.5 mm alone
+    job = {"kind": "sweep", "scene": scene, "grid": grid, "periods": 1}
+    words = "Point 3 (base = 0.0015 m, lash = 0.002 m): A lash of 0.002 m leaves nothing of a cam"
+    assert_refused(job, "/grid/lash/1", words)
+
+
 def test_the_largest_offset_of_a_sweep_does_not_start_in_a_wall() -> None:
     scene = thrown(block(), 1.0, 0.0)
     scene["start"]["guides"] = {"guide": {"offset": 0.0}}
