@@ -82,8 +82,6 @@ def _onset(section: OnsetSection, checked: PlacedPoints) -> list[Problem]:
     return []
 
 
-FARTHEST = 2.0
-"""Clearances from the bearing's centre that no journal leaves: it would be as deep in the wall."""
 POINTER = "/section/value"
 LARGEST_ANGLE = 1e6
 """Angle of a section, rad: turns are told apart to 1e-10 rad there, and not at all far beyond."""
@@ -173,7 +171,10 @@ def _nearest(seen: _Seen, quantity: str, low: float) -> float:
 
 
 def _play(seen: _Seen, joint: str, quantity: str, checked: PlacedPoints) -> Iterator[Problem]:
-    """Yield what a joint's clearance rules out, at the first point where it does."""
+    """Yield what a joint's clearance rules out, at the first point where it does.
+
+    However soft a contact is, the centre of a journal is within its bearing, as at a start.
+    """
     value = seen.at_source
     if quantity == "normal_force" and value <= 0.0 and checked.declared.joints[joint].has_play:
         yield Problem(POINTER, "A normal force is never below zero; give a value above.")
@@ -183,16 +184,17 @@ def _play(seen: _Seen, joint: str, quantity: str, checked: PlacedPoints) -> Iter
     if slack is None or not checked.declared.joints[joint].is_journal:
         return
     clearance = checked.scenes.numbers(f"/joints/{joint}/clearance/{slack.play_field}")
-    farthest = FARTHEST * clearance
+    bearing = checked.scenes.numbers(f"/joints/{joint}/clearance/bearing_radius")
     low, high = (
-        (-clearance, farthest - clearance) if quantity == "penetration" else (-farthest, farthest)
+        (-clearance, bearing - clearance) if quantity == "penetration" else (-bearing, bearing)
     )
     beyond = np.flatnonzero(~((low < value) & (value < high)))
     if len(beyond):
         point = int(beyond[0])
-        sentence = f"With a radial clearance of {clearance[point]:.6g} m " + seen.refused(
-            float(low[point]), float(high[point])
-        )
+        sentence = (
+            f"With a radial clearance of {clearance[point]:.6g} m in a bearing of radius"
+            f" {bearing[point]:.6g} m "
+        ) + seen.refused(float(low[point]), float(high[point]))
         yield Problem(POINTER, checked.beginning(point) + sentence)
 
 

@@ -11,7 +11,7 @@ from jointplay.solver.mechanics.observe import body_values
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.scene.channels import BODY
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.pairs import contact_pairs
+from jointplay.solver.scene.pairs import ContactPair, contact_pairs
 from jointplay.solver.scene.periods import drivers_period, quickest_driver
 
 QUANTITIES = tuple(quantity for quantity, _, _ in BODY)
@@ -22,7 +22,6 @@ SLACK = 0.01
 """Share of a range that is granted beyond it: extremes lie between the instants looked at."""
 SECOND_ORDER = 2.0
 """Times the first-order displacement by play: what it leaves out, and the penetration."""
-
 NOTHING = 1e-12
 """Share of the largest displacement by play that is the rounding of none."""
 
@@ -43,23 +42,29 @@ class MotionReach:
     def __init__(self, scene: Scene, period: float) -> None:
         self.motion = IdealMotion(scene, period, math.inf)
         self.bodies = list(scene.bodies)
-        play = {pair.joint: pair.loosened for pair in contact_pairs(scene).values()}
+        pairs = contact_pairs(scene).values()
+        play = {pair.joint: _travel(pair) for pair in pairs}
+        lifts = {pair.joint: pair.loosened for pair in pairs if pair.of.one_sided}
         end = self.motion.path.end.time
         scales = math.ceil(end / self.motion.path.scale)
         self.instants = np.linspace(0.0, end, INSTANTS_A_PERIOD * scales + 1)
-        self.poses, self.strayed = np.empty(0), np.empty(0)
+        self.poses, self.strayed, self.lifted = np.empty(0), np.empty(0), np.empty(0)
         if self.motion.lost is None:
             self.poses = self.motion.path.poses(self.instants)
             self.strayed = SECOND_ORDER * self.motion.displacements(play, self.instants)
+            self.lifted = self.motion.displacements(lifts, self.instants).max(axis=0)
 
     def of(self, body: str, quantity: str) -> Reach | None:
         """Return the reach of a body's channel; None where play leaves it open.
 
         With play a velocity or an acceleration can be anything, unless the play does not reach
-        the body at all: then it moves as the ideal one does.
+        the body at all: then it moves as the ideal one does. So can the position of what a follower
+        carries along when it lifts off.
         """
         order, axis = divmod(QUANTITIES.index(quantity), 3)
         column = 3 * self.bodies.index(body) + axis
+        if self.lifted[column] > NOTHING * self.strayed.max():
+            return None
         if order == 0:
             path, strayed = self.poses[:, column], self.strayed[:, column]
             turns = 0
@@ -88,6 +93,15 @@ def motion_reach(scene: Scene) -> MotionReach | None:
     except np.linalg.LinAlgError:
         return None
     return None if found.motion.lost is not None else found
+
+
+def _travel(pair: ContactPair) -> dict[str, float]:
+    """Return by how much a pair may violate its joint's constraints, m or rad by part.
+
+    However soft a contact is: the centre of a journal is within its bearing.
+    """
+    most = max(1.0, pair.size / (SECOND_ORDER * pair.play)) if pair.is_journal else 1.0
+    return {part: most * loosened for part, loosened in pair.loosened.items()}
 
 
 def _widened(low: Floats, high: Floats, turns: int) -> Reach:
