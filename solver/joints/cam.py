@@ -27,7 +27,7 @@ from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.laws.function import Derivatives, Function
 from jointplay.solver.laws.function.uses import Prescribed
-from jointplay.solver.laws.function.whole_turn import TURN, whole_turn
+from jointplay.solver.laws.function.whole_turn import TURN, repeats_every_turn, whole_turn
 from jointplay.solver.quantities.frames import Pair, dot, plus, scaled
 from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine, sqrt
@@ -35,8 +35,6 @@ from jointplay.solver.quantities.units import PointReference, RadialClearance, R
 
 SAMPLES = 720
 """Angles of a turn at which a profile is looked at."""
-WHOLE = 1e-9
-"""Mismatch within which a turn is a whole number of a profile's periods."""
 POINTED = 10.0
 """A cam whose profile is no larger than that many lashes is a point."""
 ROUNDING = 1e-9
@@ -177,7 +175,7 @@ class CamJoint(Joint):
                 "A follower needs a bounded acceleration that varies smoothly; give 'smooth'.",
             )
             return
-        if not _repeats(profile.period):
+        if not repeats_every_turn(profile):
             yield (
                 "profile",
                 "A profile repeats every turn of its cam, 2 pi rad; this one repeats after"
@@ -203,11 +201,3 @@ class CamJoint(Joint):
             )
             return
         yield from self.unreached(angles, found)
-
-
-def _repeats(period: float) -> bool:
-    """Tell whether a turn is a whole number of periods, or nothing changes at all."""
-    if period == 0.0:
-        return True
-    turns = TURN / period
-    return round(turns) > 0 and abs(turns - round(turns)) <= WHOLE

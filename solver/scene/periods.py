@@ -58,25 +58,34 @@ def idle_period(scene: Scene) -> str:
 
 @once_per_scene
 def drivers_period(scene: Scene) -> Period:
-    """Return the least time after which every driven angle is back; signs do not matter."""
+    """Return the least time after which every driven angle is back; signs do not matter.
+
+    Harmonics of amplitude zero count as others, but need not have a period in common with them.
+    """
     speeds: list[float] = []
+    moving: list[float] = []
     for name, driver in scene.drivers.items():
         if isinstance(driver, MovingDriver):
             if math.isinf(driver.motion.period):
                 return Period(None, f"The motion of '{name}' never repeats, so there is no period.")
             if driver.motion.period > 0.0:
                 speeds.append(2.0 * math.pi / driver.motion.period)
+                moving += [] if driver.motion.is_constant else speeds[-1:]
         elif driver.clock_rate != 0.0:
             if not turns(scene, driver):
                 return Period(None, "A driven slider never comes back, so there is no period.")
             speeds.append(abs(driver.clock_rate))
+            moving += speeds[-1:]
     for name, element in timed(scene).items():
-        period = element.course.period if element.course is not None else 0.0
-        if math.isinf(period):
+        course = element.course
+        if course is None or course.period == 0.0:
+            continue
+        if math.isinf(course.period):
             return Period(None, f"The force '{name}' never repeats, so there is no period.")
-        if period > 0.0:
-            speeds.append(2.0 * math.pi / period)
-    return period_of(speeds)
+        speeds.append(2.0 * math.pi / course.period)
+        moving += [] if course.is_constant else speeds[-1:]
+    found = period_of(speeds)
+    return period_of(moving) if found.seconds is None and moving else found
 
 
 def never_back(scene: Scene) -> str:
@@ -140,11 +149,11 @@ def _moving(scene: Scene) -> dict[str, float]:
     found = {}
     for name, driver in scene.drivers.items():
         if isinstance(driver, MovingDriver):
-            found[name] = driver.motion.period
+            found[name] = 0.0 if driver.motion.is_constant else driver.motion.period
         elif driver.clock_rate != 0.0 and turns(scene, driver):
             found[name] = 2.0 * math.pi / abs(driver.clock_rate)
     for name, element in timed(scene).items():
-        if element.course is not None:
+        if element.course is not None and not element.course.is_constant:
             found[name] = element.course.period
     return {name: period for name, period in found.items() if period > 0.0}
 

@@ -39,8 +39,14 @@ class Function(Strict):
     def period(self) -> float:
         """Length of the argument after which it repeats: 0 if constant, infinite if it never does.
 
-        In the argument's unit.
+        In the argument's unit. A harmonic has one also where its amplitude is zero, so that a study
+        of amplitudes from zero on has one unit of time; see `is_constant`.
         """
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether it has one value everywhere."""
+        return self.period == 0.0
 
     @property
     def domain(self) -> tuple[float, float] | None:

@@ -45,8 +45,13 @@ class Sinusoidal(Function):
 
     @property
     def period(self) -> float:
-        """2 pi / frequency."""
+        """2 pi / frequency, whatever the amplitude is."""
         return 2.0 * math.pi / self.frequency
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether the amplitude is zero."""
+        return self.amplitude == 0.0
 
     @property
     def bend(self) -> float:

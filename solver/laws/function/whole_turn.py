@@ -13,7 +13,7 @@ WHOLE = 1e-9
 
 def repeats_every_turn(function: Function) -> bool:
     """Return whether a function of an angle, rad, is what it was after every turn."""
-    if function.period == 0.0:
+    if function.is_constant:
         return True
     periods = TURN / function.period
     return round(periods) > 0 and abs(periods - round(periods)) <= WHOLE

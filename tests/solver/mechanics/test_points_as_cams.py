@@ -29,6 +29,14 @@ def test_a_round_cam_is_one_down_to_a_point(shape: str, left: float) -> None:
     assert not list(cam(shape, left).problems())
 
 
+def test_a_profile_of_amplitude_zero_is_a_circle_whatever_its_frequency() -> None:
+    wave = {"type": "sinusoidal", "offset": 0.03, "amplitude": 0.0, "frequency": 1.5}
+    flat = TypeAdapter(FlatFollower)
+    assert not list(flat.validate_python(follower("flat", wave)).problems())
+    lobed = flat.validate_python(follower("flat", wave | {"amplitude": 1e-3}))
+    assert [field for field, _ in lobed.problems()] == ["profile"]
+
+
 @pytest.mark.parametrize("shape", ["flat", "roller"])
 @pytest.mark.parametrize("left", [-1e-6, -2e-4])
 def test_less_than_a_point_is_no_cam(shape: str, left: float) -> None:

@@ -97,6 +97,19 @@ def test_periods_and_scales_of_time_are_those_of_the_motion() -> None:
     assert common_period(scene_of(mixed)).seconds == pytest.approx(3.0 * 2.0 * np.pi / 5.0)
 
 
+def test_a_motion_of_amplitude_zero_needs_no_period_in_common_with_another() -> None:
+    mixed = carried(SINE | {"amplitude": 0.0})
+    still = common_period(scene_of(mixed)).seconds  # where a study of amplitudes begins
+    assert still == pytest.approx(2.0 * np.pi / 5.0, rel=1e-14)
+    mixed["drivers"]["second"] = {"joint": "P", "speed": 10.0 / 3.0}
+    assert common_period(scene_of(mixed)).seconds == pytest.approx(3.0 * 2.0 * np.pi / 5.0)
+    mixed["drivers"]["second"]["speed"] = 5.0 * np.sqrt(2.0)
+    found = common_period(scene_of(mixed)).seconds
+    assert found == pytest.approx(np.sqrt(2.0) * np.pi / 5.0, rel=1e-14)
+    mixed["drivers"]["motor"]["motion"]["amplitude"] = 1e-9
+    assert common_period(scene_of(mixed)).seconds is None
+
+
 @pytest.mark.parametrize(
     ("driver", "pointer", "words"),
     [
