@@ -10,8 +10,8 @@ from greenlet import getcurrent, greenlet
 from jointplay.records.arrays import Floats
 from jointplay.records.checkpoint import decode, encode
 from jointplay.records.point import PointEnd, StudySlice
-from jointplay.solver.calibration.calibrate import NEIGHBOURS, calibrate, costs_of
-from jointplay.solver.calibration.document import CHAINS
+from jointplay.solver.calibration.calibrate import calibrate, costs_of
+from jointplay.solver.calibration.length import most_candidates, most_runs
 from jointplay.solver.calibration.measure import Measurement
 from jointplay.solver.calibration.outcome import Outcome
 from jointplay.solver.calibration.plan import CalibrationStudy, best_of
@@ -120,10 +120,8 @@ class CalibrationRun:
 
 
 def _most_runs(study: CalibrationStudy) -> int:
-    """Return how many runs the longest search has, with the last look at all targets."""
-    calibration, cases = study.calibration, study.calibration.cases
-    bred = calibration.search.population * len(calibration.space.names)
-    candidates = bred * (calibration.search.generations + 1)
-    candidates += CHAINS * calibration.spread.generations
-    fitted = sum(any(target.weight > 0.0 for target in case.targets) for case in cases)
-    return candidates * fitted + (2 + NEIGHBOURS + CHAINS) * len(cases)
+    """Return how many runs search and spread have at most, with the last look at all targets."""
+    calibration = study.calibration
+    count = len(calibration.space.names)
+    candidates = most_candidates(calibration.search, calibration.spread, count)
+    return sum(most_runs(candidates, [case.targets for case in calibration.cases]))

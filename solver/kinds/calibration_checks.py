@@ -5,6 +5,8 @@ from typing import Any
 
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.suggestions import unknown
+from jointplay.solver.calibration.document import CHAINS
+from jointplay.solver.calibration.length import most_candidates, most_runs
 from jointplay.solver.calibration.problem import CheckedCase
 from jointplay.solver.calibration.space import Space
 from jointplay.solver.calibration.targets import target_problems
@@ -135,17 +137,18 @@ def check_corners(job: CalibrationJob) -> None:
 
 def check_size(job: CalibrationJob, cases: tuple[CheckedCase, ...]) -> None:
     """Refuse (LimitExceeded) more runs than a calibration may have, or longer ones."""
-    candidates = job.search.population * len(job.parameters) * (job.search.generations + 1)
-    runs = candidates * len(cases)
-    periods = candidates * sum(
-        float((case.study.duration / case.study.period).max()) for case in cases
-    )
-    if runs > MOST_RUNS or periods > MOST_PERIODS:
+    candidates = most_candidates(job.search, job.spread, len(job.parameters))
+    runs = most_runs(candidates, [case.targets for case in cases])
+    lengths = [float((case.study.duration / case.study.period).max()) for case in cases]
+    periods = sum(count * length for count, length in zip(runs, lengths, strict=True))
+    if sum(runs) > MOST_RUNS or periods > MOST_PERIODS:
+        spread = CHAINS * job.spread.generations
+        part = "spread" if 2 * spread > candidates else "search"
         raise LimitExceeded.at(
-            "/search/generations",
-            f"{candidates} candidates in {len(cases)} cases are {runs:.3g} runs of"
-            f" {periods:.3g} periods; the limits are {MOST_RUNS:g} and {MOST_PERIODS:g}."
-            " Ask for fewer generations, or a smaller population.",
+            f"/{part}/generations",
+            f"{candidates} candidates, {spread} of them of the spread, in {len(cases)} cases are"
+            f" {sum(runs):.3g} runs of {periods:.3g} periods; the limits are {MOST_RUNS:g} and"
+            f" {MOST_PERIODS:g}. Ask for fewer generations, or a smaller population.",
         )
 
 

@@ -136,3 +136,19 @@ def test_a_scene_given_whole_is_refused_in_the_same_places():
         with pytest.raises(InvalidInput) as refused:
             admit_calibration(bounce(scene=scene, **case(**parameters)))
         assert [p.pointer for p in refused.value.problems] == [f"{C}/{place}"]
+
+
+@pytest.mark.parametrize("weight", [1.0, 0.0])
+def test_candidates_of_the_spread_count_where_they_run(weight: float) -> None:
+    cases = [{"targets": [FORCE | {"weight": 1.0 if k == 0 else weight}]} for k in range(16)]
+    asked = bounce(cases=cases, search={"population": 2, "generations": 1})
+    asked["spread"] = {"generations": 10_000}  # of 64 chains: 10.24 million runs in 16 cases
+    if weight:
+        with pytest.raises(LimitExceeded) as refused:
+            admit_calibration(asked)
+        (problem,) = refused.value.problems
+        assert problem.pointer == "/spread/generations"
+        assert "640008 candidates, 640000 of them of the spread, in 16 cases" in problem.detail
+        assert "1.02e+07 runs" in problem.detail
+    else:
+        assert admit_calibration(asked)
