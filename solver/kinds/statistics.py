@@ -11,6 +11,7 @@ from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATISTICS
 from jointplay.solver.quantities.registry import NameIn
 from jointplay.solver.quantities.units import quantity
+from jointplay.solver.runs.study.fields import is_clearance
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.pairs import pairs_of
 from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS, STATISTICS, Output, outputs_of
@@ -51,8 +52,8 @@ def statistic_count(names: Sequence[str], channels: int, pairs: int) -> int:
 def statistic_outputs(study: Study) -> dict[str, Output]:
     """Return unit and long name of the statistics of channels and contacts that a job chose."""
     joints = study.point_scene(0).joints
-    sizes = (leaf.path for leaf in study.scenes.leaves if leaf.path.endswith("_clearance"))
-    varied = {path.split("/")[2] for path in sizes}
+    paths = [leaf.path for leaf in study.scenes.leaves]
+    varied = {path.split("/")[2] for path in paths if is_clearance(study.scenes.base, path)}
     loose = [name for name, joint in joints.items() if joint.has_play or name in varied]
     pairs = tuple(pair.name for name in loose for pair in pairs_of(name, joints[name]))
     return outputs_of(study.statistics, study.channels, pairs)

@@ -68,7 +68,7 @@ def structure_columns(scenes: PointScenes) -> Iterator[Integers]:
             for index, value in enumerate(decided):
                 form[column == value] = index + 1
             yield form
-        if _is_clearance(scenes.base, leaf.path):
+        if is_clearance(scenes.base, leaf.path):
             yield (column > 0.0).astype(np.int64)
 
 
@@ -82,7 +82,7 @@ def geometry_columns(scenes: PointScenes) -> Iterator[Floats]:
     for leaf in scenes.leaves:
         # what touches gives the scale of a mechanism none of whose bodies has two joints apart
         scale = without_lengths and OF_CLEARANCE.fullmatch(leaf.path) is not None
-        scale = scale and not _is_clearance(scenes.base, leaf.path)
+        scale = scale and not is_clearance(scenes.base, leaf.path)
         if OF_STARTS.fullmatch(leaf.path):
             column = scenes.column(leaf)
             yield (column == column.max()).astype(np.float64) - (column == column.min())
@@ -113,7 +113,8 @@ def distinct(columns: Sequence[NDArray[Any]], count: int) -> Integers:
     return np.asarray(order[which.reshape(-1)], np.int64)
 
 
-def _is_clearance(scene: Scene, path: str) -> bool:
+def is_clearance(scene: Scene, path: str) -> bool:
+    """Return whether the number at a pointer is a joint's play, whatever its type calls it."""
     found = OF_CLEARANCE.fullmatch(path)
     if found is None or found[1] not in scene.joints:
         return False
