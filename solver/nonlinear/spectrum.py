@@ -47,7 +47,7 @@ def power_spectrum(series: Floats, interval: float = 1.0, segments: int = 1) -> 
         _, cosine = sine_cosine((2.0 * np.pi / length) * np.arange(length))
         window = 0.5 - 0.5 * cosine
     columns = values.reshape(len(values), -1)
-    begins = range(0, len(values) - length + 1, length - length // 2)
+    begins = [i * (length // 2) for i in range(segments)]
     total = reduce(add, (_periodogram(columns[i : i + length], window) for i in begins))
     density = total * (interval / ((window * window).sum() * len(begins)))
     frequency = np.arange(len(density)) / (length * interval)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 
 Contacts = NDArray[np.void]
-"""Contacts that ended, of dtype `records.impact.IMPACT`."""
+"""Contacts of dtype `records.impact.IMPACT`, their release NaN where they last."""
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,19 @@ def test_averaged_segments_hold_the_variance_of_noise() -> None:
     assert np.median(spectrum.density) == pytest.approx(8.0, rel=0.05)
 
 
+@pytest.mark.parametrize(("count", "segments"), [(100, 7), (96, 7), (210, 20), (64, 1)])
+def test_as_many_windows_are_averaged_as_were_asked_for(count: int, segments: int) -> None:
+    series = np.random.default_rng(1).standard_normal(count)
+    length = 2 * count // (segments + 1)
+    window = 0.5 - 0.5 * np.cos(2.0 * math.pi * np.arange(length) / length)
+    window = window if segments > 1 else np.ones(length)
+    pieces = [series[k * (length // 2) :][:length] for k in range(segments)]
+    powers = [np.abs(np.fft.rfft(window * (piece - piece.mean()))) ** 2 for piece in pieces]
+    expected = 2.0 * np.mean(powers, axis=0) / (window**2).sum()
+    found = power_spectrum(series, segments=segments).density
+    np.testing.assert_allclose(found[1:-1], expected[1:-1], rtol=1e-9)
+
+
 @pytest.mark.parametrize("interval", [1.0, 0.02])
 @pytest.mark.parametrize("segments", [1, 4])
 def test_a_sine_is_a_line_of_half_its_amplitude_squared(interval: float, segments: int) -> None:
