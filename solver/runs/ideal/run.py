@@ -53,7 +53,8 @@ class IdealRun:
         lost = self.motion.lost
         while self.samples_done < self.admission.samples:
             begun = time.perf_counter()
-            times, local = self._sample_instants()
+            last = min(self.samples_done + ROWS_A_SLICE, self.admission.samples)
+            times, local = self._sample_instants(self.samples_done, last)
             values, lost = self._up_to(times, local, lost)
             times = times[: len(values)]
             found = self._slice(times, values, np.empty(0), self.channels(np.empty(0)))
@@ -94,9 +95,9 @@ class IdealRun:
         """See `Simulation.summary`; a run that was lost has the extremes up to there."""
         peaks = self.peaks
         if not peaks and self.samples_done:
-            times = np.arange(self.samples_done) * self.admission.job["output_step"]
-            times = times[times >= self.admission.settle]
-            values = self.channels(times)
+            times, local = self._sample_instants(0, self.samples_done)
+            settled = times >= self.admission.settle
+            times, values = times[settled], self.channels(times[settled], local[settled])
             if len(times):
                 peaks = {
                     name: sampled_peak(times, values[:, c]) for c, name in enumerate(self.names)
@@ -146,13 +147,12 @@ class IdealRun:
             except SimulationFailed as earlier:
                 lost = earlier
 
-    def _sample_instants(self) -> tuple[Floats, Floats]:
-        job, samples = self.admission.job, self.admission.samples
-        last = min(self.samples_done + ROWS_A_SLICE, samples)
-        index = np.arange(self.samples_done, last, dtype=np.float64)
-        times = index * job["output_step"]
-        local = self.motion.local(index, job["output_step"])
-        if last == samples:
+    def _sample_instants(self, first: int, last: int) -> tuple[Floats, Floats]:
+        """Return times of samples, s, and the same within the period; the last is at the end."""
+        step = self.admission.job["output_step"]
+        index = np.arange(first, last, dtype=np.float64)
+        times, local = index * step, self.motion.local(index, step)
+        if last == self.admission.samples:
             times[-1] = self.duration
             local[-1] = self.motion.local(np.ones(1), self.duration)[0]
         return times, local

@@ -63,6 +63,16 @@ def test_a_rod_too_short_to_turn_is_followed_until_it_pulls_tight() -> None:
     assert certificate.until.max() == horizon
 
 
+def test_a_run_that_is_left_before_its_extremes_has_those_of_its_samples() -> None:
+    document = job(slider_crank(0.1, 0.3)) | {"output_step": 100.0}  # samples at 0 and 0.3 s
+    simulation = Simulation(admit(document | {"duration": 0.3}))
+    samples = next(simulation.slices())
+    assert samples.sample_time.tolist() == [0.0, 0.3]
+    turned = simulation.summary().peaks["crank.theta"]
+    assert (turned.minimum_time, turned.maximum_time) == (0.0, 0.3)
+    assert turned.maximum == pytest.approx(0.3 * 2.0 * math.pi, rel=1e-14)
+
+
 def test_whole_turns_in_a_drivers_position_change_nothing_but_the_angle() -> None:
     scene = slider_crank(0.05, 0.12)
     scene["drivers"]["motor"]["position"] = 0.7
