@@ -128,10 +128,7 @@ def certify(
         "safety": safety,
         "bars": {kind: MEANINGS[kind] for kind in MEANINGS if kind in kinds},
         "kinds": kinds,
-        "exponent": None if exponent is None else asdict(exponent),
-        "exponent_note": OF_WINDOWS
-        if exponent is not None
-        else tangent_obstacle(scene) or "No window of the run was long enough.",
+        **_exponent(exponent, scene),
         "slow_impacts": int(bundle.lane(RUN).run["slow"]),
         **energy,
         "constraint_violation": _violation(violation),
@@ -148,6 +145,14 @@ def certify(
         spread,
         facts,
     )
+
+
+def _exponent(found: Exponent | None, scene: Scene) -> dict[str, Any]:
+    """Return a run's exponent, and how far it holds, or why there is none."""
+    if found is None:
+        note = tangent_obstacle(scene) or "No window of the run was long enough."
+        return {"exponent": None, "exponent_note": note}
+    return {"exponent": asdict(found), "exponent_note": OF_WINDOWS}
 
 
 def _energy(companions: Companions, tolerance: float) -> dict[str, float | None]:

@@ -93,7 +93,7 @@ class Study:
     @property
     def ends_with_events(self) -> bool:
         """Whether points end with their last section, whenever that is, or after `duration`."""
-        return not {"onset", "channel"}.isdisjoint(self.job.get("section", {}))
+        return not {"onset", "channel"}.isdisjoint(self.job.get("section") or {})
 
     @property
     def keeps_ledger(self) -> bool:

@@ -87,7 +87,7 @@ def _facts(run: PointRun) -> dict[str, Any]:
         "finer_from",
         "lasting",
     )
-    facts = {name: getattr(run, name) for name in (*names, "finer_from")}
+    facts = {name: getattr(run, name) for name in names}
     facts |= {name: len(getattr(run, name)) for name in SERIES}
     ended = run.ended and facts_of_end(run.ended)
     tried = [facts_of_end(one) for one in run.tried]

@@ -27,6 +27,16 @@ def test_sections_by_event_need_no_common_period() -> None:
     assert found.duration.tolist() == pytest.approx([43 * fastest])
 
 
+def test_a_branch_without_a_section_does_not_end_with_events() -> None:
+    scene = {"preset": "impact-oscillator"}
+    speeds = {"from": 25.0, "to": 33.0, "count": 5}
+    branch = {"kind": "continuation", "scene": scene, "parameter": "speed", "values": speeds}
+    found = study(branch)
+    assert found.job["section"] is None
+    assert not found.ends_with_events
+    assert study(POINCARE, section={"onset": "A"}).ends_with_events
+
+
 def test_what_the_job_leaves_out_is_filled_in() -> None:
     filled = study(BIFURCATION).job
     assert filled["settle"] == 100
