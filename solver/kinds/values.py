@@ -11,6 +11,7 @@ from pydantic import Field
 from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds.points import Axis
+from jointplay.solver.quantities.equal_ratios import equal_ratios
 from jointplay.solver.quantities.units import Strict, quantity
 from jointplay.solver.scene.unions import discriminated_by, form
 
@@ -54,8 +55,8 @@ def numbers(values: Range | list[float]) -> Floats:
     """Return the values, (count,); a range hits both its ends exactly."""
     if not isinstance(values, Range):
         return np.array(values, np.float64)
-    spaced = np.linspace if values.spacing == "linear" else np.geomspace
-    return spaced(values.start, values.stop, values.count, dtype=np.float64)
+    spaced = np.linspace if values.spacing == "linear" else equal_ratios
+    return spaced(values.start, values.stop, values.count)
 
 
 def axis(parameter: str, values: Range | list[float], name_pointer: str, pointer: str) -> Axis:

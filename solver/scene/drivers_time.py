@@ -6,12 +6,13 @@ from typing import NamedTuple
 import numpy as np
 
 from jointplay.solver.laws.function import Function
+from jointplay.solver.quantities.equal_ratios import equal_ratios
 from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import MovingDriver
 from jointplay.solver.scene.periods import SLOWEST, period_of
 
-LOOKED_AT = np.geomspace(1e-10, 1e10, 2001)
+LOOKED_AT = equal_ratios(1e-10, 1e10, 2001)
 """Instants at which a motion that never repeats is looked at, s: a decade beyond the lengths of a
 ramp that a document may give, 1e-9 s to 1e9 s."""
 RESTING = 1e-6

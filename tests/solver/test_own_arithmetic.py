@@ -21,6 +21,8 @@ TRANSCENDENTAL = {
         "hypot",
         "arctan2",
         "arctan",
+        "geomspace",
+        "logspace",
     ),
     *("arcsin", "arccos", "dot", "vdot", "matmul", "inner", "tensordot", "einsum", "polyfit"),
 }
