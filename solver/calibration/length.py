@@ -1,4 +1,4 @@
-"""How many runs a calibration has at most: of the search, of the spread, and of the last look."""
+"""The most runs that a calibration has: of the search, of the spread, and of the last look."""
 
 from collections.abc import Sequence
 

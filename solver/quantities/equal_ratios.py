@@ -12,7 +12,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 
 DIGITS = 40
-"""Of the logarithms and exponentials, which `decimal` rounds correctly."""
+"""Digits of the logarithms and exponentials, which `decimal` rounds correctly."""
 FEW = 16
 """Numbers of which each is a power by itself."""
 HALVING = 2.0**27 + 1.0
