@@ -138,6 +138,31 @@ def test_a_batch_is_retried_and_deleted(jointplay, at, worker, tmp_path):
     assert jointplay("delete", *new.split()[:1], "--yes", *at).code == 2
 
 
+@pytest.mark.parametrize("option", ["--state", "--kind", "--label", "--scene"])
+@pytest.mark.parametrize("command", [["delete", "--yes"], ["retry"]])
+def test_an_empty_filter_does_not_mean_the_whole_batch(jointplay, at, tmp_path, command, option):
+    press = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.3}
+    file = tmp_path / "jobs.json"
+    file.write_text(json.dumps([press | {"label": "kept"}]))
+    batch = jointplay("batch", file, *at).out.strip()
+    jointplay("batch", batch, "--cancel", *at)
+    for named in (["--batch", batch, option, ""], [option, ""]):
+        refused = jointplay(*command, *named, *at)
+        assert (refused.code, refused.out) == (2, "")
+        assert f"{option} is empty" in refused.line()
+    assert jointplay("batch", batch, *at).out == "1 jobs: 1 cancelled\n"
+
+
+def test_what_was_deleted_and_retried_before_a_refusal_is_told_as_json(jointplay, at, worker):
+    one, other = (worker.submit(duration=length) for length in (0.771, 0.772))
+    jointplay("cancel", one, *at)
+    for command in ("retry", "delete"):
+        ended = jointplay(command, one, other, "--json", *at)
+        assert ended.code == 2
+        assert other in ended.line()
+        assert list(*json.loads(ended.out).values()) == [one]
+
+
 def test_a_finished_job_is_shown_with_its_peaks(jointplay, at, finished_job):
     shown = jointplay("show", finished_job, *at).out
     assert "succeeded" in shown

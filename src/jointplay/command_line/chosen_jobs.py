@@ -26,10 +26,25 @@ class Filters(NamedTuple):
     label: str | None
     scene: str | None
 
+    @property
+    def given(self) -> bool:
+        """Whether anything is asked for."""
+        return any(one is not None for one in self)
+
     def fit(self, job: "Job") -> bool:
         """Whether a job of a batch is one of them."""
         shown = job.state, job.kind, self.label in job.labels and self.label, job.scene_name
         return all(one in (None, found) for one, found in zip(self, shown, strict=True))
+
+
+def refuse_empty(ids: Sequence[str] | None, batch: str | None, filters: Filters) -> None:
+    """Stop where one is empty, as that of a variable that is not set: it does not mean all jobs."""
+    named = {**filters._asdict(), "batch": batch}
+    for name, one in named.items():
+        if one == "":
+            raise Stopped(f"--{name} is empty; say which, or leave it out.")
+    if "" in (ids or ()):
+        raise Stopped("The id of a job is empty.")
 
 
 def chosen(
@@ -46,9 +61,9 @@ def chosen(
     Stopped
         Nothing says which, two things do, or a state is none of those.
     """
-    if ids and (batch or any(filters)):
+    if ids and (batch or filters.given):
         raise Stopped("Give ids of jobs, or say by --batch, --state and so on which; not both.")
-    if not (ids or batch or any(filters)):
+    if not (ids or batch or filters.given):
         raise Stopped("Which jobs? Give their ids, --batch, --state, --kind, --label or --scene.")
     if filters.state is not None and filters.state not in states:
         raise Stopped(f"--state is {' or '.join(states)}, not {filters.state!r}.")

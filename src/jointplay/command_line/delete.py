@@ -14,6 +14,7 @@ from jointplay.command_line.chosen_jobs import (
     Filters,
     agree,
     chosen,
+    refuse_empty,
 )
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
 from jointplay.command_line.output import print_json, print_result
@@ -42,8 +43,9 @@ def delete(
     Example: `jointplay delete --state failed --scene seven-bar-press`
     """
     filters = Filters(state, kind, label, scene)
+    refuse_empty(job_ids, batch, filters)
     with connect(url) as client:
-        if batch is not None and not (job_ids or any(filters)):
+        if batch is not None and not (job_ids or filters.given):
             whole = client.batch(batch)
             agree(f"Delete batch {batch} with its {whole.size} jobs and their results?", yes=yes)
             whole.delete()
@@ -54,9 +56,13 @@ def delete(
         jobs = chosen(client, job_ids, batch, filters, _FINISHED)
         if jobs and not job_ids:
             agree(f"Delete {len(jobs)} jobs and their results?", yes=yes)
-        for job in jobs:
-            job.delete()
-            if not as_json:
-                typer.echo(f"{job.id}  deleted")
-    if as_json:
-        print_json({"deleted": [job.id for job in jobs]})
+        deleted: list[str] = []
+        try:
+            for job in jobs:
+                job.delete()
+                deleted.append(job.id)
+                if not as_json:
+                    typer.echo(f"{job.id}  deleted")
+        finally:  # also what was done before one that cannot be deleted
+            if as_json:
+                print_json({"deleted": deleted})

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jointplay.command_line.chosen_jobs import KIND, LABEL, SCENE
+from jointplay.command_line.chosen_jobs import KIND, LABEL, SCENE, Filters, refuse_empty
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
 from jointplay.command_line.output import print_result, visible
@@ -41,12 +41,13 @@ def ls(
 
     Example: `jointplay ls -n 50 --state failed --scene seven-bar-press`
     """
-    chosen = {"state": state, "kind": kind, "label": label, "scene": scene}
-    if batch is not None and (any(chosen.values()) or since or before):
+    chosen = Filters(state, kind, label, scene)
+    refuse_empty(None, batch, chosen)
+    if batch is not None and (chosen.given or since or before):
         raise Stopped("--batch lists all jobs of a batch; leave the filters out.")
     with connect(url) as client:
         if batch is None:
-            found = client.jobs(**chosen, since=since, before=before)
+            found = client.jobs(**chosen._asdict(), since=since, before=before)
         else:
             found = client.batch(batch).jobs()
         jobs = list(islice(found, count))

@@ -4,7 +4,16 @@ from typing import Annotated
 
 import typer
 
-from jointplay.command_line.chosen_jobs import BATCH, IDS, KIND, LABEL, SCENE, Filters, chosen
+from jointplay.command_line.chosen_jobs import (
+    BATCH,
+    IDS,
+    KIND,
+    LABEL,
+    SCENE,
+    Filters,
+    chosen,
+    refuse_empty,
+)
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
 from jointplay.command_line.output import print_json, print_result
 
@@ -31,15 +40,19 @@ def retry(
     Example: `jointplay retry --state failed --scene seven-bar-press`
     """
     filters = Filters(state, kind, label, scene)
+    refuse_empty(job_ids, batch, filters)
     with connect(url) as client:
-        if batch is not None and not (job_ids or any(filters)):
+        if batch is not None and not (job_ids or filters.given):
             made = client.batch(batch).retry()
             print_result(made.to_document(), [f"{made.id}  {made.states}"], as_json=as_json)
             return
-        retried = {}
-        for job in chosen(client, job_ids, batch, filters, _UNSUCCESSFUL):
-            retried[job.id] = job.retry().id
-            if not as_json:
-                typer.echo(f"{job.id}  retried as {retried[job.id]}")
-    if as_json:
-        print_json({"retried": retried})
+        jobs = chosen(client, job_ids, batch, filters, _UNSUCCESSFUL)
+        retried: dict[str, str] = {}
+        try:
+            for job in jobs:
+                retried[job.id] = job.retry().id
+                if not as_json:
+                    typer.echo(f"{job.id}  retried as {retried[job.id]}")
+        finally:  # also what was done before one that cannot be retried
+            if as_json:
+                print_json({"retried": retried})
