@@ -19,6 +19,7 @@ from jointplay.service.results.stores import ReaderOfThePath
 from jointplay.service.results.streaming import Column
 from jointplay.service.windows import WindowProcess
 from jointplay.storage.results.reader import ResultReader
+from jointplay.worker.windows.ends import NoSuchWindow
 from jointplay.worker.windows.trajectory import Trajectory
 
 
@@ -33,12 +34,7 @@ class ExactReader:
         self, names: list[str], start: float | None, stop: float | None, step: float
     ) -> schemas.History:
         """Return channels every `step` s, or refuse."""
-        first, last = self._window(start, stop)
-        if first > last:
-            sentence = (
-                f"The run is known to {self.trajectory.reached:g} s; {first:g} s is after it."
-            )
-            raise RequestRefused.of_parameter("start", sentence)
+        first, last = self._ends(start, stop)
         check_step(step, last - first, len(names))
         count = int((last - first) / step * (1.0 + 1e-12)) + 1
         times = np.minimum(first + step * np.arange(count), last)
@@ -59,8 +55,7 @@ class ExactReader:
     ) -> schemas.Overview | str:
         """Return extremes of equal spans of time, or a sentence: why they are not known exactly."""
         check_points(points, len(names))
-        first, last = self._window(start, stop)
-        edges = self.trajectory.edges(first, last, points)
+        edges = self.trajectory.edges(start, stop, points)
         try:
             found = self.trajectory.extremes(names, edges)
         except RequestRefused as busy:
@@ -83,7 +78,7 @@ class ExactReader:
         Those so far leave out what the job leaves out as settling.
         """
         names = [channel.name for channel in self.reader.channels]
-        first, last = self._window(start, stop)
+        first, last = self._ends(start, stop)
         so_far = start is None and stop is None
         if so_far:
             first = float(self.reader.attributes["job"].get("settle", 0.0))
@@ -97,10 +92,11 @@ class ExactReader:
         rows = found.values[0].tolist()
         return {name: Peak(*row) for name, row in zip(names, rows, strict=True)}
 
-    def _window(self, start: float | None, stop: float | None) -> tuple[float, float]:
-        reached = self.trajectory.reached
-        first = 0.0 if start is None else max(start, 0.0)
-        return first, reached if stop is None else min(stop, reached)
+    def _ends(self, start: float | None, stop: float | None) -> tuple[float, float]:
+        try:
+            return self.trajectory.ends(start, stop)
+        except NoSuchWindow as error:
+            raise RequestRefused.of_parameter(error.end, str(error)) from None
 
 
 def resolution(found: Resolution | None) -> schemas.Resolution | None:

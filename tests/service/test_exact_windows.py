@@ -143,6 +143,11 @@ def test_what_cannot_be_computed_is_refused_or_said(http, job, worker):
     assert "most" in ask(http, job, step=1e-9, status=422)["detail"]
     after = ask(http, job, step=1e-3, start=2 * DURATION, status=422)
     assert after["errors"][0]["parameter"] == "start"
+    for what, more in (("history", {"step": 1e-3}), ("peaks", {})):
+        for end, query in (("start", {"start": 2 * DURATION}), ("stop", {"stop": -1.0})):
+            refused = ask(http, job, what, 422, **query, **more)
+            assert [one["parameter"] for one in refused["errors"]] == [end]
+    assert ask(http, job, "peaks", start=DURATION)["peaks"][FORCE]["maximum_time"] == DURATION
     by_hand = worker.finished(label="without steps")
     assert "keeps no steps" in ask(http, by_hand, step=1e-3, status=422)["detail"]
     assert "keeps no steps" in ask(http, by_hand, "peaks", start=0.5, status=422)["detail"]

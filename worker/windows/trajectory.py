@@ -12,6 +12,7 @@ from jointplay.records.arrays import Floats
 from jointplay.records.resolution import Resolution
 from jointplay.records.works import WORKS
 from jointplay.storage.results.reader import ResultReader
+from jointplay.worker.windows.ends import ROUNDING, NoSuchWindow, ends_of
 from jointplay.worker.windows.intervals import Intervals
 from jointplay.worker.windows.pieces import between, folded, merged
 from jointplay.worker.windows.question import Answer, Question, together
@@ -32,8 +33,6 @@ PARTS = 8
 """Pieces of a step on a path: no corner is seen between them."""
 EVEN = 10_000
 """Instants of a path of an ideal motion."""
-ROUNDING = 1e-12
-"""Share of a time by which a window may go beyond what is kept."""
 
 
 def at_once(channels: int, a_channel: float) -> int:
@@ -87,14 +86,21 @@ class Trajectory:
     def _finest(self) -> Resolution:
         return Resolution("motion" if self._is_motion else "steps")
 
-    def edges(self, start: float, stop: float, points: int) -> Floats:
+    def ends(self, start: float | None, stop: float | None) -> tuple[float, float]:
+        """Return both ends, s, of what is known of a window, or raise `NoSuchWindow`."""
+        return ends_of(self.reached, start, stop)
+
+    def edges(self, start: float | None, stop: float | None, points: int) -> Floats:
         """Return edges (at most `points` + 1,), s, between which extremes are known exactly.
 
         They are even where steps are kept, and samples' times where they are not, from that before
-        the window to that behind it. One edge, and nothing between, where `stop` comes first.
+        the window to that behind it. One edge, and nothing between, where the run has nothing of
+        the window.
         """
-        if stop < start:
-            return np.array([start])
+        try:
+            start, stop = self.ends(start, stop)
+        except NoSuchWindow:
+            return np.array([max(start or 0.0, 0.0)])
         whole = self._intervals
         if whole is None or stop <= whole.begin or not stop > start:
             return np.linspace(start, stop, points + 1) if stop > start else np.array([start, stop])

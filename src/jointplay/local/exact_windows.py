@@ -32,16 +32,20 @@ def exact_window(
     names: Sequence[str],
     query: WindowQuery,
 ) -> Window | str:
-    """Return values at instants, or extremes of spans, of channels; or why there are none."""
+    """Return values at instants, or extremes of spans, of channels; or why there are none.
+
+    Raises
+    ------
+    NoSuchWindow
+        Of instants: the run has nothing of the window. There are no spans then.
+    """
     trajectory, step = trajectory_of(reader), query.step
-    first, last = _ends(trajectory, query.start, query.stop)
     if step is not None:
         if query.points is not None or not step > 0.0 or not np.isfinite(step):
             return "Give either a positive step in s, or points."
-        if first > last:
-            return f"The run is known to {trajectory.reached:g} s; {first:g} s is after it."
-        return _values(reader, trajectory, names, first, last, step)
-    edges = trajectory.edges(first, last, query.points or 1)
+        ends = trajectory.ends(query.start, query.stop)
+        return _values(reader, trajectory, names, *ends, step)
+    edges = trajectory.edges(query.start, query.stop, query.points or 1)
     found = trajectory.extremes(names, edges)
     if found.values is None:
         return found.refused
@@ -80,10 +84,16 @@ def _values(
 def exact_peaks(
     reader: ResultReader, start: float | None, stop: float | None
 ) -> dict[str, Peak] | str:
-    """Return the extremes of all channels in a window; or why there are none."""
+    """Return the extremes of all channels in a window; or why there are none.
+
+    Raises
+    ------
+    NoSuchWindow
+        The run has nothing of the window.
+    """
     trajectory = trajectory_of(reader)
     names = [channel.name for channel in reader.channels]
-    found = trajectory.extremes(names, np.array(_ends(trajectory, start, stop)))
+    found = trajectory.extremes(names, np.array(trajectory.ends(start, stop)))
     if found.values is None:
         return found.refused
     rows = found.values[0].tolist()
@@ -100,8 +110,3 @@ def window_of(
         for name, values in columns.items()
     }
     return Window(np.asarray(time, np.float64), series, reader.complete, **more)
-
-
-def _ends(trajectory: Trajectory, start: float | None, stop: float | None) -> tuple[float, float]:
-    last = trajectory.reached if stop is None else min(stop, trajectory.reached)
-    return 0.0 if start is None else max(start, 0.0), last

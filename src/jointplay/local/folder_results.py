@@ -26,6 +26,7 @@ from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
+from jointplay.worker.windows.ends import NoSuchWindow
 
 _MARKS = {"accuracy": "runs", "attractors": "states", "branch": "labels"}
 """Attributes of studies that have a result which several kinds may have."""
@@ -63,7 +64,8 @@ class FolderResults:
             raise _refused("points", f"points is {points}; it is at least 1.")
         note = ""
         if not query.of_samples:
-            found = exact_window(reader, names, query)
+            with _refusals():
+                found = exact_window(reader, names, query)
             if isinstance(found, Window):
                 return found
             if query.step is not None:
@@ -93,7 +95,8 @@ class FolderResults:
         reader = self._reader_of("peaks")
         found = reader.peaks()
         if (start, stop) != (None, None):
-            looked = exact_peaks(reader, start, stop)
+            with _refusals():
+                looked = exact_peaks(reader, start, stop)
             if isinstance(looked, str):
                 raise _refused("start", looked)
             found = looked
@@ -234,6 +237,8 @@ def _refusals() -> Iterator[None]:
         yield
     except NoSuchChannel as error:
         raise _refused("channels", *error.sentences) from None
+    except NoSuchWindow as error:
+        raise _refused(error.end, str(error)) from None
     except figures.UnknownFigure as error:
         raise NotFound(str(error), problem="unknown-figure") from None
     except figures.NotDrawable as error:

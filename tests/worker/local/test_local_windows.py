@@ -1,10 +1,13 @@
 """Pictures and windows of a run in a folder: peaks that samples step over are at their places."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
 import jointplay
 from jointplay import figures
+from jointplay.client.errors import Refused
 from jointplay.figures import between_samples, sampling
 from jointplay.figures.bearing_angles import loads
 from jointplay.figures.kind import Selection
@@ -109,6 +112,16 @@ def test_windows_of_a_folder_are_those_of_a_service(job, peak):
     assert len(fine.time) == 1001
     found = job.results.peaks(0.0, 0.03)[FORCE]
     assert found.maximum <= peak.maximum * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("start", "stop", "end"), [(0.03, 0.01, "stop"), (None, -1.0, "stop"), (0.07, None, "start")]
+)
+def test_a_window_that_the_run_does_not_have_is_refused(job, start, stop, end):
+    for ask in (job.results.peaks, partial(job.window, FORCE, step=1e-3)):
+        with pytest.raises(Refused) as refused:
+            ask(start=start, stop=stop)
+        assert [one.pointer for one in refused.value.fields] == [end]
 
 
 def test_a_long_window_is_read_in_pieces_with_the_same_result(source, monkeypatch):
