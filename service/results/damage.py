@@ -18,6 +18,7 @@ from jointplay.service.problems.handlers import answer
 from jointplay.service.problems.refusals import refusal
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.records import NOT_REPRODUCED
 from jointplay.storage.installation import OtherFiles, require_own_files
 from jointplay.storage.settings import Settings
 
@@ -38,7 +39,7 @@ def refusal_of(job_id: str, settings: Settings, catalogue: Catalogue, found: str
         if catalogue.expired(job):  # its files go while it is read
             return expired(job)
         require_own_files(settings, catalogue)
-        if job.state.terminal and job.damaged != found:
+        if job.state.terminal and job.damaged not in (found, NOT_REPRODUCED):
             _log.error("results of job %s are damaged: %s", job_id, found)
             catalogue.mark_damaged(job_id, found)
     except OtherFiles as error:

@@ -191,9 +191,13 @@ def mark_removed(unit: Unit, jobs: Sequence[str]) -> None:
 
 
 def mark_damaged(unit: Unit, job: str, damage: str | None) -> None:
-    """Remember which file of a finished job's results is damaged; none: they are whole again."""
+    """Remember which file of a finished job's results is damaged; none: they are whole again.
+
+    That they are `NOT_REPRODUCED` stays, whatever their files are.
+    """
     finished = (_job.c.id == job) & _job.c.state.in_(TERMINAL)
-    unit.execute(update(_job).where(finished).values(damaged=damage))
+    of_files = _job.c.damaged.is_distinct_from(NOT_REPRODUCED)
+    unit.execute(update(_job).where(finished, of_files).values(damaged=damage))
 
 
 def mark_not_reproduced(unit: Unit, job_id: str) -> Job:
@@ -208,8 +212,7 @@ def mark_not_reproduced(unit: Unit, job_id: str) -> Job:
     job = lock_job(unit, job_id)
     if not job.state.terminal:
         raise JobNotFinished(job_id, job.state.value)
-    if job.damaged is None:
-        unit.execute(update(_job).where(_job.c.id == job_id).values(damaged=NOT_REPRODUCED))
+    unit.execute(update(_job).where(_job.c.id == job_id).values(damaged=NOT_REPRODUCED))
     return labelled_job(unit, job_id)
 
 

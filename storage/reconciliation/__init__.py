@@ -39,7 +39,7 @@ def findings(
         Of the installation.
     more
         Further checks, which only other packages can make.
-    look
+    extent
         How closely results are looked at, and who hears how far that is; by default at every byte.
     """
     extent = extent or Extent()

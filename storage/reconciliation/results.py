@@ -29,7 +29,7 @@ def damage(
 ) -> Iterator[Finding]:
     """Compare the results of jobs that have ended with what was stored.
 
-    All are looked for in a list of what there is; of those that `look` chooses, of those that are
+    All are looked for in a list of what there is; of those that `extent` chooses, of those that are
     marked as damaged or not in that list, every byte is read.
     """
     extent = extent or Extent()
@@ -50,15 +50,16 @@ def damage(
             found = damage_of(settings, job) or _unsealed_damage(settings, catalogue, job)
         except JobNotFound:  # its row has gone meanwhile
             return None
-        whole = found is None and job.damaged == NOT_REPRODUCED  # which no look at bytes can tell
-        return job, NOT_REPRODUCED if whole else found
+        mismatched = job.damaged == NOT_REPRODUCED  # which no look at bytes can tell
+        return job, NOT_REPRODUCED if found is None and mismatched else found
 
     for done, (_, one) in enumerate(several_at_once(compared, chosen)):
         extent.report(done / len(chosen), f"read {done} of {len(chosen)} results")
         if one is None:
             continue
         job, found = one
-        mended = None if found == job.damaged else _MENDED[found is None]
+        known = job.damaged in (found, NOT_REPRODUCED)
+        mended = None if known else _MENDED[found is None]
         if (found is None and mended is None) or _has_gone(catalogue, job):
             continue
         yield Finding(

@@ -18,8 +18,8 @@ from obstore.store import HTTPStore
 from jointplay.service.app import create_app
 from jointplay.service.zarr import whole
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
 from jointplay.storage.settings import Settings
 from tests.seaweedfs_server import BUCKET, running_store
 from tests.service.guarded import Guarded

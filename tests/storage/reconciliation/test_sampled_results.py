@@ -5,9 +5,10 @@ from collections.abc import Iterable, Sequence
 
 import pytest
 
+from jointplay.storage.catalogue.records import NOT_REPRODUCED
 from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.reconciliation import Extent, Finding, extent, findings, results
-from tests.storage.reconciliation.harms import flip, remove
+from tests.storage.reconciliation.harms import content_of, flip, remove, write
 from tests.storage.reconciliation.installation import Installed
 
 
@@ -63,6 +64,28 @@ def test_what_is_not_there_or_is_marked_is_found_whatever_the_sample(
     remove(installed.sealed("succeeded"))
     (finding,) = looked(installed, Extent(seed))
     assert finding.found.endswith("is gone")
+
+
+@pytest.mark.parametrize("first", ["contradicted", "damaged"])
+def test_contradicted_results_stay_so_when_a_file_is_damaged_and_restored(
+    installed: Installed, first: str
+) -> None:
+    job, catalogue = installed.jobs["succeeded"], installed.catalogue
+    if first == "damaged":
+        catalogue.mark_damaged(job, "it was")
+    catalogue.mark_not_reproduced(job)
+    sealed = installed.sealed("succeeded")
+    whole = content_of(sealed)
+    flip(sealed)
+    (finding,) = looked(installed, Extent())
+    assert finding.found != NOT_REPRODUCED
+    assert (finding.mended, finding.mend) == (None, None)
+    catalogue.mark_damaged(job, finding.found)  # as a request for the file does
+    write(sealed, whole)
+    (finding,) = looked(installed, Extent())
+    assert (finding.found, finding.mend) == (NOT_REPRODUCED, None)
+    catalogue.mark_damaged(job, None)
+    assert catalogue.get(job).damaged == NOT_REPRODUCED
 
 
 def test_what_is_in_its_place_is_not_asked_for_again(
