@@ -12,12 +12,12 @@ from jointplay.figures.animation.picture import DOTS_PER_INCH, picture
 from jointplay.figures.animation.reel import Reel, channels
 from jointplay.figures.animation.still import ANIMATION
 from jointplay.figures.animation.video import video
-from jointplay.figures.animation.whole import whole
 from jointplay.figures.kind import NotDrawable, Selection
 from jointplay.figures.options import Options
 from jointplay.figures.quantity import showing
 from jointplay.records.figure_form import FILM_FORMS
 from jointplay.records.run import Source
+from jointplay.records.whole_file import whole
 
 
 def film(

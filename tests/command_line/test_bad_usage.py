@@ -10,7 +10,7 @@ from jointplay import client, figures
 from jointplay.command_line import application
 from jointplay.command_line.application import EXITS
 from jointplay.command_line.job_document import job_document
-from jointplay.exports import table_columns
+from jointplay.exports import table_query
 from jointplay.records import failure, strict_json, table_files
 from jointplay.service import processes
 from jointplay.service.processes.folder_lock import holding
@@ -196,6 +196,23 @@ def test_a_parameter_set_in_a_wrong_file_says_what_is_wrong_with_the_file(
     assert "/scene/parameters" in ended.err
 
 
+@pytest.mark.parametrize(
+    "varies",
+    [
+        {"kind": "sweep", "grid": {"speed": [3.0, 4.0]}, "duration": 0.1},
+        {"kind": "sweep", "points": [{"speed": 3.0}, {"speed": 4.0}], "duration": 0.1},
+        {"kind": "bifurcation", "parameter": "speed", "values": [3.0, 4.0]},
+    ],
+    ids=["by a grid", "by a list", "by a diagram"],
+)
+def test_a_value_that_a_job_in_a_file_varies_is_refused(jointplay, tmp_path, varies):
+    scene = presets.document("seven-bar-press")
+    (tmp_path / "job.json").write_text(json.dumps(varies | {"scene": scene}))
+    ended = jointplay("run", tmp_path / "job.json", "--set", "speed=5", "-o", tmp_path / "OUT")
+    assert ended.code == 2
+    assert "--set speed: the study varies speed" in ended.line()
+
+
 @pytest.mark.parametrize("setting", [["--set", "friction=0.1,0.2"], ["--set=friction=0.1,0.2"]])
 def test_a_value_that_is_none_is_refused_as_it_was_typed(jointplay, tmp_path, setting):
     (tmp_path / "own.json").write_text(json.dumps(presets.document("slider-crank")))
@@ -269,7 +286,7 @@ def test_exit_codes_are_of_exceptions_that_there_are():
         errors,
         of_the_catalogue,
     )
-    modules += (table_columns, table_files)
+    modules += (table_query, table_files)
     unknown = [name for name in EXITS if not any(hasattr(module, name) for module in modules)]
     assert unknown == []
 

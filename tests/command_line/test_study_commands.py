@@ -205,13 +205,29 @@ def test_extremes_of_a_sweep_are_exported(jointplay, at, finished_sweep):
     [
         (["--start", "20"], "points 0 to 19"),
         (["--start", "0.5"], "--start 0.5"),
+        (["--start", "2.7"], "--start 2.7"),
+        (["--start", "4", "--stop", "4"], "points 0 to 19"),
+        (["--points", "9"], "--points is of a history"),
         (["--channels", "A.excentricity_x"], "A.eccentricity_x"),
+        (["--channels", "A.excentricity_x", "--table", "points"], "A.excentricity_x"),
     ],
 )
-def test_points_and_observables_that_there_are_not(jointplay, at, finished_study, options, says):
-    ended = jointplay("export", finished_study, *options, *at)
+@pytest.mark.parametrize("form", ["csv", "npz"])
+def test_points_and_observables_that_there_are_not(
+    jointplay, at, finished_study, tmp_path, options, says, form
+):
+    ended = jointplay("export", finished_study, *options, "-o", tmp_path / f"a.{form}", *at)
     assert ended.code == 2
     assert says in ended.line()
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("form", ["csv", "npz"])
+def test_channels_of_impacts_are_refused_in_every_form(jointplay, at, finished_job, tmp_path, form):
+    asked = ["--table", "impacts", "--channels", "slider7.x", "-o", tmp_path / f"a.{form}"]
+    ended = jointplay("export", finished_job, *asked, *at)
+    assert ended.code == 2
+    assert "--channels are not in the table impacts" in ended.line()
 
 
 def test_of_a_simulation_there_are_no_points_and_no_samples_beyond_its_end(
@@ -219,7 +235,7 @@ def test_of_a_simulation_there_are_no_points_and_no_samples_beyond_its_end(
 ):
     ended = jointplay("export", finished_job, "--table", "points", *at)
     assert ended.code == 2
-    assert "--table points" in ended.line()
+    assert "--table: a simulation has no table 'points'" in ended.line()
     beyond = jointplay("export", finished_job, "--start", "5", *at)
     assert beyond.code == 2
     assert "--start 5 is after the end of" in beyond.line()

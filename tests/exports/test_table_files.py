@@ -1,9 +1,11 @@
 """A job's tables in every form of file: the same numbers, bit for bit, and their units."""
 
 import csv
+import errno
 import io
 import json
 import sys
+from pathlib import Path
 
 import numpy as np
 import pyarrow
@@ -13,6 +15,7 @@ from scipy.io import loadmat
 
 import jointplay
 from jointplay import jobs
+from jointplay.exports.table_query import NoSuchPart
 from jointplay.records import table_files
 from jointplay.records.table_files import NotInstalled, UnknownForm, form_of
 
@@ -123,6 +126,37 @@ def test_verdicts_have_their_reasons_and_exponents_their_unit_in_every_table(tmp
     assert float(cells["smallest_step [s]"]) > 0
     assert judged.points.attrs["units"]["lyapunov"] == "1/s"
     assert judged.dataset["lyapunov"].attrs["units"] == "1/s"
+
+
+@pytest.mark.parametrize(
+    "asked", [{"start": -3}, {"start": 2.7}, {"stop": np.nan}, {"start": 10**6}, {"step": 1e-3}]
+)
+def test_points_that_a_study_does_not_have_are_refused(study, tmp_path, asked):
+    with pytest.raises(NoSuchPart, match=f"^{next(iter(asked))}"):
+        study.export(tmp_path / "x.npz", **asked)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_table_that_is_not_whole_leaves_the_one_before(job, tmp_path, monkeypatch):
+    def half(path, content):
+        with path.open("wb") as file:
+            file.write(content[:9])
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    file = tmp_path / "x.npz"
+    file.write_bytes(b"the table before")
+    link = tmp_path / "link.npz"
+    link.symlink_to(file)
+    monkeypatch.setattr(Path, "write_bytes", half)
+    for name in (file, link):
+        with pytest.raises(OSError, match="No space"):
+            job.export(name)
+    assert file.read_bytes() == b"the table before"
+    assert sorted(tmp_path.iterdir()) == [link, file]
+    monkeypatch.undo()
+    job.export(link)
+    assert of_npz(file).keys() == of_npz(link).keys()
+    assert link.is_symlink()
 
 
 def test_what_no_form_is_named_for_is_refused(job, study, tmp_path):

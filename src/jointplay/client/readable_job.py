@@ -14,7 +14,7 @@ from jointplay.records.study import StudySource
 from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
-    from jointplay.exports.table_columns import Table
+    from jointplay.exports.table_query import Table
     from jointplay.records.sensitivity.analysis import Side
 
 Names = str | Sequence[str]
@@ -169,16 +169,24 @@ class ReadableJob(TabledJob):
         Returns
         -------
         Path
-            Of the file.
+            Of the file; there is none, or the one before, if it could not be written whole.
+
+        Raises
+        ------
+        NoSuchTable, NoSuchPart
+            Errors of values: the job has no such table, or the table no such part.
         """
         from jointplay.exports.table_columns import columns_of
         from jointplay.records.table_files import encode, form_of
+        from jointplay.records.whole_file import whole
 
         form_of(path)  # before anything is fetched
         query = WindowQuery(_listed(channels), start, stop, points, step)
         columns = columns_of(self, table, query)
         file = Path(path)
-        file.write_bytes(encode(file, columns, complete=self.state == "succeeded"))
+        content = encode(file, columns, complete=self.state == "succeeded")
+        with whole(file) as partial:
+            partial.write_bytes(content)
         return file
 
     @property

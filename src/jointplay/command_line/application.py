@@ -118,6 +118,7 @@ EXITS: Final = {
     "InvalidInput": Exit.BAD_INPUT,
     "MalformedJson": Exit.BAD_INPUT,
     "NoSuchTable": Exit.BAD_INPUT,
+    "NoSuchPart": Exit.BAD_INPUT,
     "UnknownForm": Exit.BAD_INPUT,
     "NotInstalled": Exit.BAD_INPUT,
     "FigureError": Exit.BAD_INPUT,

@@ -6,9 +6,11 @@ from typing import Annotated
 
 import typer
 
+from jointplay.command_line.exits import Stopped
 from jointplay.command_line.exporting import Asked, Form, Table, Text, text_of
 from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, URL, job_of, listed
 from jointplay.command_line.typed_window import check_start
+from jointplay.exports.table_query import NoSuchPart, NoSuchTable
 from jointplay.records.window_query import WindowQuery
 
 TABLE = Annotated[
@@ -81,10 +83,14 @@ def export(
     asked.check()
     with job_of(results, url) as job:
         check_start(job, start)
-        if binary and output is not None:
-            job.export(output, table, listed(channels), start, stop, points=points, step=step)
-            return
-        text = text_of(job, asked)
+        try:
+            if binary and output is not None:
+                job.export(output, table, listed(channels), start, stop, points=points, step=step)
+                return
+            text = text_of(job, asked)
+        except (NoSuchTable, NoSuchPart) as error:
+            option = "--table: " if isinstance(error, NoSuchTable) else "--"
+            raise Stopped(f"{option}{error}") from None
         if output is None:
             sys.stdout.writelines(text.pieces)
         else:
@@ -99,13 +105,15 @@ def _is_binary(output: Path) -> bool:
 
 
 def _write(text: Text, output: Path) -> None:
-    """Write the text to a file; a comma a value tells how far it is."""
+    """Write the text to a file, whole or not at all; a comma a value tells how far it is."""
     from jointplay.progress import progress
+    from jointplay.records.whole_file import whole
 
     written = 0
-    with output.open("w", encoding="utf-8") as file, progress(output.name) as report:
-        for piece in text.pieces:
-            file.write(piece)
-            written += piece.count(",")
-            report(min(written / max(text.values, 1), 0.99), "")
+    with whole(output) as partial, progress(output.name) as report:
+        with partial.open("w", encoding="utf-8") as file:
+            for piece in text.pieces:
+                file.write(piece)
+                written += piece.count(",")
+                report(min(written / max(text.values, 1), 0.99), "")
         report(1.0, "")

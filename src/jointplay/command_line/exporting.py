@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.typed_window import check_ends
+from jointplay.exports.table_query import Table, check, point_range
 from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
@@ -13,9 +14,6 @@ if TYPE_CHECKING:
     from jointplay.records.study import StudySource
 
 Form = Literal["csv", "json"]
-Table = Literal["history", "poincare", "peaks", "impacts", "points"]
-_OF_SIMULATIONS = ("history", "poincare", "peaks", "impacts")
-_OF_STUDIES = ("poincare", "points")
 
 
 class Asked(NamedTuple):
@@ -29,9 +27,6 @@ class Asked(NamedTuple):
         """Refuse windows that are none, with `Stopped`."""
         points, step = self.query.points, self.query.step
         check_ends(self.query.start, self.query.stop)
-        for option, asked in (("--points", points), ("--step", step)):
-            if asked is not None and self.table not in (None, "history"):
-                raise Stopped(f"{option} is of a history; {self.table} is written as it is.")
         if step is not None and (points is not None or not step > 0.0):
             raise Stopped("--step is a time in seconds between instants, without --points.")
 
@@ -44,11 +39,8 @@ class Text(NamedTuple):
 
 
 def text_of(job: "Job", asked: Asked) -> Text:
-    """Return the text of a job's table."""
-    known = _OF_STUDIES if job.is_study else _OF_SIMULATIONS
-    if asked.table is not None and asked.table not in known:
-        what = "a study" if job.is_study else "a simulation"
-        raise Stopped(f"--table {asked.table}: {what} has {', '.join(known)}.")
+    """Return the text of a job's table; refuses what `check` and `point_range` refuse."""
+    check(asked.table, asked.query, of_study=job.is_study)
     if job.is_study:
         return _study(job, asked)
     if asked.table in ("peaks", "impacts"):
@@ -98,9 +90,7 @@ def _study(job: "Job", asked: Asked) -> Text:
 
     query = asked.query
     source = job.study(query.channels, query.channels)
-    chosen = _point_range(source.points, query.start, query.stop)
-    if not query.of_samples:
-        raise Stopped("--points and --step are of simulations; this is a study.")
+    chosen = point_range(source.points, query.start, query.stop)
     of_points = asked.table == "points" or not source.observables
     offered = source.channels if of_points else source.observables
     names = _chosen(asked, [one.name for one in offered])
@@ -114,18 +104,6 @@ def _study(job: "Job", asked: Asked) -> Text:
     if asked.form == "json":
         return Text(section_json(source, names, chosen), values)
     return Text(section_lines(source, names, chosen, comments), values)
-
-
-def _point_range(points: int, start: float | None, stop: float | None) -> range:
-    """Return the points that --start and --stop mean for a study."""
-    for option, value in (("--start", start), ("--stop", stop)):
-        if value is not None and (value < 0 or value != int(value)):
-            raise Stopped(f"{option} {value:g}: points of a study are counted from 0.")
-    last = points if stop is None else min(int(stop), points)
-    chosen = range(int(start or 0), last)
-    if not chosen:
-        raise Stopped(f"There is no such point; the study has points 0 to {points - 1}.")
-    return chosen
 
 
 def _comments(source: "Source | StudySource") -> list[str]:

@@ -35,7 +35,7 @@ def job_document(
     job.update(changed)
     scene = job.get("scene")
     values = once("--set", map(_setting, settings or ()))
-    varied = _varied(changed)
+    varied = _varied(job)
     for name in values:
         if name in varied:
             raise Stopped(f"--set {name}: the study varies {name}; leave this value out.")
@@ -62,11 +62,13 @@ def replaced_numbers(job: Mapping[str, Any], settings: Sequence[str] | None) -> 
                 yield f"the default of parameter {one}"
 
 
-def _varied(fields: Mapping[str, Any]) -> set[str | None]:
-    """Return the parameters that fields of a job vary."""
-    axes = (fields.get("along", {}), fields.get("by", {}))
-    named = {one.get("parameter") for one in (fields, *axes)}
-    return named | {*fields.get("grid", ()), *fields.get("parameters", ())}
+def _varied(job: Mapping[str, Any]) -> set[str]:
+    """Return the parameters that a job varies; it may not be admitted yet."""
+    axes = (one for one in (job, job.get("along"), job.get("by")) if isinstance(one, Mapping))
+    named = {one["parameter"] for one in axes if isinstance(one.get("parameter"), str)}
+    listed = job.get("points")
+    tables = [job.get("grid"), job.get("parameters"), *(listed if isinstance(listed, list) else ())]
+    return named.union(*(one for one in tables if isinstance(one, Mapping)))
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -1,12 +1,13 @@
 """The columns of a job's table: what goes into a file that is not written piece by piece."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from jointplay.exports.study import columns_of_points, words_of_points
+from jointplay.exports.table_query import Table, check, point_range
 from jointplay.records.channel_choice import choose
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
@@ -21,17 +22,7 @@ if TYPE_CHECKING:
     from jointplay.client.window import Window
     from jointplay.records.study import StudySource
 
-Table = Literal["history", "poincare", "peaks", "impacts", "points"]
-TABLES: Mapping[bool, tuple[Table, ...]] = {
-    False: ("history", "poincare", "peaks", "impacts"),
-    True: ("poincare", "points"),
-}
-"""Tables of a simulation (False) and of a study (True); the first is meant where none is named."""
 Names = Sequence[str] | None
-
-
-class NoSuchTable(ValueError):
-    """The job has no such table; the sentence lists those that it has."""
 
 
 def columns_of(job: "ReadableJob", table: Table | None, query: WindowQuery) -> list[Column]:
@@ -48,11 +39,11 @@ def columns_of(job: "ReadableJob", table: Table | None, query: WindowQuery) -> l
     ------
     NoSuchTable
         A job of this kind has no such table.
+    NoSuchPart
+        The table has no such points, or what is asked would have no effect on it.
     """
-    known, channels, start, stop = TABLES[job.is_study], query.channels, query.start, query.stop
-    if table is not None and table not in known:
-        what = "a study" if job.is_study else "a simulation"
-        raise NoSuchTable(f"{what} has no table {table!r}; it has {', '.join(known)}.")
+    check(table, query, of_study=job.is_study)
+    channels, start, stop = query.channels, query.start, query.stop
     if job.is_study:
         return list(_of_study(job, table, channels, start, stop))
     if table == "peaks":
@@ -99,9 +90,10 @@ def _of_study(
     stop: float | None,
 ) -> Iterator[Column]:
     source = job.study(channels, channels)
-    first, last = int(start or 0), source.points if stop is None else min(int(stop), source.points)
+    chosen = point_range(source.points, start, stop)
+    first, last = chosen.start, chosen.stop
     if table == "points" or not source.observables:
-        yield from _of_points(source, slice(first, last))
+        yield from _of_points(source, channels, slice(first, last))
         return
     counted = np.arange(source.record) < source.counts[first:last, None]
     row, section = np.nonzero(counted)
@@ -119,14 +111,15 @@ def _of_study(
         yield Column(name, units[name], source.sections(name, first, last)[counted])
 
 
-def _of_points(source: "StudySource", part: slice) -> Iterator[Column]:
+def _of_points(source: "StudySource", channels: Names, part: slice) -> Iterator[Column]:
     yield Column("point", "", np.arange(part.start, part.stop))
     for name, words in words_of_points(source).items():
         yield Column(name, "", np.array(words[part], np.str_))
     for at, one in enumerate(source.parameters):
         yield Column(one.name, one.unit, source.values[part, at])
     units = {name: unit for name, (unit, _) in meanings_of(source).items()}
-    for title, values in columns_of_points(source, _names(source.channels), units).items():
+    wanted = choose(None if channels is None else ",".join(channels), _names(source.channels))
+    for title, values in columns_of_points(source, wanted, units).items():
         found = re.fullmatch(r"(.*) \[(.*)\]", title)
         name, unit = found.groups() if found else (title, "")
         yield Column(name, unit, values[part])

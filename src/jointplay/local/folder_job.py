@@ -30,7 +30,7 @@ class FolderJob(Job):
 
     def retry(self) -> Job:
         """Refuse: a run in a folder is no job of a service."""
-        sentence = "A run in a folder goes on with jointplay.run(..., resume=True), or anew."
+        sentence = "A run in a folder goes on with jointplay.resume(folder), or anew."
         raise ClientError(sentence)
 
     def delete(self) -> None:

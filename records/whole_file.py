@@ -3,6 +3,8 @@
 import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
+from errno import ENOENT
+from os import strerror
 from pathlib import Path
 
 
@@ -10,8 +12,15 @@ from pathlib import Path
 def whole(path: Path) -> Iterator[Path]:
     """Give a name beside a file's, of the same form; it is renamed if all goes well, else removed.
 
-    A file that was there before stays until then.
+    A file that was there before stays until then. Behind a link, that is the file that it leads to.
+    What is no file, such as a pipe or a terminal, is given as it is.
     """
+    path = path.resolve()
+    if not path.parent.is_dir():
+        raise FileNotFoundError(ENOENT, strerror(ENOENT), str(path))
+    if path.exists() and not path.is_file():
+        yield path
+        return
     partial = path.with_name(f".{path.stem}.{secrets.token_hex(4)}{path.suffix}")
     try:
         yield partial
