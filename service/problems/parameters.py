@@ -1,6 +1,7 @@
 """Sentences on parameters of a request: what would be right, in the words for fields of a body."""
 
 from collections.abc import Iterator, Mapping
+from math import inf
 from typing import Any
 
 from fastapi import Request
@@ -35,10 +36,18 @@ def sentence(error: Mapping[str, Any], request: Request) -> str:
         name = str(error["loc"][-1])
         known = sorted(set(query_names(request.scope["route"].dependant)))
         return clipped(f"There is no parameter {name!r} here; {instead(name, known)}")
-    given = float(error["input"]) if kind in _BOUNDS else ""
+    given = _number(error["input"]) if kind in _BOUNDS else ""
     values = {"field": error["loc"][-1], "given": given} | _NO_UNITS | error.get("ctx", {})
     said = _SENTENCES[kind].format(**values) if kind in _SENTENCES else error["msg"]
     return clipped(said.rstrip(".") + ".")
+
+
+def _number(given: Any) -> float:
+    """Return a number as one of floating point; infinity in place of a longer whole number."""
+    try:
+        return float(given)
+    except OverflowError:
+        return inf if given > 0 else -inf
 
 
 def query_names(dependant: Dependant) -> Iterator[str]:

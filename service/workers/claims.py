@@ -96,7 +96,10 @@ async def note_cut_off(
 
 
 def _shown(claim: Claim) -> Claim:
-    """Return a claim without what is its owner's alone."""
+    """Return a claim without its owner, and without the label that the catalogue has of it.
+
+    The document is as the results have it: with the label that the job was submitted with.
+    """
     return replace(claim, job=replace(claim.job, owner="", label=None))
 
 

@@ -7,8 +7,9 @@ from random import uniform
 
 import pytest
 
-from jointplay.client import Expired, NotFinished, Refused, Unreachable, service_job
+from jointplay.client import Expired, NotFinished, Refused, TimedOut, Unreachable, service_job
 from jointplay.client.connection import Connection
+from jointplay.service import owners
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState
@@ -40,6 +41,28 @@ def test_a_job_is_reported_whenever_it_has_changed(client, worker, catalogue):
         ("succeeded", 1.0, 700),
     ]
     assert job.finished is not None
+
+
+def test_a_job_whose_events_are_not_streamed_is_waited_for_all_the_same(
+    client, worker, monkeypatch
+):
+    """As one of more jobs than an owner may have streams of."""
+    monkeypatch.setattr(owners, "WAITING", 0)
+    monkeypatch.setattr(service_job, "_PATIENCE", 0.0)
+    job_id = worker.submit(duration=0.9375)
+    with pytest.raises(TimedOut):
+        client.job(job_id).wait(timeout=0.3)
+    seen = []
+
+    def report(job):
+        seen.append(job.state)
+        if job.state == "queued":
+            report.claim = worker.start(job_id)
+        elif not job.is_finished:
+            worker.finish(report.claim, BlockState.done)
+
+    assert client.job(job_id).wait(report=report, timeout=60).state == "succeeded"
+    assert seen == ["queued", "running", "succeeded"]
 
 
 def test_a_lost_service_is_an_error_and_not_an_end(connect, tmp_path, monkeypatch):

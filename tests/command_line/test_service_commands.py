@@ -127,6 +127,7 @@ def test_a_batch_is_retried_and_deleted(jointplay, at, worker, tmp_path):
     batch = jointplay("batch", file, *at).out.strip()
     refused = jointplay("delete", "--batch", batch, "--yes", *at)
     assert (refused.code, refused.line().count("2 jobs have not ended")) == (2, 1)
+    assert "--label" in jointplay("batch", batch, "--label", "x", "--cancel", *at).line()
     jointplay("batch", batch, "--cancel", *at)
     new = jointplay("retry", "--batch", batch, *at).out
     assert new.endswith("  2 jobs: 2 queued\n")

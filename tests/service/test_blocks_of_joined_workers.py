@@ -81,6 +81,22 @@ def test_what_a_worker_says_is_read_strictly(
     assert http.post(f"{address}/finish", json={"outcome": "waiting"}).status_code == 422
 
 
+@pytest.mark.parametrize(
+    ("most", "told"),
+    [(10**400, "inf"), (-(10**400), "-inf"), (65, "65")],
+    ids=["too long", "too long and negative", "short"],
+)
+def test_a_number_out_of_its_bounds_is_refused_however_long(
+    http: httpx.Client, address: str, most: int, told: str
+) -> None:
+    asked = {"version": "a", "processor": "b", "most": most}
+    answer = http.post(f"{address}/beside", json=asked)
+    assert answer.status_code == 422, answer.text
+    (error,) = answer.json()["errors"]
+    assert error["parameter"] == "most"
+    assert told in error["detail"]
+
+
 def test_an_attempt_that_lost_its_block_changes_nothing(
     http: httpx.Client, catalogue: Catalogue, settings: Settings, claim: Claim, address: str
 ) -> None:

@@ -4,10 +4,11 @@ import random
 import time
 from collections.abc import Iterator, Mapping
 from functools import partial
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from jointplay.client.connection import Connection, segment
-from jointplay.client.errors import ServiceFailure, Unreachable
+from jointplay.client.errors import Overloaded, ServiceFailure, Unreachable
 from jointplay.client.http_results import HttpResults
 from jointplay.client.job import Job
 from jointplay.client.results import Store
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 _SILENCE = 45.0  # s without a word, where one comes every 15 s: the connection is lost
 _PATIENCE = 20.0  # s for which a lost service is looked for again
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.1, 2.0
+_BETWEEN_LOOKS = 10.0  # s at most, of a job of whose events the service streams no more
 
 
 class ServiceJob(Job):
@@ -53,13 +55,17 @@ class ServiceJob(Job):
         return self._connection.post(f"{self._path}/cancel")
 
     def _follow(self, deadline: float | None) -> Iterator[None]:
-        """Follow the events, over as many connections as it takes."""
+        """Follow the events, over as many connections as it takes; look at it while there is none.
+
+        An owner who has as many streams as a service gives one waits for any number of jobs so.
+        """
         lost_since: float | None = None
         pause = _FIRST_PAUSE
         while deadline is None or time.monotonic() < deadline:
             try:
-                for snapshot in self._snapshots(deadline):
-                    lost_since, pause = None, _FIRST_PAUSE
+                for streamed, snapshot in self._news(deadline):
+                    lost_since = None
+                    pause = _FIRST_PAUSE if streamed else pause
                     if self.advance(snapshot):
                         yield
                     if self.is_finished:
@@ -70,8 +76,18 @@ class ServiceJob(Job):
                 if now - lost_since > _PATIENCE:
                     raise
             # not all clients of a service that was lost come back in the same moment
-            self._connection.network.sleep(pause * random.uniform(0.5, 1.0))  # noqa: S311
-            pause = min(2 * pause, _LONGEST_PAUSE)
+            left = inf if deadline is None else max(deadline - time.monotonic(), 0.0)
+            spread = pause * random.uniform(0.5, 1.0)  # noqa: S311
+            self._connection.network.sleep(min(spread, left))
+            pause = min(2 * pause, _LONGEST_PAUSE if lost_since else _BETWEEN_LOOKS)
+
+    def _news(self, deadline: float | None) -> Iterator[tuple[bool, Mapping[str, Any]]]:
+        """Yield what there is to know, and whether it is from a stream: else none was free."""
+        try:
+            for snapshot in self._snapshots(deadline):
+                yield True, snapshot
+        except Overloaded:
+            yield False, self._look()
 
     def _snapshots(self, deadline: float | None) -> Iterator[Mapping[str, Any]]:
         """Yield the progress events of one connection."""

@@ -51,6 +51,8 @@ def batch(
             return
         known = is_job_id(source) and not Path(source).exists()
         if known:
+            if label is not None:
+                raise Stopped("--label is of a batch that is queued now; leave it out.")
             found = client.batch(source)
             if cancel:
                 found.cancel()

@@ -7,10 +7,10 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line.exits import Stopped
-from jointplay.command_line.exporting import Asked, Form, Table, Text, text_of
+from jointplay.command_line.exporting import Asked, Form, Text, text_of
 from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, URL, job_of, listed
 from jointplay.command_line.typed_window import check_start
-from jointplay.exports.table_query import NoSuchPart, NoSuchTable
+from jointplay.exports.table_query import NoSuchPart, NoSuchTable, Table
 from jointplay.records.window_query import WindowQuery
 
 TABLE = Annotated[
