@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.strict_json import escaped
 from jointplay.service.idempotency import SentKey
-from jointplay.service.jobs.submission import checked, repeated
+from jointplay.service.jobs.submission import checked, kept_like, repeated
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.quotas import Quota
 from jointplay.storage.catalogue.records import NewJob, SubmittedBatch
@@ -42,25 +42,28 @@ class QueueBatch:
     """The check of a batch, which is queued then: 10 000 jobs take seconds to write.
 
     Its key lets a process that takes the place of a lost one find what that had queued. Jobs that
-    repeat others have `retries`, their ids, one for each.
+    repeat others have `retries`, their ids, and `lifetimes`, s, one for each.
     """
 
     key: SentKey
     owner: str
     quota: Quota
     retries: tuple[str, ...] = ()
+    lifetimes: tuple[float | None, ...] = ()
 
     def __call__(
         self, document: object, settings: Settings, catalogue: Catalogue
     ) -> SubmittedBatch:
         """Check and queue a document's jobs; raises what `admit_batch` and `submit_batch` do."""
         check = repeated if self.retries else _submitted
-        jobs, label = admit_batch(document, settings, check, catalogue.clock())
-        ended = self.retries or (None,) * len(jobs)
+        now = catalogue.clock()
+        jobs, label = admit_batch(document, settings, check, now)
+        nothing = (None,) * len(jobs)
+        ended, lifetimes = self.retries or nothing, self.lifetimes or nothing
         return catalogue.submit_batch(
             [
-                replace(job, owner=self.owner, retry_of=old)
-                for job, old in zip(jobs, ended, strict=True)
+                replace(kept_like(job, lifetime, now), owner=self.owner, retry_of=old)
+                for job, old, lifetime in zip(jobs, ended, lifetimes, strict=True)
             ],
             label=label or None,
             key=self.key.with_document(document),

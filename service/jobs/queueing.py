@@ -13,6 +13,7 @@ from jointplay.service.access.quotas import quota_of
 from jointplay.service.batches.admission import QueueBatch
 from jointplay.service.checking import Checker, CheckJob, RepeatJob
 from jointplay.service.idempotency import Repeatable, SentKey
+from jointplay.service.jobs.submission import kept_like
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.new_blocks import NewBlocks
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -85,7 +86,8 @@ class Queueing:
         key = None if sent is None else sent.with_document(None)
         with repeatable.in_flight():
             found = self._checker.check(RepeatJob(), json.dumps(job.spec).encode())
-            own = replace(found, owner=job.owner, retry_of=job.id)
+            kept = kept_like(found, job.lifetime, self._catalogue.clock())
+            own = replace(kept, owner=job.owner, retry_of=job.id)
             quota = quota_of(caller, self._settings)
             submitted = self._catalogue.submit(own, key, reuse=True, quota=quota)
         if submitted.created:
@@ -113,7 +115,8 @@ class Queueing:
             raise RequestRefused(kinds.NOTHING_TO_RETRY, detail)
         document = {"jobs": [job.spec for job in jobs], "label": batch.label or ""}
         quota, retries = quota_of(caller, self._settings), tuple(job.id for job in jobs)
-        what = QueueBatch(key, batch.owner, quota, retries)
+        lifetimes = tuple(job.lifetime for job in jobs)
+        what = QueueBatch(key, batch.owner, quota, retries, lifetimes)
         return self._woken_for(self._checker.check(what, json.dumps(document).encode()))
 
     def _earlier(

@@ -1,5 +1,6 @@
 """From a document to a queued job."""
 
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 
@@ -83,6 +84,14 @@ def repeated(document: dict[str, Any], settings: Settings, now: float) -> NewJob
     except (InvalidInput, KeyError):  # of a version whose documents this one cannot read
         return checked(document, settings, now)[0]
     return _within_limits(admission, settings, expires)
+
+
+def kept_like(new: NewJob, lifetime: float | None, now: float) -> NewJob:
+    """Return a job that repeats another and is kept for as long as that one was to be.
+
+    `lifetime` : of the other, s; None: it does not expire, and the service decides.
+    """
+    return new if lifetime is None else replace(new, expires=now + lifetime)
 
 
 def _within_limits(

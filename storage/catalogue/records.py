@@ -168,6 +168,11 @@ class Job(JobRequest):
     stored: int | None = None  # bytes of its results, if it has ended and is some owner's
     further_labels: tuple[str, ...] | None = None  # that it was asked for with later; in no row
 
+    @property
+    def lifetime(self) -> float | None:
+        """For how long it was to be kept from its submission on, s; None: for ever."""
+        return None if self.expires is None else self.expires - self.created
+
     def expired(self, now: float) -> bool:
         """Whether it and its results can be read no more; what is still live never expires."""
         return self.state.terminal and self.expires is not None and self.expires <= now

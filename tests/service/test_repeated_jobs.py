@@ -275,6 +275,25 @@ def test_jobs_expire_by_themselves_where_the_service_says_so(tmp_path):
         assert (kept["id"], kept["expires"]) == (job["id"], "2999-01-01T00:00:00Z")
 
 
+def test_what_is_retried_is_kept_for_as_long_as_was_asked_for(own):
+    http, _ = own
+    soon = (datetime.now(UTC) + timedelta(seconds=1000)).isoformat()
+    expiring, lasting = JOB | {"expires": soon}, JOB | {"duration": 0.5}
+    jobs = [http.post("/v1/jobs", json=one).json()["id"] for one in (expiring, lasting)]
+    batch = http.post("/v1/batches", json={"jobs": [expiring, lasting]}).json()
+    for job in (*jobs, *batch["job_ids"]):
+        http.post(f"/v1/jobs/{job}/cancel")
+    again = [http.post(f"/v1/jobs/{job}/retry").json()["id"] for job in jobs]
+    again += http.post(f"/v1/batches/{batch['id']}/retry").json()["job_ids"]
+    assert not {*again} & {*jobs, *batch["job_ids"]}
+    for at, job in enumerate(http.get(f"/v1/jobs/{one}").json() for one in again):
+        if at % 2:
+            assert job["expires"] is None
+        else:
+            ends = datetime.fromisoformat(job["expires"]) - datetime.fromisoformat(job["created"])
+            assert ends.total_seconds() == pytest.approx(1000, abs=60)
+
+
 def test_jobs_are_listed_by_what_they_are(own):
     http, _ = own
     made = {}
