@@ -56,36 +56,39 @@ export class Motion {
     this.count = Math.min(Math.max(wanted, CHUNK[0]), CHUNK[1]);
   }
 
-  /** Returns the chunk that holds a time, or null while it is fetched. */
+  /** Returns the chunk that holds a time, as far as it has come; null: nothing of it has, or there is nothing. */
   chunk(time) {
     const index = this.indexOf(time);
-    const found = this.chunks.get(index);
-    if (!found && !this.error) this.fetch(index);
-    return found?.columns ?? null;
+    if (!this.error) this.fetch(index);
+    return this.chunks.get(index)?.columns ?? null;
   }
 
+  /** Returns the place of the chunk that holds a time; later than a run has come, that of its last one. */
   indexOf(time) {
-    return Math.max(0, Math.floor(time / this.step / this.count + 1e-9));
+    const { state, progress, job } = this.job;
+    const reached = state === "succeeded" ? job.duration : progress.time;
+    return Math.max(0, Math.floor(Math.min(time, reached) / this.step / this.count + 1e-9));
   }
 
   /** Fetches what follows soon, if it is computed. */
   prepare(time) {
-    const span = this.count * this.step;
-    const next = this.indexOf(time + span / 2);
-    if (next > this.indexOf(time) && next * span < this.job.progress.time) this.fetch(next);
+    const next = this.indexOf(time + (this.count * this.step) / 2);
+    if (next > this.indexOf(time)) this.fetch(next);
   }
 
   /** Waits until the motion at a time is there. */
   async ready(time) {
-    if (this.chunk(time)) return;
+    this.chunk(time);
     await this.chunks.get(this.indexOf(time))?.coming;
     if (this.error) throw this.error;
   }
 
-  /** Fetches a chunk, unless that is done. */
+  /** Fetches a chunk, unless it is there, or on its way; an empty one is there, too. */
   fetch(index) {
-    if (this.chunks.has(index)) return;
-    const entry = { columns: null, complete: false };
+    const known = this.chunks.get(index);
+    if (known && (known.coming || !known.outdated)) return;
+    const entry = known ?? { columns: null, complete: false };
+    entry.outdated = false;
     this.chunks.set(index, entry);
     entry.coming = this.fill(entry, index);
   }
@@ -97,8 +100,8 @@ export class Motion {
     try {
       const query = { channels: this.names.join(","), start, stop };
       const { columns, complete } = await getArrays(this.job.links.history, query, this.signal);
-      if (columns.time.length < 1) this.chunks.delete(index);
-      else Object.assign(entry, { columns, complete });
+      Object.assign(entry, { columns: columns.time.length ? columns : null, complete, coming: null });
+      if (complete) entry.outdated = false;
       this.onNew();
     } catch (error) {
       this.chunks.delete(index);
@@ -108,12 +111,10 @@ export class Motion {
     }
   }
 
-  /** Forgets what was incomplete: the job has gone on. */
+  /** Has what is incomplete, or on its way, fetched once more when it is drawn: the job has gone on. */
   refresh() {
     this.error = null;
-    for (const [index, { columns, complete }] of this.chunks) {
-      if (columns && !complete) this.chunks.delete(index);
-    }
+    for (const entry of this.chunks.values()) entry.outdated = !entry.complete;
   }
 
   /** Returns `{pose, contacts}` at a time, or null while they are fetched. */

@@ -10,7 +10,7 @@ import { shapes } from "./shapes.js";
 export class Stage {
   /** @param motions one, or several to be compared in one picture */
   constructor(motions, name) {
-    Object.assign(this, { motions, name, labels: false, box: null, seen: new Set() });
+    Object.assign(this, { motions, name, labels: false, box: null, seen: new WeakSet() });
     this.canvas = element("canvas", { role: "img", "aria-label": `The mechanism ${name} in motion` });
     this.frames = 0;
   }

@@ -1,9 +1,13 @@
 """Jobs that are compared say in what they differ, with units."""
 
 import copy
+import re
+from urllib.parse import parse_qs, urlsplit
 
 from jointplay.solver.scene import presets
+from jointplay.storage.catalogue.records import BlockEnd, BlockState
 from tests.page.browsing import barriers, expect
+from tests.page.test_watching import MOVED
 
 
 def own(clearance):
@@ -38,3 +42,37 @@ def test_presets_differ_in_their_parameters_and_others_in_none(browsing, service
         entries = page.locator(".legend li")
         expect(entries.nth(1)).to_contain_text("clearance 200 µm")
         expect(entries.nth(1)).not_to_contain_text("speed")
+
+
+SOUGHT = """share => {
+  const slider = document.querySelector("[aria-label=Time]");
+  slider.value = share * slider.max;
+  slider.dispatchEvent(new Event("input"));
+}"""
+
+
+def test_a_shorter_run_stays_as_it_ended(browsing, service_url, worker, catalogue):
+    """After its end there was nothing, which was asked for again and again, without a pause."""
+    jobs = []
+    for duration in (1.0, 5.0):
+        pendulum = {"scene": {"preset": "pendulum"}, "duration": duration, "output_step": 0.01}
+        claim = worker.start(worker.submit(**pendulum))
+        worker.store(claim)
+        end = BlockEnd(BlockState.done, time=duration)
+        catalogue.finish(claim.block.id, claim.block.attempt, end)
+        jobs.append(claim.job.id)
+    asked = []
+
+    def note(request):
+        if f"{jobs[0]}/history" in request.url:
+            asked.append(parse_qs(urlsplit(request.url).query))
+
+    with browsing.page(f"{service_url}/healthz", still=True) as page:
+        page.on("request", note)
+        page.goto(f"{service_url}/#/compare?jobs={','.join(jobs)}")
+        page.wait_for_function(MOVED, arg=0)
+        page.locator(".uplot").first.wait_for()
+        with page.expect_response(re.compile(rf"{jobs[1]}/history\?.*start=2\.55")):
+            page.evaluate(SOUGHT, 3.0 / 5.0)
+        poses = [query for query in asked if "points" not in query]
+        assert [float(query["start"][0]) for query in poses] == [0.0]
