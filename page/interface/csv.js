@@ -2,7 +2,8 @@
 
 import { element } from "./element.js";
 import { save } from "./saving.js";
-import { get, getBytes, withQuery } from "../requests/service.js";
+import { betweenSamples } from "../requests/between_samples.js";
+import { getBytes, withQuery } from "../requests/service.js";
 
 const STEPS = 2000; // of a window, where a run keeps what is between its samples
 
@@ -24,8 +25,8 @@ export function historyAsCsv(job, shown, signal) {
     const { channels, window: [start, stop] } = shown();
     const step = (stop - start) / STEPS;
     const query = { channels: channels.join(","), start, stop };
-    const { exact } = await get(job.links.history, { ...query, stop: start + step, points: 1 }, signal);
-    const path = withQuery(job.links.history, exact ? { ...query, step } : query);
+    const finer = await betweenSamples(job, channels[0], [start, stop], signal);
+    const path = withQuery(job.links.history, finer ? { ...query, step } : query);
     save(new Blob([await getBytes(path, "text/csv", signal)], { type: "text/csv" }), "history.csv");
   }, "Save these curves as CSV");
 }

@@ -1,7 +1,7 @@
 /** Many values of channels in a window of time: a million of each, in answers that are allowed. */
 
 import { getArrays } from "../requests/arrays.js";
-import { get } from "../requests/service.js";
+import { betweenSamples } from "../requests/between_samples.js";
 
 const MOST_VALUES = 990_000; // in one answer of the service, which carries a million
 
@@ -15,23 +15,31 @@ const MOST_VALUES = 990_000; // in one answer of the service, which carries a mi
  * @param count how many instants, at least two
  */
 export async function instants(job, names, [start, stop], count, signal) {
-  const step = (stop - start) / (count - 1);
-  const asked = (window, more) => pieces(job, names, window, count, more, signal);
-  const beginning = { channels: names[0], start, stop: start + step, points: 1 };
-  const { exact } = await get(job.links.history, beginning, signal);
-  if (exact) return { ...(await asked([start, stop], { step })), step, exact };
-  const { output_step: apart } = job.job;
-  const window = [Math.max(start, stop - count * apart), stop];
-  return { ...(await asked(window, {})), step: apart, exact: false };
+  const wanted = [...new Set(names)];
+  const exact = await betweenSamples(job, names[0], [start, stop], signal);
+  if (exact) {
+    const step = (stop - start) / (count - 1);
+    return { ...(await pieces(job, wanted, windows([start, stop], step, wanted), { step }, signal)), step, exact };
+  }
+  const { output_step: step } = job.job;
+  const first = Math.ceil(Math.max(start, stop - (count - 1) * step) / step - 1e-9); // sample
+  const parts = windows([(first - 0.25) * step, stop], step, wanted); // no sample lies at an edge
+  return { ...(await pieces(job, wanted, parts, {}, signal)), step, exact };
 }
 
-async function pieces(job, names, [start, stop], count, more, signal) {
-  const wanted = [...new Set(names)];
-  const rows = Math.floor(MOST_VALUES / (wanted.length + 1));
-  const parts = Math.ceil(count / rows);
-  const edges = Array.from({ length: parts + 1 }, (_, i) => start + ((stop - start) * i) / parts);
-  const answers = await Promise.all(edges.slice(1).map((last, i) => getArrays(job.links.history, {
-    channels: wanted.join(","), start: edges[i], stop: last, ...more,
+/** Returns windows `[begin, end]`, each of as many instants as an answer has room for, and none of them in two. */
+function windows([start, stop], step, names) {
+  const rows = Math.floor(MOST_VALUES / (names.length + 1));
+  const count = Math.floor(((stop - start) / step) * (1 + 1e-12)) + 1;
+  return Array.from({ length: Math.ceil(count / rows) }, (_, i) => {
+    const begin = start + i * rows * step;
+    return [Math.max(begin, 0), Math.min(begin + (rows - 0.5) * step, stop)];
+  });
+}
+
+async function pieces(job, wanted, parts, more, signal) {
+  const answers = await Promise.all(parts.map(([start, stop]) => getArrays(job.links.history, {
+    channels: wanted.join(","), start, stop, ...more,
   }, signal)));
   const columns = Object.fromEntries(wanted.map((name) =>
     [name, joined(answers.map((one) => one.columns[name]))]));

@@ -143,6 +143,38 @@ def test_what_is_shown_is_saved_as_csv(browsing, url, press):
     assert [(joint, float(impulse)) for joint, *_, impulse in rows] == expected
 
 
+def test_a_window_beyond_the_steps_that_are_kept_is_saved_and_drawn(browsing, url):
+    """Both were refused: extremes are exact there, and were taken for values at any time."""
+    scene = {"preset": "seven-bar-press"}
+    job = {"kind": "simulate", "scene": scene, "duration": 0.05, "steps_limit": 20_000}
+    made = submitted(url, job | {"output_step": 1e-4, "certificate": False})
+    address = f"{url}/#/job/{made}?channels=displacement&phase=open"
+    with browsing.page(address, still=True) as page:
+        page.get_by_text("501 samples, the end of the window at most, 100 µs apart.").wait_for()
+        _, *rows = saved(page, "Save these curves as CSV")
+    assert [round(float(time_) / 1e-4) for time_, _ in rows] == [*range(501)]
+
+
+def test_figures_are_saved_where_a_key_is_needed(browsing, url, press):
+    """The first click saved the refusal."""
+    svg = "<svg xmlns='http://www.w3.org/2000/svg' width='1' height='1'/>"
+
+    def answer(route):
+        if route.request.headers.get("authorization") == "Bearer jp_mine":
+            return route.fulfill(body=svg, content_type="image/svg+xml")
+        return route.fulfill(status=401, json={"detail": "This service asks for a key."})
+
+    figures = httpx.get(f"{url}/v1/jobs/{press}/figures", trust_env=False).json()["figures"]
+    with browsing.page(f"{url}/healthz") as page:
+        page.evaluate("sessionStorage.setItem('jointplay-key', 'jp_mine')")
+        page.route(re.compile(r"/figures/[^/]+\.(svg|png)"), answer)
+        page.goto(f"{url}/#/job/{press}/figures")
+        with page.expect_download() as download:
+            page.get_by_role("link", name="SVG").first.click()
+        assert download.value.suggested_filename == f"{figures[0]['name']}.svg"
+        assert download.value.path().read_text() == svg
+
+
 def test_of_contacts_that_are_too_many_the_first_are_shown(browsing, url, press):
     """Their table, and the marks of where contacts begin, were not there, without a word."""
     address = f"{url}/v1/jobs/{press}/impacts"

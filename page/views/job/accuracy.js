@@ -108,7 +108,9 @@ function study(found, figures, over) {
 }
 
 function diagram(path) {
-  const image = element("img", { class: "figure", alt: "Error of each method against its cost" });
+  const image = element("img", {
+    class: "figure", alt: "Error of each method against its cost", onload: ({ target }) => URL.revokeObjectURL(target.src),
+  });
   openAddress(path).then((address) => (image.src = address));
   return image;
 }

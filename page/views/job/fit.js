@@ -46,7 +46,9 @@ function targets({ targets: found }) {
 
 function figure(path) {
   const alt = "Lowest cost over the generations, and the miss of every target";
-  const image = element("img", { class: "figure", alt });
+  const image = element("img", {
+    class: "figure", alt, onload: ({ target }) => URL.revokeObjectURL(target.src),
+  });
   openAddress(path).then((address) => (image.src = address));
   return image;
 }
