@@ -1,8 +1,9 @@
 /** Tiles of a chart: asked for once, a few at a time, and kept while they are likely to be wanted. */
 
-import { getBytes, withQuery } from "../requests/service.js";
+import { Problem, getBytes, mayPass, pause, withQuery } from "../requests/service.js";
 
 const TOGETHER = 6; // requests on their way
+const COME_BACK = 5000; // ms after which a tile is asked for again that did not come
 const KEPT = 300; // tiles, of 256 kB each
 
 export class Tiles {
@@ -14,7 +15,7 @@ export class Tiles {
    */
   constructor(path, query, signal, arrived, before = null) {
     Object.assign(this, { path, query, signal, arrived, underWay: 0, earlier: before?.known ?? new Map() });
-    this.known = new Map(); // pictures by name, the one that was used last at the end; null: on its way
+    this.known = new Map(); // pictures by name, the one that was used last at the end; null: on its way, or it did not come
     this.wanted = [];
     this.next = [];
   }
@@ -54,11 +55,20 @@ export class Tiles {
         if (this.known.size <= KEPT) break;
         if (this.known.get(old)) this.known.delete(old);
       }
-    } catch {
-      return; // it is not asked for again before the chart has grown
+    } catch (error) {
+      if (error.name === "AbortError") return;
+      if (!(error instanceof Problem) || mayPass(error)) this.again(name);
     } finally {
       this.underWay -= 1;
     }
-    this.arrived();
+    this.arrived(); // so that the next is sent for, whether it came or not
+  }
+
+  /** Has a tile asked for again, after a while, if it is wanted still. */
+  again(name) {
+    pause(COME_BACK, this.signal).then(() => {
+      this.known.delete(name);
+      this.arrived();
+    }, () => {}); // the view was left
   }
 }

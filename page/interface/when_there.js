@@ -2,12 +2,13 @@
 
 import { element, fill } from "./element.js";
 import { TERMINAL } from "../requests/following.js";
+import { Newest } from "../requests/newest.js";
 import { Problem, get } from "../requests/service.js";
 
 const LEAST = 1000; // ms between two questions
 
 /**
- * Shows what a GET answers; again whenever the job has gone on, until it is finished.
+ * Shows what a GET answers; again whenever the job has gone on, until it was finished when it was asked.
  *
  * @param query of the GET, or a function that returns it as the reader has chosen by now
  * @param draw called with the answer
@@ -22,18 +23,22 @@ export async function whenThere(room, { job, signal, onChange }, path, query, dr
       : "This is known, and shown here, when the job has ended."));
   let asked = 0;
   let complete = false;
+  let failed = null;
   const ask = async () => {
     asked = performance.now();
+    failed = null;
+    const over = TERMINAL.has(job.state); // it may end before the answer comes
     try {
       const answer = await get(path, typeof query === "function" ? query() : query, signal);
-      complete = TERMINAL.has(job.state);
+      complete = over;
       await draw(answer);
     } catch (error) {
-      if (!(error instanceof Problem) || ![404, 409].includes(error.status)) throw error;
-      complete = TERMINAL.has(job.state);
+      if (!(error instanceof Problem) || ![404, 409].includes(error.status)) throw (failed = error);
+      complete = over;
       fill(room, nothing(error.message));
     }
   };
+  const questions = new Newest(ask);
   onChange((now) => {
     if (complete) return;
     if (!begun(now)) {
@@ -41,10 +46,11 @@ export async function whenThere(room, { job, signal, onChange }, path, query, dr
       return;
     }
     if (asked && !TERMINAL.has(now.state) && performance.now() - asked < LEAST) return;
-    ask().catch(() => {});
+    questions.want().catch(() => {});
   });
-  if (begun(job)) await ask();
-  else wait(job);
+  if (!begun(job)) return wait(job);
+  await questions.want();
+  if (failed) throw failed;
 }
 
 function nothing(sentence) {

@@ -12,12 +12,15 @@ const SHOWN = 200;
 
 export async function show(room, { parts, signal }) {
   const path = `/v1/batches/${encodeURIComponent(parts[0] ?? "")}`;
+  const acting = { signal, busy: false, said: "", redraw: () => {} };
   for (;;) {
     try {
       const batch = await get(path, {}, signal);
       const { jobs } = await get(`${path}/jobs`, { page_size: SHOWN }, signal);
       const declared = jobs.length ? await declaredFor(jobs[0].job) : {};
-      draw(room, batch, jobs, differing(jobs, declared), path);
+      const words = differing(jobs, declared);
+      acting.redraw = () => draw(room, batch, jobs, words, buttons(batch, path, acting));
+      acting.redraw();
       if (batch.finished) return;
     } catch (error) {
       if (!mayPass(error) || !room.childElementCount) throw error;
@@ -26,12 +29,12 @@ export async function show(room, { parts, signal }) {
   }
 }
 
-function draw(room, batch, jobs, words, path) {
+function draw(room, batch, jobs, words, acts) {
   refill(
     room,
     element("div", { class: "head" }, element("h1", {}, batch.label || "Batch"),
       element("div", { class: "buttons" },
-        buttons(batch, path),
+        acts,
         element("a", { class: "button", href: "#/batches" }, "All batches"))),
     element("p", {}, counts(batch.states ?? {})),
     !batch.finished && element("progress", {
@@ -48,12 +51,22 @@ function draw(room, batch, jobs, words, path) {
   );
 }
 
-/** Returns what can be done with all of a batch, or with those that did not succeed. */
-function buttons(batch, path) {
+/**
+ * Returns what can be done with all of a batch, or with those that did not succeed, and what came of it.
+ *
+ * @param acting `{signal, busy, said, redraw}`: whether something is being done, and why the last thing was not
+ */
+function buttons(batch, path, acting) {
+  const done = (now) => {
+    Object.assign(acting, now);
+    if (!acting.signal.aborted) acting.redraw();
+  };
   const button = (text, act) => element("button", {
-    type: "button", onclick: ({ target }) => act().catch(({ message }) => {
-      target.replaceWith(element("span", { role: "alert" }, message));
-    }),
+    type: "button", "aria-disabled": acting.busy && "true", onclick: () => {
+      if (acting.busy) return; // it keeps the keyboard, which a disabled one would lose
+      done({ busy: true, said: "" });
+      act().then(() => done({ busy: false }), ({ message }) => done({ busy: false, said: message }));
+    },
   }, text);
   const { failed = 0, cancelled = 0 } = batch.states;
   const retry = async () => go(["batch", (await post(`${path}/retry`)).id]);
@@ -63,6 +76,7 @@ function buttons(batch, path) {
     go(["batches"]);
   };
   return [
+    acting.said && element("span", { role: "alert" }, acting.said),
     failed + cancelled > 0 && button(`Retry ${failed + cancelled}`, retry),
     batch.finished ? button("Delete", all) : button("Cancel all", () => post(`${path}/cancel`)),
   ];

@@ -32,8 +32,8 @@ export async function show(room, { query, signal }) {
 
 /** Returns the text of the preset or the job that the address names; null: it names none. */
 async function askedFor(query, signal) {
-  if (query.has("preset")) return pretty(await get(`/v1/scenes/${query.get("preset")}`, {}, signal));
-  if (query.has("job")) return pretty((await get(`/v1/jobs/${query.get("job")}`, {}, signal)).job.scene);
+  if (query.has("preset")) return pretty(await get(`/v1/scenes/${encodeURIComponent(query.get("preset"))}`, {}, signal));
+  if (query.has("job")) return pretty((await get(`/v1/jobs/${encodeURIComponent(query.get("job"))}`, {}, signal)).job.scene);
   return null;
 }
 
@@ -121,7 +121,7 @@ class Editing {
   }
 
   async begin(name) {
-    if (name) this.take(pretty(await get(`/v1/scenes/${name}`, {}, this.signal)));
+    if (name) this.take(pretty(await get(`/v1/scenes/${encodeURIComponent(name)}`, {}, this.signal)));
     this.presets.value = ""; // it may be chosen again
   }
 

@@ -32,6 +32,9 @@ export async function show(room, { query, signal }) {
 class JobList {
   constructor(query, kinds, signal) {
     Object.assign(this, { kinds, signal, jobs: null, next: null, chosen: new Map(), rows: new Map() });
+    this.deleted = new Set(); // ids, of which an answer may be on its way that is from before
+    this.asked = new AbortController(); // for the newest list; answers to what was asked before are not taken
+    signal.addEventListener("abort", () => this.asked.abort());
     this.filters = Object.fromEntries(["state", "kind", "scene", "label"].map((name) =>
       [name, query.get(name) ?? ""]));
     this.inside = element("div", { class: "inside", role: "list", "aria-label": "Jobs" });
@@ -78,23 +81,42 @@ class JobList {
   }
 
   async begin() {
-    await this.load();
+    await this.load().catch((error) => {
+      if (error.name !== "AbortError") throw error; // a filter was chosen before the first answer
+    });
     this.live();
   }
 
   async load() {
-    const page = await this.page(null, FIRST_PAGE);
-    for (const row of this.rows.values()) row.element.remove();
-    this.rows.clear();
-    this.jobs = page.jobs;
-    this.next = page.next;
+    this.asked.abort();
+    this.signal.throwIfAborted();
+    const asked = (this.asked = this.pending = new AbortController());
+    try {
+      const page = await this.page(null, FIRST_PAGE);
+      for (const row of this.rows.values()) row.element.remove();
+      this.rows.clear();
+      this.jobs = page.jobs;
+      this.next = page.next;
+      this.shown = asked;
+    } finally {
+      if (this.pending === asked) this.pending = null;
+    }
     this.resized();
   }
 
+  /** Whether the list is that of the filters as they are. */
+  get current() {
+    return this.shown === this.asked;
+  }
+
+  /** Returns a page of the list; throws AbortError where another list has been asked for meanwhile. */
   async page(token, size) {
+    const { signal } = this.asked;
     const query = { ...this.filters, page_size: size, page_token: token };
-    const { jobs, next_page_token: next } = await get("/v1/jobs", query, this.signal);
-    return { jobs: await Promise.all(jobs.map(listed)), next };
+    const { jobs, next_page_token: next } = await get("/v1/jobs", query, signal);
+    const found = await Promise.all(jobs.map(listed));
+    signal.throwIfAborted();
+    return { jobs: found.filter(({ id }) => !this.deleted.has(id)), next };
   }
 
   /** Looks again, every second: new jobs, and those that are not finished. */
@@ -102,28 +124,41 @@ class JobList {
     while (!this.signal.aborted) {
       try {
         await pause(1000, this.signal);
-        const { jobs } = await this.page(null, NEWEST);
-        const known = new Map(this.jobs.map((job, place) => [job.id, place]));
-        const fresh = jobs.filter(({ id }) => !known.has(id));
-        for (const job of jobs) if (known.has(job.id)) this.jobs[known.get(job.id)] = job;
-        if (fresh.length === NEWEST) await this.load(); // there may be more between
-        else this.jobs.unshift(...fresh);
-        await this.lookAgain(new Set(jobs.map(({ id }) => id)));
-        await this.tellWhy(jobs.some(({ state }) => state === "queued"));
-        this.draw();
+        if (this.pending) continue; // another list
+        if (this.current) await this.look();
+        else await this.load(); // it was asked for, and did not come
       } catch (error) {
-        if (error.name === "AbortError") return;
+        if (error.name === "AbortError") continue; // another list has been asked for, or the view was left
         if (!mayPass(error)) return this.failed(error);
       }
     }
   }
 
+  async look() {
+    const { jobs } = await this.page(null, NEWEST);
+    const known = new Map(this.jobs.map((job, place) => [job.id, place]));
+    const fresh = jobs.filter(({ id }) => !known.has(id));
+    for (const job of jobs) if (known.has(job.id)) this.jobs[known.get(job.id)] = job;
+    if (fresh.length === NEWEST) await this.load(); // there may be more between
+    else this.jobs.unshift(...fresh);
+    await this.lookAgain(new Set(jobs.map(({ id }) => id)));
+    await this.tellWhy(jobs.some(({ state }) => state === "queued"));
+    this.draw();
+  }
+
   async lookAgain(seen) {
     const shown = this.jobs.slice(...this.range());
     const moving = shown.filter(({ id, state }) => !TERMINAL.has(state) && !seen.has(id));
-    await Promise.all(moving.slice(0, MOST_ASKED).map(async (job) => {
+    await Promise.all(moving.slice(0, MOST_ASKED).map((job) => this.lookAt(job)));
+  }
+
+  async lookAt(job) {
+    try {
       Object.assign(job, await listed(await get(`/v1/jobs/${job.id}`, {}, this.signal)));
-    }));
+    } catch (error) {
+      if (![404, 410].includes(error.status)) throw error;
+      this.gone({ done: [job] }); // somebody else deleted it
+    }
   }
 
   /** Says what to do where jobs are queued and nobody is there to compute them. */
@@ -157,7 +192,7 @@ class JobList {
   async scrolled() {
     this.draw();
     const [, last] = this.range();
-    if (last + AHEAD < this.jobs.length || !this.next || this.loading) return;
+    if (last + AHEAD < this.jobs.length || !this.next || this.loading || !this.current) return;
     this.loading = true;
     try {
       const page = await this.page(this.next, PAGE);
@@ -268,6 +303,7 @@ class JobList {
 
   gone(found) {
     const ids = new Set(found.done.map(({ id }) => id));
+    for (const id of ids) this.deleted.add(id);
     this.jobs = this.jobs.filter(({ id }) => !ids.has(id));
     for (const id of ids) this.chosen.delete(id);
     this.draw();

@@ -8,6 +8,7 @@ import { short, unitText, withUnit } from "../../interface/numbers.js";
 import { note } from "../../interface/route.js";
 import { offer, sceneWith } from "../../interface/point_of_study.js";
 import { whenThere } from "../../interface/when_there.js";
+import { Newest } from "../../requests/newest.js";
 import { get } from "../../requests/service.js";
 
 export async function show(room, context) {
@@ -27,6 +28,8 @@ const ORBITS = 200; // of a branch that a point offers, in each direction
 class Chart {
   constructor({ job, query, signal }) {
     Object.assign(this, { job, signal, wanted: query.get("quantity") });
+    this.points = new Newest((point) => this.pick(point));
+    this.shares = new Newest(() => this.showAttractors());
     this.filters = element("div", { class: "filters channels" });
     this.place = element("div");
     this.legend = element("ul", { class: "legend" });
@@ -43,7 +46,7 @@ class Chart {
     const grown = this.answer?.ended !== answer.ended;
     this.answer = answer;
     if (!this.map) {
-      this.map = new ChartMap(answer, this.signal, (point) => this.pick(point), (point) => this.hover(point));
+      this.map = new ChartMap(answer, this.signal, (point) => this.points.want(point), (point) => this.hover(point));
       fill(this.place, this.map.canvas);
     }
     const { quantities, ended, points, inherited } = answer;
@@ -59,7 +62,7 @@ class Chart {
     if (!grown) return;
     this.behind = Boolean(this.tiles?.waiting()); // else a map that grows fast would never be whole
     if (!this.behind) this.showTiles(this.tiles);
-    this.showAttractors();
+    this.shares.want();
   }
 
   async showAttractors() {

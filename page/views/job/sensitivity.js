@@ -6,13 +6,14 @@ import { short, typed, unitText, withUnit } from "../../interface/numbers.js";
 import { note } from "../../interface/route.js";
 import { table } from "../../interface/table.js";
 import { whenThere } from "../../interface/when_there.js";
+import { Newest } from "../../requests/newest.js";
 import { get } from "../../requests/service.js";
 
 export async function show(room, context) {
   const view = new Sensitivity(context);
-  await whenThere(room, context, context.job.links.sensitivity, view.query(), async (answer) => {
+  await whenThere(room, context, context.job.links.sensitivity, () => view.query(), async (answer) => {
     if (!view.element.isConnected) fill(room, view.element);
-    if (view.changed) await view.ask();
+    if (view.changed) await view.questions.want();
     else await view.take(answer);
   });
 }
@@ -20,9 +21,10 @@ export async function show(room, context) {
 class Sensitivity {
   constructor({ job, query, signal }) {
     Object.assign(this, { job, signal, wanted: query.get("output") });
+    this.questions = new Newest(() => this.ask());
     const asked = () => {
       this.changed = true;
-      this.ask().catch(() => {});
+      this.questions.want();
     };
     this.output = element("select", { id: "output", onchange: () => {
       this.wanted = this.output.value;
@@ -57,7 +59,8 @@ class Sensitivity {
   async ask() {
     const query = this.query();
     note({ output: this.wanted, limit: query.limit ?? null });
-    await this.take(await get(this.job.links.sensitivity, query, this.signal));
+    const answer = await get(this.job.links.sensitivity, query, this.signal);
+    this.take(answer).catch(() => {}); // the next question does not wait for the picture
   }
 
   async take(answer) {

@@ -17,6 +17,7 @@ import { Stage } from "../../mechanism/stage.js";
 import { turn } from "../../mechanism/turn.js";
 import { contacts } from "../../requests/contacts.js";
 import { TERMINAL } from "../../requests/following.js";
+import { Newest } from "../../requests/newest.js";
 import { get } from "../../requests/service.js";
 import { PhasePortrait, Spectrum } from "./window.js";
 
@@ -48,6 +49,7 @@ class Watch {
     this.stage = new Stage([this.motion], job.label || scene.name);
     this.insets = new Insets(this.motion);
     this.impacts = [];
+    this.facts = new Newest(() => this.showFacts());
     const plotRoom = element("section", { class: "panel" }, element("h2", {}, "History"));
     this.looks = [PhasePortrait, Spectrum].map((Look) => new Look(job, query, signal));
     fill(this.room,
@@ -64,7 +66,7 @@ class Watch {
     if (!this.motion.missing.length) {
       await this.motion.ready(this.clock.time).catch(() => {}); // what is asked besides would delay it
     }
-    if (!signal.aborted) await Promise.all([this.plots(plotRoom, scene), this.facts()]);
+    if (!signal.aborted) await Promise.all([this.plots(plotRoom, scene), this.facts.want()]);
   }
 
   drawing(scene) {
@@ -127,7 +129,7 @@ class Watch {
   }
 
   /** What is drawn besides, as far as it is there: peaks and impacts. */
-  async facts() {
+  async showFacts() {
     const { links, job } = this.job;
     const none = () => null;
     const [peaks, found] = await Promise.all([
@@ -172,7 +174,7 @@ class Watch {
       this.clock.extend(Math.max(reached, this.clock.last));
       this.history?.extend(this.clock.last);
       if (!over) return;
-      this.facts();
+      this.facts.want();
       if (this.history?.channels) this.certify();
     });
   }

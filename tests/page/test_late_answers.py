@@ -1,0 +1,248 @@
+"""Answers that come late, in another order than they were asked for, or not at all."""
+
+import io
+import json
+import re
+from functools import partial
+from urllib.parse import parse_qs, urlsplit
+
+import numpy as np
+
+from tests.page.browsing import expect
+from tests.worker_by_hand import SENSITIVITY
+
+ENDED_MEANWHILE = """async () => {
+  const { whenThere } = await import("/page/interface/when_there.js");
+  const asked = [];
+  globalThis.fetch = () => new Promise((resolve) => asked.push(resolve));
+  const reply = (nth, text) => asked[nth](new Response(JSON.stringify({ text })));
+  const job = { state: "running", progress: { fraction: 0.5 } };
+  const { signal } = new AbortController();
+  let happened;
+  const context = { job, signal, onChange: (listener) => (happened = listener) };
+  const room = document.createElement("div");
+  const shown = whenThere(room, context, "/late", {}, ({ text }) => (room.textContent = text));
+  job.state = "succeeded";
+  happened(job);
+  const together = asked.length;
+  if (together > 1) reply(1, "all");
+  reply(0, "half");
+  while (asked.length < 2) await new Promise((resolve) => setTimeout(resolve));
+  if (together === 1) reply(1, "all");
+  await shown;
+  return [together, room.textContent];
+}"""
+MOTION = """async () => {
+  const { Motion } = await import("/page/mechanism/motion.js");
+  const channels = ["arm.x", "arm.y", "arm.theta"];
+  const job = { state: "running", progress: { time: 2 }, links: { history: "/late/history" },
+    job: { output_step: 1, duration: 2, channels } };
+  const { signal } = new AbortController();
+  const scene = { bodies: { arm: {} }, joints: {}, drivers: {}, curves: [] };
+  const draw = () => (globalThis.pose = motion.at(2)?.pose.arm);
+  globalThis.motion = new Motion(job, scene, draw, signal);
+  motion.at(2);
+}"""
+TILES = """async () => {
+  const { Tiles } = await import("/page/charts/tiles.js");
+  const wait = setTimeout;
+  globalThis.setTimeout = (act) => wait(act, 0); // whatever it would wait for
+  const picture = await new OffscreenCanvas(1, 1);
+  picture.getContext("2d");
+  const png = await picture.convertToBlob();
+  globalThis.asked = {};
+  globalThis.fetch = async (path) => {
+    asked[path] = (asked[path] ?? 0) + 1;
+    const status = path === "/tiles/0/0/0.png" ? 404 : 500;
+    return asked[path] > 1 ? new Response(png) : new Response("{}", { status });
+  };
+  const { signal } = new AbortController();
+  const draw = () => {
+    const found = [0, 1, 2, 3, 4, 5, 6, 7, 8].map((x) => tiles.get(0, x, 0));
+    tiles.send();
+    globalThis.drawn = found.filter(Boolean).length;
+  };
+  const tiles = new Tiles("/tiles", {}, signal, draw);
+  draw();
+}"""
+
+
+def test_a_job_that_ends_while_an_answer_is_on_its_way_is_shown_to_its_end(browsing, service_url):
+    """Two were on their way, and the older one stayed if it came last."""
+    with browsing.page(f"{service_url}/") as page:
+        assert page.evaluate(ENDED_MEANWHILE) == [1, "all"]
+
+
+def archive(times, *, complete):
+    """Return samples of an arm whose place is the time, as the service stores them."""
+    columns = dict.fromkeys(("arm.x", "arm.y", "arm.theta"), np.array(times))
+    file = io.BytesIO()
+    np.savez(file, time=np.array(times), **columns, complete=complete)
+    return file.getvalue()
+
+
+def test_a_motion_goes_on_that_was_on_its_way_as_the_job_went_on(browsing, service_url):
+    """It stayed as it was when it was asked for."""
+    held = []
+    with browsing.page(f"{service_url}/") as page:
+        page.route("**/late/history*", lambda route: held.append(route))
+        with page.expect_request("**/late/history*"):
+            page.evaluate(MOTION)
+        page.evaluate("motion.refresh()")
+        with page.expect_request("**/late/history*"):
+            held.pop().fulfill(body=archive([0.0, 1.0], complete=False))
+        assert page.evaluate("pose") == [1.0, 1.0, 1.0]  # what there is, until more comes
+        held.pop().fulfill(body=archive([0.0, 1.0, 2.0], complete=True))
+        page.wait_for_function("() => pose[0] === 2")
+        assert page.evaluate("motion.refresh(); motion.chunks.get(0).outdated") is False
+
+
+def test_tiles_that_do_not_come_are_asked_for_again_and_keep_none_back(browsing, service_url):
+    """After six that failed, no other was asked for."""
+    with browsing.page(f"{service_url}/") as page:
+        page.evaluate(TILES)
+        page.wait_for_function("() => drawn === 8")
+        asked = page.evaluate("asked")
+    tiles = {f"/tiles/0/{x}/0.png": asked.get(f"/tiles/0/{x}/0.png") for x in range(9)}
+    assert [*tiles.values()] == [1] + 8 * [2]  # the first is refused for good
+
+
+def live(label):
+    return re.compile(rf"/v1/jobs\?(?=.*page_size=20).*label={label}")
+
+
+def test_jobs_of_an_earlier_filter_do_not_come_into_the_list(browsing, service_url, worker):
+    for label in ("sooner", "later"):
+        worker.submit(label=label)
+    held = []
+    with browsing.page(f"{service_url}/#/jobs?label=sooner", expected=("ERR_FAILED",)) as page:
+        page.route(live("sooner"), lambda route: held.append(route))
+        page.wait_for_event("request", lambda one: live("sooner").search(one.url))
+        page.get_by_label("Label", exact=True).fill("later")
+        page.get_by_label("Label", exact=True).press("Enter")
+        expect(page.locator(".row")).to_have_count(1)
+        page.locator(".row").get_by_role("link", name="later").wait_for()
+        held.pop().continue_()
+        for _ in range(2):
+            page.wait_for_event("response", lambda one: live("later").search(one.url))
+        expect(page.locator(".row")).to_have_count(1)
+        page.locator(".row").get_by_role("link", name="later").wait_for()
+
+
+def test_a_deleted_job_does_not_come_back(browsing, http, service_url, worker):
+    worker.finished(label="restored")
+    before = http.get("/v1/jobs", params={"label": "restored"}).text
+    held = []
+    with browsing.page(f"{service_url}/#/jobs?label=restored") as page:
+        page.on("dialog", lambda dialog: dialog.accept())
+        page.route(
+            live("restored"), lambda route: route.continue_() if held else held.append(route)
+        )
+        page.wait_for_event("request", lambda one: live("restored").search(one.url))
+        page.locator(".row").get_by_role("button", name="Delete").click()
+        page.get_by_role("heading", name="No job matches these filters").wait_for()
+        held[0].fulfill(body=before)
+        for _ in range(2):
+            page.wait_for_event("response", lambda one: live("restored").search(one.url))
+        page.get_by_role("heading", name="No job matches these filters").wait_for()
+
+
+def test_a_list_goes_on_without_a_job_that_somebody_deleted(browsing, http, service_url):
+    job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+    jobs = [job | {"label": "goes on"} for _ in range(22)]  # live are the newest 20
+    batch = http.post("/v1/batches", json={"jobs": jobs}).raise_for_status().json()["id"]
+    listed = http.get(f"/v1/batches/{batch}/jobs").json()["jobs"]
+    oldest = min(listed, key=lambda one: one["id"])["id"]
+    with browsing.page(f"{service_url}/#/jobs?label=goes+on", expected=("410",)) as page:
+        row = page.locator(f"[data-job='{oldest}']")
+        row.wait_for()
+        http.post(f"/v1/jobs/{oldest}/cancel").raise_for_status()
+        http.delete(f"/v1/jobs/{oldest}").raise_for_status()
+        row.wait_for(state="detached")
+        new = http.post("/v1/jobs", json=jobs[0] | {"cache": False}).json()["id"]
+        page.locator(f"[data-job='{new}']").wait_for()
+
+
+def test_what_a_batch_refused_stays_to_be_read(browsing, http, service_url):
+    """The next look at the batch wiped it away; a double click did a thing twice."""
+    job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+    batch = http.post("/v1/batches", json={"jobs": [job]}).raise_for_status().json()["id"]
+    held = []
+    with browsing.page(f"{service_url}/#/batch/{batch}", expected=("409",)) as page:
+        page.route("**/cancel", lambda route: held.append(route))
+        cancel = page.get_by_role("button", name="Cancel all")
+        with page.expect_request("**/cancel"):
+            cancel.dblclick()
+        looks = re.compile(f"/v1/batches/{batch}/jobs")
+        page.wait_for_event("response", lambda one: looks.search(one.url))
+        assert len(held) == 1
+        held.pop().fulfill(status=409, json={"detail": "Not now."})
+        page.get_by_role("alert").get_by_text("Not now.").wait_for()
+        for _ in range(2):
+            page.wait_for_event("response", lambda one: looks.search(one.url))
+        expect(page.get_by_role("alert")).to_have_text("Not now.")
+
+
+def test_the_output_that_was_chosen_last_is_shown(browsing, worker, service_url):
+    """That of which the answer came last was."""
+    job = worker.finished_study(**SENSITIVITY, failing=())
+    first, second = (f"displacement.{one}" for one in ("mean", "minimum"))
+    held = []
+    with browsing.page(f"{service_url}/healthz") as page:
+        svg = "<svg xmlns='http://www.w3.org/2000/svg' width='1' height='1'/>"
+        drawn = {"body": svg, "content_type": "image/svg+xml"}
+        page.route("**/figures/*", lambda route: route.fulfill(**drawn))
+        page.route(f"**/sensitivity?output={first}", lambda route: held.append(route))
+        page.goto(f"{service_url}/#/job/{job}")
+        output = page.get_by_label("Output", exact=True)
+        with page.expect_request(f"**/sensitivity?output={first}"):
+            output.select_option(first)
+        output.select_option(second)
+        with page.expect_response(f"**/sensitivity?output={first}"):
+            held.pop().continue_()
+        page.get_by_role("img", name=f"What {second} owes to each parameter").wait_for()
+        expect(output).to_have_value(second)
+
+
+INSTANTS = """async ([names, count]) => {
+  const { instants } = await import("/page/plots/instants.js");
+  const job = { links: { history: "/long/history" }, job: { output_step: 5e-5 } };
+  const { signal } = new AbortController();
+  const { columns } = await instants(job, names, [0.5, 1.5], count, signal);
+  const gaps = columns.x.slice(1).map((one, i) => one - columns.x[i]).sort();
+  return [columns.x.length, gaps[0], gaps.at(-1), columns.x[0], columns.x.at(-1)];
+}"""
+
+
+NAMES = ["x", *(f"of {n}" for n in range(98))]  # of which an answer carries 9900 rows
+
+
+def long_history(route, *, basis):
+    """Answer as the service does, both ends of a window included: x is the time, others are not."""
+    query = {name: one[0] for name, one in parse_qs(urlsplit(route.request.url).query).items()}
+    start, stop = float(query["start"]), float(query["stop"])
+    if "points" in query:
+        return route.fulfill(body=json.dumps({"exact": True, "resolution": {"basis": basis}}))
+    if "step" in query:
+        step = float(query["step"])
+        times = start + step * np.arange(int((stop - start) / step * (1.0 + 1e-12)) + 1)
+    else:
+        times = np.arange(np.ceil(start / 5e-5 - 1e-6), np.floor(stop / 5e-5 + 1e-6) + 1) * 5e-5
+    assert (1 + len(NAMES)) * len(times) <= 1_000_000
+    file = io.BytesIO()
+    np.savez(file, time=times, **dict.fromkeys(NAMES, np.empty(0)) | {"x": times}, complete=True)
+    return route.fulfill(body=file.getvalue())
+
+
+def test_many_instants_have_none_twice(browsing, service_url):
+    """Those at the edges of answers were there twice."""
+    with browsing.page(f"{service_url}/") as page:
+        for basis, step in (("steps", 1.0 / 19_999), ("intervals", 5e-5)):
+            page.route("**/long/history*", partial(long_history, basis=basis))
+            count, least, most, first, last = page.evaluate(INSTANTS, [NAMES, 20_000])
+            page.unroute("**/long/history*")
+            assert count == 20_000
+            assert abs(least / step - 1.0) < 1e-6
+            assert abs(most / step - 1.0) < 1e-6
+            assert abs(last - 1.5) < 1e-9
+            assert abs(first - (1.5 - 19_999 * step)) < 1e-9
