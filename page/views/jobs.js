@@ -170,7 +170,9 @@ class JobList {
   }
 
   failed(error) {
-    if (error.name !== "AbortError") fill(this.empty, trouble(error));
+    if (error.name === "AbortError") return;
+    this.drawn = null; // the next list takes its place
+    fill(this.empty, trouble(error));
   }
 
   /** Measures once what would otherwise be asked of the browser's layout in every frame. */
