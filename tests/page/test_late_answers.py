@@ -197,8 +197,12 @@ def test_the_output_that_was_chosen_last_is_shown(browsing, worker, service_url)
         output = page.get_by_label("Output", exact=True)
         with page.expect_request(f"**/sensitivity?output={first}"):
             output.select_option(first)
+        asked = []
+        page.on("request", lambda one: asked.append(one.url))
         output.select_option(second)
-        with page.expect_response(f"**/sensitivity?output={first}"):
+        page.evaluate("async () => (await fetch('/healthz')).ok")
+        assert not [one for one in asked if second in one]
+        with page.expect_request(f"**/sensitivity?output={second}"):  # no sooner
             held.pop().continue_()
         page.get_by_role("img", name=f"What {second} owes to each parameter").wait_for()
         expect(output).to_have_value(second)
