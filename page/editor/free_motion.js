@@ -151,7 +151,7 @@ export class FreeMotion {
   nudge(point, right, down) {
     if (!this.scene || !this.view) return;
     const [x, y] = this.pixelOf(point);
-    this.pulls.want({ scene: this.scene, point, place: this.view.place(x + right, y + down) });
+    this.pulls.want({ scene: this.scene, point, position: this.view.position(x + right, y + down) });
   }
 
   /** Takes hold of the nearest point of a body; drivers let go meanwhile. */

@@ -70,7 +70,8 @@ TILES = """async () => {
 def test_a_job_that_ends_while_an_answer_is_on_its_way_is_shown_to_its_end(browsing, service_url):
     """Two were on their way, and the older one stayed if it came last."""
     with browsing.page(f"{service_url}/") as page:
-        assert page.evaluate(ENDED_MEANWHILE) == [1, "all"]
+        questions = page.evaluate(ENDED_MEANWHILE)
+        assert questions == [1, "all"]
 
 
 def archive(times, *, complete):
@@ -91,10 +92,12 @@ def test_a_motion_goes_on_that_was_on_its_way_as_the_job_went_on(browsing, servi
         page.evaluate("motion.refresh()")
         with page.expect_request("**/late/history*"):
             held.pop().fulfill(body=archive([0.0, 1.0], complete=False))
-        assert page.evaluate("pose") == [1.0, 1.0, 1.0]  # what there is, until more comes
+        pose = page.evaluate("pose")
+        assert pose == [1.0, 1.0, 1.0]  # what there is, until more comes
         held.pop().fulfill(body=archive([0.0, 1.0, 2.0], complete=True))
         page.wait_for_function("() => pose[0] === 2")
-        assert page.evaluate("motion.refresh(); motion.chunks.get(0).outdated") is False
+        outdated = page.evaluate("motion.refresh(); motion.chunks.get(0).outdated")
+        assert outdated is False
 
 
 def test_tiles_that_do_not_come_are_asked_for_again_and_keep_none_back(browsing, service_url):

@@ -219,7 +219,7 @@ def test_a_map_that_grows_faster_than_its_tiles_come_is_never_blank(browsing, ur
         page.get_by_label(MAP).wait_for()
         page.evaluate(WATCHED, [MAP, page.evaluate(GROUND)])
         page.wait_for_function(GROWN)
-        assert page.evaluate("window.seen.blank") == 0
+        page.wait_for_function("() => window.seen.blank === 0")
 
 
 def test_a_chart_without_a_point_says_so_and_fills_in(browsing, service_url, worker, catalogue):

@@ -224,7 +224,7 @@ def test_a_point_is_pulled_and_kept_as_the_start_without_a_pointer(
         assert misfit(document, before) < 1e-9
         assert abs(before[body][2] - start[body][2]) > 0.02
         expect(page.locator(CANVAS)).to_be_focused()
-        assert page.evaluate("scrollY") == 0  # arrow keys move the point, not the page
+        page.wait_for_function("() => scrollY === 0")  # arrow keys move the point, not the page
         assert barriers(page) == []
         page.get_by_role("button", name="Start here").focus()
         with page.expect_response(posed) as answer:

@@ -1,4 +1,4 @@
-"""How the help of a command is set: in tables where the terminal is wide enough, else plainly."""
+"""Form of the help of a command: in tables where the terminal is wide enough, else plainly."""
 
 import shutil
 from typing import Any, Final
