@@ -4,6 +4,7 @@ import {
   deletable, deleteJob, mayDelete, retriable, retryJob, withEach,
 } from "../interface/acting.js";
 import { element, fill } from "../interface/element.js";
+import { jobFilters } from "../interface/job_filters.js";
 import { JobRow } from "../interface/job_row.js";
 import { listed } from "../interface/listed.js";
 import { address, note } from "../interface/route.js";
@@ -20,7 +21,6 @@ const AHEAD = 200; // rows below what is seen that are asked for before they are
 const BEYOND = 8; // rows above and below what is seen
 const MOST_COMPARED = 4;
 const MOST_ASKED = 12; // jobs that are looked at again one by one
-const STATES = ["queued", "running", "cancelling", "succeeded", "failed", "cancelled"];
 
 export async function show(room, { query, signal }) {
   const kinds = Object.keys(await describedKinds(signal).catch(() => ({}))); // the list says what is wrong
@@ -31,7 +31,7 @@ export async function show(room, { query, signal }) {
 
 class JobList {
   constructor(query, kinds, signal) {
-    Object.assign(this, { kinds, signal, jobs: null, next: null, chosen: new Map(), rows: new Map() });
+    Object.assign(this, { signal, jobs: null, next: null, chosen: new Map(), rows: new Map() });
     this.deleted = new Set(); // ids, of which an answer may be on its way that is from before
     this.asked = new AbortController(); // for the newest list; answers to what was asked before are not taken
     signal.addEventListener("abort", () => this.asked.abort());
@@ -52,26 +52,10 @@ class JobList {
       element("div", { class: "head" }, element("h1", {}, "Jobs"), this.said,
         element("div", { class: "buttons" }, this.acts,
           element("a", { class: "button", href: "#/batches" }, "Batches"))),
-      this.form(), this.notice, this.problem, this.scroll, this.empty);
+      jobFilters(this.filters, kinds, (name, value) => this.filter(name, value),
+        element("label", { class: "all", for: "choose-all" }, this.all, "All shown")),
+      this.notice, this.problem, this.scroll, this.empty);
     new ResizeObserver(() => this.resized()).observe(this.scroll);
-  }
-
-  form() {
-    const field = (name, title, control) => element("div", { class: "field" },
-      element("label", { for: `filter-${name}` }, title), control);
-    const select = (name, title, values) => field(name, title, element("select", {
-      id: `filter-${name}`, onchange: (event) => this.filter(name, event.target.value),
-    }, ["", ...values].map((value) => element("option", {
-      value, selected: value === this.filters[name],
-    }, value || "all"))));
-    const text = (name, title) => field(name, title, element("input", {
-      type: "search", id: `filter-${name}`, value: this.filters[name], maxlength: 200,
-      onchange: (event) => this.filter(name, event.target.value.trim()),
-    }));
-    return element("div", { class: "filters", role: "search" },
-      select("state", "State", STATES), select("kind", "Kind", this.kinds),
-      text("scene", "Mechanism"), text("label", "Label"),
-      element("label", { class: "all", for: "choose-all" }, this.all, "All shown"));
   }
 
   async filter(name, value) {
