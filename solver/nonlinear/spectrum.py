@@ -47,7 +47,8 @@ def power_spectrum(series: Floats, interval: float = 1.0, segments: int = 1) -> 
         _, cosine = sine_cosine((2.0 * np.pi / length) * np.arange(length))
         window = 0.5 - 0.5 * cosine
     columns = values.reshape(len(values), -1)
-    begins = [i * (length // 2) for i in range(segments)]
+    apart = min(length - length // 2, (len(values) - length) // max(segments - 1, 1))
+    begins = [i * apart for i in range(segments)]
     total = reduce(add, (_periodogram(columns[i : i + length], window) for i in begins))
     density = total * (interval / ((window * window).sum() * len(begins)))
     frequency = np.arange(len(density)) / (length * interval)
