@@ -170,13 +170,18 @@ def test_a_study_that_goes_on_keeps_what_was_measured_and_repeats_but_for_second
     assert repeatable([*first, *rest]) == repeatable(undisturbed)
 
 
+def give_up_after(monkeypatch: pytest.MonkeyPatch, evaluations: float) -> None:
+    """Give runs up after so many evaluations, which are looked at every ten steps."""
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.timed_run, "BUDGET", 10)
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "MOST_REFERENCES", 0.0)
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "FEWEST", evaluations)
+
+
 def test_a_method_that_takes_too_many_evaluations_is_given_up(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The grid's own evaluations double; they are looked at every ten steps here."""
-    monkeypatch.setattr(jointplay.solver.runs.work_precision.timed_run, "BUDGET", 10)
-    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "MOST_REFERENCES", 0.0)
-    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "FEWEST", 150.0)
+    """The grid's own evaluations double."""
+    give_up_after(monkeypatch, 150.0)
     found = measured(FEW | {"methods": ["rk4"]})
     # 0.003 s in steps of 0.2 ms, 0.1 ms, 50 us: 60, 120, 240 evaluations
     codes = {point: one.code for point, one in found.failures.items()}
@@ -191,9 +196,7 @@ def test_a_method_that_takes_too_many_evaluations_is_given_up(
 def test_a_reference_that_is_given_up_says_nothing_of_looser_tolerances(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(jointplay.solver.runs.work_precision.timed_run, "BUDGET", 10)
-    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "MOST_REFERENCES", 0.0)
-    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "FEWEST", 50.0)
+    give_up_after(monkeypatch, 50.0)
     found = measured(FEW | {"methods": ["dormand-prince-853"]})
     assert found.failures[1].code == "given-up"
     assert all(failure.code != "left-out" for failure in found.failures.values())
