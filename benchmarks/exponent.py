@@ -20,7 +20,7 @@ from jointplay.solver.kernels.emit.functions import (
 )
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
-from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop import generated
 from jointplay.solver.kernels.loop.bundle import Bundle
 
 REVOLUTIONS = 10
@@ -33,7 +33,7 @@ REPEATS = 15
 def repeat(addresses: Any, work: Any, count: int) -> None:
     """Call a lane function many times."""
     for _ in range(count):
-        calls.observe(addresses[0], work)
+        generated.observe(addresses[0], work)
 
 
 def seconds_of(function: Any, bundle: Bundle, count: int) -> float:

@@ -113,10 +113,10 @@ class EntryPoint:
         return value + POINTER + "".join(one.words for one in self.arguments)
 
     def __call__(self, *arguments: Any) -> Any:
-        """Run it with these arguments; as `Call` does."""
+        """Run it with these arguments; as `PreparedCall` does."""
         return self.prepare(*arguments)()
 
-    def prepare(self, *arguments: Any) -> "Call":
+    def prepare(self, *arguments: Any) -> "PreparedCall":
         """Return what runs it with these arguments, whose arrays must not be replaced meanwhile.
 
         To lay out a dozen arrays takes as long as some twenty steps do.
@@ -130,7 +130,7 @@ class EntryPoint:
         """
         passed = _all_passed(self.arguments, arguments)
         try:
-            return Call(self, struct.pack(self.words, 0, 0, *passed), arguments)
+            return PreparedCall(self, struct.pack(self.words, 0, 0, *passed), arguments)
         except struct.error as error:
             raise TypeError(f"'{self.name}' takes other numbers: {error}") from error
 
@@ -142,7 +142,7 @@ class EntryPoint:
         return found
 
 
-class Call:
+class PreparedCall:
     """A call of an entry point that can be repeated."""
 
     def __init__(self, entry_point: EntryPoint, words: bytes, arguments: tuple[Any, ...]) -> None:

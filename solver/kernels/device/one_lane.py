@@ -11,7 +11,7 @@ from jointplay.solver.kernels.device.lanes import Sizes
 from jointplay.solver.kernels.emit import functions, slots
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop import calls, runs
+from jointplay.solver.kernels.loop import generated, runs
 from jointplay.solver.kernels.loop.lanes import attend_lanes, landing_lanes, settle_lanes
 from jointplay.solver.kernels.loop.runs import Buffers
 from jointplay.solver.kernels.loop.step import Group
@@ -97,7 +97,7 @@ def advance_one_lane(
     own[0].filled[0] = own[0].filled[1] = own[0].impacts = own[0].growths = 0
     for slot in range(sizes.slots):
         work[slot, 0] = lanes.columns[slot * sizes.lanes + lane]
-    at, call = carray(slots, (1,))[0], carray(addresses, (1,))[0]
+    at, functions = carray(slots, (1,))[0], carray(addresses, (1,))[0]
     rows = carray(lanes.rows, (sizes.lanes, 2, 1, sizes.rows, at.row.width))[lane]
     buffers = Buffers(
         unowned(rows),
@@ -106,15 +106,15 @@ def advance_one_lane(
         unowned(carray(lanes.rows, (0, 1, 1))),
     )
     spare = unowned(carray(room.spare, (sizes.slots, INSTANTS)))
-    group = Group(own, at, work, spare, carray(lanes.rows, (0,)), call)  # seeks no extremes
+    group = Group(own, at, work, spare, carray(lanes.rows, (0,)), functions)  # seeks no extremes
     full, made = False, 0
     while made < budget and work[at.active, 0] > 0.0 and not full:
         made += 1
-        wanted = calls.attempt(call, work) | landing_lanes(own)
+        wanted = generated.attempt(functions, work) | landing_lanes(own)
         full = wanted != 0 and attend_lanes(wanted, group, buffers.rows)
         if sizes.growths > 0 and work[at.accept, 0] > 0.0:
-            calls.tangent_step(call, work)
-        calls.take(call, work)
+            generated.tangent_step(functions, work)
+        generated.take(functions, work)
         if wanted != 0:
             full |= settle_lanes(wanted, group, buffers)
     for slot in range(sizes.slots):

@@ -54,7 +54,7 @@ SIGNATURES: Mapping[str, Signature] = {
 OF_TANGENTS = ("tangent_step", "tangent_gaps")
 
 DTYPE = np.dtype([(name, np.int64) for name in SIGNATURES])
-"""Type of their addresses; see `solver.kernels.loop.calls`."""
+"""Type of their addresses; see `solver.kernels.loop.generated`."""
 
 
 def addresses_of(*modules: Any) -> NDArray[np.void]:
@@ -84,7 +84,7 @@ def address_of(function: Any, expected: Signature) -> int:
 
 COUNTED = ".counted"
 """Ends the name of the function that loops call, which counts its calls."""
-CALLS = ".calls"
+CALL_COUNT = ".call_count"
 """Ends the name of the number of its calls."""
 
 
@@ -106,9 +106,9 @@ class Function:
         return address_of_symbol(f"{self._symbol}{COUNTED}")
 
     @property
-    def calls(self) -> int:
+    def call_count(self) -> int:
         """Number of calls by loops of this process: work is counted, for times depend on cores."""
-        return ctypes.c_int64.from_address(address_of_symbol(f"{self._symbol}{CALLS}")).value
+        return ctypes.c_int64.from_address(address_of_symbol(f"{self._symbol}{CALL_COUNT}")).value
 
     @cached_property
     def _entry(self) -> Any:

@@ -6,7 +6,7 @@ They call one another, and Python calls them. Loops call a second function of ea
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from jointplay.solver.kernels.emit.functions import CALLS, COUNTED, Function, Signature
+from jointplay.solver.kernels.emit.functions import CALL_COUNT, COUNTED, Function, Signature
 from jointplay.solver.kernels.emit.lane_arithmetic import declared
 from jointplay.solver.kernels.emit.straight_line import ARGUMENTS, write
 
@@ -55,7 +55,7 @@ class Source:
 
     def text(self, symbol: Callable[[str], str], lanes: int) -> str:
         """Return both functions, and how often loops called the second."""
-        calls = symbol(self.name + CALLS)
+        calls = symbol(self.name + CALL_COUNT)
         counted = [
             f"%before = load i64, ptr {calls}",
             "%now = add i64 %before, 1",

@@ -8,7 +8,7 @@ shorten a step.
 
 import numpy as np
 
-from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop import generated
 from jointplay.solver.kernels.loop.events import any_crossing
 from jointplay.solver.kernels.loop.lanes import (
     any_accepted,
@@ -43,7 +43,7 @@ def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
         How many attempts were made.
     """
     group = group_of(given)
-    at, work, runs, call = group.at, group.work, group.runs, group.call
+    at, work, runs, addresses = group.at, group.work, group.runs, group.addresses
     marked = unowned(work.view(np.uint64))
     rows, steps = unowned(buffers.rows), unowned(buffers.steps)
     running, landing, crossing = count_active(at, work), landing_lanes(runs), any_crossing(runs)
@@ -53,30 +53,34 @@ def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
     made = 0
     while made < budget and running > 0:
         made += 1
-        wanted = calls.attempt(call, work) | landing
+        wanted = generated.attempt(addresses, work) | landing
         full = wanted != 0 and attend_lanes(wanted, group, rows)
         if watch or crossing:
-            calls.observe(call, work)
+            generated.observe(addresses, work)
         if crossing:
             crossed, filled = cross_lanes(group, rows)
             wanted, full = wanted | crossed, full or filled
         quiet = wanted == 0
         if watch:
-            foreseen = calls.foresee_looks(call, work)
+            foreseen = generated.foresee_looks(addresses, work)
             if foreseen != 0:
-                calls.foresee_bends(call, work)
+                generated.foresee_bends(addresses, work)
             if foreseen | wanted != 0:
                 look_closer_at_lanes(foreseen | wanted, group)
         if watch or crossing:  # a scan also keeps the values from which channels go on
-            candidates = calls.scan(call, work) if quiet else calls.scan_some(call, work)
+            candidates = (
+                generated.scan(addresses, work) if quiet else generated.scan_some(addresses, work)
+            )
             if watch and candidates > 0:
                 refine_lanes(candidates, group, marked)
         if watch:
-            calls.remember(call, work) if quiet else calls.remember_some(call, work)
+            generated.remember(addresses, work) if quiet else generated.remember_some(
+                addresses, work
+            )
         full |= keep_steps(group, steps)
         if tangents and (quiet or any_accepted(at, work)):
-            calls.tangent_step(call, work)
-        calls.take(call, work)
+            generated.tangent_step(addresses, work)
+        generated.take(addresses, work)
         if quiet and not full:
             continue
         full |= settle_lanes(wanted, group, buffers)

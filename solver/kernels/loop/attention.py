@@ -10,7 +10,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.judging import DUE, ONSET, PACE, REJECTED, RELEASE
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop import generated
 from jointplay.solver.kernels.loop.contacts import (
     CAUTIOUS,
     begin_abruptly,
@@ -72,7 +72,7 @@ def attend(flag: int, s: Step, rows: np.ndarray) -> bool:
 @inner_kernel()
 def settle(flag: int, s: Step, buffers: Buffers) -> bool:
     """Look after one lane once its step is taken. Returns whether a buffer is nearly full."""
-    lane, run, at, work, call = s.lane, s.run, s.at, s.work, s.call
+    lane, run, at, work, addresses = s.lane, s.run, s.at, s.work, s.addresses
     tangents = buffers.growths.shape[1] > 0
     begun = float(run.periods) * run.period
     now = begun + work[at.time, lane]
@@ -85,10 +85,10 @@ def settle(flag: int, s: Step, buffers: Buffers) -> bool:
                 continue
             begin_contact(j, now, s)
             # where a fixed step ends, a contact may begin deep: with energy from nowhere
-            calls.weigh(call, work)
+            generated.weigh(addresses, work)
             work[at.stored_start, lane] = work[at.stored, lane]
             if tangents:
-                calls.tangent_gaps(call, work)
+                generated.tangent_gaps(addresses, work)
                 latch_tangent(j, s)
             run.onsets += 1
             run.slow += int(work[at.approach + j, lane] < work[at.impact_floor + j, lane])

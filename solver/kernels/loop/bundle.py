@@ -14,7 +14,7 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.compensated import product_difference
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.entry_point import Call
+from jointplay.solver.kernels.entry_point import PreparedCall
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
 from jointplay.solver.kernels.loop.binding import FIRST_STEP, number
 from jointplay.solver.kernels.loop.entry_points import advance, observe_rows, plan_anew
@@ -47,7 +47,7 @@ class GroupState:
     buffers: Buffers
     attempts: int = 0
     """Attempts at a step that were made, each of all lanes at once."""
-    advancing: Call | None = None
+    advancing: PreparedCall | None = None
     """Advances them: to lay out its arguments anew for each call would take longer."""
 
     @property

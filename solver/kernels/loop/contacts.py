@@ -5,7 +5,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop import generated
 from jointplay.solver.kernels.loop.onset import NO_ONSET, first_onset
 from jointplay.solver.kernels.loop.periods import stop
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Status
@@ -168,7 +168,7 @@ def begin_abruptly(j: int, s: Step) -> None:
     work[at.stage_time, lane] += behind
     for i in range(at.step_row.coordinates):
         work[at.stage + i, lane] += behind * work[at.k1_ + i, lane]
-    calls.right_hand_side(s.call, work)
+    generated.right_hand_side(s.addresses, work)
     for i in range(at.states):
         k = at.k1_ + i
         kept[k // INSTANTS, k % INSTANTS] = work[at.slope + i, lane]

@@ -5,7 +5,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.slots import PERIOD, TIME, Slots
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop import generated
 from jointplay.solver.kernels.loop.periods import due_time
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.step import Step, states_within
@@ -98,7 +98,7 @@ def observe_rows(
     out : (count, channels)
         In the channels' units.
     """
-    call, at = addresses[0], slots[0]
+    functions, at = addresses[0], slots[0]
     lanes = blank.shape[1]
     for s in range(at.numbers, at.size):
         for i in range(lanes):
@@ -107,9 +107,9 @@ def observe_rows(
         count = min(lanes, len(rows) - first)
         for i in range(lanes):
             read_row(rows[first + min(i, count - 1)], i, at, blank)
-        calls.right_hand_side(call, blank)
-        calls.observe(call, blank)
-        calls.observe_rest(call, blank)
+        generated.right_hand_side(functions, blank)
+        generated.observe(functions, blank)
+        generated.observe_rest(functions, blank)
         for i in range(count):
             for c in range(len(columns)):
                 out[first + i, c] = blank[at.channel + columns[c], i]

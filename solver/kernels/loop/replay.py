@@ -5,7 +5,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.slots import LENGTH, PERIOD, TIME
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop import generated
 from jointplay.solver.kernels.loop.accepted_steps import read_step, read_steps
 from jointplay.solver.kernels.loop.dense_rows import write_row
 from jointplay.solver.kernels.loop.periods import product_difference
@@ -58,7 +58,7 @@ def states_in_steps(
     """
     group = group_of(given)
     at, work, spare, runs = group.at, group.work, group.spare, group.runs
-    call = group.call
+    addresses = group.addresses
     lanes, done = work.shape[1], 0
     begins = np.empty(lanes + 1, np.int64)
     while done < len(found):
@@ -72,7 +72,7 @@ def states_in_steps(
         begins[busy] = i
         for lane in range(busy, lanes):
             read_step(steps[found[done]], lane, runs[lane], at, work)
-        calls.attempt(call, work)
+        generated.attempt(addresses, work)
         for lane in range(busy):
             start, tried = work[at.time, lane], work[at.tried, lane]
             for first in range(begins[lane], begins[lane + 1], INSTANTS):
@@ -81,7 +81,7 @@ def states_in_steps(
                     moment = moment_of(first + k, moments, steps[found[first]], runs[lane])
                     theta = (moment - start) / tried if tried > 0.0 else 0.0
                     spare[at.theta, k] = min(max(theta, 0.0), 1.0)
-                calls.states_within(call, work, spare, lane)
+                generated.states_within(addresses, work, spare, lane)
                 for k in range(count):
                     write_row(rows[first + k], k, lane, runs[lane], at, work, spare)
         done = i
@@ -94,23 +94,23 @@ def make_again(given: Workspace, steps: np.ndarray, ends: np.ndarray, works: np.
     ledger, (n, terms), J.
     """
     group = group_of(given)
-    at, work, call = group.at, group.work, group.call
+    at, work, addresses = group.at, group.work, group.addresses
     for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, group.runs, at, work)
-        calls.right_hand_side(call, work)
-        calls.weigh(call, work)
+        generated.right_hand_side(addresses, work)
+        generated.weigh(addresses, work)
         for lane in range(work.shape[1]):
             work[at.stored_start, lane] = work[at.stored, lane]
             for k in range(at.ledger):
                 work[at.kledger1_ + k, lane] = work[at.power + k, lane]
                 work[at.total + k, lane] = 0.0
-        calls.attempt(call, work)
+        generated.attempt(addresses, work)
         for lane in range(count):
             for k in range(at.states):
                 ends[first + lane, k] = work[at.stage + k, lane]
         for lane in range(work.shape[1]):
             work[at.accept, lane] = 1.0
-        calls.take(call, work)
+        generated.take(addresses, work)
         for lane in range(count):
             for k in range(works.shape[1]):
                 works[first + lane, k] = work[at.total + k, lane]

@@ -6,7 +6,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.slots import Slots
 from jointplay.solver.kernels.jit import inner_kernel, written_out
-from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop import generated
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.unowned_view import unowned
 from jointplay.solver.kernels.loop.workspace import Workspace
@@ -28,7 +28,7 @@ class Step(NamedTuple):
     """Room for instants inside this step, (slots, INSTANTS)."""
     brackets: np.ndarray
     """Room for those of a search; see `solver.kernels.loop.extremes.search.brackets`."""
-    call: Addresses
+    addresses: Addresses
 
 
 class Group(NamedTuple):
@@ -40,7 +40,7 @@ class Group(NamedTuple):
     work: np.ndarray
     spare: np.ndarray
     brackets: np.ndarray
-    call: Addresses
+    addresses: Addresses
 
 
 @written_out()
@@ -54,28 +54,28 @@ def group_of(given: Workspace) -> Group:
 def step_of(lane: int, group: Group) -> Step:
     """Return the step that a lane attempts."""
     run = group.runs[lane]
-    return Step(lane, run, group.at, group.work, group.spare, group.brackets, group.call)
+    return Step(lane, run, group.at, group.work, group.spare, group.brackets, group.addresses)
 
 
 @inner_kernel(forceinline=True)
 def states_within(s: Step) -> None:
     """Evaluate the states at the instants of this step that `spare` has."""
-    calls.states_within(s.call, s.work, s.spare, s.lane)
+    generated.states_within(s.addresses, s.work, s.spare, s.lane)
 
 
 @inner_kernel(forceinline=True)
 def gaps_within(s: Step) -> None:
     """Evaluate gaps and slips there."""
-    calls.gaps_within(s.call, s.work, s.spare, s.lane)
+    generated.gaps_within(s.addresses, s.work, s.spare, s.lane)
 
 
 @inner_kernel(forceinline=True)
 def channels_within(s: Step) -> None:
     """Evaluate all channels there."""
-    calls.channels_within(s.call, s.work, s.spare, s.lane)
+    generated.channels_within(s.addresses, s.work, s.spare, s.lane)
 
 
 @inner_kernel(forceinline=True)
 def channels_around(s: Step) -> None:
     """Evaluate all channels at four instants of the step before and four of this one."""
-    calls.channels_around(s.call, s.work, s.spare, s.lane)
+    generated.channels_around(s.addresses, s.work, s.spare, s.lane)

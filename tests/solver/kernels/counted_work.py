@@ -114,5 +114,5 @@ def _calls(modules: list[Any]) -> dict[str, int]:
     found = {}
     for name in SIGNATURES:
         functions = [getattr(module, name) for module in modules if hasattr(module, name)]
-        found[name] = functions[0].calls if functions else 0
+        found[name] = functions[0].call_count if functions else 0
     return found

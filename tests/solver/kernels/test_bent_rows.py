@@ -74,8 +74,8 @@ def test_channels_without_a_kink_are_not_looked_at_from_bend_to_bend() -> None:
         bundle = Bundle(kernel, [LaneProblem(scene, 1e9, 1e-6, 1e9, 0, 0, 0.0)])
         if not bent:
             bundle.lane(0)["bent"] = 0.0
-        before = kernel.module.gaps_within.calls
+        before = kernel.module.gaps_within.call_count
         while bundle.lane(0).steps < 5000:
             bundle.advance(500)
-        looks.append(kernel.module.gaps_within.calls - before)
+        looks.append(kernel.module.gaps_within.call_count - before)
     assert looks[0] > looks[1] + 100  # onsets look at gaps, too

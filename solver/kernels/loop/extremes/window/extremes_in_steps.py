@@ -6,7 +6,7 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS, MOTION
-from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop import generated
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
 from jointplay.solver.kernels.loop.extremes.bends import look_between_bends
 from jointplay.solver.kernels.loop.extremes.passages import look_about_passages, passes
@@ -103,7 +103,7 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
     place_evenly(low, high, s)
     channels_within(s)
     behind = find_suspects(part, wanted.blocks, s, wanted.close, book, wanted.suspects)
-    calls.foresee_bends(s.call, s.work)
+    generated.foresee_bends(s.addresses, s.work)
     passing, bending = False, s.work[s.at.may_pass_bend, s.lane] > 0.0
     for j in range(s.at.pairs):
         passing |= passes(j, s)
@@ -154,7 +154,7 @@ def extremes_in_steps(
         Lowest value, its time, highest value, its time; left as it is where a bin has no part.
     """
     group = group_of(given)
-    at, work, call = group.at, group.work, group.call
+    at, work, addresses = group.at, group.work, group.addresses
     book, room = unowned(book), np.empty((2, book.shape[1]), np.int64)
     wanted = Wanted(
         rows[rows < at.rows], eights(rows), room[0], room[1], np.empty(group.spare.shape)
@@ -162,10 +162,10 @@ def extremes_in_steps(
     p, present = 0, 0
     for first in range(0, len(steps), work.shape[1]):
         count = read_steps(steps, first, group.runs, at, work)
-        calls.right_hand_side(call, work)
+        generated.right_hand_side(addresses, work)
         for lane in range(work.shape[1]):
             remember_start(step_of(lane, group))
-        calls.attempt(call, work)
+        generated.attempt(addresses, work)
         while p < len(parts) and parts[p, 0] < first + count:
             if parts[p, 1] != present:
                 close_bin(book, rows, extremes[present])

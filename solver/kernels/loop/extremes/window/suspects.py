@@ -6,7 +6,7 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop import calls
+from jointplay.solver.kernels.loop import generated
 from jointplay.solver.kernels.loop.extremes.search.rounding import place_closely, scatter, spread_of
 from jointplay.solver.kernels.loop.extremes.window.blank_book import ROUNDING
 from jointplay.solver.kernels.loop.extremes.window.book import count_value
@@ -87,7 +87,7 @@ def find_suspects(
             if mark >> JAGGED & 1:
                 if not looked:
                     place_closely(0.5 * (part.low + part.high), close[at.theta])
-                    calls.channels_within(s.call, s.work, close, s.lane)
+                    generated.channels_within(s.addresses, s.work, close, s.lane)
                     looked = True
                 if is_rounding(r, s, close, book):
                     count_each(r, False, part, s, book)

@@ -1,4 +1,4 @@
-"""Calls of a kernel's generated functions in loops, by their addresses: ``calls.take(call, work)``.
+"""Generated functions of a kernel as loops call them: ``generated.take(addresses, work)``.
 
 Each takes the structure of the addresses (see `solver.kernels.emit.functions`), and then what the
 function does, of which it is given the address of an array's numbers.
