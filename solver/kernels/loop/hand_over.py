@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
@@ -34,13 +33,15 @@ def handed_over(bundle: Bundle, kernel: Kernel, problem: LaneProblem, sharper: f
         Tolerance of each lane before, in the one from here on.
     """
     found = Bundle(kernel, watch=bundle.watch, keep_steps=1)
-    for i in range(BUNDLE):
-        lane = bundle.lane(i)
-        if lane.status == Status.IDLE:
-            continue
-        row = lane.row()
-        start = LaneStart.at_row(row[0], bundle.kernel.row)
-        found.load(i, replace(problem, start=start), like=0 if i else None)
+    lanes = {i: bundle.lane(i) for i in np.flatnonzero(bundle.runs["status"] != Status.IDLE)}
+    row = bundle.kernel.row
+    found.load_together(
+        {
+            i: replace(problem, start=LaneStart.at_row(lane.row()[0], row))
+            for i, lane in lanes.items()
+        }
+    )
+    for i, lane in lanes.items():
         _take_over(found.lane(i), lane, sharper)
         found.runs[i] = bundle.runs[i]
         found.first_energy[:, i] = bundle.first_energy[:, i]
