@@ -137,9 +137,9 @@ class JudgedStep:
             onwards = select_positive(shortened, maximum(next_step, v("unhindered")), onwards)
         if self.knots.met:
             passed = 1.0 - v("knot_share")
-            onwards = maximum(onwards, v("resumed0"))
-            kept = maximum(minimum(v("tried"), next_step), v("resumed0"))
-            resumed = [("resumed0", select_positive(passed, kept, 0.0))]
+            onwards = maximum(onwards, v("resumed"))
+            kept = maximum(minimum(v("tried"), next_step), v("resumed"))
+            resumed = [("resumed", select_positive(passed, kept, 0.0))]
             next_step = select_positive(passed, v("knot_share") * v("tried"), next_step)
             good = select_positive(passed, 0.0, good)
         return good, select_positive(good, onwards, next_step), resumed

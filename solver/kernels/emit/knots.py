@@ -44,7 +44,7 @@ class KnotTracer:
             layout.add("to_knot", "unhindered")
         if self.met:
             layout.add("knot_share")
-        layout.add_block("resumed", int(bool(self.met)))
+        layout.add("resumed")
         for name in AT_ENDS:
             layout.add_block(name, len(self.met))
             layout.add_block(f"{name}_start", len(self.met))

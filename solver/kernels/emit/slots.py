@@ -88,7 +88,7 @@ lever slip_row penetration_row normal_row inner_row bend y k1_ slope largest_ste
 rounding alike bent clock_start clock_travel clock_turn channel previous highest lowest
 highest_time lowest_time impact_floor restart onset_time approach onset_total opened abrupt weight
 steps pace_at look_at look_beyond looked_into swing may_look may_pass_bend looks_inside rough_until
-stored stored_start kledger1_
+stored stored_start kledger1_ resumed
 """
 SLOTS = tuple(_SLOTS.split())
 """Blocks of the work array that loops read or write; see the `allocate` functions beside this."""

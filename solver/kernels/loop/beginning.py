@@ -45,6 +45,7 @@ def begin(lanes: Lane, start: LaneStart | None, resting: Floats, obstructed: Fla
     lanes["mode"], lanes["impact_rate"] = 1.0 * closed, np.maximum(latched, floor)
     lanes["approach"] = rate
     lanes["onset_time"] = lanes["onset_total"] = 0.0
+    lanes["opened"] = math.inf
     module.right_hand_side(lanes.work)
     lanes["k1_"], lanes["kledger1_"] = lanes["slope"], lanes["ledger"]
     lanes["total"] = 0.0
@@ -56,7 +57,7 @@ def begin(lanes: Lane, start: LaneStart | None, resting: Floats, obstructed: Fla
     rows = lanes.kernel.rows.scanned
     for kind in ("previous", "highest", "lowest"):
         lanes[kind] = lanes["channel"][:rows]
-    lanes["highest_time"] = lanes["lowest_time"] = 0.0
+    lanes["highest_time"] = lanes["lowest_time"] = lanes["rounding"] = 0.0
     lanes["change"] = math.nan
     # largest forces of contacts are as they are foretold, but where a force jumps to its largest
     lanes["lowest"][rows - len(floor) :] = np.where(lanes["abrupt"] > 0.0, 0.0, -math.inf)

@@ -205,7 +205,7 @@ class Bundle:
     def stop(self, i: int) -> None:
         """Let a lane run no more: it is free, and what it had come to is lost."""
         self.lane(i)["active"] = 0.0
-        self.runs["status"][i] = Status.IDLE
+        self.runs["status"][i], self.runs["landing"][i] = Status.IDLE, NO_PAIR
 
     @property
     def attempts(self) -> int:

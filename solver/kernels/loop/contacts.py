@@ -72,8 +72,7 @@ def closed_in_fixed_step(s: Step) -> int:
     """Return the first open pair whose gap is closed at the end of a fixed step."""
     lane, at, work = s.lane, s.at, s.work
     for j in range(at.pairs):
-        fixed = work[at.restart + j, lane] == np.inf
-        if fixed and work[at.mode + j, lane] <= 0.0 and work[at.gap + j, lane] > 0.0:
+        if work[at.restart + j, lane] == np.inf and lands_beside(j, s):
             return j
     return NO_PAIR
 
@@ -113,10 +112,15 @@ def earliest_onset(target: int, s: Step) -> tuple[int, float]:
 
 @inner_kernel()
 def lands_beside(j: int, s: Step) -> bool:
-    """Whether an open pair's gap closes at the end of the step, too: both corners of a side."""
+    """Whether an open pair's gap closes at the end of the step, too: both corners of a side.
+
+    In a fixed step it may have closed before.
+    """
     lane, at, work = s.lane, s.at, s.work
-    apart = work[at.mode + j, lane] <= 0.0 < work[at.gap_rate + j, lane]
-    return bool(apart and abs(work[at.gap + j, lane]) <= LANDED)
+    apart, gap = work[at.mode + j, lane] <= 0.0, work[at.gap + j, lane]
+    if work[at.restart + j, lane] == np.inf:
+        return bool(apart and gap > 0.0)
+    return bool(apart and work[at.gap_rate + j, lane] > 0.0 and abs(gap) <= LANDED)
 
 
 @inner_kernel()

@@ -64,6 +64,7 @@ def hand_out(s: Step, rows: np.ndarray) -> bool:
                 moment = due_time(kind, run.next[kind] + count, lane, run, at, work)
             if run.filled[kind] + count > rows.shape[2]:
                 work[at.accept, lane] = 0.0
+                work[at.resumed, lane] = work[at.next_step, lane]  # which it asks for again
                 work[at.next_step, lane] = work[at.step, lane]
                 return True
             states_within(s)

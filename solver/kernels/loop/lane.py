@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.loop.runs import RUNNING, Status
+from jointplay.solver.kernels.loop.runs import NO_PAIR, RUNNING, Status
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Lane:
 
     def end(self, status: Status) -> None:
         """Let it run no more."""
-        self.run["status"] = status
+        self.run["status"], self.run["landing"] = status, NO_PAIR
         self["active"] = self["accept"] = 0.0
 
     def row(self) -> Floats:

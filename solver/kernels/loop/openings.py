@@ -83,31 +83,32 @@ def falling_root(start: float, start_rate: float, end: float, end_rate: float) -
 
 @inner_kernel()
 def note_openings(s: Step, inside: bool) -> float:
-    """Note when in this step each gap opens: at the root of the cubic through both its ends.
+    """Note when in this step each contact ends: at the root of the cubic through both its ends.
 
-    Infinite where it is not open at the end; where contact has only just begun, it must be on its
-    way apart. Return the smallest of these shares of the step, 1 where no contact worth mentioning
-    ends. A gap that was open `inside` the step, which is to be taken otherwise, and closed again
-    has ended a contact: what touches then is another one, with an impact rate of its own. The
-    share is then such that the step redone ends within that opening, or at least before its end.
-    Of a contact that begins where the step does and has ended within it the share is about the
-    middle, for it may lie between two stages, and its force be seen by none.
+    Infinite where its gap is closed at the end. Where contact has only just begun, it must be on
+    its way apart. Return the smallest of these shares of the step, 1 where no contact worth
+    mentioning ends. A gap that was open `inside` the step, which is to be taken otherwise, and
+    closed again has ended a contact: what touches then is another one, with an impact rate of its
+    own. The share is then such that the step redone ends within that opening, or at least before
+    its end. Of a contact that begins where the step does and has ended within it the share is about
+    the middle, for it may lie between two stages, and its force be seen by none.
     """
     lane, at, work = s.lane, s.at, s.work
     step = work[at.tried, lane]
     soonest = 1.0
     for j in range(at.pairs):
+        if work[at.mode + j, lane] <= 0.0:
+            continue
         gap, rate = work[at.gap + j, lane], work[at.gap_rate + j, lane] * step
         start = work[at.gap_start + j, lane]
         start_rate = work[at.gap_rate_start + j, lane] * step
-        closed = work[at.mode + j, lane] > 0.0
         fixed = work[at.restart + j, lane] == np.inf
         high = 1.0
         if start > 0.0 >= gap:
             high = falling_root(start, start_rate, gap, rate)
-        if start > LANDED and closed and not fixed:
+        if start > LANDED and not fixed:
             soonest = min(soonest, high)
-        if inside and closed and not fixed:
+        if inside and not fixed:
             low = dip(j, s)
             if low < 1.0:
                 soonest = min(soonest, min(low, LATE) / BEHIND)

@@ -64,6 +64,8 @@ def turn_over(lane: int, run: Run, at: Slots, work: np.ndarray) -> None:
     run.periods += 1
     work[at.time, lane] -= run.period
     work[at.before_time, lane] -= run.period
+    for j in range(at.pairs):
+        work[at.opened + j, lane] -= run.period
     set_clock(lane, run, at, work)
     look_ahead(lane, run, at, work)
 
