@@ -47,8 +47,8 @@ def equations_of(kernel: Kernel) -> Callable[..., tuple[Any, Any, Any]]:
     import jax.numpy as jnp
 
     equations, known = kernel.equations, operations()
-    gaps = [one for pair in equations.gaps for one in pair]
-    ordered = reachable([*equations.accelerations, *gaps])
+    penetrations = [one for pair in equations.penetrations for one in pair]
+    ordered = reachable([*equations.accelerations, *penetrations])
     fixed = {slot: index for index, slot in enumerate(kernel.fixed.slots)}
 
     def slope(t: Any, y: Any, mode: Any, rate: Any, numbers: Any) -> tuple[Any, Any, Any]:
@@ -72,7 +72,7 @@ def equations_of(kernel: Kernel) -> Callable[..., tuple[Any, Any, Any]]:
                 arguments = [value(argument) for argument in node.arguments]
                 values[node.index] = known[node.operation](*arguments)
         accelerations = jnp.stack([value(node) for node in equations.accelerations])
-        found = jnp.stack([value(node) for node in gaps])
+        found = jnp.stack([value(node) for node in penetrations])
         return jnp.concatenate([y[len(accelerations) :], accelerations]), found[::2], found[1::2]
 
     return slope
@@ -90,11 +90,11 @@ def solver_of(kernel: Kernel, tolerance: float) -> Callable[..., tuple[Any, Any]
     term = diffrax.ODETerm(lambda t, y, args: slope(t, y, *args)[0])
 
     def passes(j: int) -> Callable[..., Any]:
-        def gap(t: Any, y: Any, args: Any, **_: Any) -> Any:
+        def penetration(t: Any, y: Any, args: Any, **_: Any) -> Any:
             found = slope(t, y, *args)[1][j]
             return jnp.where(args[0][j] > 0.0, -found, found)
 
-        return gap
+        return penetration
 
     events = diffrax.Event(
         [passes(j) for j in range(joints)],
@@ -122,8 +122,8 @@ def solver_of(kernel: Kernel, tolerance: float) -> Callable[..., tuple[Any, Any]
             )
             now, state = found.ts[0], found.ys[0]
             fired = jnp.stack(found.event_mask) & (now < end)
-            gap_rate = slope(now, state, mode, rate, numbers)[2]
-            latched = jnp.where(fired & (mode == 0.0), jnp.maximum(gap_rate, floor), rate)
+            penetration_rate = slope(now, state, mode, rate, numbers)[2]
+            latched = jnp.where(fired & (mode == 0.0), jnp.maximum(penetration_rate, floor), rate)
             changed = jnp.where(fired, 1.0 - mode, mode)
             return now, state, changed, latched, steps + found.stats["num_steps"]
 

@@ -35,12 +35,12 @@ class CompiledEquations:
         self._evaluate(lane.work)
         return lane["slope"].copy()
 
-    def gaps(
+    def penetrations(
         self, t: float, y: np.ndarray, mode: np.ndarray, rate: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return the penetration of each joint and its rate."""
         self.slope(t, y, mode, rate)
-        return self.lane["gap"].copy(), self.lane["gap_rate"].copy()
+        return self.lane["penetration"].copy(), self.lane["penetration_rate"].copy()
 
 
 Leg = Callable[[float, np.ndarray, float, np.ndarray, np.ndarray], tuple[float, np.ndarray, int]]
@@ -59,20 +59,20 @@ def by_legs(equations: CompiledEquations, leg: Leg, end: float) -> np.ndarray:
             return state
         mode[joint] = 1.0 - mode[joint]
         if mode[joint]:
-            gap_rate = equations.gaps(now, state, mode, rate)[1]
-            rate[joint] = max(gap_rate[joint], equations.floor[joint])
+            penetration_rate = equations.penetrations(now, state, mode, rate)[1]
+            rate[joint] = max(penetration_rate[joint], equations.floor[joint])
 
 
 def scipy_leg(equations: CompiledEquations, method: str, tolerance: float) -> Leg:
     """Return legs by one of SciPy's methods."""
 
     def event(joint: int, mode: np.ndarray, rate: np.ndarray) -> Callable[..., float]:
-        def gap(t: float, y: np.ndarray) -> float:
-            return float(equations.gaps(t, y, mode, rate)[0][joint])
+        def penetration(t: float, y: np.ndarray) -> float:
+            return float(equations.penetrations(t, y, mode, rate)[0][joint])
 
-        gap.terminal = True  # type: ignore[attr-defined]
-        gap.direction = -1.0 if mode[joint] else 1.0  # type: ignore[attr-defined]
-        return gap
+        penetration.terminal = True  # type: ignore[attr-defined]
+        penetration.direction = -1.0 if mode[joint] else 1.0  # type: ignore[attr-defined]
+        return penetration
 
     def leg(
         now: float, state: np.ndarray, end: float, mode: np.ndarray, rate: np.ndarray
@@ -109,7 +109,7 @@ def cvode_leg(equations: CompiledEquations, method: str, tolerance: float) -> Le
             out[:] = equations.slope(t, y, mode, rate)
 
         def passes(t: float, y: np.ndarray, out: np.ndarray) -> None:
-            out[:] = equations.gaps(t, y, mode, rate)[0]
+            out[:] = equations.penetrations(t, y, mode, rate)[0]
 
         passes.terminal = [True] * equations.joints  # type: ignore[attr-defined]
         passes.direction = [-1 if closed else 1 for closed in mode]  # type: ignore[attr-defined]

@@ -22,7 +22,7 @@ MOVE_ONE = "move_one"
 """A thread's part of what brings numbers of some lanes together, or back to them."""
 PARTS = {ENTRY: LANE, MOVE: MOVE_ONE}
 """A thread's part of each kernel: a function with one word more, the thread's number."""
-CALLED = ("states_within", "gaps_within", "weigh", "tangent_gaps")
+CALLED = ("states_within", "penetrations_within", "weigh", "tangent_penetrations")
 """Functions that are called now and then: written in where they are called, they would fill the
 cache of instructions."""
 LIBRARY = f"""
@@ -128,7 +128,7 @@ def spare_rows(sources: Sequence[Source], slots: int) -> int:
 
     All of a lane's numbers have room there, too: see `loop.contacts.begin_abruptly`.
     """
-    within = [one for one in sources if one.name in ("states_within", "gaps_within")]
+    within = [one for one in sources if one.name in ("states_within", "penetrations_within")]
     words = (line.split() for one in within for line in one.lines)
     used = {int(w[1] if w[0] == "store" else w[3]) for w in words if {"store", "given"} & {*w}}
     return max(*used, -(-slots // INSTANTS)) + 1

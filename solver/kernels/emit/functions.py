@@ -44,14 +44,14 @@ SIGNATURES: Mapping[str, Signature] = {
     "scan": MARKING,
     "scan_some": MARKING,
     "states_within": WITHIN_STEP,
-    "gaps_within": WITHIN_STEP,
+    "penetrations_within": WITHIN_STEP,
     "channels_within": WITHIN_STEP,
     "channels_around": WITHIN_STEP,
     "tangent_step": OVER_LANES,
-    "tangent_gaps": OVER_LANES,
+    "tangent_penetrations": OVER_LANES,
 }
 """Every function that loops call."""
-OF_TANGENTS = ("tangent_step", "tangent_gaps")
+OF_TANGENTS = ("tangent_step", "tangent_penetrations")
 
 DTYPE = np.dtype([(name, np.int64) for name in SIGNATURES])
 """Type of their addresses; see `solver.kernels.loop.generated`."""

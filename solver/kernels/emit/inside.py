@@ -29,10 +29,10 @@ def source(
     """
     count = len(equations.coordinates)
     accelerations = [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
-    gaps = [
+    penetrations = [
         (f"{name}{j}", expression)
-        for j, pair in enumerate(equations.gaps)
-        for name, expression in zip(("gap", "gap_rate"), pair, strict=True)
+        for j, pair in enumerate(equations.penetrations)
+        for name, expression in zip(("penetration", "penetration_rate"), pair, strict=True)
     ]
     slips = [(f"slip{j}", slip) for j, (slip, _) in enumerate(equations.slips)]
 
@@ -62,7 +62,7 @@ def source(
     moving, everywhere = [*dense, *accelerations], [name for name, _ in dense]
     return [
         looking("states_within", within, [], dense),
-        looking("gaps_within", within, dense, [*gaps, *slips]),
+        looking("penetrations_within", within, dense, [*penetrations, *slips]),
         looking("channels_within", within, moving, [*scanned, *rest], everywhere),
         looking("channels_around", around, moving, scanned, ["stage_time"]),
     ]

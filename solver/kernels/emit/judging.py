@@ -86,16 +86,16 @@ def contact_flags(
     (`solver.kernels.emit.enclosure`, also of `away`). Steps that are long beside what a contact
     does in them have no enclosure there.
     """
-    gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
-    start = v(f"gap_start{j}")
+    penetration, rate = v(f"penetration{j}"), v(f"penetration_rate{j}")
+    start = v(f"penetration_start{j}")
     perhaps = dip = 0.0
     if method.error:
         held = "none" if method.watched_closely else enclosure
         perhaps = _where(ONSET, beyond(v, j, away, enclosure))
         dip = _where(RELEASE, may_open(v, j, away, held))
-    onset = select_positive(gap, ONSET, perhaps)
+    onset = select_positive(penetration, ONSET, perhaps)
     opened = _where(RELEASE, maximum(-rate, start - LANDED))
-    release = select_positive(gap, dip, opened)
+    release = select_positive(penetration, dip, opened)
     touching = v(f"mode{j}")
     return select_positive(touching, 0.0, onset), _where(release, touching)
 

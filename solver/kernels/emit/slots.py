@@ -82,22 +82,22 @@ COUNTS = ("states", "inner_states", "ledger", "pairs", "clocks", "rows", "watche
 scanned channels, and whether steps of contacts are looked at inside."""
 _SLOTS = """
 numbers time step tried arrival stage_time theta active accept flag next_step end next_due marked
-stage total gap gap_rate gap_start gap_rate_start mode impact_rate before_time phase wound
-slip slip_rate slip_start slip_rate_start eccentricity eccentricity_start before_step change inner
-lever slip_row penetration_row normal_row inner_row bend y k1_ slope largest_step known_range
-rounding alike bent clock_start clock_travel clock_turn channel previous highest lowest
-highest_time lowest_time impact_floor restart onset_time approach onset_total opened abrupt weight
-steps pace_at look_at look_beyond looked_into swing may_look may_pass_bend looks_inside rough_until
-stored stored_start kledger1_ resumed
+stage total penetration penetration_rate penetration_start penetration_rate_start mode impact_rate
+before_time phase wound slip slip_rate slip_start slip_rate_start eccentricity eccentricity_start
+before_step change inner lever slip_row penetration_row normal_row inner_row bend y k1_ slope
+largest_step known_range rounding alike bent clock_start clock_travel clock_turn channel previous
+highest lowest highest_time lowest_time impact_floor restart onset_time approach onset_total opened
+abrupt weight steps pace_at look_at look_beyond looked_into swing may_look may_pass_bend
+looks_inside rough_until stored stored_start kledger1_ resumed
 """
 SLOTS = tuple(_SLOTS.split())
 """Blocks of the work array that loops read or write; see the `allocate` functions beside this."""
 OF_TANGENTS = (
     "tangent",
     "tangent_impact_rate",
-    "tangent_gap",
-    "tangent_gap_rate",
-    "gap_acceleration",
+    "tangent_penetration",
+    "tangent_penetration_rate",
+    "penetration_acceleration",
 )
 """Blocks that only a kernel with tangents has; without, nothing reads their offsets, -1."""
 DERIVED = ("size", "impulse", "power", "contact_row")

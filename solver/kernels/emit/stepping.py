@@ -18,7 +18,7 @@ from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
-ENDS = ("gap", "gap_rate", "slip", "slip_rate")
+ENDS = ("penetration", "penetration_rate", "slip", "slip_rate")
 """Quantities of a contact pair that are known at both ends of a step."""
 CONTACT = ("mode", "impact_rate", "inverse_rate", "impact_floor", "restart")
 ONSET = ("onset_time", "approach", "onset_total", "opened", "abrupt")

@@ -94,7 +94,7 @@ class TangentTracer:
         """Return what is positive if a contact begins where the step does."""
         v, begins = self.tracer.variable, self.tracer.constant(0.0)
         for j in range(self.pairs):
-            began = select_positive(v(f"gap_start{j}") - LANDED, 0.0, 1.0)
+            began = select_positive(v(f"penetration_start{j}") - LANDED, 0.0, 1.0)
             begins = select_positive(v(f"mode{j}"), maximum(begins, began), begins)
         return begins
 
@@ -106,8 +106,8 @@ class TangentTracer:
         v, spanned = self.tracer.variable, self.tracer.constant(1.0)
         for j in range(self.pairs):
             share = minimum(spanned, (v(f"opened{j}") - v("time")) / v("tried"))
-            opens = select_positive(v(f"gap{j}"), spanned, share)
-            opens = select_positive(v(f"gap_start{j}") - LANDED, opens, spanned)
+            opens = select_positive(v(f"penetration{j}"), spanned, share)
+            opens = select_positive(v(f"penetration_start{j}") - LANDED, opens, spanned)
             spanned = select_positive(v(f"mode{j}"), opens, spanned)
         return spanned
 

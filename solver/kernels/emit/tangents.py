@@ -62,7 +62,7 @@ def compile_tangents(kernel: Kernel) -> Tangents:
         slope_function(kernel, piecewise, layout, fixed),
         *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),
         *tangent_step.TangentTracer(equations, len(piecewise), layout).source(),
-        gap_function(equations, layout, fixed),
+        penetration_function(equations, layout, fixed),
     ]
     slots = kernel.slots.copy()
     for name in OF_TANGENTS:
@@ -129,23 +129,23 @@ def along_motion(equations: Equations) -> Derivative:
     return Derivative(flow | {"stage_time": tracer.constant(1.0)})
 
 
-def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> Source:
-    """Return the source of tangent_gaps(W): what the latching of an impact rate needs.
+def penetration_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> Source:
+    """Return the source of tangent_penetrations(W): what the latching of an impact rate needs.
 
     At the state just taken, which is still in the base's stage: the derivatives of each gap and of
     its rate along the tangent, and the derivative of the rate in time along the motion.
     """
-    if not equations.gaps:
-        return Source("tangent_gaps")
+    if not equations.penetrations:
+        return Source("tangent_penetrations")
     tracer = equations.tracer
     states = equations.states
     tangent = Derivative({f"stage{i}": tracer.variable(f"tangent{i}") for i in range(states)})
     motion = along_motion(equations)
     outputs = []
-    for j, (gap, rate) in enumerate(equations.gaps):
+    for j, (penetration, rate) in enumerate(equations.penetrations):
         outputs += [
-            (f"tangent_gap{j}", tangent(gap)),
-            (f"tangent_gap_rate{j}", tangent(rate)),
-            (f"gap_acceleration{j}", motion(rate)),
+            (f"tangent_penetration{j}", tangent(penetration)),
+            (f"tangent_penetration_rate{j}", tangent(rate)),
+            (f"penetration_acceleration{j}", motion(rate)),
         ]
-    return lane_function("tangent_gaps", outputs, layout, fixed)
+    return lane_function("tangent_penetrations", outputs, layout, fixed)

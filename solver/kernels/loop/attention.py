@@ -88,7 +88,7 @@ def settle(flag: int, s: Step, buffers: Buffers) -> bool:
             generated.weigh(addresses, work)
             work[at.stored_start, lane] = work[at.stored, lane]
             if tangents:
-                generated.tangent_gaps(addresses, work)
+                generated.tangent_penetrations(addresses, work)
                 latch_tangent(j, s)
             run.onsets += 1
             run.slow += int(work[at.approach + j, lane] < work[at.impact_floor + j, lane])

@@ -38,7 +38,7 @@ def begin(lanes: Lane, start: LaneStart | None, resting: Floats, obstructed: Fla
     floor = lanes["impact_floor"]
     lanes["mode"], lanes["impact_rate"] = 0.0, floor
     module.right_hand_side(lanes.work)
-    rate, closed = lanes["gap_rate"], lanes["gap"] > 0.0
+    rate, closed = lanes["penetration_rate"], lanes["penetration"] > 0.0
     latched: Floats = np.maximum(rate, resting)
     if start is not None and start.contact is not None and start.impact_rate is not None:
         latched = np.where(start.contact, start.impact_rate, rate.T).T

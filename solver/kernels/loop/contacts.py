@@ -48,17 +48,20 @@ def land(s: Step) -> bool:
     if target != NO_PAIR:
         alone = pair in (NO_PAIR, target)
         last = run.landings >= MOST_LANDINGS
-        gap, rate = work[at.gap + target, lane], work[at.gap_rate + target, lane]
-        if alone and abs(gap) <= (LANDED_AT_LAST if last else LANDED):
+        penetration, rate = (
+            work[at.penetration + target, lane],
+            work[at.penetration_rate + target, lane],
+        )
+        if alone and abs(penetration) <= (LANDED_AT_LAST if last else LANDED):
             return True
         if last:
             approach(s)
             return False
-        if gap < 0.0 and rate <= 0.0 and pair == NO_PAIR:
+        if penetration < 0.0 and rate <= 0.0 and pair == NO_PAIR:
             run.landing = NO_PAIR
             return True
         if alone:
-            pair, share = target, corrected_share(gap, rate, work[at.tried, lane])
+            pair, share = target, corrected_share(penetration, rate, work[at.tried, lane])
     if pair == NO_PAIR:
         return True
     run.landing = pair
@@ -90,12 +93,12 @@ def earliest_onset(target: int, s: Step) -> tuple[int, float]:
     for j in range(at.pairs):
         if work[at.mode + j, lane] > 0.0:
             continue
-        gap = work[at.gap + j, lane]
-        if j == target and abs(gap) <= LANDED:
+        penetration = work[at.penetration + j, lane]
+        if j == target and abs(penetration) <= LANDED:
             continue
         if target != NO_PAIR and lands_beside(j, s):
             continue
-        if j == target and gap > 0.0:
+        if j == target and penetration > 0.0:
             overshot = True
             continue
         found = first_onset(j, s)
@@ -117,18 +120,18 @@ def lands_beside(j: int, s: Step) -> bool:
     In a fixed step it may have closed before.
     """
     lane, at, work = s.lane, s.at, s.work
-    apart, gap = work[at.mode + j, lane] <= 0.0, work[at.gap + j, lane]
+    apart, penetration = work[at.mode + j, lane] <= 0.0, work[at.penetration + j, lane]
     if work[at.restart + j, lane] == np.inf:
-        return bool(apart and gap > 0.0)
-    return bool(apart and work[at.gap_rate + j, lane] > 0.0 and abs(gap) <= LANDED)
+        return bool(apart and penetration > 0.0)
+    return bool(apart and work[at.penetration_rate + j, lane] > 0.0 and abs(penetration) <= LANDED)
 
 
 @inner_kernel()
-def corrected_share(gap: float, rate: float, tried: float) -> float:
+def corrected_share(penetration: float, rate: float, tried: float) -> float:
     """Return the multiple of the step at which the gap is zero, by Newton's rule from its end."""
     share = 1.0
     if rate > 0.0:
-        share = 1.0 - gap / (rate * tried)
+        share = 1.0 - penetration / (rate * tried)
     return min(max(share, 0.1), 2.0)
 
 
@@ -147,7 +150,7 @@ def approach(s: Step) -> None:
 def begin_contact(j: int, now: float, s: Step) -> None:
     """Latch the impact rate of pair j, once per onset, and restart with a small step."""
     lane, at, work = s.lane, s.at, s.work
-    rate = work[at.gap_rate + j, lane]
+    rate = work[at.penetration_rate + j, lane]
     floored = max(rate, work[at.impact_floor + j, lane])
     work[at.mode + j, lane] = 1.0
     work[at.impact_rate + j, lane] = floored
@@ -168,7 +171,7 @@ def begin_abruptly(j: int, s: Step) -> None:
     lane, at, work, kept = s.lane, s.at, s.work, s.spare
     for k in range(len(work)):
         kept[k // INSTANTS, k % INSTANTS] = work[k, lane]
-    behind = 2.0 * LANDED / max(work[at.gap_rate + j, lane], LANDED)
+    behind = 2.0 * LANDED / max(work[at.penetration_rate + j, lane], LANDED)
     work[at.stage_time, lane] += behind
     for i in range(at.step_row.coordinates):
         work[at.stage + i, lane] += behind * work[at.k1_ + i, lane]
@@ -204,6 +207,6 @@ def is_touching(s: Step) -> bool:
     lane, at, work = s.lane, s.at, s.work
     found = False
     for j in range(at.pairs):
-        depth = abs(work[at.gap_start + j, lane])
+        depth = abs(work[at.penetration_start + j, lane])
         found |= work[at.mode + j, lane] > 0.0 and depth <= LANDED
     return found

@@ -4,7 +4,7 @@ import math
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.step import Step, gaps_within
+from jointplay.solver.kernels.loop.step import Step, penetrations_within
 
 NO_ONSET = math.inf
 NEWTON_STEPS = 2
@@ -17,7 +17,7 @@ def look_between(low: float, high: float, s: Step) -> None:
     """Evaluate all gaps at eight equal distances from one share of the step to another."""
     for i in range(INSTANTS):
         s.spare[s.at.theta, i] = low + (high - low) * (i + 1) / INSTANTS
-    gaps_within(s)
+    penetrations_within(s)
 
 
 @inner_kernel()
@@ -49,7 +49,7 @@ def first_onset(j: int, s: Step) -> float:
             break
         left, right = i / INSTANTS, (i + 1) / INSTANTS
         closed = right
-        if s.spare[s.at.gap + j, i] <= 0.0:
+        if s.spare[s.at.penetration + j, i] <= 0.0:
             closed = crossed_between(1.0, j, left, right, s)
         if closed < NO_ONSET:
             return polish(j, left, closed, s)
@@ -67,16 +67,22 @@ def next_suspect(sense: float, j: int, begun: int, s: Step) -> int:
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
     for i in range(begun, INSTANTS):
-        gap, rate = sense * spare[at.gap + j, i], sense * spare[at.gap_rate + j, i]
-        before = sense * work[at.gap_start + j, lane]
-        before_rate = sense * work[at.gap_rate_start + j, lane]
+        penetration, rate = (
+            sense * spare[at.penetration + j, i],
+            sense * spare[at.penetration_rate + j, i],
+        )
+        before = sense * work[at.penetration_start + j, lane]
+        before_rate = sense * work[at.penetration_rate_start + j, lane]
         if i > 0:
-            before = sense * spare[at.gap + j, i - 1]
-            before_rate = sense * spare[at.gap_rate + j, i - 1]
-        if gap > 0.0:
+            before = sense * spare[at.penetration + j, i - 1]
+            before_rate = sense * spare[at.penetration_rate + j, i - 1]
+        if penetration > 0.0:
             return i
         reach = 2.0 * work[at.tried, lane] / INSTANTS
-        if before_rate > 0.0 > rate and min(before + reach * before_rate, gap - reach * rate) > 0.0:
+        if (
+            before_rate > 0.0 > rate
+            and min(before + reach * before_rate, penetration - reach * rate) > 0.0
+        ):
             return i
     return INSTANTS
 
@@ -93,9 +99,9 @@ def crossed_between(sense: float, j: int, left: float, right: float, s: Step) ->
         look_between(left, right, s)
         turning = INSTANTS - 1
         for i in range(INSTANTS):
-            if sense * spare[s.at.gap + j, i] > 0.0:
+            if sense * spare[s.at.penetration + j, i] > 0.0:
                 return float(spare[s.at.theta, i])
-            if sense * spare[s.at.gap_rate + j, i] < 0.0 and turning == INSTANTS - 1:
+            if sense * spare[s.at.penetration_rate + j, i] < 0.0 and turning == INSTANTS - 1:
                 turning = i
         width = (right - left) / INSTANTS
         left = left + width * turning
@@ -111,18 +117,18 @@ def polish(j: int, left: float, right: float, s: Step) -> float:
     root = right
     look_between(left, right, s)
     for i in range(INSTANTS):
-        if spare[at.gap + j, i] > 0.0:
+        if spare[at.penetration + j, i] > 0.0:
             right = spare[at.theta, i]
             left = right - (right - left) / INSTANTS if i == 0 else spare[at.theta, i - 1]
-            gap, rate = spare[at.gap + j, i], spare[at.gap_rate + j, i]
-            root = right - gap / (rate * tried) if rate > 0.0 else right
+            penetration, rate = spare[at.penetration + j, i], spare[at.penetration_rate + j, i]
+            root = right - penetration / (rate * tried) if rate > 0.0 else right
             root = min(max(root, left), right)
             break
     for _ in range(NEWTON_STEPS):
         spare[at.theta, 0] = root
-        gaps_within(s)
-        gap, rate = spare[at.gap + j, 0], spare[at.gap_rate + j, 0]
-        better = root - gap / (rate * tried) if rate > 0.0 else root
+        penetrations_within(s)
+        penetration, rate = spare[at.penetration + j, 0], spare[at.penetration_rate + j, 0]
+        better = root - penetration / (rate * tried) if rate > 0.0 else root
         if left <= better <= right:
             root = better
     return root

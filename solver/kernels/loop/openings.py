@@ -33,8 +33,8 @@ def dip(j: int, s: Step) -> float:
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
     look_at_eighths(s)
     begun = 0
-    if work[at.gap_start + j, lane] <= LANDED:
-        while begun < INSTANTS and spare[at.gap + j, begun] <= LANDED:
+    if work[at.penetration_start + j, lane] <= LANDED:
+        while begun < INSTANTS and spare[at.penetration + j, begun] <= LANDED:
             begun += 1
         begun += 1
     while begun < INSTANTS:
@@ -42,9 +42,9 @@ def dip(j: int, s: Step) -> float:
         if i == INSTANTS:
             break
         left, right = i / INSTANTS, (i + 1) / INSTANTS
-        if spare[at.gap + j, i] < 0.0:
+        if spare[at.penetration + j, i] < 0.0:
             for later in range(i + 1, INSTANTS):
-                if spare[at.gap + j, later] > 0.0:
+                if spare[at.penetration + j, later] > 0.0:
                     return right
             break
         open_at = crossed_between(-1.0, j, left, right, s)
@@ -99,24 +99,27 @@ def note_openings(s: Step, inside: bool) -> float:
     for j in range(at.pairs):
         if work[at.mode + j, lane] <= 0.0:
             continue
-        gap, rate = work[at.gap + j, lane], work[at.gap_rate + j, lane] * step
-        start = work[at.gap_start + j, lane]
-        start_rate = work[at.gap_rate_start + j, lane] * step
+        penetration, rate = (
+            work[at.penetration + j, lane],
+            work[at.penetration_rate + j, lane] * step,
+        )
+        start = work[at.penetration_start + j, lane]
+        start_rate = work[at.penetration_rate_start + j, lane] * step
         fixed = work[at.restart + j, lane] == np.inf
         high = 1.0
-        if start > 0.0 >= gap:
-            high = falling_root(start, start_rate, gap, rate)
+        if start > 0.0 >= penetration:
+            high = falling_root(start, start_rate, penetration, rate)
         if start > LANDED and not fixed:
             soonest = min(soonest, high)
         if inside and not fixed:
             low = dip(j, s)
             if low < 1.0:
                 soonest = min(soonest, min(low, LATE) / BEHIND)
-            if start <= LANDED and gap <= 0.0 and rate < 0.0 < start_rate:
-                whole = start_rate / (start_rate - gap)
+            if start <= LANDED and penetration <= 0.0 and rate < 0.0 < start_rate:
+                whole = start_rate / (start_rate - penetration)
                 if 0.25 * start_rate * whole > LANDED:
                     soonest = min(soonest, 0.5 * whole)
-        open_now = gap <= 0.0 and (start > LANDED or rate < 0.0)
+        open_now = penetration <= 0.0 and (start > LANDED or rate < 0.0)
         work[at.opened + j, lane] = work[at.time, lane] + high * step if open_now else np.inf
     return soonest
 

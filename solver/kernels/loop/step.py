@@ -64,9 +64,9 @@ def states_within(s: Step) -> None:
 
 
 @inner_kernel(forceinline=True)
-def gaps_within(s: Step) -> None:
+def penetrations_within(s: Step) -> None:
     """Evaluate gaps and slips there."""
-    generated.gaps_within(s.addresses, s.work, s.spare, s.lane)
+    generated.penetrations_within(s.addresses, s.work, s.spare, s.lane)
 
 
 @inner_kernel(forceinline=True)

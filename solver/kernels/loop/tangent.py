@@ -36,8 +36,8 @@ def start_tangents(slots: np.ndarray, work: np.ndarray) -> None:
 def latch_tangent(j: int, s: Step) -> None:
     """Give the latched impact rate of pair j its derivative along the tangent.
 
-    To be called once `begin_contact` has latched the rate and `tangent_gaps` was evaluated at the
-    same state. A neighbouring run has its onset later by dt = -dδ / δ̇, so it latches
+    To be called once `begin_contact` has latched the rate and `tangent_penetrations` was evaluated
+    at the same state. A neighbouring run has its onset later by dt = -dδ / δ̇, so it latches
     dδ̇ + δ̈ dt more; a floored rate is the same for all neighbours.
 
     The tangent of the state itself does not jump (its saltation matrix, Müller 1995, is the
@@ -49,12 +49,12 @@ def latch_tangent(j: int, s: Step) -> None:
     tangent (`solver.kernels.loop.beginning`).
     """
     lane, at, work = s.lane, s.at, s.work
-    rate = work[at.gap_rate + j, lane]
+    rate = work[at.penetration_rate + j, lane]
     latched = 0.0
     if rate > work[at.impact_floor + j, lane]:
-        later = -work[at.tangent_gap + j, lane] / rate
-        latched = work[at.tangent_gap_rate + j, lane]
-        latched += work[at.gap_acceleration + j, lane] * later
+        later = -work[at.tangent_penetration + j, lane] / rate
+        latched = work[at.tangent_penetration_rate + j, lane]
+        latched += work[at.penetration_acceleration + j, lane] * later
     work[at.tangent_impact_rate + j, lane] = latched
 
 

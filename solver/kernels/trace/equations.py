@@ -51,7 +51,7 @@ class Equations:
     inner_rates: tuple[Expression, ...]
     ledger: tuple[Expression, ...]
     """Rates: work into contacts, friction loss, each driver's work, each pair's impulse."""
-    gaps: tuple[tuple[Expression, Expression], ...]
+    penetrations: tuple[tuple[Expression, Expression], ...]
     """Penetration (m) and its rate (m/s) of each contact pair."""
     slips: tuple[tuple[Expression, Expression], ...]
     """Slip that each pair's friction follows (m/s), and its rate (m/s^2)."""
@@ -243,8 +243,8 @@ def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
     count = len(equations.coordinates)
     speeds = [equations.tracer.variable(f"stage{count + i}") for i in range(count)]
     outputs = [(f"slope{i}", rate) for i, rate in (*enumerate(speeds), *equations.slopes)]
-    for j, (gap, rate) in enumerate(equations.gaps):
-        outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
+    for j, (penetration, rate) in enumerate(equations.penetrations):
+        outputs += [(f"penetration{j}", penetration), (f"penetration_rate{j}", rate)]
     for j, (slip, rate) in enumerate(equations.slips):
         outputs += [(f"slip{j}", slip), (f"slip_rate{j}", rate)]
     for j, path in enumerate(equations.eccentricities):

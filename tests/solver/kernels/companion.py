@@ -89,7 +89,7 @@ class Companion:
         self._attempt(span)
         onsets = []
         for j in range(self.joints):
-            if self._get(f"mode{j}") == 0.0 and self._get(f"gap{j}") > 0.0:
+            if self._get(f"mode{j}") == 0.0 and self._get(f"penetration{j}") > 0.0:
                 onsets.append((self._onset(j, span), j))
                 self._attempt(span)
         if not onsets:
@@ -100,13 +100,13 @@ class Companion:
         self._take()
         floor = self._get(f"impact_floor{joint}")
         self._set(f"mode{joint}", 1.0)
-        self._set(f"impact_rate{joint}", max(self._get(f"gap_rate{joint}"), floor))
+        self._set(f"impact_rate{joint}", max(self._get(f"penetration_rate{joint}"), floor))
         return reached
 
     def _onset(self, j: int, span: float) -> float:
         reached = span
         for _ in range(MOST_CORRECTIONS):
-            better = reached - self._get(f"gap{j}") / self._get(f"gap_rate{j}")
+            better = reached - self._get(f"penetration{j}") / self._get(f"penetration_rate{j}")
             better = min(max(better, 0.0), span)
             if better == reached:
                 break
@@ -122,7 +122,7 @@ class Companion:
         self._set("accept", 1.0)
         self.kernel.module.take(self.work)
         for j in range(self.joints):
-            opened = self._get(f"gap{j}") <= 0.0 and self._get(f"gap_rate{j}") < 0.0
+            opened = self._get(f"penetration{j}") <= 0.0 and self._get(f"penetration_rate{j}") < 0.0
             if self._get(f"mode{j}") > 0.0 and opened:
                 self._set(f"mode{j}", 0.0)
 

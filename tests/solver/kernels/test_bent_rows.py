@@ -27,7 +27,9 @@ def test_channels_have_kinks_at_a_bend_where_their_rows_say_so(
     kernel = ready_kernel(scene, formulation, method_for("auto", 1e-6))
     bundle = Bundle(kernel, [LaneProblem(scene, 1e9, 1e-6, 1e9, 0, 0, 0.0)])
     lane = bundle.lane(0)
-    while not (lane["mode"][0] > 0.0 and lane["gap_rate"][0] < 0.0):  # behind the largest force
+    while not (
+        lane["mode"][0] > 0.0 and lane["penetration_rate"][0] < 0.0
+    ):  # behind the largest force
         bundle.advance(1)
     lanes = Lane(
         kernel, None, bundle.groups[0].work.copy(), slice(None), bundle.runs[: bundle.width]
@@ -74,8 +76,8 @@ def test_channels_without_a_kink_are_not_looked_at_from_bend_to_bend() -> None:
         bundle = Bundle(kernel, [LaneProblem(scene, 1e9, 1e-6, 1e9, 0, 0, 0.0)])
         if not bent:
             bundle.lane(0)["bent"] = 0.0
-        before = kernel.module.gaps_within.call_count
+        before = kernel.module.penetrations_within.call_count
         while bundle.lane(0).steps < 5000:
             bundle.advance(500)
-        looks.append(kernel.module.gaps_within.call_count - before)
+        looks.append(kernel.module.penetrations_within.call_count - before)
     assert looks[0] > looks[1] + 100  # onsets look at gaps, too

@@ -31,16 +31,16 @@ CALLS = {
         "extremes": {
             "scan_some": 0.002,
             "foresee_bends": 0.113,  # a lane is looked into in one step of eighty
-            "gaps_within": 0.004,
+            "penetrations_within": 0.004,
             "channels_within": 0.103,
             "channels_around": 0.004,
         },
         "crossings": {"scan_some": 0.009, "channels_within": 0.01},
     },
     "press, in flight": {
-        "bare": {"gaps_within": 1.395, "weigh": 0.136},
+        "bare": {"penetrations_within": 1.395, "weigh": 0.136},
         "extremes": {
-            "gaps_within": 1.808,
+            "penetrations_within": 1.808,
             "scan_some": 0.643,
             "foresee_bends": 0.675,
             "channels_within": 0.685,
@@ -49,7 +49,7 @@ CALLS = {
         "crossings": {"scan_some": 0.646, "channels_within": 0.24},
     },
     "slider-crank, impacting": {
-        "bare": {"gaps_within": 0.552, "weigh": 0.078},
+        "bare": {"penetrations_within": 0.552, "weigh": 0.078},
         "extremes": {
             "scan_some": 0.6,
             "foresee_bends": 0.22,
@@ -68,9 +68,9 @@ CALLS = {
         "crossings": {"scan_some": 0.55, "channels_within": 1.372},
     },
     "journal, bouncing": {
-        "bare": {"gaps_within": 0.872, "weigh": 0.116},
+        "bare": {"penetrations_within": 0.872, "weigh": 0.116},
         "extremes": {
-            "gaps_within": 0.989,
+            "penetrations_within": 0.989,
             "scan_some": 0.858,
             "foresee_bends": 0.791,
             "channels_within": 1.174,  # each of its contacts is short, and resolved
@@ -110,6 +110,6 @@ def test_work_beside_the_attempts_is_bounded(case: str, way: str) -> None:
         expected[name] = groups * expected.get(name, 0.0)  # one lane sends its group
     if way == "extremes":
         expected["remember_some"] = expected["scan_some"]  # where not all lanes take the step
-    expected |= {"tangent_gaps": bound(bare.get("weigh", 0.0))} if way == "tangents" else {}
+    expected |= {"tangent_penetrations": bound(bare.get("weigh", 0.0))} if way == "tangents" else {}
     for function, calls in work.calls.items():
         assert calls <= (expected | once).get(function, 0.0) + 1e-12, function

@@ -36,7 +36,7 @@ def landed() -> Bundle:
     lane = bundle.lane(0)
     while lane["mode"][0] == 0.0:
         bundle.advance(1)
-    assert abs(lane["gap"][0]) < 1e-15
+    assert abs(lane["penetration"][0]) < 1e-15
     return bundle
 
 

@@ -34,6 +34,6 @@ def test_a_look_is_taken_again_only_where_it_is_not_the_last(
     journal = ready_kernel(scene, "reduced", "tsitouras")
     bundle = Bundle(journal, [LaneProblem(scene, 1.0, 1e-6, 1.0, 0, 0, 0.0)])
     bundle.advance(5)
-    before = journal.module.gaps_within.call_count
+    before = journal.module.penetrations_within.call_count
     look_twice(bundle.workspace(bundle.groups[0]), finer, anew)
-    assert journal.module.gaps_within.call_count - before == evaluated
+    assert journal.module.penetrations_within.call_count - before == evaluated

@@ -58,7 +58,7 @@ NUMBERS = types.CPointer(types.float64)
 
 
 @cfunc(types.void(NUMBERS, NUMBERS, types.int64))  # type: ignore[misc]
-def gaps_of_a_polynomial(lanes: Any, instants: Any, lane: int) -> None:
+def penetrations_of_a_polynomial(lanes: Any, instants: Any, lane: int) -> None:
     """A gap with up to four zeros in a step, and its rate: it is as deep as their product."""
     work, spare = carray(lanes, (10, LANES)), carray(instants, (3, INSTANTS))
     for i in range(INSTANTS):
@@ -70,14 +70,14 @@ def gaps_of_a_polynomial(lanes: Any, instants: Any, lane: int) -> None:
         spare[1, i], spare[2, i] = depth, rate
 
 
-def step_with_gap(zeros: tuple[float, ...], start: tuple[float, float]) -> Step:
+def step_with_penetration(zeros: tuple[float, ...], start: tuple[float, float]) -> Step:
     """Return a step of lane 3 whose gap has these zeros, and its gap and rate at the start."""
     slots, addresses = np.zeros(1, DTYPE), np.zeros(1, FUNCTIONS)
-    for slot, name in enumerate(("theta", "gap", "gap_rate")):
+    for slot, name in enumerate(("theta", "penetration", "penetration_rate")):
         slots[name] = slot
-    for slot, name in enumerate(("gap_start", "gap_rate_start", "tried"), start=7):
+    for slot, name in enumerate(("penetration_start", "penetration_rate_start", "tried"), start=7):
         slots[name] = slot
-    addresses["gaps_within"] = gaps_of_a_polynomial.address
+    addresses["penetrations_within"] = penetrations_of_a_polynomial.address
     work, spare = np.zeros((10, LANES)), np.zeros((3, INSTANTS))
     work[3:7, 3], work[7:, 3] = zeros, (*start, 1.0)
     run = np.zeros(1, RUN)[0]
@@ -96,18 +96,18 @@ def step_with_gap(zeros: tuple[float, ...], start: tuple[float, float]) -> Step:
         ((2.0, 2.0, -1.0, -1.0), 1.0),
     ],
 )
-def test_a_gap_that_opens_and_closes_inside_a_step_is_found(
+def test_a_penetration_that_opens_and_closes_inside_a_step_is_found(
     zeros: tuple[float, ...], share: float
 ) -> None:
     rate = -sum(math.prod(zeros[:k] + zeros[k + 1 :]) for k in range(len(zeros)))
-    found = dip(0, step_with_gap(zeros, (math.prod(zeros), rate)))
+    found = dip(0, step_with_penetration(zeros, (math.prod(zeros), rate)))
     assert found == pytest.approx(share, abs=1.1e-3)
 
 
 def test_a_contact_that_has_just_begun_must_have_been_deeper_before_it_opens() -> None:
     # it rises where it is positive: 0.4 to 0.6 is closed
-    assert dip(0, step_with_gap((0.0, 0.4, 0.6, 2.0), (0.0, -0.48))) == 1.0
-    assert dip(0, step_with_gap((0.0, 0.4, 0.6, -2.0), (0.0, 0.48))) == 4.0 / 8.0
+    assert dip(0, step_with_penetration((0.0, 0.4, 0.6, 2.0), (0.0, -0.48))) == 1.0
+    assert dip(0, step_with_penetration((0.0, 0.4, 0.6, -2.0), (0.0, 0.48))) == 4.0 / 8.0
 
 
 @pytest.mark.parametrize(
@@ -122,7 +122,7 @@ def test_a_contact_that_has_just_begun_must_have_been_deeper_before_it_opens() -
         (1e-6, -1.0, -1e-6, -1.0, True),
     ],
 )
-def test_a_step_in_contact_asks_for_a_look_where_its_gap_may_have_opened(
+def test_a_step_in_contact_asks_for_a_look_where_its_penetration_may_have_opened(
     start: float, start_rate: float, end: float, end_rate: float, opens: bool
 ) -> None:
     scene = preset("bouncing-journal")
@@ -134,8 +134,9 @@ def test_a_step_in_contact_asks_for_a_look_where_its_gap_may_have_opened(
         "eccentricity_start2": start_rate, "eccentricity0": clearance + end,
         "eccentricity2": end_rate,
         "active": 1.0, "tried": 1e-5, "step": 1e-5, "fastest": 1.0, "full": 1.0, "mode0": 1.0,
-        "next_due": 1.0, "pace_at": 1e9, "gap_start0": start, "gap_rate_start0": start_rate,
-        "gap0": end, "gap_rate0": end_rate,
+        "next_due": 1.0, "pace_at": 1e9,
+        "penetration_start0": start, "penetration_rate_start0": start_rate,
+        "penetration0": end, "penetration_rate0": end_rate,
     }.items():  # fmt: skip
         work[kernel.layout[name]] = value
     assert kernel.module.judge(work) == ((1 << LANES) - 1 if opens else 0)

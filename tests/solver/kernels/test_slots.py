@@ -67,10 +67,10 @@ def test_every_block_is_where_the_layout_has_it_even_if_it_is_empty() -> None:
 
 def test_a_name_is_given_to_one_slot() -> None:
     layout = Layout()
-    layout.add("gap")
+    layout.add("penetration")
     layout.add_block("mode", 2)
-    assert (layout.block("gap"), layout.block("mode")) == (slice(0, 1), slice(1, 3))
-    for name in ("gap", "mode"):
+    assert (layout.block("penetration"), layout.block("mode")) == (slice(0, 1), slice(1, 3))
+    for name in ("penetration", "mode"):
         with pytest.raises(KeyError, match=name):
             layout.add(name)
         with pytest.raises(KeyError, match=name):

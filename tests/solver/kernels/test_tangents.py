@@ -68,8 +68,8 @@ def contact_of(bundle: Bundle) -> bool:
     """Whether a joint of lane 0 has closed by half a micrometre and goes on closing."""
     return any(
         bundle.lane(0).number(f"mode{j}") > 0.0
-        and bundle.lane(0).number(f"gap{j}") > 5e-7
-        and bundle.lane(0).number(f"gap_rate{j}") > 0.0
+        and bundle.lane(0).number(f"penetration{j}") > 5e-7
+        and bundle.lane(0).number(f"penetration_rate{j}") > 0.0
         for j in range(len(bundle.kernel.pairs))
     )
 

@@ -11,7 +11,7 @@ import numpy as np
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS, INSTANTS
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import look_evenly
-from jointplay.solver.kernels.loop.step import Step, gaps_within
+from jointplay.solver.kernels.loop.step import Step, penetrations_within
 
 SWAY = 2.0
 """Part of its range that friction may make of a channel in a step with the largest normal force."""
@@ -118,7 +118,7 @@ def find_cuts(low: float, high: float, s: Step, cuts: np.ndarray) -> int:
             for first in range(0, more, INSTANTS):
                 for i in range(INSTANTS):
                     s.spare[s.at.theta, i] = wanted[min(first + i, more - 1)]
-                gaps_within(s)
+                penetrations_within(s)
                 for i in range(min(INSTANTS, more - first)):
                     count = insert(
                         wanted[first + i], s.spare[s.at.slip + j, i], shares, slips, count

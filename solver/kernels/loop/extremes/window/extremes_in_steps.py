@@ -38,8 +38,8 @@ def remember_start(s: Step) -> None:
     """Keep what pairs do where the step starts: the stage is there."""
     at, work = s.at, s.work
     for start, now, count in (
-        (at.gap_start, at.gap, 1),
-        (at.gap_rate_start, at.gap_rate, 1),
+        (at.penetration_start, at.penetration, 1),
+        (at.penetration_rate_start, at.penetration_rate, 1),
         (at.slip_start, at.slip, 1),
         (at.slip_rate_start, at.slip_rate, 1),
         (at.eccentricity_start, at.eccentricity, MOTION),
