@@ -34,7 +34,7 @@ def source(layout: Layout, pairs: int, *, always: bool) -> Source:
 def _may_be(v: Callable[[str], Expression], pairs: int) -> Expression:
     rounds = (v("steps") + 1.0) * (1.0 / EVERY)
     due = maximum(v("rough_until") - v("steps"), 0.5 / EVERY - (rounds - floor(rounds)))
-    inside = v("flag") - (PASSING - 0.5)  # the flags of `INSIDE` are the largest
+    inside = v("flag") - (PASSING - 0.5)  # these flags are the largest
     near = (bends.comes_near(v, j) for j in range(pairs))
     turning = (_turns_in_flight(v, j) for j in range(pairs))
     return greatest((*near, *turning), maximum(inside, due))

@@ -22,7 +22,14 @@ from operator import add
 
 from jointplay.solver.kernels.layout import MOTION, Layout
 from jointplay.solver.kernels.trace.tracer import Expression
-from jointplay.solver.quantities.scalars import greatest, maximum, minimum, sine_cosine, sqrt
+from jointplay.solver.quantities.scalars import (
+    SLIGHT,
+    greatest,
+    maximum,
+    minimum,
+    sine_cosine,
+    sqrt,
+)
 
 TURN = 0.5
 """Largest angle by which a body may turn in a step, rad."""
@@ -32,7 +39,6 @@ SKIN = 1e-3
 derivative: a hundred times the local error of a step at the largest tolerance."""
 HELD = 0.1
 """The same in contact, where depths are small, in tolerances: of the clearance, as errors are."""
-SLIGHT = 1e-300
 WHIP = 0.5
 """Angle of a normal in a step, rad, beyond which channels that follow it are looked at closely."""
 _, COSINE = sine_cosine(WHIP)

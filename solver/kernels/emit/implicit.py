@@ -46,10 +46,6 @@ class RosenbrockTracer(StepTracer):
     def _turned(self) -> list[Angle]:
         return []  # its steps are long
 
-    def _swinging(self) -> tuple[Expression, Expression]:
-        none = self.tracer.constant(0.0)
-        return none, none  # no limit of stability makes its slopes swing
-
     def _start(self) -> Source:
         outputs = [*self._tried(), *self._held()]
         outputs += [(f"stage{i}", self.variable(f"y{i}")) for i in range(self.states)]

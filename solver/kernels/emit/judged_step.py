@@ -148,7 +148,7 @@ class JudgedStep:
         """Return SWINGING where a step that swings inside is to be looked at, and by how much.
 
         In tolerances of the speed, of the acceleration that swings most. Methods that are watched
-        closely need no flag for it.
+        closely need no flag for it, nor do implicit ones, which no limit of stability makes swing.
         """
         most: Expression = self.tracer.constant(0.0)
         if self.tableau.watched_closely:

@@ -26,11 +26,8 @@ NOTICED = 0.01
 """The least of that in tolerances of the speed: less may be rounding."""
 
 REJECTED, DUE, ONSET, RELEASE, PACE, PASSING, SWINGING = 1, 2, 4, 8, 16, 32, 64
-"""Bit mask of what a lane's attempt asks the loop to look after; lanes hold it as a float."""
-ATTENTION = REJECTED | DUE | ONSET | RELEASE | PACE
-"""Flags that have a lane looked after by itself."""
-INSIDE = PASSING | SWINGING
-"""Flags of steps that may have extremes inside which their ends do not tell; the largest."""
+"""Bit mask of what a lane's attempt asks the loop to look after; lanes hold it as a float. The last
+two, the largest, tell that a step may have extremes inside which its ends do not show."""
 
 
 def growth(order: float, good: Expression, magnitude: Expression, memory: Expression) -> Expression:

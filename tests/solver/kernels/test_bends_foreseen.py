@@ -5,7 +5,7 @@ import pytest
 
 from jointplay.solver.kernels.emit.bends import BEYOND, RATES
 from jointplay.solver.kernels.emit.closer_looks import EVERY
-from jointplay.solver.kernels.emit.judging import ATTENTION, PASSING, SWINGING
+from jointplay.solver.kernels.emit.judging import PACE, PASSING, SWINGING
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.target import own_target
@@ -128,7 +128,7 @@ def test_looks_are_foreseen_where_a_slip_turns_in_flight(
 @pytest.mark.parametrize(
     ("slot", "steps", "value", "foreseen"),
     [
-        ("flag", 100.0, float(ATTENTION), False),
+        ("flag", 100.0, float(2 * PACE - 1), False),
         ("flag", 100.0, float(PASSING), True),
         ("flag", 100.0, float(SWINGING), True),
         ("rough_until", 100.0, 100.0, False),

@@ -10,6 +10,7 @@ import numpy as np
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.search.brackets import SHARP
+from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import may_surpass
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import (
     CORNER,
     look_evenly,
@@ -21,18 +22,16 @@ from jointplay.solver.kernels.trace.rows import NO_ROW
 
 
 @inner_kernel()
-def may_surpass(k: int, s: Step) -> bool:
+def is_in_reach(k: int, s: Step) -> bool:
     """Whether inner state `k` may have an extreme inside the step that is worth a look."""
     lane, at, work = s.lane, s.at, s.work
     row = int(work[at.inner_row + k, lane])
     if row == NO_ROW:
         return False
-    before, now = work[at.previous + row, lane], work[at.channel + row, lane]
-    lowest, highest = work[at.lowest + row, lane], work[at.highest + row, lane]
     i = 2 * at.step_row.coordinates + k
     slopes = abs(work[at.k1_ + i, lane]) + abs(work[at.slope + i, lane])
-    reach = work[at.tried, lane] * slopes - SHARP * (highest - lowest)
-    return bool(max(before, now) + reach > highest or min(before, now) - reach < lowest)
+    least = SHARP * (work[at.highest + row, lane] - work[at.lowest + row, lane])
+    return may_surpass(row, work[at.tried, lane] * slopes - least, s)
 
 
 @inner_kernel()
@@ -52,14 +51,14 @@ def look_at_inner_states(s: Step) -> None:
     """Seek extremes of inner states inside the step."""
     any_may = False
     for k in range(s.at.inner_states):
-        any_may |= may_surpass(k, s)
+        any_may |= is_in_reach(k, s)
     if not any_may:
         return
     place_evenly(0.0, 1.0, s)
     states_within(s)
     rows, count = np.empty(s.at.inner_states, np.int64), 0
     for k in range(s.at.inner_states):
-        if may_surpass(k, s) and surpasses(k, s):
+        if is_in_reach(k, s) and surpasses(k, s):
             rows[count] = int(s.work[s.at.inner_row + k, s.lane])
             count += 1
     if count > 0:

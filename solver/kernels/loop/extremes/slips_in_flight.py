@@ -9,6 +9,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.judging import PASSING
 from jointplay.solver.kernels.jit import inner_kernel
+from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import may_surpass
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import look_evenly
 from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.trace.rows import NO_ROW
@@ -47,12 +48,12 @@ def turns_in_flight(j: int, s: Step) -> bool:
         work[at.slip_rate_start + j, lane],
         work[at.slip_rate + j, lane],
     )
-    before, now = work[at.previous + row, lane], work[at.channel + row, lane]
-    lowest, highest = work[at.lowest + row, lane], work[at.highest + row, lane]
     if first * last < 0.0:
+        before = work[at.previous + row, lane]
         away = 0.5 * FARTHER * tried * first * first / (abs(first) + abs(last))
-        return bool(before + away > highest if first > 0.0 else before - away < lowest)
+        if first > 0.0:
+            return bool(before + away > work[at.highest + row, lane])
+        return bool(before - away < work[at.lowest + row, lane])
     if not int(work[at.flag, lane]) & PASSING:
         return False
-    away = FARTHEST * tried * (abs(first) + abs(last))
-    return bool(max(before, now) + away > highest or min(before, now) - away < lowest)
+    return may_surpass(row, FARTHEST * tried * (abs(first) + abs(last)), s)

@@ -21,6 +21,15 @@ def spread(r: int, value: float, s: Step) -> float:
 
 
 @inner_kernel(borrows=True)
+def may_surpass(r: int, reach: float, s: Step) -> bool:
+    """Whether a channel that goes beyond an end of this step by `reach` has a new extreme there."""
+    lane, at, work = s.lane, s.at, s.work
+    before, now = work[at.previous + r, lane], work[at.channel + r, lane]
+    above = max(before, now) + reach > work[at.highest + r, lane]
+    return bool(above or min(before, now) - reach < work[at.lowest + r, lane])
+
+
+@inner_kernel(borrows=True)
 def count(bracket: Bracket, abscissa: float, value: float, s: Step) -> None:
     """Note a value at an abscissa of a bracket, if it is beyond its channel's extreme so far."""
     lane, at, work, r = s.lane, s.at, s.work, bracket.row

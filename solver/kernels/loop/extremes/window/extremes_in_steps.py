@@ -103,7 +103,6 @@ def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> Non
     place_evenly(low, high, s)
     channels_within(s)
     behind = find_suspects(part, wanted.blocks, s, wanted.close, book, wanted.suspects)
-    generated.foresee_bends(s.addresses, s.work)
     passing, bending = False, s.work[s.at.may_pass_bend, s.lane] > 0.0
     for j in range(s.at.pairs):
         passing |= passes(j, s)
@@ -166,6 +165,7 @@ def extremes_in_steps(
         for lane in range(work.shape[1]):
             remember_start(step_of(lane, group))
         generated.attempt(addresses, work)
+        generated.foresee_bends(addresses, work)
         while p < len(parts) and parts[p, 0] < first + count:
             if parts[p, 1] != present:
                 close_bin(book, rows, extremes[present])
