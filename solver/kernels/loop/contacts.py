@@ -154,7 +154,7 @@ def begin_contact(j: int, now: float, s: Step) -> None:
     floored = max(rate, work[at.impact_floor + j, lane])
     work[at.mode + j, lane] = 1.0
     work[at.impact_rate + j, lane] = floored
-    work[at.onset_time + j, lane] = now
+    work[at.onset_time + j, lane], work[at.opened + j, lane] = now, np.inf
     work[at.approach + j, lane] = rate
     work[at.onset_total + j, lane] = work[at.impulse + j, lane]
     work[at.highest + at.contact_row + j, lane] = 0.0
