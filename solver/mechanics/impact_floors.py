@@ -31,8 +31,9 @@ def scene_speed(scene: Scene, play: Scalar, length: float) -> Scalar:
     """Return a speed of what a scene sets in motion about a joint with play, m/s; 0 at rest.
 
     The largest of √(2 a c), c the play, m, the speeds of drivers and motors, and those of the
-    start; an angle's at a `length`, m. a is what gravity and the full strength of all force
-    elements accelerate the lightest body by, m/s^2.
+    start; an angle's at a `length`, m. A polynomial's speed is that with which it crosses the play.
+    a is what gravity and the full strength of all force elements accelerate the lightest body by,
+    m/s^2.
     """
     forces = exact_sum([element.strength(length) for element in scene.forces.values()])
     lightest = least(body.mass for body in scene.bodies.values())
@@ -40,7 +41,7 @@ def scene_speed(scene: Scene, play: Scalar, length: float) -> Scalar:
     for driver in scene.drivers.values():
         lever = length if turns(scene, driver) else 1.0
         if isinstance(driver, MovingDriver):
-            speeds += [lever * slope for slope in driver.motion.largest(0.0)[:1]]
+            speeds.append(lever * driver.motion.speed_within(play / lever))
         else:
             speeds.append(lever * abs(driver.clock_rate))
     speeds += [length * abs(element.fastest) for element in scene.forces.values()]

@@ -263,17 +263,22 @@ def quickest_driver(scene: Scene, length: float) -> float:
         lever = 1.0 if turns(scene, driver) else length
         straight = not isinstance(driver, MovingDriver)
         paces += [speed / (lever if straight else 1.0) for speed in _speeds(scene, driver)]
+        if isinstance(driver, MovingDriver) and math.isinf(driver.motion.bend):
+            paces.append(driver.motion.speed_within(lever) / lever)
     fastest = max(paces, default=0.0)
     return 2.0 * math.pi / fastest if fastest else math.inf
 
 
 def _speeds(scene: Scene, driver: Driver) -> list[float]:
-    """Return what gives a driver's motion a scale of time, rad/s."""
+    """Return what gives a driver's motion a scale of time, rad/s.
+
+    Of an angle that is a polynomial of time it is the speed after the first radian.
+    """
     if not isinstance(driver, MovingDriver):
         return [abs(driver.clock_rate)]
     found = [2.0 * math.pi / driver.motion.bend]
     if turns(scene, driver):
-        found += driver.motion.largest(0.0)[:1]
+        found.append(driver.motion.speed_within(1.0))
     return found
 
 

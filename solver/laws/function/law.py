@@ -70,6 +70,13 @@ class Function(Strict):
         At most `SMOOTH` of them, in order; those left out are zero.
         """
 
+    def speed_within(self, _way: Scalar) -> Scalar:
+        """Return the largest slope, magnitude, while it moves from 0 on by about a way, positive.
+
+        Of a function whose slope has a bound everywhere, that bound.
+        """
+        return next(iter(self.largest(0.0)), 0.0)
+
     def overshoot(self) -> tuple[float, float]:
         """Return how far f passes given values between two of them, and the argument there.
 

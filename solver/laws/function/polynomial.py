@@ -7,7 +7,7 @@ from numpy.polynomial import Polynomial as Numeric
 from pydantic import Field
 
 from jointplay.solver.laws.function.law import SMOOTH, Derivatives, Function
-from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.scalars import Scalar, greatest, maximum, power
 from jointplay.solver.quantities.units import quantity
 
 Coefficient = Annotated[float, quantity("unit of the value per unit^k of x", ge=-1e12, le=1e12)]
@@ -39,6 +39,14 @@ class Polynomial(Function):
     def largest(self, until: float) -> list[float]:
         """Return the largest magnitudes, at the ends or where the next derivative vanishes."""
         return largest_magnitudes(Numeric(self.coefficients), until)
+
+    def speed_within(self, way: Scalar) -> Scalar:
+        """Return the largest slope at which one power alone has moved by that way."""
+        slopes: list[Scalar] = []
+        for k, coefficient in enumerate(self.coefficients[1:], start=1):
+            size = maximum(coefficient, -coefficient)
+            slopes.append(k * power(size / way, 1.0 / k) * way)  # k c x^(k-1), with c x^k the way
+        return greatest(slopes)
 
 
 def derivatives(coefficients: list[Scalar], x: Scalar) -> Derivatives:

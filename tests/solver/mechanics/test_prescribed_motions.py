@@ -8,6 +8,7 @@ from hypothesis import given, settings
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
+from jointplay.solver.runs.ideal.following import follow
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.clocks import clocks
@@ -95,6 +96,26 @@ def test_periods_and_scales_of_time_are_those_of_the_motion() -> None:
     mixed = carried(SINE)
     mixed["drivers"]["second"] = {"joint": "P", "speed": 10.0 / 3.0}
     assert common_period(scene_of(mixed)).seconds == pytest.approx(3.0 * 2.0 * np.pi / 5.0)
+
+
+@pytest.mark.parametrize("coefficients", [[0.0, 0.3], [0.0, 0.0, 2.0], [0.0, 1e-8, 0.0, 1.0]])
+def test_a_polynomial_moves_a_mechanism_that_is_followed(coefficients: list[float]) -> None:
+    times = [0.0, 0.7, 1.4]
+    motion = {"type": "polynomial", "coefficients": coefficients}
+    for kind, column in (("revolute", 2), ("prismatic", 0)):
+        poses = follow(scene_of(carried(motion, kind)), times).poses
+        moved = np.polynomial.polynomial.polyval(times, coefficients)
+        np.testing.assert_allclose(poses[:, column] - poses[0, column], moved, atol=1e-12)
+
+
+def test_a_polynomial_that_starts_almost_at_rest_is_as_fast_as_after_a_radian() -> None:
+    """Its slope at the start, 1e-8 rad/s, would make a revolution last twenty years."""
+    motion = {"type": "polynomial", "coefficients": [0.0, 1e-8, 2.0]}
+    scene = scene_of(carried(motion))
+    assert characteristic_time(scene, 0.3) == pytest.approx(2.0 * np.pi / (2.0 * 2.0**0.5))
+    found = run(carried(motion), 2.0, tolerance=1e-8, output_step=0.25)
+    expected = independent(motion, "revolute", found.time, (-1.0, found["bob.omega"][0]))
+    np.testing.assert_allclose(found["bob.theta"], expected, rtol=0.0, atol=1e-6)
 
 
 def test_a_motion_of_amplitude_zero_needs_no_period_in_common_with_another() -> None:

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from jointplay.solver.kinds import admit
@@ -56,6 +57,23 @@ def test_a_speed_that_is_given_of_the_joint_counts_as_one_of_its_body() -> None:
     assert scales(scene) == pytest.approx((1e-4, 1e-9, 1e-4))
     back, facts = ended(scene, 4.0)
     assert back == pytest.approx(-0.5e-4, abs=1e-8)
+    assert facts["slow_impacts"] == 0
+
+
+@pytest.mark.parametrize("half", [1e-4, 1e-6])
+def test_a_driver_that_starts_from_rest_is_as_fast_as_it_crosses_the_play(half: float) -> None:
+    """It moves half t^2 m towards a disc at rest, which leaves it with half of its speed more."""
+    scene, gap = stop(0.0), 1.1e-4
+    motion = {"type": "polynomial", "coefficients": [0.0, 0.0, -half]}
+    slide = {"type": "prismatic", "guide": "ground.S", "slider": "face.S", "axis": [1.0, 0.0]}
+    scene["bodies"]["face"] = {"mass": 1.0, "inertia": 1e-3, "points": {"S": [0.0, 0.0]}}
+    scene["joints"] |= {"pushes": slide}
+    scene["joints"]["stop"]["follower"] = "face.S"
+    scene["drivers"] = {"motor": {"joint": "pushes", "motion": motion}}
+    scene["start"] = {"guides": {"stop": {"offset": gap - LASH}}}
+    assert scales(scene) == pytest.approx(((4.0 * half * LASH) ** 0.5) * np.array([1.0, 1e-5, 1.0]))
+    after, facts = ended(scene, 1.1 * (gap / half) ** 0.5)
+    assert after == pytest.approx(-1.5 * (4.0 * half * gap) ** 0.5, rel=2e-3)
     assert facts["slow_impacts"] == 0
 
 
