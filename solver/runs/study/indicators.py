@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -166,7 +167,9 @@ def exponents(
 ) -> tuple[Estimate, Estimate]:
     """Return the exponent of a record and the one in far smaller steps, as `indicators_of` has it.
 
-    Each has the error of its length alone; one about which nothing is known is UNKNOWN.
+    Each has the error of its length alone; one about which nothing is known is UNKNOWN. Of a
+    tangent that vanished the first is -inf with an infinite error: the motion may have a finite
+    one.
 
     turns : periods after which the motion recurs. Growth comes and goes along an orbit, and is the
     same over each whole one; a record of eight orbits or more is taken by them.
@@ -176,6 +179,8 @@ def exponents(
     whole = turns if len(log_growth) >= FEWEST_BATCHES * turns else 1
     orbits, time = _by_orbit(log_growth, whole), whole * period
     record = exponent_from_growth(orbits, time, settled // whole)
+    if record.value == -math.inf:  # below what a double holds, and then for good
+        return replace(record, error=math.inf), UNKNOWN
     if not len(finer_growth) or not _known(finer_growth):
         return record, UNKNOWN
     if len(finer_growth) < whole:

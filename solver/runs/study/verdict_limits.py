@@ -66,6 +66,6 @@ def _limits_of_exponent(scene: Scene, found: Mapping[str, float], periods: int) 
         )
         yield f"there is no exponent: {obstacle[0].lower()}{obstacle[1:].rstrip('.')}"
     elif math.isinf(exponent):
-        yield "the exponent is not known: the tangent vanished within a period"
+        yield "the tangent vanished: it shrank by more than 1e290 within a period"
     elif math.isinf(error):
         yield "the error of the exponent is not known: it needs three recorded periods"

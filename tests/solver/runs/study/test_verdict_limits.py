@@ -5,7 +5,8 @@ from typing import Any
 
 import pytest
 
-from jointplay.solver.nonlinear.verdict import UNDECIDED
+from benchmarks.basin_scenes import ON_THE_MASS, shaking, sliding
+from jointplay.solver.nonlinear.verdict import PERIODIC, UNDECIDED
 from tests.solver.completed_runs import CASE_3
 from tests.solver.runs.study.test_run import Computed
 
@@ -55,3 +56,18 @@ def test_a_contact_that_lasts_makes_the_motion_the_laws() -> None:
     assert "lankarani-nikravesh" in resting
     _, rattling = judged({"speed": 7.854, "speed_crank4": -7.854}, 4)
     assert "contact lasted" not in rattling
+
+
+@pytest.mark.parametrize("rate", [30.0, 300.0])
+def test_a_tangent_that_vanishes_gives_no_exponent_for_certain(rate: float) -> None:
+    """Neighbours of a critically damped motion come closer by e^-1885 in a period at 300 1/s."""
+    spring = {"type": "spring-damper", **ON_THE_MASS, "stiffness": rate * rate}
+    scene = sliding("damped", 2.0 * rate, spring=spring, shaking=shaking(rate * rate))
+    asked = {"settle": 20, "record": 20, "indicators": ["lyapunov", "recurrence"]}
+    end = Computed({"kind": "poincare", "scene": scene} | asked).ends[0]
+    found = end.indicators
+    assert abs(found["lyapunov"] + rate) <= 3.0 * found["lyapunov_error"]
+    assert math.isfinite(found["lyapunov"]) == (rate < 100.0)
+    assert ("the tangent vanished" in end.reason) == (rate > 100.0)
+    assert end.reason.count("not known") == int(rate > 100.0)
+    assert found["verdict"] == PERIODIC
