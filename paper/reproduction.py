@@ -10,6 +10,7 @@ from typing import Final, cast
 from jointplay.paper import cases, pictures, report
 from jointplay.paper.cases import Run, Stores
 from jointplay.paper.variants import Size
+from jointplay.records.whole_file import write_whole
 from jointplay.solver.kinds import Admission, Study, admit, parse
 from jointplay.solver.runs.processes import Advance, Call, Processes, cores, processes
 from jointplay.solver.runs.study.run import StudyRun
@@ -78,7 +79,7 @@ def reproduce(folder: Path, size: Size, count: int | None, progress: Report) -> 
             ),
         )
     page = folder / PAGE
-    page.write_text(report.page(stores, size, list(zip(drawn, images, strict=True))), "utf-8")
+    write_whole(page, report.page(stores, size, list(zip(drawn, images, strict=True))))
     return page
 
 

@@ -6,6 +6,7 @@ from html import escape
 from pathlib import Path
 
 from jointplay.records.figure_form import FORMS, Form
+from jointplay.records.whole_file import write_whole
 
 
 def html_table(title: str, rows: Mapping[str, object]) -> str:
@@ -37,7 +38,7 @@ class Picture:
         return self.content.decode() if self.form == "svg" else None
 
     def save(self, path: Path | str) -> Path:
-        """Write the file, and return its path.
+        """Write the file, whole or not at all, and return its path.
 
         A suffix that names another form, such as ``.pdf``, draws the figure again in that form;
         without one its own is appended.
@@ -46,5 +47,5 @@ class Picture:
         asked = next((form for form in FORMS if file.suffix == f".{form}"), None)
         if asked is None:
             file = file.with_name(f"{file.name}.{self.form}")
-        file.write_bytes(self.content if asked in (None, self.form) else self._draw(asked))
+        write_whole(file, self.content if asked in (None, self.form) else self._draw(asked))
         return file

@@ -12,6 +12,7 @@ from jointplay.command_line.job_document import job_document
 from jointplay.command_line.job_options import with_job_options
 from jointplay.command_line.options import AS_JSON, JOB, SET
 from jointplay.command_line.output import json_text, print_result
+from jointplay.records.whole_file import write_whole
 
 _OF_A_RUN = ("scene", "duration", "formulation", "label")
 
@@ -54,9 +55,9 @@ def accuracy(
     measured = run(job, progress=True)
     found = measured.accuracy
     if output is not None and form is None:
-        output.write_text(json_text(found) + "\n")
+        write_whole(output, json_text(found) + "\n")
     elif output is not None and form is not None:
-        output.write_bytes(measured.figure("work-precision", form=form).content)
+        write_whole(output, measured.figure("work-precision", form=form).content)
     print_result(found, accuracy_lines(found), as_json=as_json)
 
 

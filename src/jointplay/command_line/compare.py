@@ -13,6 +13,7 @@ from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, job_of
 from jointplay.command_line.output import print_result
 from jointplay.command_line.peaks import Row, peak_rows, peak_table
 from jointplay.command_line.typed_window import check_ends, check_start
+from jointplay.records.whole_file import write_whole
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -72,7 +73,7 @@ def compare(
             window = job.window(drawn, start, stop, points=_SPANS)
             for name, one in window.channels.items():
                 panels[name].append(Curve(label, one.unit, window.time, one.values))
-        output.write_bytes(_drawn(panels, form, page))
+        write_whole(output, _drawn(panels, form, page))
         if windowed:
             peaks = [_peaks_inside(job, names, start, stop) for job in jobs]
         about = _span(start, stop) if windowed else _settled(jobs, labels)

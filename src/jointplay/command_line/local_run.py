@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.figure_paths import FigurePaths
 from jointplay.command_line.output import json_text, print_result
+from jointplay.records.whole_file import write_whole
 from jointplay.records.window_query import WindowQuery
 
 if TYPE_CHECKING:
@@ -76,7 +77,7 @@ def _write(found: dict[str, Any], output: Path) -> Path:
         return output
     else:
         table, text = output / "peaks.csv", "".join(peak_lines(found["peaks"]))
-    table.write_text(text)
+    write_whole(table, text)
     return table
 
 

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from jointplay.records.whole_file import write_whole
+
 
 def openapi(
     output: Annotated[
@@ -21,5 +23,5 @@ def openapi(
 
     text = json.dumps(create_app().openapi(), indent=2, sort_keys=True)
     if output is not None:
-        output.write_text(text + "\n")
+        write_whole(output, text + "\n")
     typer.echo(text if output is None else output)

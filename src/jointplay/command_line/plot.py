@@ -26,6 +26,7 @@ from jointplay.command_line.output import print_result, remark
 from jointplay.command_line.typed_window import check_ends, check_start
 from jointplay.progress import progress
 from jointplay.records.figure_form import FilmForm, Form
+from jointplay.records.whole_file import write_whole
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -156,7 +157,7 @@ def draw_all(
                 option = "" if cause == "name" else f"--{cause.replace('_', '-')}: "
                 drawn.refused.append(f"{name}: {option}{sentence}")
                 continue
-            path.write_bytes(content)
+            write_whole(path, content)
             drawn.written.append({"name": name, "path": str(path)})
         report(1.0, "")
     return drawn

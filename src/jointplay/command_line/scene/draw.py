@@ -10,6 +10,7 @@ from jointplay.command_line.figure_options import form_of, page_of, with_figure_
 from jointplay.command_line.options import AS_JSON, SCENE, SET
 from jointplay.command_line.output import print_result, remark
 from jointplay.command_line.scene.assembled import assemble_scene
+from jointplay.records.whole_file import write_whole
 
 
 @with_figure_options
@@ -41,7 +42,7 @@ def draw(
         picture = figures.render_mechanism(scene.drawn(), scene.pose(), form, page)
     except figures.NotDrawable as error:
         raise Stopped(str(error)) from None
-    file.write_bytes(picture)
+    write_whole(file, picture)
     print_result({"figure": str(file), "problems": scene.problems}, [file], as_json=as_json)
     if scene.refusal is not None:
         remark([f"drawn, but it cannot be run. {scene.refusal}"])

@@ -7,6 +7,7 @@ import typer
 
 from jointplay.command_line.options import AS_JSON
 from jointplay.command_line.output import print_result
+from jointplay.records.whole_file import write_whole
 
 
 def schema(
@@ -28,5 +29,5 @@ def schema(
     document = scene_schema()
     text = json.dumps(document, indent=2)
     if output is not None:
-        output.write_text(text + "\n")
+        write_whole(output, text + "\n")
     print_result(document, [text if output is None else output], as_json=as_json)
