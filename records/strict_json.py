@@ -93,7 +93,7 @@ def _loads(text: bytes) -> object:
         )
     except json.JSONDecodeError as error:
         where = f"line {error.lineno}, column {error.colno}"
-        _malformed(f"The document is not JSON: {error.msg} at {where}.")
+        _malformed(f"The document is not JSON: {error.msg.removesuffix(' at')} at {where}.")
     except UnicodeDecodeError as error:
         _malformed(f"The document is not UTF-8: byte {error.start} cannot be decoded.")
     except RecursionError:

@@ -12,7 +12,7 @@ from jointplay.records.failure import Problem
 from jointplay.records.strict_json import INTEGER_DIGITS
 from jointplay.records.suggestions import did_you_mean, instead
 from jointplay.solver.quantities.registry import MemberOf
-from jointplay.solver.scene import start_numbers
+from jointplay.solver.scene import presets, start_numbers
 from jointplay.solver.scene.unions import is_form
 
 TYPES = frozenset({"float", "str", "none"})
@@ -87,6 +87,8 @@ def _out_of_form(field: str, keys: list[str], root: type[BaseModel], document: o
     known = {name for model in models for name, _ in _fields(model)}
     if field in known:  # of another form of the object
         return f"The field '{field}' does not go with the others here; leave it or them out."
+    if len(keys) == 1 and (place := _in_the_scene(field, document)):
+        return f"'{field}' belongs to the scene; give it as {place}."
     return f"There is no field '{field}' here; {instead(field, known)}"
 
 
@@ -149,6 +151,22 @@ def _of_parameter(pointer: str, document: object) -> str:
                 f" The parameter '{name}' replaces it, but a scene is complete without parameters."
             )
     return ""
+
+
+def _in_the_scene(field: str, document: object) -> str:
+    """Return the pointer to which a field of a job belongs: parameters, or one of them; or ""."""
+    scene = document.get("scene") if isinstance(document, Mapping) else None
+    if not isinstance(scene, Mapping):
+        return ""
+    if field == "parameters":
+        return "/scene/parameters"
+    name, declared = scene.get("preset"), scene.get("parameters")
+    is_preset = isinstance(name, str) and name in presets.names()
+    if is_preset:
+        declared = presets.document(str(name)).get("parameters")
+    if not isinstance(declared, Mapping) or field not in declared:
+        return ""
+    return f"/scene/parameters/{field}" + ("" if is_preset else "/default")
 
 
 def _meant_number(item: ErrorDetails) -> str:

@@ -37,6 +37,7 @@ def test_what_json_writes_is_read_back_unchanged(document: object) -> None:
         (b'{"label": "\\u0000"}', "/label", "NUL"),
         (b'{"kind": ', "", "line 1, column"),
         (b"", "", "not JSON"),
+        (b'{"kind": "sim', "", "Unterminated string starting at line 1, column 10."),
         (b'{"kind": 1} x', "", "not JSON"),
         (b'\xff{"kind": 1}', "", "UTF-8"),
         (b"[" * 100_000, "", "nested"),

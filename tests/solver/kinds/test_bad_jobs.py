@@ -8,6 +8,7 @@ import pytest
 from jointplay.records.failure import InvalidInput
 from jointplay.records.strict_json import parse
 from jointplay.solver.kinds import admit
+from jointplay.solver.scene import presets
 from tests.solver.kinds.refusals import Refused, assert_refused, at, both, changed, without
 
 JOB: dict[str, Any] = {
@@ -22,6 +23,13 @@ BAD_JOBS: dict[str, Refused] = {
     "no scene": (without("/scene"), "/scene", "required"),
     "no duration": (without("/duration"), "/duration", "required"),
     "unknown field": (at("/durations", 1.0), "/durations", "did you mean 'duration'"),
+    "parameter beside the scene": (at("/clearance", 1e-4), "/clearance", f"as {P}/clearance."),
+    "parameters beside the scene": (at("/parameters", {}), "/parameters", f"as {P}."),
+    "parameter of a whole scene beside it": (
+        both(at("/scene", presets.document("pendulum")), at("/mass", 2.0)),
+        "/mass",
+        f"as {P}/mass/default.",
+    ),
     "scene without anything": (at("/scene", {}), "/scene", "or an object with a 'preset'"),
     "scene of a name": (at("/scene", {"name": "x"}), "/scene/bodies", "'bodies' is required"),
     "unknown preset": (at("/scene/preset", "seven-bar"), "/scene/preset", "seven-bar-press"),
