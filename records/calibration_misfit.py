@@ -27,6 +27,11 @@ def misfits(document: Mapping[str, Any]) -> bool:
     return bool(document["cost"] ** 2 > (1.0 - spread + RARELY * math.sqrt(spread)) ** 3)
 
 
+def with_misfits(document: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a calibration found, with ``misfits``: whether nothing fits."""
+    return {**document, "misfits": misfits(document)}
+
+
 def best_at(document: Mapping[str, Any], parameter: Mapping[str, Any]) -> str:
     """Return the end of its range at which a parameter is best, minimum or maximum; else empty.
 

@@ -89,6 +89,10 @@ class Calibration(BaseModel):
     solver: str
     cost: float = in_unit("1", "Root mean square of the misses, in tolerances.")
     equally_good_cost: float = in_unit("1", "Highest cost that counts as equally good.")
+    misfits: bool = Field(
+        description="Whether nothing fits: misses are larger than errors of the tolerances' size"
+        " explain, of which one in a thousand would be so large."
+    )
     parameters: list[FoundParameter]
     correlation: Correlation
     targets: list[FittedTarget]

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
+from jointplay.records.calibration_misfit import with_misfits
 from jointplay.records.sensitivity.analysis import NoSuchOutput, sensitivity
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results.endpoints import show_sections
@@ -106,7 +107,7 @@ def show_calibration(results: ResultsOfThePath) -> Response:
     results.insist("calibration")
     study = results.study()
     if 0 in study.documents:
-        return as_json(Calibration.model_validate(study.documents[0]))
+        return as_json(Calibration.model_validate(with_misfits(study.documents[0])))
     job = results.job
     if not job.state.terminal:
         raise results.not_ready("what it found is there when its search has ended")

@@ -1,5 +1,7 @@
 """From numbers that were measured to the job that looks for the parameters that give them."""
 
+import pytest
+
 from tests.page.browsing import barriers, expect
 
 MEASURED = "channel,to,value\nbearing.normal_force,0.018,{}"
@@ -27,3 +29,29 @@ def test_what_was_measured_is_given_as_a_table_and_can_be_changed(browsing, url,
             "channel,statistic,from,to,value,weight\nbearing.normal_force,maximum,0,0.018,800,1"
         )
         expect(page.get_by_label("To", exact=True)).to_have_value("10000000000")
+
+
+FOUND = {
+    "equally_good_cost": 1.0,
+    "parameters": [],
+    "targets": [],
+    "search": {"settled": True, "spread_settled": True, "candidates": 40},
+}
+FIT = """async ([found]) => {
+  const { show } = await import("/page/views/job/fit.js");
+  globalThis.fetch = async () => new Response(JSON.stringify(found));
+  const links = { calibration: "/v1/found", figures: "/v1/figures" };
+  const job = { state: "succeeded", progress: { fraction: 1 }, links };
+  const room = document.createElement("div");
+  const { signal } = new AbortController();
+  await show(room, { job, signal, onChange: () => {} });
+  return room.querySelector("p").textContent;
+}"""
+
+
+@pytest.mark.parametrize(("cost", "misfits"), [(7.4, True), (0.7, False)])
+def test_a_fit_in_which_nothing_fits_says_so(browsing, service_url, cost, misfits):
+    """The command line alone said it."""
+    with browsing.page(f"{service_url}/", expected=("404",)) as page:  # of its figure
+        told = page.evaluate(FIT, [FOUND | {"cost": cost, "misfits": misfits}])
+    assert ("Nothing fits: " in told) is misfits

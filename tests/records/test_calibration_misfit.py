@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from jointplay.records.calibration_misfit import best_at, misfits
+from jointplay.records.calibration_misfit import best_at, misfits, with_misfits
 
 
 def document(readings: int, cost: float) -> dict[str, Any]:
@@ -47,3 +47,9 @@ def test_a_best_value_may_be_at_the_end_of_its_range(spacing: str, best: float, 
         best_at({"calibration": {"parameters": {"mass": free}}}, {"name": "mass", "best": best})
         == end
     )
+
+
+def test_what_was_found_says_whether_nothing_fits() -> None:
+    for cost, expected in ((7.39, True), (3.0, False)):
+        found = document(1, cost)
+        assert with_misfits(found) == found | {"misfits": expected}

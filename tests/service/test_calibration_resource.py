@@ -4,6 +4,7 @@ import pytest
 
 from jointplay import jobs
 from jointplay.client import Client, NotFound, Refused, ResultsNotReady
+from jointplay.records.calibration_misfit import with_misfits
 from jointplay.service.studies.calibration_schema import Calibration
 from jointplay.solver.kinds import admit
 from tests.service.answers import get
@@ -34,7 +35,7 @@ def finished(client, worker):
 def test_the_client_reads_what_the_local_command_finds(finished, http):
     assert (finished.kind, finished.state) == ("calibration", "succeeded")
     found = finished.calibration
-    expected = computed(JOB).document()
+    expected = with_misfits(computed(JOB).document())
     assert found == expected
     history = found["search"]["best_costs"]
     assert history == sorted(history, reverse=True)

@@ -17,13 +17,15 @@ export async function show(room, context) {
         figure(`${links.figures}/calibration.svg`)))), ["succeeded"]);
 }
 
-function words({ cost, equally_good_cost: limit, search }) {
+function words({ cost, equally_good_cost: limit, misfits, search }) {
+  const nothing = misfits ? " Nothing fits: these misses are larger than errors of the tolerances’ size"
+    + " explain. The model, a tolerance or the range of a parameter is not right." : "";
   const end = search.settled ? "" : " It ended before its candidates had become alike: more"
     + " generations may find better.";
   const reach = search.spread_settled === false ? " More may fit equally well than the ranges"
     + " tell: ask for more generations of the spread." : "";
   return `Cost ${short(cost, 3)}, the root mean square of the misses in tolerances; up to`
-    + ` ${short(limit, 3)} fits equally well. ${search.candidates} candidates were tried.${end}${reach}`;
+    + ` ${short(limit, 3)} fits equally well. ${search.candidates} candidates were tried.${nothing}${end}${reach}`;
 }
 
 function parameters({ parameters: found }) {

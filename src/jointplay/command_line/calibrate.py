@@ -11,6 +11,8 @@ from jointplay.command_line.calibration_options import calibration_document
 from jointplay.command_line.compact_json import compact_json
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.options import PROCESSES, SET, whole
+from jointplay.records.calibration_misfit import with_misfits
+from jointplay.records.whole_file import write_whole
 
 if TYPE_CHECKING:
     from jointplay.solver.calibration.outcome import Outcome
@@ -115,16 +117,16 @@ def calibrate(
             tolerance=tolerance,
         )
     outcome = computed(admit_calibration(given), processes, output)
-    found = outcome.document()
+    found = with_misfits(outcome.document())
     document = compact_json(found)
     if output is not None:
-        output.write_text(document + "\n")
+        write_whole(output, document + "\n")
         _measured_beside(output).unlink(missing_ok=True)
     if preset_out is not None:
         from jointplay.solver.calibration.fitted_scene import fitted_scene
 
         name = re.sub(r"[^A-Za-z0-9-]", "-", preset_out.stem)[:32]
-        preset_out.write_text(compact_json(fitted_scene(outcome, name)) + "\n")
+        write_whole(preset_out, compact_json(fitted_scene(outcome, name)) + "\n")
     for line in [document] if as_json else calibration_lines(found):
         typer.echo(line)
 

@@ -14,6 +14,7 @@ from jointplay.job_fields import KINDS
 from jointplay.local.exact_windows import exact_peaks, exact_window, window_of
 from jointplay.records.attractor_table import attractor_table
 from jointplay.records.branch import branch_document
+from jointplay.records.calibration_misfit import with_misfits
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.figure_form import Form
@@ -142,7 +143,7 @@ class FolderResults:
         study = self._study_with("calibration")
         if 0 not in study.documents:
             raise NotFound(f"The search in {self._store} did not end.")
-        return dict(study.documents[0])
+        return with_misfits(study.documents[0])
 
     def sensitivity(
         self, output: str | None, limit: float | None, failing: Side, confidence: float

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from jointplay.storage.results.comparison import Compared, compared_values
 
-_SOLVER: Final = "solver"
-"""Field of the document that has the solver's version."""
+_NOT_COMPARED: Final = ("solver", "misfits")
+"""The solver's version; and what follows from all else, and is not in older files."""
 
 
 def compared_findings(
@@ -18,7 +18,9 @@ def compared_findings(
     """Compare what two calibrations found: tables of numbers as arrays, all else by name."""
     arrays: list[Compared] = []
     others: list[str] = []
-    results = [{key: one[key] for key in one if key != _SOLVER} for one in (stored, again)]
+    results = [
+        {key: one[key] for key in one if key not in _NOT_COMPARED} for one in (stored, again)
+    ]
     for path, one, other in _leaves("", *results):
         if all(isinstance(leaf, np.ndarray) for leaf in (one, other)):
             arrays.append(compared_values(path, one, other))
