@@ -119,15 +119,27 @@ class JobList {
   }
 
   async look() {
-    const { jobs } = await this.page(null, NEWEST);
+    const { jobs, next } = await this.page(null, NEWEST);
     const known = new Map(this.jobs.map((job, place) => [job.id, place]));
     const fresh = jobs.filter(({ id }) => !known.has(id));
     for (const job of jobs) if (known.has(job.id)) this.jobs[known.get(job.id)] = job;
     if (fresh.length === NEWEST) await this.load(); // there may be more between
-    else this.jobs.unshift(...fresh);
+    else {
+      this.keepOnly(jobs, next);
+      this.jobs.unshift(...fresh);
+    }
     await this.lookAgain(new Set(jobs.map(({ id }) => id)));
     await this.tellWhy(jobs.some(({ state }) => state === "queued"));
     this.draw();
+  }
+
+  /** Drops what is no longer among the newest, though as new: deleted by others, or not what the filters ask for. */
+  keepOnly(newest, next) {
+    const ids = new Set(newest.map(({ id }) => id));
+    const oldest = this.jobs.findLastIndex(({ id }) => ids.has(id));
+    const gone = this.jobs.filter(({ id }, place) => !ids.has(id) && (place < oldest || !next));
+    for (const { id } of gone) this.chosen.delete(id);
+    this.jobs = this.jobs.filter((job) => !gone.includes(job));
   }
 
   async lookAgain(seen) {

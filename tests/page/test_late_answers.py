@@ -166,6 +166,22 @@ def test_a_list_goes_on_without_a_job_that_somebody_deleted(browsing, http, serv
         page.locator(f"[data-job='{new}']").wait_for()
 
 
+def test_a_finished_job_that_somebody_deleted_leaves_the_list(browsing, http, service_url, worker):
+    """It stayed until the list was opened again: only jobs that go on were looked at."""
+    first, gone, last = (worker.finished(label="of another") for _ in range(3))
+    with browsing.page(f"{service_url}/#/jobs?label=of+another") as page:
+        page.locator(f"[data-job='{gone}']").get_by_role("checkbox").check()
+        page.get_by_role("button", name="Delete 1", exact=True).wait_for()
+        http.delete(f"/v1/jobs/{gone}").raise_for_status()
+        page.locator(f"[data-job='{gone}']").wait_for(state="detached")
+        expect(page.get_by_role("button", name="Delete 1", exact=True)).to_have_count(0)
+        shown = page.locator(".row").evaluate_all("rows => rows.map((row) => row.dataset.job)")
+        assert sorted(shown) == sorted([first, last])
+        for job in (first, last):
+            http.delete(f"/v1/jobs/{job}").raise_for_status()
+        page.get_by_role("heading", name="No job matches these filters").wait_for()
+
+
 def test_what_a_batch_refused_stays_to_be_read(browsing, http, service_url):
     """The next look at the batch wiped it away; a double click did a thing twice."""
     job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}

@@ -209,7 +209,9 @@ def test_a_point_is_pulled_and_kept_as_the_start_without_a_pointer(
     browsing: Any, service_url: str
 ) -> None:
     """A mechanism that nothing drives could be moved with a pointer only."""
-    document = presets.document("pendulum") | {"parameters": {}}  # whose angle is one of them
+    document = presets.document(
+        "pendulum"
+    )  # whose angle is a parameter: the start was undone by it
     body, point = "rod", "tip"
     with browsing.page(f"{service_url}/#/editor") as page:
         page.locator(CANVAS).wait_for()
@@ -284,6 +286,32 @@ def test_a_dragged_pose_is_kept_as_the_start(browsing: Any, service_url: str, na
     with browsing.page(f"{service_url}/#/editor") as page:
         page.locator(CANVAS).wait_for()
         assert_kept(page, document, body, at)
+
+
+def test_a_parameter_of_the_start_is_kept_as_it_was_dragged(
+    browsing: Any, service_url: str
+) -> None:
+    """Its default put the mechanism back to where it had been."""
+    document = presets.document("double-pendulum")
+    target = {"path": "/start/angles/upper", "factor": -0.5}
+    document["parameters"]["angle_upper"] |= {"default": -2.0, "targets": [target]}
+    with browsing.page(f"{service_url}/#/editor") as page:
+        page.locator(CANVAS).wait_for()
+        shown(page, document)
+        whole = assembled_scene(document, is_whole=True).document
+        pose = dragged_to(page, whole, "lower", [0.5, 0.0])
+        with page.expect_response(posed) as answer:
+            page.get_by_role("button", name="Start here").click()
+        assert flat(answer.value.json()["poses"][0]) == pytest.approx(flat(pose), abs=1e-7)
+        written = json.loads(page.evaluate("sessionStorage.getItem('jointplay-scene')"))
+    assert flat(assembled_scene(written, is_whole=True).pose()) == pytest.approx(
+        flat(pose), abs=1e-7
+    )
+    before, now = document["parameters"], written["parameters"]
+    found = {name: one["default"] for name, one in now.items() if one != before[name]}
+    assert found == pytest.approx(
+        {"angle_upper": -2.0 * pose["upper"][2], "angle_lower": pose["lower"][2]}
+    )
 
 
 def assert_kept(page: Any, document: dict[str, Any], body: str, at: list[float]) -> None:
