@@ -1,4 +1,4 @@
-"""What a tab keeps though its storage is full or forbidden; pictures of a service that is away."""
+"""Texts that a tab keeps, its storage full or forbidden; pictures of a service that is away."""
 
 import pytest
 
