@@ -38,4 +38,5 @@ AWAY = """async () => {
 def test_the_page_goes_on(browsing, service_url, script, found):
     """These were errors: what was written was lost, or nothing was shown at all."""
     with browsing.page(f"{service_url}/") as page:
-        assert page.evaluate(script) == found
+        answer = page.evaluate(script)
+    assert answer == found
