@@ -12,3 +12,18 @@ export async function listed(job) {
     job: { kind, duration, scene: { preset: scene?.preset, name: scene?.name } },
   };
 }
+
+/**
+ * Returns the jobs of a list without those that are no longer among its newest, though as new: deleted by others, or
+ * not what the filters ask for.
+ *
+ * @param newest jobs of the list now, the newest first; next: whether there are more behind them
+ * @param gone called with each job that is left out
+ */
+export function stillListed(jobs, newest, next, gone) {
+  const ids = new Set(newest.map(({ id }) => id));
+  const oldest = jobs.findLastIndex(({ id }) => ids.has(id));
+  const isGone = ({ id }, place) => !ids.has(id) && (place < oldest || !next);
+  jobs.filter(isGone).forEach(gone);
+  return jobs.filter((job, place) => !isGone(job, place));
+}

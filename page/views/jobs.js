@@ -6,7 +6,7 @@ import {
 import { element, fill } from "../interface/element.js";
 import { jobFilters } from "../interface/job_filters.js";
 import { JobRow } from "../interface/job_row.js";
-import { listed } from "../interface/listed.js";
+import { listed, stillListed } from "../interface/listed.js";
 import { address, note } from "../interface/route.js";
 import { whyQueued, workers } from "../interface/workers.js";
 import { trouble } from "../interface/trouble.js";
@@ -124,22 +124,10 @@ class JobList {
     const fresh = jobs.filter(({ id }) => !known.has(id));
     for (const job of jobs) if (known.has(job.id)) this.jobs[known.get(job.id)] = job;
     if (fresh.length === NEWEST) await this.load(); // there may be more between
-    else {
-      this.keepOnly(jobs, next);
-      this.jobs.unshift(...fresh);
-    }
+    else this.jobs = [...fresh, ...stillListed(this.jobs, jobs, next, ({ id }) => this.chosen.delete(id))];
     await this.lookAgain(new Set(jobs.map(({ id }) => id)));
     await this.tellWhy(jobs.some(({ state }) => state === "queued"));
     this.draw();
-  }
-
-  /** Drops what is no longer among the newest, though as new: deleted by others, or not what the filters ask for. */
-  keepOnly(newest, next) {
-    const ids = new Set(newest.map(({ id }) => id));
-    const oldest = this.jobs.findLastIndex(({ id }) => ids.has(id));
-    const gone = this.jobs.filter(({ id }, place) => !ids.has(id) && (place < oldest || !next));
-    for (const { id } of gone) this.chosen.delete(id);
-    this.jobs = this.jobs.filter((job) => !gone.includes(job));
   }
 
   async lookAgain(seen) {
