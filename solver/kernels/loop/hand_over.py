@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
@@ -33,7 +34,8 @@ def handed_over(bundle: Bundle, kernel: Kernel, problem: LaneProblem, sharper: f
         Tolerance of each lane before, in the one from here on.
     """
     found = Bundle(kernel, watch=bundle.watch, keep_steps=1)
-    lanes = {i: bundle.lane(i) for i in np.flatnonzero(bundle.runs["status"] != Status.IDLE)}
+    every = map(bundle.lane, range(BUNDLE))
+    lanes = {i: lane for i, lane in enumerate(every) if lane.status != Status.IDLE}
     row = bundle.kernel.row
     found.load_together(
         {
