@@ -86,8 +86,8 @@ stage total penetration penetration_rate penetration_start penetration_rate_star
 before_time phase wound slip slip_rate slip_start slip_rate_start eccentricity eccentricity_start
 before_step change inner lever slip_row penetration_row normal_row inner_row bend y k1_ slope
 largest_step known_range rounding alike bent clock_start clock_travel clock_turn channel previous
-highest lowest highest_time lowest_time impact_floor restart onset_time approach onset_total opened
-abrupt weight steps pace_at look_at look_beyond looked_into swing may_look may_pass_bend
+highest lowest highest_time lowest_time impact_floor restart onset_time approach_rate onset_total
+opened abrupt weight steps pace_at look_at look_beyond looked_into swing may_look may_pass_bend
 looks_inside rough_until stored stored_start kledger1_ resumed
 """
 SLOTS = tuple(_SLOTS.split())

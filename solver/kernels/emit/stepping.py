@@ -21,7 +21,7 @@ from jointplay.solver.quantities.scalars import maximum, minimum, select_positiv
 ENDS = ("penetration", "penetration_rate", "slip", "slip_rate")
 """Quantities of a contact pair that are known at both ends of a step."""
 CONTACT = ("mode", "impact_rate", "inverse_rate", "impact_floor", "restart")
-ONSET = ("onset_time", "approach", "onset_total", "opened", "abrupt")
+ONSET = ("onset_time", "approach_rate", "onset_total", "opened", "abrupt")
 """Further ones: of its law, and of how its contact began and ended."""
 
 

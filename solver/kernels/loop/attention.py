@@ -91,7 +91,7 @@ def settle(flag: int, s: Step, buffers: Buffers) -> bool:
                 generated.tangent_penetrations(addresses, work)
                 latch_tangent(j, s)
             run.onsets += 1
-            run.slow += int(work[at.approach + j, lane] < work[at.impact_floor + j, lane])
+            run.slow += int(work[at.approach_rate + j, lane] < work[at.impact_floor + j, lane])
             if run.section_kind == SectionKind.ONSET and run.section_index == j:
                 full |= record_event(lane, s, work, buffers.rows)
             abrupt |= work[at.abrupt + j, lane] > 0.0

@@ -43,7 +43,7 @@ def begin(lanes: Lane, start: LaneStart | None, resting: Floats, obstructed: Fla
     if start is not None and start.contact is not None and start.impact_rate is not None:
         latched = np.where(start.contact, start.impact_rate, rate.T).T
     lanes["mode"], lanes["impact_rate"] = 1.0 * closed, np.maximum(latched, floor)
-    lanes["approach"] = rate
+    lanes["approach_rate"] = rate
     lanes["onset_time"] = lanes["onset_total"] = 0.0
     lanes["opened"] = math.inf
     module.right_hand_side(lanes.work)

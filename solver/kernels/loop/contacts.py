@@ -13,7 +13,7 @@ from jointplay.solver.kernels.loop.step import Step
 
 MOST_LANDINGS = 12
 """Attempts to land on one onset before it is approached in shorter steps."""
-MOST_APPROACHES = 30
+MOST_SHORTENINGS = 30
 """Times that the step is shortened to a quarter for one onset."""
 CAUTIOUS = 0.3
 """Share of the size that the estimate asks for, of a rejected step that starts where contact does.
@@ -32,8 +32,8 @@ def land(s: Step) -> bool:
     3. Take the step once the target's penetration at its end is as good as zero (`LANDED`);
        until then move the end by Newton's rule (`corrected_share`), unless another contact begins
        before: then that is the target.
-    4. After `MOST_LANDINGS` redone steps, approach in steps of a quarter (`approach`); after
-       `MOST_APPROACHES` of them the run has failed.
+    4. After `MOST_LANDINGS` redone steps, approach in steps of a quarter (`shorten`); after
+       `MOST_SHORTENINGS` of them the run has failed.
 
     A target that only came near, and is on its way back, is dropped. Where steps are fixed,
     contact begins at the end of the step that it began in.
@@ -55,7 +55,7 @@ def land(s: Step) -> bool:
         if alone and abs(penetration) <= (LANDED_AT_LAST if last else LANDED):
             return True
         if last:
-            approach(s)
+            shorten(s)
             return False
         if penetration < 0.0 and rate <= 0.0 and pair == NO_PAIR:
             run.landing = NO_PAIR
@@ -136,13 +136,13 @@ def corrected_share(penetration: float, rate: float, tried: float) -> float:
 
 
 @inner_kernel()
-def approach(s: Step) -> None:
+def shorten(s: Step) -> None:
     """Give an onset up for now: steps are so long that one's end hardly tells of another's."""
     lane, run, at, work = s.lane, s.run, s.at, s.work
     run.landing = NO_PAIR
     run.landings += 1
     work[at.next_step, lane] = 0.25 * work[at.tried, lane]
-    if run.landings > MOST_LANDINGS + MOST_APPROACHES:
+    if run.landings > MOST_LANDINGS + MOST_SHORTENINGS:
         stop(Status.ONSET_LOST, lane, run, at, work)
 
 
@@ -155,7 +155,7 @@ def begin_contact(j: int, now: float, s: Step) -> None:
     work[at.mode + j, lane] = 1.0
     work[at.impact_rate + j, lane] = floored
     work[at.onset_time + j, lane], work[at.opened + j, lane] = now, np.inf
-    work[at.approach + j, lane] = rate
+    work[at.approach_rate + j, lane] = rate
     work[at.onset_total + j, lane] = work[at.impulse + j, lane]
     work[at.highest + at.contact_row + j, lane] = 0.0
     first = work[at.restart + j, lane] / floored
@@ -195,7 +195,7 @@ def end_contact(j: int, now: float, s: Step, impacts: np.ndarray) -> None:
     impact.joint = j
     impact.onset = work[at.onset_time + j, lane]
     impact.release = now
-    impact.approach_rate = work[at.approach + j, lane]
+    impact.approach_rate = work[at.approach_rate + j, lane]
     impact.peak_force = max(work[at.highest + row, lane], work[at.previous + row, lane])
     impact.impulse = work[at.impulse + j, lane] - work[at.onset_total + j, lane]
     s.run.impacts += 1

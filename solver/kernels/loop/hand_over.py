@@ -13,7 +13,7 @@ from jointplay.solver.kernels.loop.runs import NO_PAIR, Status
 
 KEPT = """
 total gross potential_start stored_start highest lowest highest_time lowest_time
-rounding onset_time approach onset_total largest_step steps pace_at smallest_step rough_until
+rounding onset_time approach_rate onset_total largest_step steps pace_at smallest_step rough_until
 """
 """Slots of counts and extremes of lanes, whatever the method."""
 SCALES = ("weight", "full", "fastest")

@@ -12,7 +12,7 @@ from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.extremes.bends import has_bend
 from jointplay.solver.kernels.loop.extremes.search.brackets import NODES, SHARP
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import open_brackets
-from jointplay.solver.kernels.loop.extremes.search.narrowing import HALF
+from jointplay.solver.kernels.loop.extremes.search.narrowing import PER_STEP
 from jointplay.solver.kernels.loop.extremes.search.seeking import FORETOLD
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
@@ -58,10 +58,10 @@ def any_in_reach(rows: np.ndarray, before: float, behind: float, s: Step) -> boo
     for r in rows:
         start = work[at.previous + r, lane] - work[at.change + r, lane]
         rose, fell = (
-            start - s.spare[at.channel + r, HALF - 1],
-            start - s.spare[at.channel + r, HALF + 1],
+            start - s.spare[at.channel + r, PER_STEP - 1],
+            start - s.spare[at.channel + r, PER_STEP + 1],
         )
-        far = REACH * HALF * max(before * abs(fell), behind * abs(rose))
+        far = REACH * PER_STEP * max(before * abs(fell), behind * abs(rose))
         highest, lowest = work[at.highest + r, lane], work[at.lowest + r, lane]
         turns = start + far > highest if rose > 0.0 else start - far < lowest
         if rose * fell > 0.0 and turns and far > SHARP * (highest - lowest):
@@ -81,18 +81,18 @@ def look_at_kinks_beside(rows: np.ndarray, waiting: int, s: Step) -> int:
     near = before > 0.0 or behind > 0.0
     if not (near and any_in_reach(rows, before, behind, s)):
         return waiting
-    for i in range(HALF):
-        spare[at.theta, i] = 1.0 - 0.5 * (HALF - i) * before
-        spare[at.theta, HALF + i] = 0.5 * (i + 1) * behind
+    for i in range(PER_STEP):
+        spare[at.theta, i] = 1.0 - 0.5 * (PER_STEP - i) * before
+        spare[at.theta, PER_STEP + i] = 0.5 * (i + 1) * behind
     channels_around(s)
     for r in rows:
         for step, beside in enumerate((before, behind)):
             if beside == 0.0:
                 continue
             values = s.brackets[waiting].seen
-            for i in range(HALF):
-                values[step + i] = spare[at.channel + r, HALF * step + i]
-            values[(1 - step) * HALF] = work[at.previous + r, lane] - work[at.change + r, lane]
-            start, spacing = (1 - step) * (1.0 - 0.5 * HALF * beside), 0.5 * beside
+            for i in range(PER_STEP):
+                values[step + i] = spare[at.channel + r, PER_STEP * step + i]
+            values[(1 - step) * PER_STEP] = work[at.previous + r, lane] - work[at.change + r, lane]
+            start, spacing = (1 - step) * (1.0 - 0.5 * PER_STEP * beside), 0.5 * beside
             waiting = open_brackets(r, step, start, spacing, NODES, FORETOLD, waiting, s)
     return waiting

@@ -66,7 +66,7 @@ def path_of(j: int, s: Step) -> np.ndarray:
 
 
 @inner_kernel()
-def approach(path: np.ndarray, share: float) -> tuple[float, float, float, float]:
+def motion_at(path: np.ndarray, share: float) -> tuple[float, float, float, float]:
     """Return how a journal moves at a share of the step; rates are in a whole step.
 
     The square of its distance from the centre, m²; half the rate of that, and the rate of this
@@ -95,9 +95,9 @@ def next_passage(j: int, part: int, path: np.ndarray, s: Step) -> int:
     """
     if s.work[s.at.mode + j, s.lane] > 0.0:
         return PARTS
-    _, begins, _, _ = approach(path, part / PARTS)
+    _, begins, _, _ = motion_at(path, part / PARTS)
     for k in range(part, PARTS):
-        _, ends, _, _ = approach(path, (k + 1) / PARTS)
+        _, ends, _, _ = motion_at(path, (k + 1) / PARTS)
         if begins < 0.0 <= ends:
             return k
         begins = ends
@@ -116,7 +116,7 @@ def closest_approach(path: np.ndarray, part: int, s: Step) -> Passage:
     low, high = part / PARTS, (part + 1) / PARTS
     share, square, way = 0.5 * (low + high), 0.0, 0.0
     for _ in range(MOST_ITERATIONS):
-        square, half, slope, way = approach(path, share)
+        square, half, slope, way = motion_at(path, share)
         if half > 0.0:
             high = share
         else:

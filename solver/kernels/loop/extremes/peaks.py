@@ -8,7 +8,7 @@ from jointplay.solver.kernels.loop.extremes.kinks_beside import look_at_kinks_be
 from jointplay.solver.kernels.loop.extremes.search.brackets import MOST_ROUNDS, NODES
 from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import count_best, spread
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import open_brackets
-from jointplay.solver.kernels.loop.extremes.search.narrowing import HALF
+from jointplay.solver.kernels.loop.extremes.search.narrowing import PER_STEP
 from jointplay.solver.kernels.loop.extremes.search.rounding import zigzags
 from jointplay.solver.kernels.loop.extremes.search.seeking import FORETOLD, seek
 from jointplay.solver.kernels.loop.step import Step, channels_around
@@ -26,7 +26,7 @@ def refine_peaks(s: Step, marked: np.ndarray) -> None:
     `work`, whose bytes are the scan's.
     """
     for i in range(INSTANTS):
-        s.spare[s.at.theta, i] = (i % HALF) / HALF
+        s.spare[s.at.theta, i] = (i % PER_STEP) / PER_STEP
     channels_around(s)
     rows, waiting = np.empty(s.at.rows, np.int64), 0
     rows = rows[: find_marked(s, marked[s.at.marked :], rows)]
@@ -66,10 +66,10 @@ def look_at_quarters(r: int, waiting: int, s: Step) -> int:
     junction = end - work[at.change + r, lane]
     for step in range(2):
         values = s.brackets[waiting].seen
-        for i in range(HALF):
-            values[i] = s.spare[at.channel + r, HALF * step + i]
-        values[HALF] = end if step else junction
-        waiting = open_brackets(r, step, 0.0, 1.0 / HALF, NODES, FORETOLD, waiting, s)
+        for i in range(PER_STEP):
+            values[i] = s.spare[at.channel + r, PER_STEP * step + i]
+        values[PER_STEP] = end if step else junction
+        waiting = open_brackets(r, step, 0.0, 1.0 / PER_STEP, NODES, FORETOLD, waiting, s)
     return waiting
 
 

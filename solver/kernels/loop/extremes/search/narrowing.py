@@ -20,7 +20,7 @@ from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import count
 from jointplay.solver.kernels.loop.extremes.search.rounding import spread_of, zigzags
 from jointplay.solver.kernels.loop.step import Step
 
-HALF = 4
+PER_STEP = 4
 """Instants of a look: as many as `channels_around` takes in each of two steps."""
 AROUND, FIFTHS, THIRDS = 4, 5, 6
 """Parts of a look: about where the extreme is foretold; between the best node, an end of the
@@ -91,7 +91,7 @@ def place_closer(look: Look, first: int, s: Step) -> None:
 def read_look(bracket: Bracket, look: Look, s: Step) -> None:
     """Write what a look at a bracket has seen."""
     best, parts = bracket.best, look.parts
-    row, column = s.at.channel + bracket.row, HALF * bracket.step
+    row, column = s.at.channel + bracket.row, PER_STEP * bracket.step
     for k in range(parts + 1):
         if not is_known(k, look):
             bracket.seen[k] = s.spare[row, column]

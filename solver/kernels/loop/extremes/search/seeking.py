@@ -17,7 +17,7 @@ from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import (
     spread,
 )
 from jointplay.solver.kernels.loop.extremes.search.narrowing import (
-    HALF,
+    PER_STEP,
     closer,
     narrow,
     place_closer,
@@ -86,8 +86,8 @@ def look_where_foretold(waiting: int, s: Step) -> int:
     """
     k, unsharp = 0, 0
     while k < waiting:
-        first, early, late = k, 0, HALF
-        while k < waiting and early < HALF and late < INSTANTS:
+        first, early, late = k, 0, PER_STEP
+        while k < waiting and early < PER_STEP and late < INSTANTS:
             bracket = s.brackets[k]
             k += 1
             bracket.column = -1
@@ -98,7 +98,7 @@ def look_where_foretold(waiting: int, s: Step) -> int:
             early, late = (early, late + 1) if bracket.step else (early + 1, late)
             share = bracket.start + bracket.abscissa * bracket.spacing
             s.spare[s.at.theta, bracket.column] = share
-        if early > 0 or late > HALF:
+        if early > 0 or late > PER_STEP:
             channels_around(s)
         for bracket in s.brackets[first:k]:
             if bracket.rounds == MOST_ROUNDS:
@@ -124,7 +124,7 @@ def narrow_all(waiting: int, s: Step) -> None:
         first = s.brackets[k]
         while first.rounds < MOST_ROUNDS:
             step, look = first.step, closer(first)
-            place_closer(look, HALF * step, s)
+            place_closer(look, PER_STEP * step, s)
             channels_around(s)
             row, before_is_open = -1, False
             for j in range(k, waiting):

@@ -9,7 +9,7 @@ import numpy as np
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.extremes.search.brackets import LAST, MOST_ROUNDS, Bracket
 from jointplay.solver.kernels.loop.extremes.search.extreme_so_far import count
-from jointplay.solver.kernels.loop.extremes.search.narrowing import HALF
+from jointplay.solver.kernels.loop.extremes.search.narrowing import PER_STEP
 from jointplay.solver.kernels.loop.step import Step, channels_around
 
 DISTANCES = (1e-4, 0.008, 0.06, 0.45)
@@ -38,7 +38,7 @@ def look_at_ends(waiting: int, s: Step) -> None:
     while place_at_ends(waiting, s):
         channels_around(s)
         for bracket in s.brackets[:waiting]:
-            first = s.spare[s.at.theta, HALF * bracket.step]
+            first = s.spare[s.at.theta, PER_STEP * bracket.step]
             if bracket.at_end and first == beside_end(0, bracket):
                 bracket.at_end = 0
                 look_at_end(bracket, s)
@@ -61,8 +61,8 @@ def place_at_ends(waiting: int, s: Step) -> bool:
     for bracket in s.brackets[:waiting]:
         if bracket.at_end and not placed[bracket.step]:
             placed[bracket.step] = True
-            for i in range(HALF):
-                s.spare[s.at.theta, HALF * bracket.step + i] = beside_end(i, bracket)
+            for i in range(PER_STEP):
+                s.spare[s.at.theta, PER_STEP * bracket.step + i] = beside_end(i, bracket)
     return bool(placed[0] or placed[1])
 
 
@@ -73,12 +73,12 @@ def look_at_end(bracket: Bracket, s: Step) -> None:
     If it rises and then falls, the bracket is narrowed to the end and the instant behind the best.
     """
     sense, best, spacing = bracket.sense, bracket.best, bracket.spacing
-    away, column = (1 if best == 0 else -1), HALF * bracket.step
-    look = s.spare[s.at.channel + bracket.row, column : column + HALF]
+    away, column = (1 if best == 0 else -1), PER_STEP * bracket.step
+    look = s.spare[s.at.channel + bracket.row, column : column + PER_STEP]
     rises, before = 0, bracket.values[best]
-    for i in range(HALF + 1):
-        value = look[i] if i < HALF else bracket.values[best + away]
-        if i < HALF:
+    for i in range(PER_STEP + 1):
+        value = look[i] if i < PER_STEP else bracket.values[best + away]
+        if i < PER_STEP:
             count(bracket, best + away * DISTANCES[i], value, s)
         if sense * value > sense * before:
             if rises < i:
@@ -87,7 +87,7 @@ def look_at_end(bracket: Bracket, s: Step) -> None:
         before = value
     if rises == 0:
         bracket.rounds = MOST_ROUNDS
-    elif rises < HALF:
+    elif rises < PER_STEP:
         bracket.values[best + away] = look[rises]
         bracket.spacing = DISTANCES[rises] * spacing
         bracket.start += best * (spacing - bracket.spacing)
