@@ -49,7 +49,7 @@ def calibrate(calibration: Calibration, cost: Cost, every: Measure, report: Repo
     good = spread(
         cost,
         found,
-        equally_good(calibration, found.cost),
+        lambda best: equally_good(calibration, best),
         calibration.spread.generations,
         calibration.seed,
         lambda done, note: report(share + (1.0 - share) * done, note),
@@ -69,11 +69,7 @@ def equally_good(calibration: Calibration, best: float) -> float:
 
 def _outcome(calibration: Calibration, found: Found, good: EquallyGood, every: Measure) -> Outcome:
     space, goals = calibration.space, calibration.goals
-    lowest = int(good.costs.argmin())
-    unit, cost = found.best, found.cost
-    if good.costs[lowest] < cost:
-        unit, cost = good.members[lowest], float(good.costs[lowest])
-        good = good.within(equally_good(calibration, cost))
+    unit = good.best
     generator = np.random.default_rng([calibration.seed, 2])
     chosen = np.sort(generator.choice(len(good.members), min(CHAINS, len(good.members)), False))
     around = unit + NEAR * generator.uniform(-1.0, 1.0, (NEIGHBOURS, len(unit)))

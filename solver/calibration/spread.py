@@ -9,18 +9,25 @@ the valley is.
 Chains begin all over the box, where the search did, and the level comes down to the limit by and by
 (subset simulation, Au and Beck 2001, Probabilistic Engineering Mechanics 16:263). Chains that began
 where the search ends would stay in that part of a long valley, and show no end of it.
+
+What is as good as the best follows from the best. A chain may come across a better one than the
+search did: the limit falls with it, and the level comes down again.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.calibration.document import CHAINS
 from jointplay.solver.calibration.search import Cost, Found, Report
+
+Limit = Callable[[float], float]
+"""Takes the lowest cost, returns the highest that is as good."""
 
 LONG_STEPS = 10
 """Generations between steps of full length, from one end of a set to the other."""
@@ -31,6 +38,8 @@ LEFT, FEW = 0.6, 60
 it comes down the slower, with the square root."""
 LATEST = 2 / 3
 """Share of the generations in which the level comes down, at most."""
+WITHIN = 0.6
+"""Share of the candidates kept that a lower limit must leave, else they are gathered anew."""
 SETTLING = 4
 """The first 1 / SETTLING of the generations at the limit is left out."""
 SETTLED = 0.5
@@ -46,6 +55,10 @@ class EquallyGood:
     ----------
     limit : float
         Highest cost.
+    best : (parameters,) float
+        Coordinates of what costs least, of all that search and chains tried.
+    cost : float
+        Of the best.
     members : (n, parameters) float
         Coordinates from 0 to 1, spread evenly over the set; a chain that rests counts again.
     costs : (n,) float
@@ -59,22 +72,19 @@ class EquallyGood:
     """
 
     limit: float
+    best: Floats
+    cost: float
     members: Floats
     costs: Floats
     accepted: float
     tried: int
     settled: bool
 
-    def within(self, limit: float) -> EquallyGood:
-        """Return those whose cost is at most a lower limit."""
-        good = self.costs <= limit
-        return replace(self, limit=limit, members=self.members[good], costs=self.costs[good])
-
 
 def spread(
-    cost: Cost, found: Found, limit: float, generations: int, seed: int, report: Report
+    cost: Cost, found: Found, limit: Limit, generations: int, seed: int, report: Report
 ) -> EquallyGood:
-    """Spread over all candidates whose cost is at most `limit`; the same seed gives the same."""
+    """Spread over all candidates that are as good as the best; the same seed gives the same."""
     chains = _Chains(found, np.random.default_rng([seed, 1]))
     left = LEFT ** min(1.0, math.sqrt(FEW / generations))
     latest = min(math.ceil(LATEST * generations), generations - 1)
@@ -82,29 +92,39 @@ def spread(
     kept: list[Floats] = []
     kept_costs: list[Floats] = []
     for generation in range(generations):
-        if level > limit:
-            level = max(limit, float(np.quantile(chains.costs, left)))
-            cut_short = generation == latest and level > limit
-            if cut_short:
-                level = limit
-                chains.join(found, limit)
+        highest = limit(chains.lowest)
+        if level > highest:
+            if kept and _share(kept_costs, highest) < WITHIN:
+                kept, kept_costs = [], []
+            level = max(highest, float(np.quantile(chains.costs, left)))
+            if generation >= latest and level > highest:
+                level, cut_short = highest, True
+                chains.join(found, highest)
             chains.narrow(level)
         chains.step(cost, level, generation)
-        if level <= limit:
+        if level <= highest:
             kept.append(chains.positions.copy())
             kept_costs.append(chains.costs.copy())
         report((generation + 1) / generations, "what fits equally well")
-    first = len(kept) // SETTLING
+    first, highest = len(kept) // SETTLING, limit(chains.lowest)
     positions, costs = np.array(kept[first:]), np.array(kept_costs[first:])
     within, between = positions.var(axis=0).mean(axis=0), positions.mean(axis=0).var(axis=0)
+    lasting = not cut_short and _share(kept_costs[first:], highest) >= WITHIN
+    good = costs <= highest
     return EquallyGood(
-        limit,
-        positions.reshape(-1, positions.shape[2]),
-        costs.ravel(),
+        highest,
+        chains.best,
+        chains.lowest,
+        positions[good],
+        costs[good],
         chains.taken / (CHAINS * generations),
         chains.tried,
-        not cut_short and bool((between < SETTLED * within).all()),
+        lasting and bool((between < SETTLED * within).all()),
     )
+
+
+def _share(costs: list[Floats], limit: float) -> float:
+    return float((np.array(costs) <= limit).mean())
 
 
 class _Chains:
@@ -117,12 +137,20 @@ class _Chains:
         self.positions: Floats = found.tried[index]
         """(CHAINS, parameters)."""
         self.costs: Floats = found.costs[index]
+        self.best, self.lowest = found.best, found.cost
+        """Candidate that costs least of all that were tried, and its cost."""
         self.taken = self.tried = 0
         self._generator = generator
 
     def join(self, found: Found, limit: float) -> None:
-        """Let chains beyond a limit go on from candidates of the search that are within."""
+        """Let chains beyond a limit go on from candidates of the search that are within.
+
+        Where none is, from the best.
+        """
         good, beyond = np.flatnonzero(found.costs <= limit), np.flatnonzero(self.costs > limit)
+        if not len(good):
+            self.positions[beyond], self.costs[beyond] = self.best, self.lowest
+            return
         index = np.resize(self._generator.permutation(good), len(beyond))
         self.positions[beyond], self.costs[beyond] = found.tried[index], found.costs[index]
 
@@ -145,6 +173,8 @@ class _Chains:
             if inside.any():
                 costs[inside] = cost(proposed[inside])
             good = costs <= level
+            if costs.min() < self.lowest:
+                self.best, self.lowest = proposed[costs.argmin()], float(costs.min())
             self.positions[own] = np.where(good[:, None], proposed, self.positions[own])
             self.costs[own] = np.where(good, costs, self.costs[own])
             self.taken += int(good.sum())
