@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.records.motion import FAILED, WAITING, Labels
+from jointplay.records.motion import FAILED, UNDECIDED, WAITING, Labels
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,9 @@ are wide: the share cannot grow as it does at small distances."""
 def boundary_dimension(labels: Labels) -> BoundaryDimension | None:
     """Return the dimension of the boundaries of a map, (y, x); None where too few points tell it.
 
-    Points that wait or failed end nowhere: they are no neighbours.
+    Points that wait, failed or are undecided end nowhere known: they are no neighbours.
     """
-    known = (labels != WAITING) & (labels != FAILED)
+    known = ~np.isin(labels, (WAITING, FAILED, UNDECIDED))
     distances, shares, counts = [], [], []
     most, distance = _share_of_independent(labels[known]), 1
     while distance <= min(labels.shape) // 8:

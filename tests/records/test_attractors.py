@@ -7,7 +7,7 @@ from jointplay.records.attractor_table import attractor_table
 from jointplay.records.attractors import attractors_of
 from jointplay.records.basin_boundary import boundary_dimension
 from jointplay.records.coarse_to_fine import coarse_to_fine
-from jointplay.records.motion import CHAOTIC, FAILED, NAMES
+from jointplay.records.motion import CHAOTIC, FAILED, NAMES, UNDECIDED
 from jointplay.records.point import PointStatus
 from jointplay.records.share_error import share_error
 from tests.starts_by_hand import study
@@ -120,7 +120,18 @@ def test_lines_over_a_cantor_set_have_its_dimension_and_one():
     assert found.error < 0.1
 
 
-def test_what_failed_bounds_no_basin():
+@pytest.mark.parametrize("code", [FAILED, UNDECIDED])
+def test_what_failed_or_is_undecided_bounds_no_basin(code):
     labels = np.full((64, 64), 5, np.uint8)
-    labels[:, 32:] = FAILED
+    labels[:, 32:] = code
     assert boundary_dimension(labels) is None
+
+
+@pytest.mark.parametrize("code", [FAILED, UNDECIDED])
+def test_a_line_has_the_dimension_one_whatever_is_undecided_beside_it(code):
+    labels = np.full((256, 256), 6, np.uint8)
+    labels[:, 128:] = 7
+    labels[np.random.default_rng(0).random(labels.shape) < 0.03] = code
+    found = boundary_dimension(labels)
+    assert found is not None
+    assert abs(found.value - 1.0) < 0.05
