@@ -60,8 +60,11 @@ class CellSimilarity:
 
 
 def _recurs(end: PointEnd) -> bool:
-    rests = end.indicators.get("verdict") == VERDICTS["equilibrium"]
-    return rests or _number(end, "period") > 0.0
+    """Return whether a motion rests or repeats itself for good; undecided ones may not."""
+    verdict = end.indicators.get("verdict")
+    if verdict == VERDICTS["undecided"]:
+        return False
+    return verdict == VERDICTS["equilibrium"] or _number(end, "period") > 0.0
 
 
 def _cycles_apart(states: Mapping[str, Any], corners: Sequence[PointEnd]) -> bool:

@@ -12,6 +12,8 @@ PERIODIC = {"verdict": 1.0, "period": 1.0, "lyapunov": -1.0, "lyapunov_error": 1
 CHAOTIC = {"verdict": 3.0, "period": 0.0, "lyapunov": 2.0, "lyapunov_error": 0.1}
 QUASI_PERIODIC = {"verdict": 2.0, "period": 0.0, "lyapunov": -0.1, "lyapunov_error": 1e-4}
 UNDECIDED = QUASI_PERIODIC | {"verdict": 0.0}
+RECURRING = {"verdict": 0.0, "period": 1.0, "lyapunov": 0.5, "lyapunov_error": 0.01}
+"""Sections recur, yet neighbours part: undecided."""
 NEUTRAL = {"lyapunov": -2e-3, "lyapunov_error": 1e-3}
 
 
@@ -46,6 +48,9 @@ def differ(one, other, record=10, cycles=False):
         (end(UNDECIDED), end(UNDECIDED | NEUTRAL), True),
         (end(UNDECIDED | NEUTRAL), end(UNDECIDED | NEUTRAL | {"lyapunov": 2.9e-3}), False),
         (end(UNDECIDED | {"lyapunov": 0.1}), end(UNDECIDED | {"lyapunov": 0.2}), True),
+        (end(RECURRING), end(RECURRING | {"lyapunov": 5.0}), True),
+        (end(RECURRING), end(RECURRING | {"lyapunov": 0.51}), False),
+        (end(RECURRING), end(RECURRING | {"period": 2.0}), True),
         (end({}, "a"), end({}, "a"), False),
         (end({}, "a"), end({}, "b"), True),
         (end({}, "a"), end(PERIODIC), True),
