@@ -1,7 +1,7 @@
 """The time until a point settles, in legs of some periods; then the record begins."""
 
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.runs import SECTIONS
+from jointplay.solver.kernels.loop.runs import SECTIONS, SectionKind
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.problem import ENDLESS, WINDOW, most_settling, scales_of
@@ -25,6 +25,9 @@ def goes_on(study: Study, bundle: Bundle, lane: int, run: PointRun) -> bool:
         bundle.lane(lane)["tangent_impact_rate"] = 0.0  # as `tangent.forget_latched` does
     run.seen = []
     left = float(study.duration[point] - study.settle[point])
-    taken = int(bundle.lane(lane).run["next"][SECTIONS])
-    bundle.extend(lane, scene, run.settled * period + left, taken + study.record)
+    coming = bundle.lane(lane).run["next"]
+    if bundle.lane(lane).run["section_kind"] == SectionKind.CRANK:
+        # at a crank angle that of the last period left out is still to come
+        coming[SECTIONS] = run.settled + 1
+    bundle.extend(lane, scene, run.settled * period + left, int(coming[SECTIONS]) + study.record)
     return True

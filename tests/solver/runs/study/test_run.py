@@ -261,6 +261,21 @@ def test_settling_says_how_long_it_took_and_why() -> None:
     assert settled.time == (periods + 2) * PERIOD
 
 
+@pytest.mark.parametrize("section", [{}, {"crank_angle": 1.0}])
+def test_sections_behind_settling_that_is_waited_for_are_those_of_as_many_periods(
+    section: dict[str, float],
+) -> None:
+    job = DIAGRAM | {"values": [5e-4], "record": 2, "section": section}
+    found = Computed(job | {"settle": "auto"})
+    periods = int(found.ends[0].statistics["settled_periods"])
+    share = section.get("crank_angle", 0.0) / (2.0 * np.pi)
+    expected = (periods + np.array([1.0, 2.0]) + share) * PERIOD
+    np.testing.assert_allclose(np.concatenate(found.times[0]), expected, rtol=1e-14)
+    assert found.ends[0].time == pytest.approx(expected[-1], rel=1e-14)
+    given = Computed(job | {"settle": periods})
+    np.testing.assert_allclose(np.concatenate(given.times[0]), expected, rtol=1e-14)
+
+
 def test_a_value_that_fails_leaves_the_others_standing() -> None:
     # stiff beyond reason, full friction at any slip: the step cannot cross the jump of friction
     hopeless = {"stiffness": 1e18, "friction": 10.0, "static_velocity": 0.0}
