@@ -103,7 +103,7 @@ def _compute(
     longest: float,
 ) -> Outcome:
     """Compute a block from a restart point, or anew; see `run_block`."""
-    steps = 0
+    steps = int(block.total("steps"))  # of an earlier try, whose points are in the store
     begun = time.monotonic()
     try:
         computation = _computation.get()(study, index, carried)

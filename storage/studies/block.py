@@ -100,6 +100,11 @@ class StudyBlock:
         """Points that have ended."""
         return self._part.ended
 
+    def total(self, statistic: str) -> float:
+        """Return the sum of a statistic over the points that have ended; 0 if none has it."""
+        known = self._part.numbers.get(f"{STATISTICS}/{statistic}")
+        return 0.0 if known is None else float(np.nansum(known))
+
     def take(self, piece: StudySlice) -> None:
         """Add what became known; chunks that are full go to the disk.
 

@@ -119,6 +119,30 @@ def test_however_often_a_block_is_left_and_resumed_the_bytes_are_the_same(
     assert packed(folder).read_bytes() == undisturbed.read_bytes()
 
 
+def test_steps_of_a_resumed_block_are_those_of_all_its_points(study: Study, tmp_path: Path) -> None:
+    kept: list[tuple[str, float]] = []
+
+    def leave_amid(progress: Progress) -> Answer:
+        if not 0 < progress.watermark < study.blocks[0][1]:
+            return Answer.go_on
+        kept.append((progress.keep()[0], progress.fraction))
+        return Answer.leave
+
+    folder = tmp_path / "store"
+    assert run_block(study, 0, folder, report=leave_amid).state == "left"
+    told: list[int] = []
+
+    def listen(progress: Progress) -> Answer:
+        told.append(progress.steps())
+        return Answer.go_on
+
+    outcome = run_block(study, 0, folder, report=listen, attempt=2, resume_from=kept[0])
+    first, count = study.blocks[0]
+    steps = StudyReader(folder).statistics["steps"][first : first + count]
+    assert outcome.statistics == {"steps": steps.sum()}
+    assert 0 < told[0] < steps.sum()
+
+
 def test_a_worker_lost_between_a_cancelled_block_and_the_word_of_it_costs_nothing_else(
     study: Study, tmp_path: Path
 ) -> None:
