@@ -14,7 +14,7 @@ from jointplay.solver.kinds.limits import MOST_OF_A_CHART, check_count
 from jointplay.solver.kinds.map import Along
 from jointplay.solver.kinds.motion_map import MotionsJob
 from jointplay.solver.kinds.perturbed import seed_of
-from jointplay.solver.kinds.points import Axis, Points
+from jointplay.solver.kinds.points import Axis, Points, check_distinct
 from jointplay.solver.kinds.values import axis, count
 from jointplay.solver.quantities.registry import MemberOf
 from jointplay.solver.quantities.units import quantity
@@ -84,6 +84,7 @@ class BasinStability(AttractorKind[BasinStabilityJob]):
         if job.along is not None:
             parameter = job.along.parameter
             axes.insert(0, axis(parameter, job.along.values, "/along/parameter", "/along/values"))
+            check_distinct(axes[:1], "its starts would count twice")
             written = np.column_stack([value, written])
         return Points(tuple(axes), written, lambda _point: "/starts")
 

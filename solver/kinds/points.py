@@ -118,13 +118,18 @@ def plane(y: Axis, x: Axis, pointer: str, job: Mapping[str, Any]) -> Points:
 
 def check_map(points: Points) -> None:
     """Refuse (InvalidInput) a value that an axis of a map has twice."""
+    check_distinct(points.axes if points.grid else (), "a map has it once")
+
+
+def check_distinct(axes: Sequence[Axis], why: str) -> None:
+    """Refuse (InvalidInput) a value that an axis has twice; `why` : a clause."""
     problems = []
-    for axis in points.axes if points.grid else ():
+    for axis in axes:
         values, times = np.unique(axis.values, return_counts=True)
         if times.max() > 1:
             value = values[times.argmax()]
             again = int(np.flatnonzero(axis.values == value)[1])
-            sentence = f"{value:g} is there twice, and a map has it once; drop one."
+            sentence = f"{value:g} is there twice, and {why}; drop one."
             problems.append(Problem(axis.pointer(again), sentence))
     if problems:
         raise InvalidInput(problems)

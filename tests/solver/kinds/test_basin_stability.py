@@ -92,3 +92,9 @@ def test_too_many_starts_are_refused_before_they_are_drawn():
     ((pointer, detail),) = problems(job(samples=5000, along=along), LimitExceeded)
     assert pointer == "/samples"
     assert "5000000 points" in detail
+
+
+def test_a_value_is_refused_that_would_count_its_starts_twice():
+    (found,) = problems(job(along={"parameter": "speed", "values": [28.0, 25.0, 28.0]}))
+    sentence = "28 is there twice, and its starts would count twice; drop one."
+    assert found == ("/along/values/2", sentence)
