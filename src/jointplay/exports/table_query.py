@@ -52,6 +52,9 @@ def check(table: Table | None, query: WindowQuery, *, of_study: bool) -> None:
     if query.channels is not None and shown == "impacts":
         raise NoSuchPart("channels are not in the table impacts; leave them out.")
     start, stop = query.start, query.stop
+    for end, value in (("start", start), ("stop", stop)):
+        if value is not None and math.isnan(value):
+            raise NoSuchPart(f"{end} is not a number; leave it out, or give one.")
     if start is not None and stop is not None and start > stop:
         raise NoSuchPart(f"stop {stop:g} is before start {start:g}; swap them.")
 

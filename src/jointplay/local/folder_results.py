@@ -1,5 +1,6 @@
 """Results of a job in a folder."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -59,6 +60,7 @@ class FolderResults:
         reader = self._reader_of("history")
         names = _chosen(query.channels, reader)
         start, stop, points = query.start, query.stop, query.points
+        _check_ends(start, stop)
         if start is not None and stop is not None and start > stop:
             raise _refused("stop", f"stop ({stop:g} s) is before start ({start:g} s); swap them.")
         if points is not None and points < 1:
@@ -95,6 +97,7 @@ class FolderResults:
         """Return the signed extremes of every channel."""
         reader = self._reader_of("peaks")
         found = reader.peaks()
+        _check_ends(start, stop)
         if (start, stop) != (None, None):
             with _refusals():
                 looked = exact_peaks(reader, start, stop)
@@ -229,6 +232,13 @@ def _chosen(channels: Names, reader: ResultReader) -> list[str]:
     with _refusals():
         known = [channel.name for channel in reader.channels]
         return choose(None if channels is None else ",".join(channels), known)
+
+
+def _check_ends(start: Seconds, stop: Seconds) -> None:
+    """Refuse ends of a window that are no numbers: they are neither before nor behind anything."""
+    for end, time in (("start", start), ("stop", stop)):
+        if time is not None and math.isnan(time):
+            raise _refused(end, f"{end} is not a number; give a time in s, or None.")
 
 
 @contextmanager

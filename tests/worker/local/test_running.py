@@ -1,6 +1,7 @@
 """Jobs without a service: the same objects, from a folder."""
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -75,6 +76,10 @@ def test_what_cannot_be_is_refused_as_by_a_service(job, study):
         (lambda: jointplay.run("slider-crank"), "duration"),
         (lambda: job.window("displacment"), "did you mean displacement"),
         (lambda: job.window(start=2.0, stop=1.0), "swap them"),
+        (lambda: job.window(start=0.01, stop=math.nan), "stop is not a number"),
+        (lambda: job.window(start=0.01, stop=math.nan, points=4), "stop is not a number"),
+        (lambda: job.window(start=math.nan, step=0.01), "start is not a number"),
+        (lambda: job.results.peaks(start=math.nan), "start is not a number"),
         (lambda: job.window(points=0), "at least 1"),
         (lambda: study.figure("section", start=20), "points 0 to 19"),
     )
