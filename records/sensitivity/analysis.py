@@ -12,7 +12,7 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.records.channel import Channel
 from jointplay.records.point import PointStatus, has_ended
 from jointplay.records.sensitivity import DESIGNS, Design
-from jointplay.records.sensitivity.outputs import output, outputs
+from jointplay.records.sensitivity.outputs import channel_of, output, outputs
 from jointplay.records.sensitivity.quantiles import quantiles
 from jointplay.records.sensitivity.resampled import between, resampled_means, resamples_of
 from jointplay.records.study import StudySource
@@ -25,6 +25,8 @@ FEWEST_ROWS: Final = 4
 """Rows from which anything is said."""
 _CONSTANT: Final = 1e-13
 """Outputs that differ by less of their size are the same."""
+_ERROR: Final = 10.0
+"""Tolerances that runs may be wrong by."""
 
 
 class NoSuchOutput(ValueError):
@@ -72,12 +74,19 @@ class Analysis:
     """(rows, width, parameters) of the rows that count."""
     outputs: Floats
     """(rows, width)."""
+    error: float = 0.0
+    """By which runs alone may make outputs differ, in their unit."""
 
     @cached_property
     def varies(self) -> bool:
         """Whether there is something to explain."""
         size = float(np.abs(self.outputs).max(initial=0.0))
         return len(self.outputs) >= FEWEST_ROWS and float(np.ptp(self.outputs)) > _CONSTANT * size
+
+    @cached_property
+    def doubtful(self) -> bool:
+        """Whether errors of the runs may be all that varies."""
+        return self.varies and float(np.ptp(self.outputs)) <= self.error
 
     @cached_property
     def sample(self) -> Floats:
@@ -138,7 +147,8 @@ def sensitivity(source: StudySource, question: Question) -> dict[str, Any]:
     used = (done & np.isfinite(found)).all(axis=1)
     lost = (ended & ~(done & np.isfinite(found))).any(axis=1)
     values = source.values.reshape(*shape, parameters)[used]
-    analysis = Analysis(design, parameters, question, values, found[used])
+    error = _ERROR * source.attributes["job"].get("tolerance", 0.0) * _size(source, name)
+    analysis = Analysis(design, parameters, question, values, found[used], error)
     return {
         "complete": bool(ended.all()),
         "design": source.attributes["job"]["design"],
@@ -152,6 +162,14 @@ def sensitivity(source: StudySource, question: Question) -> dict[str, Any]:
         "resamples": resamples_of(int(used.sum())),
         **_answers(analysis, known[name], rows),
     }
+
+
+def _size(source: StudySource, name: str) -> float:
+    """Return what errors of an output are shares of: the largest value of its channel, if any."""
+    channel = channel_of(source, name)
+    ends = [name] if channel is None else [f"{channel}.minimum", f"{channel}.maximum"]
+    values = np.abs([output(source, one) for one in ends])
+    return float(values[np.isfinite(values)].max(initial=0.0))
 
 
 def _rows(used: Flags, lost: Flags, failed: int, width: int) -> dict[str, int]:
@@ -214,6 +232,11 @@ def _note(analysis: Analysis, rows: Mapping[str, int]) -> str:
         parts.append(f"The output is the same at {counted}: no parameter matters to it{there}.")
     elif analysis.question.limit is not None and not analysis.sample.size:
         parts.append("The design is no sample of the distributions: it gives no probabilities.")
+    if analysis.doubtful:
+        parts.append(
+            f"The output varies by {np.ptp(analysis.outputs):.2g}, and errors of the runs may make"
+            f" {analysis.error:.2g} of that: what parameters do to it a smaller tolerance tells."
+        )
     return " ".join(parts)
 
 

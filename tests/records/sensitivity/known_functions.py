@@ -57,6 +57,7 @@ def study_of(
     seed: int = 0,
     failed: tuple[int, ...] = (),
     waiting: tuple[int, ...] = (),
+    tolerance: float = 1e-9,
 ) -> StudyDataset:
     """Return a study whose channel ``rod.x`` has the function of shares as its largest value."""
     shares = DESIGNS[design](rows, parameters, seed).reshape(-1, parameters)
@@ -64,7 +65,7 @@ def study_of(
     status[list(failed)] = PointStatus.failed
     status[list(waiting)] = PointStatus.waiting
     known = np.where(status == PointStatus.done, function(shares), np.nan)
-    job: dict[str, Any] = {"kind": "sensitivity", "design": design}
+    job: dict[str, Any] = {"kind": "sensitivity", "design": design, "tolerance": tolerance}
     return StudyDataset(
         attributes={
             "job": job,

@@ -276,3 +276,19 @@ def test_work_is_bounded_and_the_same_answer_comes_again():
         assert 200 <= resamples_of(rows) < MOST_RESAMPLES
     study = study_of(ishigami, 64, 3)
     assert sensitivity(study, MAXIMUM) == sensitivity(study, MAXIMUM)
+
+
+def test_what_varies_by_errors_of_the_runs_is_said_to():
+    """Random errors of 1e-9 have no cause among the parameters, yet total indices of 1."""
+    noise = np.random.default_rng(1)
+
+    def told(error, level=1.0, **fields):
+        study = study_of(lambda x: level + error * noise.standard_normal(len(x)), 256, 2, **fields)
+        return sensitivity(study, MAXIMUM)
+
+    found = told(1e-9, tolerance=1e-8)
+    assert values_of(found, "total") == pytest.approx([1.0, 1.0], abs=0.3)
+    assert "errors of the runs" in found["note"]
+    assert told(1e-9, tolerance=1e-12)["note"] == ""
+    assert told(1e-3, tolerance=1e-6)["note"] == ""
+    assert sensitivity(study_of(ishigami, 64, 3, tolerance=1e-3), MAXIMUM)["note"] == ""
