@@ -21,7 +21,7 @@ from jointplay.solver.runs.certificate.companions import (
 )
 from jointplay.solver.runs.certificate.contacts import certified_contacts
 from jointplay.solver.runs.certificate.errors import errors_of
-from jointplay.solver.runs.certificate.growth import Exponent
+from jointplay.solver.runs.certificate.growth import SHORTEST, Exponent
 from jointplay.solver.runs.certificate.kinds import FORCE, MEANINGS, PRESCRIBED, kinds_of
 from jointplay.solver.runs.certificate.remarks import remarks
 from jointplay.solver.runs.certificate.scales import CRITERION, motion_of, scales_of
@@ -34,6 +34,11 @@ ROUNDING = 1e-13
 OF_WINDOWS = (
     "The error is that of the windows, which take the run's own steps; what the steps add to it, a"
     " poincare study tells: it goes on in far smaller ones."
+)
+
+TOO_SHORT = (
+    f"No window of the run was long enough: {BUNDLE} of them, apart from one another, take"
+    f" {BUNDLE * SHORTEST} steps."
 )
 
 
@@ -150,7 +155,7 @@ def certify(
 def _exponent(found: Exponent | None, scene: Scene) -> dict[str, Any]:
     """Return a run's exponent, and how far it holds, or why there is none."""
     if found is None:
-        note = tangent_obstacle(scene) or "No window of the run was long enough."
+        note = tangent_obstacle(scene) or TOO_SHORT
         return {"exponent": None, "exponent_note": note}
     return {"exponent": asdict(found), "exponent_note": OF_WINDOWS}
 

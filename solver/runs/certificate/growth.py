@@ -2,7 +2,8 @@
 
 A tangent vector costs as much as the run that carries it. Eight at once, each over a window of its
 own that begins at an eighth of the run, show in a twentieth of the steps how small deviations
-grow, and how unevenly they do.
+grow, and how unevenly they do. Windows are apart, so that their standard error is that of as many
+measurements: none goes on where the next one begins, also in a run of few steps.
 """
 
 import math
@@ -24,7 +25,10 @@ from jointplay.solver.quantities.scalars import logarithm
 from jointplay.solver.runs.certificate.companions import RUN, TIGHTEST, Companions
 
 SHARE, FEWEST, MOST = 0.05, 200, 1_000_000
-"""Steps of a window: a share of the run's, within bounds."""
+"""Steps of a window: a share of the run's, within bounds, and at most an eighth of them."""
+SHORTEST = 25
+"""Steps of a window below which its tangent has not turned to where growth is fastest: a run that
+has no eight such windows apart has no exponent."""
 ALIGNING = 0.25
 """Share of a window in which a tangent turns to the direction that grows fastest."""
 
@@ -49,7 +53,9 @@ class Windows:
         """Start windows from the tightest companion's states, as far as it and the run came."""
         kernel = companions.bundle.kernel
         self.bundle = Bundle(kernel, watch=False, tangents=tangents)
-        self.attempts = int(min(max(SHARE * companions.bundle.lane(RUN).attempts, FEWEST), MOST))
+        made = companions.bundle.lane(RUN).attempts
+        most = made // BUNDLE
+        self.attempts = int(min(max(SHARE * made, FEWEST), MOST, most if most >= SHORTEST else 0))
         self.grown = np.zeros(BUNDLE)
         self.aligned = np.full((2, BUNDLE), np.nan)
         run = companions.bundle.lane(RUN)
@@ -58,9 +64,14 @@ class Windows:
         rows = companions.dense(TIGHTEST)[: companions.compared]
         index = companions.instants.index
         wanted = [index.searchsorted(companions.instants.last * k // BUNDLE) for k in range(BUNDLE)]
+        self.begins = companions.instants.time[wanted]
+        ends = np.minimum([*self.begins[1:], end], end)
         self.bundle.number_like(companions.bundle, RUN, problem.scene)
-        starts = [LaneStart.at_row(rows[i], kernel.row) for i in wanted if i < len(rows)]
-        problems = [replace(plain, start=start) for start in starts]
+        problems = [
+            replace(plain, start=LaneStart.at_row(rows[i], kernel.row), duration=float(stop))
+            for i, stop in zip(wanted, ends, strict=True)
+            if i < len(rows)
+        ]
         self.bundle.load_together(dict(enumerate(problems)), like=0)
 
     @property
@@ -116,7 +127,9 @@ class Windows:
         status = self.bundle.runs["status"]
         sound = (status == Status.RUNNING) | (status == Status.DONE)
         spans, growth = [self.times, self.logarithms] - self.aligned
-        used = sound & (spans > 0.0) & np.isfinite(growth)
+        # what ended soon behind its alignment, where the next window begins, tells no rate
+        least = np.where(status == Status.DONE, self.aligned[0] - self.begins, 0.0)
+        used = sound & (spans > least) & np.isfinite(growth)
         if not used.any():
             return None
         rates = growth[used] / spans[used]
