@@ -19,11 +19,13 @@ from jointplay.solver.runs.certificate.estimate import (
     apart,
     around,
     histogram,
+    misses_phases,
     near_claims,
     spans,
     until,
     within,
 )
+from jointplay.solver.runs.certificate.instants import Instants
 
 TIME = np.linspace(0.0, 1.0, 101)
 
@@ -102,3 +104,17 @@ def test_shares_of_time_add_up_and_equal_lanes_have_no_spread() -> None:
     assert edges[[0, -1], 0].tolist() == [values.min(), values.max()]
     values[3:] *= -0.5
     assert histogram(values, TIME)[2].max() > 0.0
+
+
+@pytest.mark.parametrize(
+    ("periods", "missed"),
+    [(0.5, 0), (1, 0), (8, 0), (60, 0), (16, 1), (64, 1), (64.2, 1), (256, 1)],
+)
+def test_a_histogram_is_that_of_the_motion_or_its_instants_miss_phases(periods, missed):
+    """Shares of a sine beside those of samples that are ten thousand times closer."""
+    time = Instants.over(periods, 1.0).time
+    assert misses_phases(time, 1.0) == missed
+    edges, share, _ = histogram(np.sin(2.0 * np.pi * time)[None, :, None], time)
+    fine = np.sin(2.0 * np.pi * np.linspace(0.0, periods, 1_000_000))
+    true = np.histogram(fine, edges[:, 0])[0] / len(fine)
+    assert missed or np.abs(share[:, 0] - true).max() < 0.05
