@@ -16,7 +16,9 @@ from jointplay.solver.quantities.extremes import refined_peaks
 from jointplay.solver.runs.left_domains import left_domain
 from jointplay.solver.scene.document import Scene
 
-INSTANTS_A_PERIOD = 720
+INSTANTS_A_PERIOD, INSTANTS_A_BEND = 720, 64
+"""Instants at which channels of time alone are first looked at: in a common period of the drivers,
+and in the shortest time in which one of these, or a force, turns or bends."""
 MOST_INSTANTS = 200_000
 
 
@@ -53,7 +55,8 @@ def prescribed_peaks(
         rows[:, kernel.row.phase : kernel.row.wound] = at["clock_start"]
         return bundle.observe(lane, rows, columns)
 
-    count = min(math.ceil(INSTANTS_A_PERIOD * span / period) + 16, MOST_INSTANTS)
+    fineness = max(INSTANTS_A_PERIOD / period, INSTANTS_A_BEND / float(at.run["unit"]))
+    count = min(math.ceil(fineness * span) + 16, MOST_INSTANTS)
     times = np.linspace(0.0, span, count)
     return refined_peaks(names, evaluate, times, evaluate(times))
 

@@ -12,8 +12,8 @@ from jointplay.solver.runs.dense_output.moments import moments_of
 from jointplay.solver.runs.ideal.run import IdealRun
 
 INSTANTS_A_PERIOD = 2000
-FEWEST, MOST = 8, 4000
-"""Instants in a bin."""
+FEWEST, MOST, MOST_TOGETHER = 8, 4000, 200_000
+"""Instants in a bin; more where bins are so few that all of them have no more than so many."""
 AT_ONCE = 2000
 """Instants that are computed together."""
 
@@ -79,11 +79,12 @@ class ExactMotion:
         motion = self._run.motion
         width, period = float((last - first).max()), motion.forces_period
         if period is not None and float((last - first).min()) > 2.0 * period:
-            count = math.ceil(period / motion.unit * INSTANTS_A_PERIOD)
+            count = math.ceil(motion.fineness(INSTANTS_A_PERIOD) * period)
             beyond = period * np.linspace(0.0, 1.0, max(count, FEWEST))
             return np.concatenate([first + beyond, last - beyond[::-1]], axis=1)
-        count = math.ceil(width / motion.unit * INSTANTS_A_PERIOD)
-        shares = np.linspace(0.0, 1.0, min(max(count, FEWEST), MOST))
+        count = math.ceil(motion.fineness(INSTANTS_A_PERIOD) * width)
+        most = max(MOST, MOST_TOGETHER // len(first))
+        shares = np.linspace(0.0, 1.0, min(max(count, FEWEST), most))
         return np.asarray(first + (last - first) * shares, np.float64)
 
 

@@ -24,6 +24,8 @@ COMES_BACK = 1e-6
 """Distance of poses a period apart, in rad and lengths of the shortest link, that is rounding."""
 MOST_PERIODS = 4
 """Periods of the drivers within which a mechanism may come back."""
+INSTANTS_A_BEND = 100
+"""Instants in the shortest time in which a driver or a force turns or bends."""
 
 
 class IdealMotion:
@@ -43,6 +45,7 @@ class IdealMotion:
         self.constraints = Constraints(scene)
         self.numbers, self.mechanism = self.constraints.numbers, self.constraints.mechanism
         self.unit = period or characteristic_time(scene, self.constraints.length)
+        self._bend = characteristic_time(scene, self.constraints.length)
         span = min(duration, self.unit) if self.period else duration
         scale = min(quickest_driver(scene, self.constraints.length), span)
         self.path = Path(self.constraints, assemble(scene).pose, scale)
@@ -61,6 +64,14 @@ class IdealMotion:
                 return None
         self.period, end = None, self.path.end.time
         return elsewhere(MOST_PERIODS, end) if end < duration else None
+
+    def fineness(self, a_period: int) -> float:
+        """Return instants a second at which extremes are first sought.
+
+        So many in a period, and `INSTANTS_A_BEND` in the shortest time in which a driver or a force
+        turns or bends.
+        """
+        return max(a_period / self.unit, INSTANTS_A_BEND / self._bend)
 
     @property
     def forces_period(self) -> float | None:

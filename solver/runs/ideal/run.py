@@ -177,7 +177,7 @@ class IdealRun:
         period, settle = self.motion.forces_period, self.admission.settle
         length = self.duration - settle
         span = min(length, period) if period else length
-        count = max(math.ceil(SCAN_A_PERIOD * span / self.motion.unit), 16)
+        count = max(math.ceil(self.motion.fineness(SCAN_A_PERIOD) * span), 16)
         times = settle + np.linspace(0.0, span, min(count, MOST_SCANNED) + 1)
         peaks = self._peaks(times)
         if length > span:  # angles that go on turning are extreme in the last period
