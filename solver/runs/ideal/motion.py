@@ -45,7 +45,7 @@ class IdealMotion:
         self.constraints = Constraints(scene)
         self.numbers, self.mechanism = self.constraints.numbers, self.constraints.mechanism
         self.unit = period or characteristic_time(scene, self.constraints.length)
-        self._bend = characteristic_time(scene, self.constraints.length)
+        self._bend = float(characteristic_time(scene, self.constraints.length))
         span = min(duration, self.unit) if self.period else duration
         scale = min(quickest_driver(scene, self.constraints.length), span)
         self.path = Path(self.constraints, assemble(scene).pose, scale)
