@@ -212,7 +212,8 @@ def _without_direction(scene: Scene, assembly: Assembly) -> Iterator[Problem]:
         yield Problem(
             f"/scene/forces/{name}",
             f"The points of '{name}' coincide at the start, where its force has no direction; start"
-            " them apart, or give no free length.",
+            " them apart, or let it be zero there: a spring without free length, a tension over the"
+            " distance whose course begins at 0.",
         )
 
 

@@ -2,6 +2,8 @@
 
 from typing import Annotated, ClassVar, Literal
 
+import numpy as np
+
 from jointplay.solver.laws.force.distance import CHANNELS, distance
 from jointplay.solver.laws.force.law import Effect, Ends
 from jointplay.solver.laws.force.varying import Varying
@@ -40,5 +42,9 @@ class Tension(Varying):
 
     @property
     def needs_direction(self) -> bool:
-        """True: the line between the points is its direction."""
-        return True
+        """True, for the line between the points is its direction; but if it is 0 at no distance."""
+        over = self.follows()
+        if self.course is None or over is None or over.quantity != "distance" or over.rate:
+            return True
+        own = (over.first or self.first, over.second or self.second)
+        return own != (self.first, self.second) or bool(np.any(self.course.at(0.0).value))
