@@ -54,6 +54,9 @@ SENTENCES = {
 }
 """Sentences by pydantic's type of error, with its context; a reference is a string with a point."""
 
+SINGULAR = {" periods": " period"}
+"""Units that are words, as they stand behind a number and behind 1."""
+
 
 def schema_problems(
     error: ValidationError, root: type[BaseModel], document: object
@@ -112,6 +115,8 @@ def _sentence(item: ErrorDetails, field: str, unit: str, location: Location) -> 
         kind = "onset"
     elif r"\." in pattern:
         kind = "reference"
+    if any(context.get(bound) == 1 for bound in ("ge", "gt", "le", "lt")):
+        unit = SINGULAR.get(unit, unit)
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
     units |= {"of_pairs": _of_pairs(location[0]), "with_fields": _with_fields(location[1])}
     more = units | {"meant": _meant_number(item) if kind == "int_type" else _meant_word(item)}

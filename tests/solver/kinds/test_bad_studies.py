@@ -173,7 +173,7 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
     "settle a word": (P, {"settle": "long"}, "/settle", "'auto'"),
     "settle not whole": (P, {"settle": 10.5}, "/settle", "whole number"),
     "settle true": (P, {"settle": True}, "/settle", "whole number"),
-    "record nothing": (P, {"record": 0}, "/record", "at least 1"),
+    "record nothing": (P, {"record": 0}, "/record", "at least 1 period, not 0."),
     "unknown observable": (P, {"observables": ["slider7.X"]}, "/observables/0", "'slider7.x'"),
     "no observable": (P, {"observables": []}, "/observables", "at least 1"),
     "unknown indicator": (P, {"indicators": ["chaos"]}, "/indicators/0", "'lyapunov'"),
