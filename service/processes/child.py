@@ -55,6 +55,7 @@ class Child:
         self._file_descriptors = file_descriptors
         self._process: subprocess.Popen[bytes] | None = None
         self._started = 0.0
+        self._log_before = 0
         self._failures = 0
         self._due = 0.0
 
@@ -64,6 +65,7 @@ class Child:
         if self.log.exists() and self.log.stat().st_size > _LARGEST_LOG:
             self.log.replace(self.log.with_name(self.log.name + ".old"))
         with self.log.open("ab") as log:
+            self._log_before = log.tell()
             self._process = subprocess.Popen(  # noqa: S603 - our own programs
                 [sys.executable, "-I", "-S", str(_BOUND), str(os.getpid()), *self._command],
                 stdin=subprocess.DEVNULL,
@@ -121,11 +123,14 @@ class Child:
         computed = None
         while not answers():
             if not self.alive:
-                last = self.log.read_text(errors="replace").splitlines()[-12:]
+                last = self._written().splitlines()[-12:]
                 told = [line for line in last if not line[:1].isspace()]  # no traceback's
                 if shutil.disk_usage(self.log.parent).free < _LITTLE:  # which the log cannot tell
                     told.append(f"the disk with {self.log.parent} is full")
-                raise StartFailed("\n".join([f"the {self.name} ended at once:", *told]))
+                how = (
+                    "ended at once:" if told else f"ended at once, and wrote nothing to {self.log}"
+                )
+                raise StartFailed("\n".join([f"the {self.name} {how}", *told]))
             now, before = time.monotonic(), computed
             computed = None if self.pid is None else processor_time(self.pid)
             moved = moved if computed == before else now
@@ -133,6 +138,12 @@ class Child:
                 waited = f"{now - begun:.0f} s"
                 raise StartFailed(f"the {self.name} did not answer in {waited}: {self.log}")
             pause(_POLL)
+
+    def _written(self) -> str:
+        """Return what is in the log since the process was started."""
+        with self.log.open("rb") as log:
+            log.seek(self._log_before)
+            return log.read().decode(errors="replace")
 
     def terminate(self) -> None:
         """Ask the process to end."""
