@@ -24,6 +24,7 @@ from jointplay.solver.kinds.documents import job_of, kind_of
 from jointplay.solver.kinds.ensemble import Ensemble
 from jointplay.solver.kinds.idle_fields import check_varied
 from jointplay.solver.kinds.kind import Kind
+from jointplay.solver.kinds.meant_fields import with_meant_fields
 from jointplay.solver.kinds.poincare import Poincare
 from jointplay.solver.kinds.sensitivity import SensitivityKind
 from jointplay.solver.kinds.simulate import Simulate
@@ -75,7 +76,11 @@ def admit(document: object) -> Admission | Study:
     document = without_remarks(document)
     kind = kind_of(document, KINDS)
     job = job_of(document, kind)
-    admitted = kind.admit(job)
+    try:
+        admitted = kind.admit(job)
+    except InvalidInput as error:
+        told = with_meant_fields(error.problems, document, kind.document)
+        raise type(error)(told) from None
     if isinstance(admitted, Study):
         check_varied(job, kind.varied(job, admitted))
     return admitted

@@ -11,6 +11,7 @@ from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import did_you_mean
 from jointplay.solver.kinds.job import Job, MechanismJob, PresetScene
 from jointplay.solver.kinds.kind import J, Kind
+from jointplay.solver.kinds.meant_fields import with_meant_fields
 from jointplay.solver.kinds.mechanism import Echo
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.scene import presets
@@ -46,7 +47,7 @@ def job_of(document: Any, kind: Kind[J]) -> J:
         problems = schema_problems(error, model, document)
         told = {one.pointer for one in problems}
         others = [one for one in _wrong_preset(document) if one.pointer not in told]
-        raise InvalidInput([*problems, *others]) from None
+        raise InvalidInput(with_meant_fields([*problems, *others], document, model)) from None
     return job
 
 

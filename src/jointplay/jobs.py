@@ -35,7 +35,8 @@ def _described(kind: str) -> Callable[..., Document]:
             if value is not None
         }
         values = {name: _plain(value) for name, value in parameters.items()}
-        return {"kind": kind, "scene": with_parameters(scene_document(scene), values), **written}
+        chosen = with_parameters(scene_document(scene), values, fields)
+        return {"kind": kind, "scene": chosen, **written}
 
     shown: Any = describe  # for those who ask with help() or a question mark
     shown.__name__ = shown.__qualname__ = kind.replace("-", "_")

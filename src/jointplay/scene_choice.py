@@ -1,12 +1,13 @@
 """A scene as it is named: a preset, a document or the path of one; and its parameters set."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from jointplay.records.strict_json import parse
+from jointplay.records.suggestions import did_you_mean
 
 Scene = str | PathLike[str] | Mapping[str, Any]
 
@@ -38,11 +39,13 @@ def scene_document(scene: Scene) -> Mapping[str, Any]:
     return document
 
 
-def with_parameters(scene: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+def with_parameters(
+    scene: Mapping[str, Any], values: Mapping[str, Any], fields: Iterable[str] = ()
+) -> dict[str, Any]:
     """Return a scene, or a preset by name, with some parameters set; nothing else is checked.
 
     A scene given whole has no list of values beside it: there the declared defaults are the
-    values.
+    values. One of `fields`, which are given beside parameters, may be meant by an unknown name.
 
     Raises
     ------
@@ -56,7 +59,9 @@ def with_parameters(scene: Mapping[str, Any], values: Mapping[str, Any]) -> dict
         return {**scene, "parameters": {**declared, **values}}
     if unknown := [name for name in values if name not in declared]:
         known = ", ".join(declared) or "none"
-        raise NotAScene(f"{unknown[0]}: the scene declares no such parameter; it has {known}.")
+        near = did_you_mean(unknown[0], [*declared, *fields])
+        meant = near or f"it has {known}."
+        raise NotAScene(f"{unknown[0]}: the scene declares no such parameter; {meant}")
     changed = {
         name: {**one, "default": values[name]} if name in values and isinstance(one, dict) else one
         for name, one in declared.items()

@@ -117,6 +117,8 @@ def test_a_scene_may_be_a_name_a_document_or_a_file(tmp_path):
     assert scene["parameters"]["mass"]["default"] != 2.5
     with pytest.raises(NotAScene, match="weight: the scene declares no such parameter"):
         jobs.simulate(scene, duration=1, weight=2.5)
+    with pytest.raises(NotAScene, match=r"such parameter; did you mean 'tolerance'\?"):
+        jobs.simulate(scene, duration=1, tolerence=1e-6)
     with pytest.raises(NotAScene, match=r"nowhere\.json: No such file"):
         jobs.simulate("nowhere.json", duration=1)
 
