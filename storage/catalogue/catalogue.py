@@ -124,8 +124,7 @@ class Catalogue:
                 return schema.flaws(connection)
         except (Broken, Interrupted) as error:
             what = "cannot be read" if isinstance(error, Broken) else SILENT
-            said = str(getattr(error.__cause__, "orig", "")).strip().splitlines()
-            return (": ".join((what, *said[-1:])),)
+            return (": ".join((what, *getattr(error, "__notes__", ()))),)
 
     # What users ask for
 

@@ -134,4 +134,13 @@ class Connections:
             fault = self._database.fault(error)
             if fault is None:
                 raise
+            if why := reason(error):
+                fault.add_note(why)  # for logs: clients are not told where the database is
             raise fault from error
+
+
+def reason(error: DBAPIError) -> str:
+    """Return what the database or its driver says of a fault, on one line; or nothing."""
+    said = str(error.orig or "").strip().splitlines()
+    # libpq asks behind the reason, on a line that is indented, whether the server is running
+    return next((line for line in reversed(said) if not line[:1].isspace()), "")

@@ -199,8 +199,13 @@ def test_a_server_that_stays_away_is_said_to(
     monkeypatch.setattr(connections, "_PATIENCE", 0.1)
     with closing(Catalogue(url.replace(str(postgresql.port), "1"))) as catalogue:
         for act in (catalogue.ping, catalogue.migrate, lambda: catalogue.submit(NEW)):
-            with pytest.raises(Unavailable, match="does not answer"):
+            with pytest.raises(Unavailable, match="does not answer") as silent:
                 act()
+            assert str(silent.value) == "the catalogue does not answer"
+            (why,) = silent.value.__notes__  # in logs, and never in answers
+            assert why.endswith("port 1 failed: Connection refused")
+        (flaw,) = catalogue.flaws()
+        assert flaw == f"does not answer: {why}"  # not libpq's question behind it
 
 
 def test_rows_that_another_unit_holds_are_waited_for_and_not_for_ever(
