@@ -16,6 +16,7 @@ from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import BlockEnd, BlockState, Claim, Verdict
 from jointplay.storage.errors import ResultsError
 from jointplay.storage.settings import Settings
+from jointplay.worker.advance import Advance
 from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.holding import Holding, Refused
 from jointplay.worker.lease import Lease
@@ -53,6 +54,8 @@ class BlockRun:
     require_reachable
         Raises OSError while results cannot be stored. Asked before anything is computed, and again
         before the block ends: what was stored in place of a disk is not on it.
+    advance
+        That of whatever sends the block's files.
     """
 
     def __init__(
@@ -62,13 +65,14 @@ class BlockRun:
         claim: Claim,
         draining: threading.Event,
         require_reachable: Callable[[], None] = lambda: None,
+        advance: Advance | None = None,
     ) -> None:
         self._catalogue = catalogue
         self._settings = settings
         self._claim = claim
         self._block = claim.block
         self._job = claim.job
-        self._lease = Lease(catalogue, claim, settings)
+        self._lease = Lease(catalogue, claim, settings, advance)
         self._draining = draining
         self._require_reachable = require_reachable
         self._next_record = time.monotonic() + settings.progress_period

@@ -4,7 +4,6 @@ import logging
 import os
 import signal
 import threading
-import time
 from contextvars import copy_context
 from functools import partial
 from typing import Self
@@ -12,6 +11,7 @@ from typing import Self
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import Claim, Verdict
 from jointplay.storage.settings import Settings
+from jointplay.worker.advance import Advance
 from jointplay.worker.holding import Holding, Refused
 
 _log = logging.getLogger(__name__)
@@ -22,17 +22,31 @@ class Lease:
 
     If nothing advances for `settings.stall` seconds the process kills itself: a computation
     that does not return cannot be ended in any other way, and its block is then taken over.
+
+    Parameters
+    ----------
+    advance
+        That of whatever sends the block's files; where nothing does, one of its own.
     """
 
-    def __init__(self, catalogue: Holding, claim: Claim, settings: Settings) -> None:
+    def __init__(
+        self,
+        catalogue: Holding,
+        claim: Claim,
+        settings: Settings,
+        advance: Advance | None = None,
+    ) -> None:
         self._catalogue = catalogue
         self._block, self._attempt = claim.block.id, claim.block.attempt
         self._settings = settings
         self._ended = threading.Event()
         self._fenced = threading.Event()
-        self._advanced = time.monotonic()
+        self._advance = advance or Advance()
+        self.advanced = self._advance.note
+        """Notes that the computation moved on."""
 
     def __enter__(self) -> Self:
+        self.advanced()
         beat = partial(copy_context().run, self._beat)  # its lines are about the block, too
         self._thread = threading.Thread(target=beat, name="heartbeat", daemon=True)
         self._thread.start()
@@ -41,10 +55,6 @@ class Lease:
     def __exit__(self, *_: object) -> None:
         self._ended.set()
         self._thread.join()
-
-    def advanced(self) -> None:
-        """Note that the computation moved on."""
-        self._advanced = time.monotonic()
 
     def verdict(self) -> Verdict:
         """Return whether to go on, reading only; Fenced if another worker has the block."""
@@ -71,7 +81,7 @@ class Lease:
 
     def _beat(self) -> None:
         while not self._ended.wait(self._settings.heartbeat):
-            if time.monotonic() - self._advanced > self._settings.stall:
+            if self._advance.age() > self._settings.stall:
                 _log.critical("block %s has not advanced; ending this process", self._block)
                 os.kill(os.getpid(), signal.SIGKILL)
             try:

@@ -17,6 +17,7 @@ from jointplay.storage.settings import Settings
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import discard_others, seal
+from jointplay.worker.advance import noted_target
 from jointplay.worker.execute import Outcome, Report, execute
 from jointplay.worker.layouts import layout_of_study
 from jointplay.worker.leaving_room import leaving_room
@@ -57,6 +58,7 @@ class SimulationWork:
         if (adopted := self._adopted(target)) is not None:
             return adopted
         self._clear(target)
+        target = noted_target(leaving_room(target, self._settings), advanced)
         try:
             return self._simulated(target, report, self._block.checkpoint)
         except CorruptStore as damage:
@@ -79,7 +81,7 @@ class SimulationWork:
         return execute(
             self._admission,
             self._folder,
-            leaving_room(target, self._settings),
+            target,
             report=report,
             resume_from=restart,
             longest=self._settings.longest,

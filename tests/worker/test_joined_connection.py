@@ -23,6 +23,7 @@ from jointplay.storage.catalogue.records import (
     Verdict,
 )
 from jointplay.storage.settings import Settings
+from jointplay.worker.advance import Advance
 from jointplay.worker.holding import Refused
 from jointplay.worker.joined.attempt import JoinedAttempt
 from jointplay.worker.joined.bucket import BucketOfService
@@ -74,7 +75,7 @@ def test_no_answer_is_waited_for_until_the_lease_is_over(tmp_path: Path) -> None
 
     with serving(late) as url, closing(Connection(url, None)) as connection:
         files = FilesOfService(connection, BucketOfService(connection), BLOCK)
-        scratch = Scratch(files, Settings(data=tmp_path), BLOCK)
+        scratch = Scratch(files, Settings(data=tmp_path), BLOCK, Advance())
         job = Job("simulate", {}, "d" * 64, "1", id="job", created=0.0)
         attempt = JoinedAttempt(connection, Claim(BLOCK, job), scratch)
         with pytest.raises(Unavailable):
@@ -95,7 +96,7 @@ def test_progress_goes_with_the_next_word_and_who_computes_hears_the_answer(
     block, told = claim.block, {"time": 1.0, "fraction": 0.5, "steps": 7}
     with serving(create_app(settings)) as url, closing(Connection(url, None)) as connection:
         files = FilesOfService(connection, BucketOfService(connection), block)
-        attempt = JoinedAttempt(connection, claim, Scratch(files, settings, block))
+        attempt = JoinedAttempt(connection, claim, Scratch(files, settings, block, Advance()))
 
         def reached() -> tuple[float, int | None, str | None]:
             (stored,) = catalogue.blocks(job)

@@ -10,6 +10,7 @@ from pathlib import Path
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.settings import Settings
+from jointplay.worker.advance import Advance
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.joined.attempt import JoinedAttempt
 from jointplay.worker.joined.bucket import BucketOfService
@@ -72,7 +73,8 @@ class JoinedBlocks:
                 **self._customs.model_dump(),
             )
             files = FilesOfService(self._connection, self._bucket, block)
-            scratch = Scratch(files, settings, block)
+            advance = Advance()
+            scratch = Scratch(files, settings, block, advance)
             attempt = JoinedAttempt(self._connection, claim, scratch)
             beat = partial(attempt.heartbeat, block.id, block.attempt, settings.lease)
             try:
@@ -82,4 +84,4 @@ class JoinedBlocks:
                 raise
             sent = SentAttempt(attempt, scratch)
             with scratch.sending_rows(), sent.sending():
-                BlockRun(sent, settings, claim, self._draining).run()
+                BlockRun(sent, settings, claim, self._draining, advance=advance).run()

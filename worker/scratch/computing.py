@@ -13,6 +13,7 @@ from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.installation import require_reachable
 from jointplay.storage.settings import Settings
+from jointplay.worker.advance import Advance
 from jointplay.worker.block_run import ASK_AGAIN, BlockRun
 from jointplay.worker.removal import withdraw
 from jointplay.worker.scratch.attempt import SentAttempt
@@ -43,7 +44,8 @@ def _compute_in(
 ) -> None:
     block = claim.block
     here = settings.model_copy(update={"data": folder, "running": "data"})
-    scratch = Scratch(AttemptFiles(settings, block), here, block)
+    advance = Advance()
+    scratch = Scratch(AttemptFiles(settings, block), here, block, advance)
     there = partial(require_reachable, settings, catalogue)
     beat = partial(catalogue.heartbeat, block.id, block.attempt, settings.lease)
     with about(job=block.job, block=block.id, attempt=block.attempt):
@@ -59,7 +61,7 @@ def _compute_in(
             return
         attempt = SentAttempt(catalogue, scratch)
         with scratch.sending_rows(), attempt.sending():
-            BlockRun(attempt, here, claim, draining, there).run()
+            BlockRun(attempt, here, claim, draining, there, advance).run()
         if scratch.used:
             withdraw(catalogue, settings, block)
 

@@ -15,6 +15,7 @@ from jointplay.storage.catalogue.records import Block
 from jointplay.storage.object_stores.folder import Folder
 from jointplay.storage.packed.running import DOCUMENTS, PARTS, ROWS
 from jointplay.storage.settings import Settings
+from jointplay.worker.advance import Advance, noted
 
 _PIECE: Final = 2**20
 _LOOK: Final = 0.1
@@ -72,10 +73,15 @@ class Scratch:
     ----------
     settings
         With a data folder of its own, which is empty.
+    advance
+        Hears of each piece that is sent.
     """
 
-    def __init__(self, elsewhere: Elsewhere, settings: Settings, block: Block) -> None:
+    def __init__(
+        self, elsewhere: Elsewhere, settings: Settings, block: Block, advance: Advance
+    ) -> None:
         self._elsewhere = elsewhere
+        self._advance = advance
         self._files = AttemptFiles(settings, block)
         self._folder = settings.running_folder(block.job)
         self._sends = block.count > 0
@@ -143,6 +149,7 @@ class Scratch:
                 self._send(name, file)
             for name in taken.gone:
                 self._elsewhere.remove(name)
+                self._advance.note()
                 self._sent.pop(name, None)
 
     @contextmanager
@@ -183,7 +190,7 @@ class Scratch:
             sealed = self._files.sealed(name)
             if sealed is not None and isinstance(sealed.object_store, Folder):
                 with _File(Path(sealed.object_store.root) / sealed.key) as file:
-                    self._elsewhere.put(name, _Pieces(file, 0, file.size))
+                    self._elsewhere.put(name, self._pieces(file))
 
     def _send(self, name: str, file: "_File") -> None:
         """Send a file that is not as it was sent: of one that is appended to, what is new."""
@@ -196,10 +203,13 @@ class Scratch:
             and sent[0] == file.version[0]
             and sent[1] < file.size
         ):
-            self._elsewhere.append(name, sent[1], _Pieces(file, sent[1], file.size))
+            self._elsewhere.append(name, sent[1], self._pieces(file, sent[1]))
         elif not self._adopted(name, file.version):
-            self._elsewhere.put(name, _Pieces(file, 0, file.size))
+            self._elsewhere.put(name, self._pieces(file))
         self._sent[name] = file.version
+
+    def _pieces(self, file: "_File", start: int = 0) -> "_Pieces":
+        return _Pieces(file, start, self._advance)
 
     def _adopted(self, name: str, version: _Version) -> bool:
         """Have rows of an earlier attempt, which were linked to a name of this one, stay there."""
@@ -226,14 +236,17 @@ class _File:
 
 
 class _Pieces:
-    """Bytes [start, stop) of a file, which can be gone through more than once."""
+    """Bytes of a file from `start` on, which can be gone through more than once."""
 
-    def __init__(self, file: _File, start: int, stop: int) -> None:
-        self._file, self._start, self._stop = file, start, stop
+    def __init__(self, file: _File, start: int, advance: Advance) -> None:
+        self._file, self._start, self._advance = file, start, advance
 
     def __iter__(self) -> Iterator[bytes]:
-        for start in range(self._start, self._stop, _PIECE):
-            length = min(_PIECE, self._stop - start)
+        return noted(self._read(), self._advance.note)
+
+    def _read(self) -> Iterator[bytes]:
+        for start in range(self._start, self._file.size, _PIECE):
+            length = min(_PIECE, self._file.size - start)
             yield os.pread(self._file.descriptor, length, start)
 
 
