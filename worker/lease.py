@@ -95,3 +95,5 @@ class Lease:
             except Unavailable as error:
                 # it may be back before the lease runs out
                 _log.warning("heartbeat of block %s failed: %s", self._block, error)
+            except Exception:  # noqa: BLE001 - without heartbeats the block would be lost
+                _log.exception("heartbeat of block %s failed", self._block)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from fastapi import FastAPI
+from fastapi.responses import HTMLResponse
 from sqlalchemy import update
 
 from jointplay.service.app import create_app
@@ -15,6 +16,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import (
     Block,
+    BlockEnd,
     BlockState,
     Claim,
     Job,
@@ -29,7 +31,7 @@ from jointplay.worker.joined.attempt import JoinedAttempt
 from jointplay.worker.joined.bucket import BucketOfService
 from jointplay.worker.joined.connection import Connection
 from jointplay.worker.joined.files import FilesOfService
-from jointplay.worker.joined.protocol import Answered, ClaimRequest, Files
+from jointplay.worker.joined.protocol import Answered, ClaimRequest, Drop, Files
 from jointplay.worker.scratch.files import Scratch
 from tests.service_in_thread import serving
 
@@ -55,6 +57,59 @@ def test_what_a_proxy_answers_for_a_while_ends_no_block(connection: Connection) 
     ):
         with pytest.raises(Unavailable, match="status 404"):
             ask()
+
+
+@pytest.fixture
+def maintained() -> Iterator[Connection]:
+    """A connection to a proxy that answers everything with a page, as if all was well."""
+    away = FastAPI()
+
+    @away.api_route("/{path:path}", methods=["GET", "POST", "PUT", "DELETE"])
+    def page() -> HTMLResponse:
+        return HTMLResponse("<html>We are back soon.</html>")
+
+    with serving(away) as url, closing(Connection(url, None)) as connection:
+        yield connection
+
+
+def test_a_page_in_place_of_an_answer_ends_nothing(maintained: Connection, tmp_path: Path) -> None:
+    drop = Drop(name="sealed/1", size=1, sha256="0" * 64, md5="0" * 32)
+    request = ClaimRequest(program="0", worker="w", version="1", processor="p", wait=0.0)
+    files = FilesOfService(maintained, BucketOfService(maintained), BLOCK)
+    scratch = Scratch(files, Settings(data=tmp_path), BLOCK, Advance())
+    job = Job("simulate", {}, "d" * 64, "1", id="job", created=0.0)
+    attempt = JoinedAttempt(maintained, Claim(BLOCK, job), scratch)
+    for ask in (
+        lambda: maintained.claim(request),
+        lambda: maintained.claim_beside(BLOCK, Solver("1", "p"), 1),
+        lambda: maintained.ask(BLOCK, Files),
+        lambda: [*maintained.read(BLOCK, "block0-a1")],
+        lambda: maintained.write(BLOCK, "a1/parts/0", [b""], 0, "", 0),
+        lambda: maintained.remove(BLOCK, "a1/parts/0"),
+        lambda: maintained.offered(BLOCK, drop),
+        lambda: maintained.taken(BLOCK, drop),
+        lambda: attempt.heartbeat(BLOCK.id, 1, LEASE),
+        lambda: attempt.finish(BLOCK.id, 1, BlockEnd(BlockState.done)),
+        lambda: attempt.release(BLOCK.id, 1),
+    ):
+        with pytest.raises(Unavailable, match="text/html"):
+            ask()
+
+
+def test_a_document_of_something_else_ends_nothing() -> None:
+    other = FastAPI()
+
+    @other.post("/v1/worker/claims")
+    def answer() -> dict[str, str]:
+        return {"status": "away"}
+
+    request = ClaimRequest(program="0", worker="w", version="1", processor="p", wait=0.0)
+    with (
+        serving(other) as url,
+        closing(Connection(url, None)) as connection,
+        pytest.raises(Unavailable, match="none of a service"),
+    ):
+        connection.claim(request)
 
 
 def test_an_address_where_there_is_no_service_is_refused(connection: Connection) -> None:

@@ -80,6 +80,28 @@ def test_a_lease_outlives_a_catalogue_that_is_being_restored(
         until(lambda: lease_until(catalogue, block) > before)
 
 
+def test_a_heartbeat_outlives_whatever_goes_wrong(
+    catalogue: Catalogue, settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    block = new_block(catalogue)
+    claim = catalogue.claim_block(block, "worker", settings.lease)
+    assert claim is not None
+    wrong: list[str] = []
+    heartbeat = catalogue.heartbeat
+
+    def fails_twice(block_id: str, attempt: int, lease: float) -> Verdict:
+        if len(wrong) < 2:
+            wrong.append(block_id)
+            raise ValueError("an answer that nobody expected")
+        return heartbeat(block_id, attempt, lease)
+
+    monkeypatch.setattr(catalogue, "heartbeat", fails_twice)
+    before = lease_until(catalogue, block)
+    with Lease(catalogue, claim, settings):
+        until(lambda: lease_until(catalogue, block) > before)
+    assert wrong == [block, block]
+
+
 def hang(settings: Settings, block: str) -> None:
     catalogue = Catalogue(settings.catalogue_url)
     claim = catalogue.claim_block(block, "worker", settings.lease)

@@ -8,7 +8,7 @@ from jointplay.storage.catalogue.errors import CatalogueError, Fenced, Unavailab
 from jointplay.storage.catalogue.records import BlockEnd, Claim, Job, JobState, Verdict
 from jointplay.worker.holding import Refused
 from jointplay.worker.joined import protocol
-from jointplay.worker.joined.connection import Connection
+from jointplay.worker.joined.connection import Connection, answer_of
 from jointplay.worker.scratch.files import Scratch
 from jointplay.worker.spent import publishing
 
@@ -97,7 +97,7 @@ class JoinedAttempt:
         with publishing(jobs=0.0):  # whose packing was counted
             self._scratch.send_sealed()
         answer = self._report("finish", protocol.Finish(**vars(end)))
-        return protocol.Finished.model_validate_json(answer).state
+        return answer_of(protocol.Finished, answer).state
 
     def _note_reported(self, progress: protocol.Progress | None) -> None:
         if self._progress is progress:  # else the block has come further meanwhile
@@ -112,7 +112,7 @@ class JoinedAttempt:
         except (Fenced, Refused) as end:
             self._end = end
             raise
-        self._verdict = protocol.Answered.model_validate_json(content).verdict
+        self._verdict = answer_of(protocol.Answered, content).verdict
         return self._verdict
 
     def _report(

@@ -7,6 +7,7 @@ from typing import Any, Final, TypeVar
 from urllib.parse import quote
 
 import httpx
+from pydantic import ValidationError
 
 from jointplay.storage.catalogue.errors import CatalogueError, Fenced, Unavailable
 from jointplay.storage.catalogue.records import Block, Claim, Solver
@@ -29,6 +30,8 @@ _PATIENCE: Final = 15.0  # s, beyond what a service may take to find a block
 _LONGEST_TAKING: Final = 120.0  # s, in which a service reads and copies the largest file
 _MAY_PASS: Final = frozenset({408, 422, 425, 429})  # 422: bytes that were changed on their way
 _FULL: Final = 507
+_OWN: Final = frozenset({"application/json", "application/octet-stream"})
+"""Types of what a service answers; a page, whatever its status, is of a proxy."""
 _REFUSED: Final = "/results-refused"
 _LARGEST_KEY: Final = 4096
 
@@ -80,12 +83,12 @@ class Connection:
         _require_success(response, None)
         if response.status_code == httpx.codes.NO_CONTENT:
             return None
-        return Claimed.model_validate_json(response.content)
+        return answer_of(Claimed, response.content)
 
     def claim_beside(self, block: Block, solver: Solver, most: int) -> tuple[Claim, ...]:
         """Claim at most so many further blocks of the study of one that is held."""
         asked = ClaimBeside(**vars(solver), most=most)
-        return ClaimedBeside.model_validate_json(self.report(block, "beside", asked)).claims
+        return answer_of(ClaimedBeside, self.report(block, "beside", asked)).claims
 
     def report(
         self,
@@ -111,7 +114,7 @@ class Connection:
         with self._answering():
             response = self._http.get(f"{_path(block)}/files")
         _require_success(response, block)
-        return kind.model_validate_json(response.content)
+        return answer_of(kind, response.content)
 
     def read(self, block: Block, name: str) -> Iterator[bytes]:
         """GET a file in pieces; FileNotFoundError if it is gone."""
@@ -148,7 +151,7 @@ class Connection:
         if response.status_code in (httpx.codes.NO_CONTENT, httpx.codes.NOT_FOUND):
             return None  # a service of an earlier version knows of none
         _require_success(response, block)
-        return DropAt.model_validate_json(response.content).address
+        return answer_of(DropAt, response.content).address
 
     def taken(self, block: Block, drop: Drop) -> bool:
         """POST what was put. Returns whether the service found it, with the right bytes."""
@@ -173,7 +176,7 @@ class Connection:
     def _answering(self) -> Iterator[None]:
         try:
             yield
-        except httpx.TransportError as error:
+        except httpx.RequestError as error:
             reason = f"cannot be reached at {self.url} ({str(error) or type(error).__name__})"
             raise Unavailable(reason) from error
 
@@ -197,6 +200,14 @@ def key_in(path: Path) -> str:
     return text
 
 
+def answer_of(kind: type[Answer], content: bytes) -> Answer:
+    """Return the document that a service answered with; Unavailable if it is no such one."""
+    try:
+        return kind.model_validate_json(content)
+    except ValidationError as error:
+        raise Unavailable(f"gives an answer that is none of a service: {error}") from error
+
+
 def _path(block: Block) -> str:
     return f"/v1/worker/blocks/{block.id}/{block.attempt}"
 
@@ -208,6 +219,9 @@ def _json(document: Document) -> dict[str, Any]:
 
 def _require_success(response: httpx.Response, block: Block | None) -> None:
     if response.is_success:
+        found = response.headers.get("Content-Type", "").partition(";")[0]
+        if response.status_code != httpx.codes.NO_CONTENT and found not in _OWN:
+            raise Unavailable(f"gives an answer that is none of a service: {found or 'no type'}")
         return
     kind, detail = _problem_of(response)
     if block is not None and kind.endswith("/not-held"):
