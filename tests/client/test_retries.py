@@ -97,7 +97,14 @@ def number_of_jobs(url):
 
 @pytest.mark.parametrize(
     "trouble",
-    ["unheard", "lost", (503, {}), (429, {"Retry-After": "1"}), (409, {"Retry-After": "1"})],
+    [
+        "unheard",
+        "lost",
+        (503, {}),
+        (507, {"Retry-After": "30"}),
+        (429, {"Retry-After": "1"}),
+        (409, {"Retry-After": "1"}),
+    ],
 )
 def test_a_repeated_submission_queues_one_job(connect, fresh_service, pauses, trouble):
     with front([trouble, trouble], fresh_service) as (url, heard), connect(url) as client:

@@ -13,7 +13,7 @@ from urllib.parse import quote
 import httpx
 from httpx_sse import ServerSentEvent
 
-from jointplay.client.errors import ClientError, Unreachable, error_from
+from jointplay.client.errors import OVERLOADED, ClientError, Unreachable, error_from
 from jointplay.client.network import Network
 
 DEFAULT_URL = "http://127.0.0.1:8000"
@@ -30,7 +30,6 @@ LONGEST_PAUSE: Final = 60.0
 
 _LOST: Final = (httpx.NetworkError, httpx.RemoteProtocolError)
 """A connection that broke or was refused; one that is silent for long is another thing."""
-_BUSY: Final = frozenset({429, 503})
 
 
 class Connection:
@@ -165,11 +164,11 @@ def segment(text: str) -> str:
 def _is_worth_repeating(response: httpx.Response) -> bool:
     """Tell whether the service asks for the same request once more.
 
-    Besides 429 and 503 it does while it still answers an earlier request of the same key, which is
-    what happens if only the connection was lost.
+    Besides 429, 503 and 507 it does while it still answers an earlier request of the same key,
+    which is what happens if only the connection was lost.
     """
     in_flight = response.request.method == "POST" and response.status_code == 409
-    return response.status_code in _BUSY or (in_flight and "retry-after" in response.headers)
+    return response.status_code in OVERLOADED or (in_flight and "retry-after" in response.headers)
 
 
 def _pause_before(repetition: int, response: httpx.Response | None) -> float:

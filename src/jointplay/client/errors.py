@@ -1,7 +1,7 @@
 """Errors between client and service: one class for each remedy."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
 
 if TYPE_CHECKING:
     import httpx
@@ -31,7 +31,7 @@ class ServiceFailure(ClientError):
 
 
 class Overloaded(ServiceFailure):
-    """The service takes no more for now (429 or 503), also when asked several times."""
+    """The service takes no more for now (429, 503 or 507), also when asked several times."""
 
 
 class Refused(ClientError):
@@ -106,6 +106,8 @@ class TimedOut(ClientError):
     """Waiting took too long; the job goes on."""
 
 
+OVERLOADED: Final = frozenset({429, 503, 507})
+"""Statuses of a service that asks for the same request later."""
 _BY_PROBLEM = {
     "not-finished": NotFinished,
     "results-not-ready": ResultsNotReady,
@@ -119,7 +121,7 @@ def error_from(response: "httpx.Response") -> ClientError:
     status = response.status_code
     problem = _problem_in(response)
     detail = str(problem.get("detail") or problem.get("title") or response.reason_phrase)
-    if status in (429, 503):
+    if status in OVERLOADED:
         return Overloaded(f"The service takes no more for now ({status}): {detail}")
     if status >= 500:
         return ServiceFailure(f"The service failed with {status}: {detail}")
