@@ -150,7 +150,7 @@ def delete_batch(unit: Unit, batch_id: str) -> Batch:
     if not batch.finished:
         live = sum(count for state, count in batch.states.items() if not state.terminal)
         raise BatchNotFinished(batch_id, live)
-    there = _job.c.expires.is_(None) | (_job.c.expires > unit.now)
+    there = tables.unexpired(unit.now)
     expired = update(_job).where(_job.c.batch == batch_id, there).values(expires=unit.now)
     unit.execute(expired)
     forget_batch(unit, batch_id)

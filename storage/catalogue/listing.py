@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import fields
 from typing import Any, Final
 
-from sqlalchemy import Text, and_, cast, func, not_, or_, select
+from sqlalchemy import Text, cast, func, or_, select
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
@@ -67,8 +67,8 @@ def page_of_jobs(
         statement = statement.where(columns.id >= earliest(wanted.since))
     if wanted.before is not None:
         statement = statement.where(columns.id < earliest(wanted.before))
-    expired = and_(columns.expires <= unit.now, columns.state.in_(TERMINAL))
-    statement = statement.where(columns.expires.is_(None) | not_(expired))
+    live = columns.state.not_in(TERMINAL)
+    statement = statement.where(live | tables.unexpired(unit.now))
     sizes = statement.with_only_columns(columns.id, func.length(cast(columns.spec, Text)))
     listed = [(job_id, size) for job_id, size in unit.execute(sizes)]
     count = min(_fitting([size for _, size in listed]), limit)

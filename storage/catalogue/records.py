@@ -174,8 +174,12 @@ class Job(JobRequest):
         return None if self.expires is None else self.expires - self.created
 
     def expired(self, now: float) -> bool:
-        """Whether it and its results can be read no more; what is still live never expires."""
-        return self.state.terminal and self.expires is not None and self.expires <= now
+        """Whether it and its results can be read no more; what is still live never expires.
+
+        What was removed stays so, whatever the clock says.
+        """
+        due = self.expires is not None and self.expires <= now
+        return self.state.terminal and (due or self.removed is not None)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ event of that one names the new job.
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 
-from sqlalchemy import exists, or_, select
+from sqlalchemy import exists, select
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
@@ -31,7 +31,7 @@ class Unsuccessful(NamedTuple):
 def unsuccessful(unit: Unit, batch_id: str) -> tuple[Unsuccessful, ...]:
     """Return the jobs of a batch that failed or were cancelled and did not expire, in order."""
     noted = exists().where(_event.c.job == _job.c.id, _event.c.type == _RETRIED)
-    there = or_(_job.c.expires.is_(None), _job.c.expires > unit.now)
+    there = tables.unexpired(unit.now)
     rows = unit.execute(
         select(_job, noted.label(_RETRIED))
         .where(_job.c.batch == batch_id, _job.c.state.in_(RETRIABLE), there)

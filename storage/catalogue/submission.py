@@ -175,7 +175,7 @@ _job = tables.job
 _REUSABLE = (
     _job.c.state.in_(_REUSED),
     _job.c.damaged.is_(None),
-    _job.c.expires.is_(None) | (_job.c.expires > bindparam("now")),
+    tables.unexpired(bindparam("now")),
 )
 _SAME_JOB = (
     select(_job.c.id)

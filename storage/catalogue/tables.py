@@ -10,6 +10,7 @@ from sqlalchemy import (
     JSON,
     BigInteger,
     Column,
+    ColumnElement,
     Dialect,
     Enum,
     Float,
@@ -22,6 +23,7 @@ from sqlalchemy import (
     Text,
     TypeDecorator,
     UniqueConstraint,
+    func,
     literal_column,
 )
 
@@ -94,6 +96,14 @@ job = Table(
     # whose results are to be removed, however many were
     Index("ix_job_removed_expires", "removed", "expires"),
 )
+
+
+def unexpired(now: ColumnElement[float] | float) -> ColumnElement[bool]:
+    """Whether a job that has ended is there to be read: see `records.Job.expired`."""
+    # no IS NULL: SQLite may then go through the index that begins with `removed`
+    kept = func.coalesce(job.c.removed, 0.0) == 0.0
+    return kept & (job.c.expires.is_(None) | (job.c.expires > now))
+
 
 _ended = job.c.finished.is_not(None)
 UNMEASURED: Final = job.c.stored.is_(None) & _ended & (job.c.owner != literal_column("''"))

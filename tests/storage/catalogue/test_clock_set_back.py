@@ -1,10 +1,13 @@
 """A clock that was set takes no block from the living, and delays nothing for long."""
 
+from dataclasses import replace
+
 import pytest
 from stepped_clock import Clock
 
+from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import NewJob
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
 LEASE, REPUBLISH_AFTER, HOUR = 30.0, 20.0, 3600.0
@@ -71,3 +74,22 @@ def test_a_lead_is_not_waited_for(catalogue: Catalogue, clock: Clock) -> None:
     clock.now -= HOUR
     assert catalogue.take_lead("relay", "present", 5)
     assert not catalogue.take_lead("relay", "other", 5)
+
+
+def test_what_was_removed_does_not_come_back(catalogue: Catalogue, clock: Clock) -> None:
+    batch = catalogue.submit_batch([NEW, replace(NEW, digest="e" * 64)])
+    done, failed = batch.jobs
+    for job, state in ((done, BlockState.done), (failed, BlockState.failed)):
+        catalogue.claim_block(f"{job}-0", "worker", LEASE)
+        error = JobError("solver", "diverged", "it did") if state is BlockState.failed else None
+        catalogue.finish(f"{job}-0", 1, BlockEnd(state, error))
+        catalogue.delete(job)
+    catalogue.mark_removed(catalogue.removable(10))
+    clock.now -= HOUR
+    assert all(catalogue.expired(catalogue.get(job)) for job in batch.jobs)
+    assert catalogue.jobs().jobs == ()
+    assert catalogue.unsuccessful(batch.batch.id) == ()
+    assert catalogue.identical(NEW) is None
+    again = catalogue.submit(NEW, reuse=True)
+    assert (again.cached, again.job.id in batch.jobs) == (False, False)
+    assert catalogue.get(done).expires == clock.now + HOUR
