@@ -47,7 +47,9 @@ function words(error, here) {
 }
 
 function keyForm() {
-  const key = element("input", { id: "key", type: "password", autocomplete: "off", required: true });
+  const key = element("input", { id: "key", type: "password", autocomplete: "off", required: true,
+    pattern: "\\s*[!-~]+\\s*", // no request can be sent with others
+    title: "A key begins with jp_, and has letters without accents, digits and - or _ behind it." });
   const given = (event) => {
     event.preventDefault();
     keepKey(key.value);
