@@ -48,7 +48,7 @@ def test_a_job_whose_events_are_not_streamed_is_waited_for_all_the_same(
 ):
     """As one of more jobs than an owner may have streams of."""
     monkeypatch.setattr(owners, "WAITING", 0)
-    monkeypatch.setattr(service_job, "_PATIENCE", 0.0)
+    monkeypatch.setattr(service_job, "PATIENCE", 0.0)
     job_id = worker.submit(duration=0.9375)
     with pytest.raises(TimedOut):
         client.job(job_id).wait(timeout=0.3)
@@ -66,7 +66,7 @@ def test_a_job_whose_events_are_not_streamed_is_waited_for_all_the_same(
 
 
 def test_a_lost_service_is_an_error_and_not_an_end(connect, tmp_path, monkeypatch):
-    monkeypatch.setattr(service_job, "_PATIENCE", 0.5)
+    monkeypatch.setattr(service_job, "PATIENCE", 0.5)
     with serving(create_app(Settings(data=tmp_path / "data"))) as url:
         client = connect(url)
         job = client.submit(PENDULUM)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from jointplay import figures
-from jointplay.client import NotFound, Refused, ResultsNotReady
+from jointplay.client import NotFound, Refused, ResultsNotReady, Unreachable, service_job
+from jointplay.client.connection import Connection
 from jointplay.records.point import PointStatus
 from jointplay.storage.catalogue.records import BlockState
 from tests.worker_by_hand import BIFURCATION, known_section
@@ -141,3 +142,28 @@ def test_what_accuracy_costs_comes_as_a_document(client, finished_accuracy, fini
     assert client.job(finished_accuracy).figures == ["work-precision"]
     with pytest.raises(NotFound, match="has no accuracy"):
         client.job(finished_sweep).accuracy  # noqa: B018  (asking is what fails)
+
+
+def test_a_batch_is_waited_for_while_its_service_is_away_for_a_while(client, monkeypatch):
+    batch = client.submit_batch([PENDULUM | {"cache": False}])
+    away = []
+    get = Connection.get
+
+    def lost(connection, path, query=None):
+        away.append(path)
+        if len(away) <= 3:
+            raise Unreachable("away")
+        return get(connection, path, query)
+
+    def report(found):
+        if not found.is_finished:
+            for job in found.jobs():
+                job.cancel()
+            monkeypatch.setattr(Connection, "get", lost)
+
+    assert batch.wait(report=report).is_finished
+    assert len(away) == 4
+    away.clear()
+    monkeypatch.setattr(service_job, "PATIENCE", 0.0)
+    with pytest.raises(Unreachable):
+        batch.wait()

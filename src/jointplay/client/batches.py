@@ -5,9 +5,10 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, Self
 
+from jointplay.client import service_job
 from jointplay.client.batch_record import BatchRecord, read_batch
 from jointplay.client.connection import Connection, segment
-from jointplay.client.errors import FieldProblem, TimedOut
+from jointplay.client.errors import FieldProblem, ServiceFailure, TimedOut, Unreachable
 from jointplay.client.job import Job
 from jointplay.client.service_job import ServiceJob
 
@@ -55,6 +56,8 @@ class Batch(BatchRecord):
     ) -> Self:
         """Ask until every job is finished, whether it succeeded or not.
 
+        A service that is away is asked again for as long as one that loses a job's events.
+
         Parameters
         ----------
         report
@@ -62,13 +65,19 @@ class Batch(BatchRecord):
         timeout
             Longest wait, s; then `TimedOut`.
         """
-        begin = time.monotonic()
+        begin = heard = time.monotonic()
         while True:
-            self.refresh()
-            if report is not None:
-                report(self)
-            if self.is_finished:
-                return self
+            try:
+                self.refresh()
+            except (Unreachable, ServiceFailure):
+                if time.monotonic() - heard > service_job.PATIENCE:
+                    raise
+            else:
+                heard = time.monotonic()
+                if report is not None:
+                    report(self)
+                if self.is_finished:
+                    return self
             waited = time.monotonic() - begin
             pause = min(max(_LATE * waited, _SHORTEST_PAUSE), _LONGEST_PAUSE)
             if timeout is not None and waited + pause > timeout:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _SILENCE = 45.0  # s without a word, where one comes every 15 s: the connection is lost
-_PATIENCE = 20.0  # s for which a lost service is looked for again
+PATIENCE = 20.0  # s for which a lost service is looked for again
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.1, 2.0
 _BETWEEN_LOOKS = 10.0  # s at most, of a job of whose events the service streams no more
 
@@ -73,7 +73,7 @@ class ServiceJob(Job):
             except (Unreachable, ServiceFailure):
                 now = time.monotonic()
                 lost_since = lost_since or now
-                if now - lost_since > _PATIENCE:
+                if now - lost_since > PATIENCE:
                     raise
             # not all clients of a service that was lost come back in the same moment
             left = inf if deadline is None else max(deadline - time.monotonic(), 0.0)
