@@ -158,6 +158,13 @@ def test_a_batch_of_what_is_no_job_ends_with_two_and_one_line(jointplay, tmp_pat
     assert "/jobs/1: a job is a JSON object" in ended.line()
 
 
+@pytest.mark.parametrize("option", [["--wait"], ["--cancel"], ["--label", "mine"]])
+def test_what_is_of_one_batch_is_refused_without_it(jointplay, service_url, option):
+    ended = jointplay("batch", *option, "--url", service_url)
+    assert (ended.code, ended.out) == (2, "")
+    assert "give its file or id" in ended.line()
+
+
 def test_a_variable_that_is_nearly_a_setting_is_told(jointplay, tmp_path, monkeypatch):
     monkeypatch.setenv("JOINTPLAY_LEESE", "10")
     with holding(tmp_path):

@@ -45,6 +45,8 @@ def batch(
 
     with connect(url) as client:
         if source is None:
+            if wait or cancel or label is not None:
+                raise Stopped("--wait, --cancel and --label are of one batch; give its file or id.")
             listed = list(islice(client.batches(), _MOST_LISTED))
             document = {"batches": [one.to_document() for one in listed]}
             print_result(document, (f"{one.id}  {one.states}" for one in listed), as_json=as_json)
