@@ -190,6 +190,8 @@ def test_waiting_tells_by_the_exit_code_how_the_job_ended(jointplay, at, worker)
     ended = jointplay("show", "--wait", claim.job.id, *at)
     assert ended.code == 3
     assert "Loosen the tolerance." in ended.err.splitlines()[-1]
+    document = jointplay("show", "--wait", "--job", claim.job.id, *at)
+    assert (document.code, json.loads(document.out)) == (3, claim.job.spec)
     assert "solver: Loosen the tolerance." in jointplay("show", claim.job.id, *at).out
     cancelled = worker.submit()
     jointplay("cancel", cancelled, *at)

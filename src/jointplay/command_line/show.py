@@ -40,9 +40,9 @@ def show(
             wait_for(job)
         if document:
             print_json(job.job)
-            return
-        found = results_of(job)
-        print_result(document_of(job, found), _lines(job, found), as_json=as_json)
+        else:
+            found = results_of(job)
+            print_result(document_of(job, found), _lines(job, found), as_json=as_json)
     if wait:
         job.check()
 
