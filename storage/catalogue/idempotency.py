@@ -3,20 +3,28 @@
 from collections.abc import Hashable, Sequence
 from typing import Any, Final
 
-from sqlalchemy import bindparam, delete, insert, select
+from sqlalchemy import bindparam, delete, insert, or_, select
 
 from jointplay.storage.catalogue import labels, tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import KeyReused
-from jointplay.storage.catalogue.records import SubmissionKey, Submitted
+from jointplay.storage.catalogue.records import TERMINAL, SubmissionKey, Submitted
 
 _table = tables.idempotency
-_OF_KEYS: Final = select(_table).where(_table.c.key.in_(bindparam("keys", expanding=True)))
+_job = tables.job
+_there = or_(
+    _table.c.job.is_(None), _job.c.state.not_in(TERMINAL), tables.unexpired(bindparam("now"))
+)
+_OF_KEYS: Final = (
+    select(_table, _there.label("there"))
+    .outerjoin(_job, _job.c.id == _table.c.job)
+    .where(_table.c.key.in_(bindparam("keys", expanding=True)))
+)
 
 
 def answers(unit: Unit, keys: Sequence[str]) -> dict[Hashable, Any]:
     """Return rows of what keys were answered with, by the keys as they are stored."""
-    return {row.key: row for row in unit.execute(_OF_KEYS, {"keys": keys})}
+    return {row.key: row for row in unit.execute(_OF_KEYS, {"keys": keys, "now": unit.now})}
 
 
 def earlier_answer(unit: Unit, key: SubmissionKey) -> Any | None:
@@ -74,8 +82,9 @@ def is_remembered(unit: Unit, key: SubmissionKey) -> bool:
 
 
 def _counts(unit: Unit, row: Any) -> bool:
-    """Whether a key is remembered still, and what it was answered with is there."""
-    return bool(row.expires > unit.now and (row.job is not None or row.batch is not None))
+    """Whether a key is remembered still, and its answer is there and can be read."""
+    answered = row.job is not None or row.batch is not None
+    return bool(row.expires > unit.now and answered and row.there)
 
 
 def remember(unit: Unit, jobs: Sequence[tuple[SubmissionKey, str]]) -> None:

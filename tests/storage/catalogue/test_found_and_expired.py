@@ -177,3 +177,24 @@ def test_further_labels_are_bounded(catalogue: Catalogue, monkeypatch: pytest.Mo
     for label in "abcd":
         found = catalogue.submit(replace(NEW, label=label), reuse=True)
     assert found.job.further_labels == ("b", "c")
+
+
+@pytest.mark.parametrize("mark", [False, True])
+def test_a_key_finds_no_job_that_was_deleted(
+    catalogue: Catalogue, clock: Clock, mark: bool
+) -> None:
+    """As it finds no batch: the same request makes a new one."""
+    new, key = NewJob("simulate", {}, "f" * 64, "1"), SubmissionKey("k", "fingerprint")
+    first = catalogue.submit(new, key).job.id
+    catalogue.claim_block(f"{first}-0", "worker", 30.0)
+    catalogue.finish(f"{first}-0", 1, BlockEnd(BlockState.done))
+    assert catalogue.submit(new, key).job.id == first
+    catalogue.delete(first)
+    clock.now += 1
+    if mark:
+        catalogue.mark_removed(catalogue.removable(10))
+    assert not catalogue.is_remembered(key)
+    assert catalogue.submitted_job(key) is None
+    second = catalogue.submit(new, key)
+    assert (second.created, second.job.id != first) == (True, True)
+    assert catalogue.submit(new, key).job.id == second.job.id
