@@ -106,11 +106,11 @@ class Queueing:
             return found
         jobs = [job for job, retried in ended if not retried]
         if not jobs:
-            why = (
-                "all that failed or were cancelled were retried before"
-                if ended
-                else "none failed or was cancelled"
-            )
+            gone = sum(batch.states[state] for state in RETRIABLE) > len(ended)
+            why = "none failed or was cancelled"
+            if ended or gone:
+                became = ["were retried before"] * bool(ended) + ["were deleted or expired"] * gone
+                why = f"all that failed or were cancelled {', or '.join(became)}"
             detail = f"Batch {batch.id} has no job to retry: {why}."
             raise RequestRefused(kinds.NOTHING_TO_RETRY, detail)
         document = {"jobs": [job.spec for job in jobs], "label": batch.label or ""}

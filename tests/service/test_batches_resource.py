@@ -256,3 +256,12 @@ def test_a_batch_that_is_sent_again_is_found_before_its_jobs_are_checked(
     headers = {"Idempotency-Key": f"another-{size}"}
     assert http.post("/v1/batches", json=document, headers=headers).json()["id"] != first["id"]
     assert len(checked) == (2 if size == 2 else 0)
+
+
+def test_a_batch_whose_failed_jobs_were_deleted_is_said_to_have_none_left(http):
+    batch = http.post("/v1/batches", json={"jobs": [PENDULUM | {"cache": False}]}).json()
+    http.post(batch["links"]["cancel"]).raise_for_status()
+    (job,) = batch["job_ids"]
+    http.delete(f"/v1/jobs/{job}").raise_for_status()
+    detail = http.post(batch["links"]["retry"]).json()["detail"]
+    assert detail.endswith("all that failed or were cancelled were deleted or expired.")
