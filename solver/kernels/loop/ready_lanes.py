@@ -81,10 +81,10 @@ def make_ready(
             resting = resting_rates(problem.scene)
     except REFUSALS:
         resting = np.zeros((len(kernel.pairs), len(problems)))
-        for i, problem in enumerate(problems):
-            problem = replace(problem, scene=scene_of(i))
-            bind(Lane(kernel, tangents, work, i, runs[i]), problem, like)
-            resting[:, i] = resting_rates(problem.scene)
+        for i, one in enumerate(problems):
+            scene = scene_of(i)
+            bind(Lane(kernel, tangents, work, i, runs[i]), replace(one, scene=scene), like)
+            resting[:, i] = resting_rates(scene)
     set_clocks(every.slots, work, runs)
     obstructed = _obstructed(problems, scene_of)
     resting = np.broadcast_to(resting.T, (len(problems), len(kernel.pairs))).T

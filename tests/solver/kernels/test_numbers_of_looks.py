@@ -12,7 +12,7 @@ from jointplay.solver.kernels.emit.functions import DTYPE as FUNCTIONS
 from jointplay.solver.kernels.emit.slots import DTYPE as SLOTS
 from jointplay.solver.kernels.jit import kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extremes.inner_states import may_surpass, surpasses
+from jointplay.solver.kernels.loop.extremes.inner_states import is_in_reach, surpasses
 from jointplay.solver.kernels.loop.extremes.passages import orbiting_at_end
 from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import (
     MIDDLE,
@@ -50,7 +50,7 @@ def orbiting(s: Step) -> float:
 
 @kernel()
 def may_be_beyond(s: Step) -> bool:
-    return may_surpass(0, s)
+    return is_in_reach(0, s)
 
 
 @kernel()
