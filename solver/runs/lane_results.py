@@ -55,8 +55,9 @@ def prescribed_peaks(
         rows[:, kernel.row.phase : kernel.row.wound] = at["clock_start"]
         return bundle.observe(lane, rows, columns)
 
-    fineness = max(INSTANTS_A_PERIOD / period, INSTANTS_A_BEND / float(at.run["unit"]))
-    count = min(math.ceil(fineness * span) + 16, MOST_INSTANTS)
+    bend = float(at.run["unit"])
+    wanted = max(INSTANTS_A_PERIOD * span / period, INSTANTS_A_BEND * span / bend)
+    count = min(math.ceil(wanted) + 16, MOST_INSTANTS)
     times = np.linspace(0.0, span, count)
     return refined_peaks(names, evaluate, times, evaluate(times))
 

@@ -1,7 +1,7 @@
 """An ideal mechanism read at any time: its motion is known without steps."""
 
-import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -41,7 +41,9 @@ class ExactMotion:
         By parabolas through instants that are at most a 2000th of a period apart. Where these do
         not describe a channel, it is evaluated at more.
         """
-        times = self._instants(edges[:-1, None], edges[1:, None])
+        motion = self._run.motion
+        wanted = partial(motion.instants, a_period=INSTANTS_A_PERIOD)
+        times = instants(edges[:-1, None], edges[1:, None], motion.forces_period, wanted)
         values = self._between(names, times.ravel()).reshape(*times.shape, len(names))
         found = np.empty((len(times), len(names), 4))
         for sense, column in ((-1.0, 0), (1.0, 2)):
@@ -70,22 +72,25 @@ class ExactMotion:
         ]
         return np.concatenate([*pieces, np.empty((0, len(names)))])
 
-    def _instants(self, first: Floats, last: Floats) -> Floats:
-        """Return (bins, n) instants, s, from first to last (bins, 1).
 
-        Of bins longer than two periods those of the first one and of the last one: angles that go
-        on turning are extreme there, and all else repeats.
-        """
-        motion = self._run.motion
-        width, period = float((last - first).max()), motion.forces_period
-        if period is not None and float((last - first).min()) > 2.0 * period:
-            count = math.ceil(motion.fineness(INSTANTS_A_PERIOD) * period)
-            beyond = period * np.linspace(0.0, 1.0, max(count, FEWEST))
-            return np.concatenate([first + beyond, last - beyond[::-1]], axis=1)
-        count = math.ceil(motion.fineness(INSTANTS_A_PERIOD) * width)
-        most = max(MOST, MOST_TOGETHER // len(first))
-        shares = np.linspace(0.0, 1.0, min(max(count, FEWEST), most))
-        return np.asarray(first + (last - first) * shares, np.float64)
+def instants(
+    first: Floats, last: Floats, period: float | None, wanted: Callable[[float], int]
+) -> Floats:
+    """Return (bins, n) instants, s, from first to last (bins, 1): as many as wanted, within bounds.
+
+    Of bins longer than two periods those of the first one and of the last one: angles that go on
+    turning are extreme there, and all else repeats. `wanted` : number of instants of a span, s.
+    """
+    most = max(MOST, MOST_TOGETHER // len(first))
+    if period is not None and float((last - first).min()) > 2.0 * period:
+        beyond = period * _shares(wanted(period), most // 2)
+        return np.concatenate([first + beyond, last - beyond[::-1]], axis=1)
+    shares = _shares(wanted(float((last - first).max())), most)
+    return np.asarray(first + (last - first) * shares, np.float64)
+
+
+def _shares(count: int, most: int) -> Floats:
+    return np.linspace(0.0, 1.0, min(max(count, FEWEST), most))
 
 
 def _best(values: Floats, times: Floats, sense: float) -> tuple[Floats, Floats]:

@@ -24,7 +24,7 @@ COMES_BACK = 1e-6
 """Distance of poses a period apart, in rad and lengths of the shortest link, that is rounding."""
 MOST_PERIODS = 4
 """Periods of the drivers within which a mechanism may come back."""
-INSTANTS_A_BEND = 100
+INSTANTS_A_BEND = 25
 """Instants in the shortest time in which a driver or a force turns or bends."""
 
 
@@ -65,13 +65,13 @@ class IdealMotion:
         self.period, end = None, self.path.end.time
         return elsewhere(MOST_PERIODS, end) if end < duration else None
 
-    def fineness(self, a_period: int) -> float:
-        """Return instants a second at which extremes are first sought.
+    def instants(self, span: float, a_period: int) -> int:
+        """Return at how many instants of a span, s, extremes are first sought.
 
         So many in a period, and `INSTANTS_A_BEND` in the shortest time in which a driver or a force
         turns or bends.
         """
-        return max(a_period / self.unit, INSTANTS_A_BEND / self._bend)
+        return math.ceil(max(a_period * span / self.unit, INSTANTS_A_BEND * span / self._bend))
 
     @property
     def forces_period(self) -> float | None:

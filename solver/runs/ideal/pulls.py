@@ -1,7 +1,5 @@
 """Ideal followers that are pulled in a motion that drivers prescribe."""
 
-import math
-
 import numpy as np
 
 from jointplay.records.arrays import Floats
@@ -29,7 +27,7 @@ def pulls_of_motion(motion: IdealMotion, duration: float) -> list[Pulled]:
         return np.stack(columns, axis=1)
 
     span = min(duration, motion.forces_period or duration)
-    count = min(max(math.ceil(motion.fineness(SCAN_A_PERIOD) * span), 16), MOST_SCANNED)
+    count = min(max(motion.instants(span, SCAN_A_PERIOD), 16), MOST_SCANNED)
     times = np.linspace(0.0, span, count + 1)
     found = np.concatenate([forces(times[i : i + AT_ONCE]) for i in range(0, len(times), AT_ONCE)])
     peaks = refined_peaks(names, forces, times, found)

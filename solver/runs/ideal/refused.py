@@ -37,7 +37,7 @@ def _refused_at(motion: IdealMotion, name: str, duration: float) -> float | None
     """Return when a force is first no number, s; None: it is one as far as the motion goes."""
     reached = duration if motion.lost is None else motion.lost.time
     span = min(reached, motion.forces_period or reached)
-    count = min(max(math.ceil(motion.fineness(SCAN_A_PERIOD) * span), 16), MOST_SCANNED)
+    count = min(max(motion.instants(span, SCAN_A_PERIOD), 16), MOST_SCANNED)
     times = np.linspace(0.0, span, count, endpoint=motion.lost is None)
     for first in range(0, count, AT_ONCE):
         refused = _refused(motion, name, times[first : first + AT_ONCE])

@@ -1,6 +1,5 @@
 """Runs a scene whose drivers leave no freedom: no integration, only exact motion at instants."""
 
-import math
 import time
 from collections.abc import Iterator
 from typing import Any
@@ -177,7 +176,7 @@ class IdealRun:
         period, settle = self.motion.forces_period, self.admission.settle
         length = self.duration - settle
         span = min(length, period) if period else length
-        count = max(math.ceil(self.motion.fineness(SCAN_A_PERIOD) * span), 16)
+        count = max(self.motion.instants(span, SCAN_A_PERIOD), 16)
         times = settle + np.linspace(0.0, span, min(count, MOST_SCANNED) + 1)
         peaks = self._peaks(times)
         if length > span:  # angles that go on turning are extreme in the last period
