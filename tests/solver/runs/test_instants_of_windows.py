@@ -1,4 +1,4 @@
-"""How many instants of an ideal mechanism a window is sought at: bounded, whatever bends."""
+"""Instants that a window of an ideal mechanism is sought at: bounded, however much bends."""
 
 import numpy as np
 import pytest
