@@ -26,7 +26,6 @@ from jointplay.solver.runs.certificate.kinds import FORCE, MEANINGS, PRESCRIBED,
 from jointplay.solver.runs.certificate.remarks import remarks
 from jointplay.solver.runs.certificate.scales import CRITERION, motion_of, scales_of
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
-from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import tangent_obstacle
 
@@ -118,8 +117,6 @@ def certify(
     error, horizon = errors_of(companions, columns, values, scales, safety, count)
     small = estimate.within(error, scales)
     edges, share, spread = estimate.histogram(values[:, :, :count], time)
-    if clocks(scene) and estimate.misses_phases(time, float(bundle.lane(RUN).run["period"])):
-        edges, share, spread = (np.full_like(one, np.nan) for one in (edges, share, spread))
     until = estimate.until(small[:, :count], time)
     kinds = kinds_of(channels, rows)
     forces = [end for end, kind in zip(until, kinds, strict=True) if kind == FORCE]

@@ -122,22 +122,6 @@ def spans(small: Flags, time: Floats) -> list[list[float]]:
 
 
 BINS = 16
-WIDEST = 0.1
-"""Share of a period in which a histogram may have no instant."""
-
-
-def misses_phases(time: Floats, period: float) -> bool:
-    """Return whether late instants (s) leave out a part of the period (s) of what drives a motion.
-
-    Those of 2^k periods are whole parts of a period apart: of 64 periods the later half has two
-    phases, and a histogram would be that of two positions. The later half counts, if it is a period
-    or more: it stands for half of the time.
-    """
-    late = time[time > 0.5 * time[-1]]
-    if len(late) < 2 or late[-1] - late[0] < period:
-        return False
-    phases = np.sort(late / period % 1.0)
-    return bool(np.diff([*phases, phases[0] + 1.0]).max() > WIDEST)
 
 
 def histogram(values: Floats, time: Floats) -> tuple[Floats, Floats, Floats]:

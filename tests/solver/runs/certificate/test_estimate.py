@@ -19,7 +19,6 @@ from jointplay.solver.runs.certificate.estimate import (
     apart,
     around,
     histogram,
-    misses_phases,
     near_claims,
     spans,
     until,
@@ -106,15 +105,11 @@ def test_shares_of_time_add_up_and_equal_lanes_have_no_spread() -> None:
     assert histogram(values, TIME)[2].max() > 0.0
 
 
-@pytest.mark.parametrize(
-    ("periods", "missed"),
-    [(0.5, 0), (1, 0), (8, 0), (60, 0), (16, 1), (64, 1), (64.2, 1), (256, 1)],
-)
-def test_a_histogram_is_that_of_the_motion_or_its_instants_miss_phases(periods, missed):
-    """Shares of a sine beside those of samples that are ten thousand times closer."""
+@pytest.mark.parametrize("periods", [0.5, 1, 8, 16, 60, 64, 64.2, 256, 1000, 2**20])
+def test_a_histogram_is_that_of_the_motion_however_its_period_divides_the_run(periods):
+    """Shares of a sine beside those of samples that are thousands of times closer."""
     time = Instants.over(periods, 1.0).time
-    assert misses_phases(time, 1.0) == missed
     edges, share, _ = histogram(np.sin(2.0 * np.pi * time)[None, :, None], time)
-    fine = np.sin(2.0 * np.pi * np.linspace(0.0, periods, 1_000_000))
+    fine = np.sin(2.0 * np.pi * np.linspace(0.0, min(periods, 100.0), 1_000_000))
     true = np.histogram(fine, edges[:, 0])[0] / len(fine)
-    assert missed or np.abs(share[:, 0] - true).max() < 0.05
+    assert np.abs(share[:, 0] - true).max() < 0.05

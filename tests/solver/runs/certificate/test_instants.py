@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
@@ -28,6 +30,16 @@ def test_each_octave_has_half_as_many_as_the_first(
     later = time[1:] > time[FIRST]
     assert (steps[later] <= time[1:][later] / (FIRST / 2)).all()
     assert all(instants.index[i] % instants.stride(int(instants.index[i])) == 0 for i in range(9))
+
+
+@given(st.floats(1.0, 1e9) | st.integers(1, 10**6).map(float), st.floats(1e-3, 1e3))
+def test_late_instants_meet_all_phases_of_the_period(periods: float, period: float) -> None:
+    instants = Instants.over(periods * period, period)
+    assert not instants.misses_phases(period)
+    assert FIRST <= instants.first <= 1.1 * FIRST
+    assert instants.time[-1] == instants.duration
+    assert (np.diff(instants.time) > 0.0).all()
+    assert all(i % instants.stride(i) == 0 for i in map(int, instants.index))
 
 
 def followed(budget: int) -> tuple[Bundle, Companions]:
