@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.solver.runs.certificate import estimate
 from jointplay.solver.runs.certificate.companions import TWIN, Companions
+from jointplay.solver.runs.certificate.drawn_rates import drawn_rates
 from jointplay.solver.runs.certificate.steepness import steepness
 
 
@@ -32,7 +33,8 @@ def errors_of(
         Times that companions are apart which an error may be.
     """
     time = companions.instants.time[: companions.compared]
-    apart = safety * estimate.apart(values)
+    times = np.where(drawn_rates(companions), max(estimate.UNCONTROLLED, safety), safety)
+    apart = times[:, None] * estimate.apart(values)
     near = estimate.near_claims(apart[:, channels:], scales[channels:])
     steep = steepness(companions, safety, columns, values[TWIN - 1], near)
     error = estimate.around(np.maximum(apart, steep))

@@ -28,8 +28,8 @@ from jointplay.solver.runs.certificate.companions import (
 
 SAFETY, UNCONTROLLED = 3.0, 6.0
 """Estimated errors by what companions are apart; the second where steps are fixed: there errors are
-as late as contacts are, by parts of a step that do not follow its length; and beyond the horizon,
-where companions are draws of an outcome that none of them need have."""
+as late as contacts are, by parts of a step that do not follow its length; where a latched rate is a
+draw; and beyond the horizon, where companions are draws of an outcome that none need have."""
 REACH = 2
 """Instants."""
 CONVERGED = 0.05
