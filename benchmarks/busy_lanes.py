@@ -6,9 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 
 PRESSES = 64
 CLEARANCES = [float(clearance) for clearance in np.linspace(3e-4, 6e-4, PRESSES)]

@@ -21,7 +21,7 @@ from jointplay.solver.kernels.emit.functions import (
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
 from jointplay.solver.kernels.loop import generated
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 
 REVOLUTIONS = 10
 STAGES = 6

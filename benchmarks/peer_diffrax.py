@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import Expression
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 
 LONGEST_STEP, FIRST_STEP = 1e-3, 1e-7
 """s, as other peers have."""

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.integrate import DOP853, LSODA, RK45, OdeSolver, solve_ivp
 
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 
 SCIPY: dict[str, type[OdeSolver]] = {"RK45": RK45, "DOP853": DOP853, "LSODA": LSODA}
 FIRST_STEP, LONGEST_STEP = 1e-7, 1e-3

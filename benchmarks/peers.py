@@ -28,8 +28,8 @@ from benchmarks.peer_exudyn import measure_exudyn
 from benchmarks.peer_legs import CompiledEquations, Leg, by_legs, cvode_leg, scipy_leg
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.scene.document import Scene
 
 CASE = {

@@ -16,9 +16,9 @@ import numpy as np
 from benchmarks.busy_lanes import CLEARANCES, busy_lanes
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.mechanics.tree import spanning_tree
 
 CASE = {

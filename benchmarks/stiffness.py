@@ -12,10 +12,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.runs.lane_results import ledger_of
 from jointplay.solver.runs.stiff_method import EXPLICIT, IMPLICIT, TIGHTER
 

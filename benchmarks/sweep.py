@@ -20,8 +20,8 @@ from benchmarks.paper_equations import SIMULATED, seconds_a_period
 from benchmarks.press import CASE
 from jointplay.client import Client
 from jointplay.service.processes import running_service
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kinds import Study, admit
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.runs.study.run import StudyRun
 
 VALUES, SETTLE, RECORD = 200, 100, 50

@@ -24,7 +24,7 @@ IMPORTED = (
     "jointplay.command_line.application",
     "jointplay.figures",
     "jointplay.local.folder_results",
-    "jointplay.solver.kernels.loop.bundle",
+    "jointplay.solver.lanes.bundle",
     "jointplay.local.running",
     "jointplay.worker.windows.evaluate",
     "matplotlib.backends.backend_agg",

@@ -20,8 +20,8 @@ from benchmarks.device.prepare import CAPACITY, MECHANISMS, texts, work_of
 from jointplay.solver.kernels.device.compiled import ptx
 from jointplay.solver.kernels.device.lanes import Sizes
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from tests.solver.readable_mechanics import preset
 
 ARCHITECTURE = "sm_90"

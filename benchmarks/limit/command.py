@@ -28,8 +28,8 @@ from benchmarks.limit.program import WIDTHS, Program, compiler
 from benchmarks.limit.table import EXACT, PRODUCT, WHEEL, C, table
 from benchmarks.limit.turns import Samples, install, product, take_turns
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 
 CHECKED = 0.03
 """Time at which states are compared, s: after nine onsets."""

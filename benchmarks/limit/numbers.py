@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from benchmarks.press_joints import fit
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import SteadyDriver
 

@@ -17,9 +17,9 @@ from jointplay.solver.calibration.windows import Windows
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.start.states import start_state
 from jointplay.solver.runs.lane_results import peaks_of

@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import SAMPLES
+from jointplay.solver.lanes.bundle import Bundle
 
 ROWS = 256
 """Rows of a period: (2 pi / 256)^5 / 100 is 1e-10."""

@@ -9,9 +9,9 @@ of the orbit (Kuznetsov 2004, Elements of Applied Bifurcation Theory, 3rd ed., s
 from dataclasses import dataclass, replace
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import Event
 from jointplay.solver.kernels.loop.runs import SECTIONS
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import Event
 
 EARLIEST = 1e-3
 """Time before which a run is still at the section where it began, in that between two crossings:

@@ -22,9 +22,9 @@ from jointplay.solver.continuation.passage import Passage, Section
 from jointplay.solver.continuation.slips import Slips
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import Event, LaneProblem, LaneStart
 from jointplay.solver.runs.lane_results import failure_of
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import common_period

@@ -9,9 +9,9 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.crossing import PATIENCE, Crossings
 from jointplay.solver.continuation.section_map import TURN, SectionMap
 from jointplay.solver.continuation.section_runs import ATTEMPTS, Answers
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.runs.geared_wheels import geared_angles, periods_until_back
 from jointplay.solver.runs.lane_results import failure_of
 from jointplay.solver.scene.document import Scene

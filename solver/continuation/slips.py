@@ -7,8 +7,8 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.continuation.friction_phases import phases
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import SAMPLES
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.laws.force import Ends, ForceElement
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.laws.function.table import Table

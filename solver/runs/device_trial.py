@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.kernels.device.bundle import DeviceBundle
 from jointplay.solver.kernels.device.driver import Device
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.device_bundle import DeviceBundle
 from jointplay.solver.runs.trial_pace import ATTEMPTS, trial_problems
 from jointplay.solver.scene.document import Scene
 

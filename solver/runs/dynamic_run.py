@@ -7,10 +7,10 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.records.checkpoint import decode, encode
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.hand_over import handed_over
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.hand_over import handed_over
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.mechanics.section_states import states_at_section
 from jointplay.solver.runs import stiff_method
 from jointplay.solver.runs.admission import Admission

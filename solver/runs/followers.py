@@ -8,9 +8,9 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.records.peak import Peak
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import SAMPLES
 from jointplay.solver.kernels.trace.rows import Rows
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.lane_results import peaks_of
 from jointplay.solver.scene.document import Scene

@@ -10,8 +10,8 @@ from jointplay.records.arrays import Floats
 from jointplay.records.failure import SimulationFailed
 from jointplay.records.peak import Peak
 from jointplay.solver.kernels.emit.slots import TIME
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import PACE_STEPS, SLOWEST_PACE, Status
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.quantities.extremes import refined_peaks
 from jointplay.solver.runs.left_domains import left_domain
 from jointplay.solver.scene.document import Scene

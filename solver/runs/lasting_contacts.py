@@ -4,7 +4,7 @@ A law that latches the impact rate keeps it as long as the contact lasts: a numb
 the motion changes any more, and that the motion depends on.
 """
 
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Function
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.integrators import AUTO, STIFF
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.run_kernel import run_kernel
 from jointplay.solver.runs.stiffness import fastest_rate

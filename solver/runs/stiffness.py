@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.lane import aligned_zeros
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.lane import aligned_zeros
 from jointplay.solver.linear_algebra.spectral_radius import spectral_radius
 
 SQUARINGS = 10

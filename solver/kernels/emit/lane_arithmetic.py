@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from functools import cache
 
 ALIGNED = 8
-"""Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
+"""Bytes that an address is surely a multiple of; `solver.lanes` has arrays begin on 64."""
 
 
 @cache

@@ -46,7 +46,7 @@ def latch_tangent(j: int, s: Step) -> None:
     continuous there. The same holds where contact ends. It fails for a law whose force jumps at
     touch, such as a viscous damper without the factor δ^n. Friction with equal limit velocities
     jumps, too, but where the slip reverses, which is no onset; a run with such friction has no
-    tangent (`solver.kernels.loop.beginning`).
+    tangent (`solver.lanes.beginning`).
     """
     lane, at, work = s.lane, s.at, s.work
     rate = work[at.penetration_rate + j, lane]

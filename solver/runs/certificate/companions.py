@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats, Integers
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.lane import Lane
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.quantities.scalars import power
 from jointplay.solver.runs.certificate.instants import Instants
 from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.runs.certificate import estimate
 from jointplay.solver.runs.certificate.companions import ONSETS, RUN, TWIN, Companions
 

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.entry_points import measure_tangent
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.quantities.scalars import logarithm
 from jointplay.solver.runs.certificate.companions import RUN, TIGHTEST, Companions
 

@@ -1,6 +1,6 @@
 """Impacts slower than the floor of their impact rate: what a certificate says of them."""
 
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 
 
 def slow_impacts(bundle: Bundle, lane: int) -> str:

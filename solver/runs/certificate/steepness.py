@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats, Integers
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.runs.certificate.companions import (
     PERTURBED,
     RUN,

@@ -10,9 +10,9 @@ from jointplay.records.arrays import Floats
 from jointplay.records.channel import Channel
 from jointplay.solver.kernels.emit.slots import TIME, DenseRow
 from jointplay.solver.kernels.emit.tangents import compile_tangents
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing_rows import ClosingRow, closing_rows
 from jointplay.solver.mechanics.kinematics import Kinematics

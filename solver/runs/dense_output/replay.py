@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.slots import LENGTH
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.entry_points import (
     extremes_in_steps,
     find_steps,
@@ -17,8 +16,9 @@ from jointplay.solver.kernels.loop.entry_points import (
 )
 from jointplay.solver.kernels.loop.extremes.search.brackets import SHARP
 from jointplay.solver.kernels.loop.extremes.window.blank_book import blank_book
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.workspace import Workspace
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
 from jointplay.solver.runs.run_kernel import run_kernel

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.problem import Event
 from jointplay.solver.kernels.loop.runs import SectionKind
+from jointplay.solver.lanes.problem import Event
 
 
 def crossing_event(kernel: Kernel, section: Mapping[str, Any], not_before: float = 0.0) -> Event:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from functools import partial
 
-from jointplay.solver.kernels.device.bundle import DeviceBundle
 from jointplay.solver.kernels.device.driver import Device, DeviceError
 from jointplay.solver.kernels.device.lanes import BLOCK
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
+from jointplay.solver.lanes.device_bundle import DeviceBundle
 from jointplay.solver.runs.study.lane_group import Make
 from jointplay.solver.runs.study.plan import Study
 

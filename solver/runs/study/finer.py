@@ -7,7 +7,7 @@ share of the record, in far smaller steps; `solver.nonlinear.lyapunov` compares 
 
 import math
 
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.runs.study.indicators import LATE
 from jointplay.solver.runs.study.problem import ENDLESS
 from jointplay.solver.scene.document import Scene

@@ -7,7 +7,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.records.point import PointEnd
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.nonlinear.lyapunov import undecided
 from jointplay.solver.nonlinear.verdict import RESTS
 from jointplay.solver.nonlinear.whole_turns import unwound

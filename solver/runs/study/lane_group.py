@@ -9,9 +9,9 @@ import numpy as np
 from jointplay.records.arrays import Flags
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes
 from jointplay.solver.kernels.loop.runs import RUNNING, Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.ready_lanes import ReadyLanes
 from jointplay.solver.runs.study.held_starts import end_of_start
 from jointplay.solver.runs.study.judge import judged, looks_again, looks_longer
 from jointplay.solver.runs.study.neighbour import neighbours_start

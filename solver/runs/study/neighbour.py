@@ -4,8 +4,8 @@ import math
 from dataclasses import replace
 from typing import Final
 
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneStart
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneStart
 from jointplay.solver.runs.geared_wheels import driven_wheels_back_after
 from jointplay.solver.runs.study.plan import Study
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.runs.dense_output.replay import ProblemReplay
 from jointplay.solver.runs.lane_results import peaks_of
 from jointplay.solver.runs.settled_peaks import SettledPeaks

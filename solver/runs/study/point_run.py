@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.point import PointEnd
-from jointplay.solver.kernels.loop.bundle import LaneState
-from jointplay.solver.kernels.loop.problem import LaneStart
+from jointplay.solver.lanes.bundle import LaneState
+from jointplay.solver.lanes.problem import LaneStart
 from jointplay.solver.nonlinear.settling import SETTLINGS, Settling
 from jointplay.solver.runs.study.indicators import RECURS
 from jointplay.solver.runs.study.plan import Study

@@ -10,7 +10,7 @@ import time
 from typing import TYPE_CHECKING
 
 from jointplay.records.point import StudySlice
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.runs.budget import SLICE_SECONDS, SliceBudget
 from jointplay.solver.runs.study.lane_group import LaneGroup, Make
 from jointplay.solver.runs.study.plan import Study

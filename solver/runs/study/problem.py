@@ -8,10 +8,10 @@ import numpy as np
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.loop.binding import own_start
-from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
-from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes, make_ready
 from jointplay.solver.kernels.loop.runs import SectionKind
+from jointplay.solver.lanes.binding import own_start
+from jointplay.solver.lanes.problem import Event, LaneProblem, LaneStart
+from jointplay.solver.lanes.ready_lanes import ReadyLanes, make_ready
 from jointplay.solver.runs.starts import perturbed_start, start_scales
 from jointplay.solver.runs.study.crossing import crossing_event
 from jointplay.solver.runs.study.plan import Study

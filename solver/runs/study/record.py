@@ -6,8 +6,8 @@ import numpy as np
 
 from jointplay.records.failure import SimulationFailed
 from jointplay.records.point import PointEnd, SectionRows
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.runs.lane_results import failure_of, statistics_of
 from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.runs.study.indicators import MOST_SECTIONS

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.nonlinear.verdict import RESTING
 from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.clocks import timed

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from jointplay.records.checkpoint import decode, encode
 from jointplay.records.point import PointEnd
-from jointplay.solver.kernels.loop.bundle import LaneState
-from jointplay.solver.kernels.loop.problem import LaneStart
+from jointplay.solver.lanes.bundle import LaneState
+from jointplay.solver.lanes.problem import LaneStart
 from jointplay.solver.runs.study.lane_group import LaneGroup
 from jointplay.solver.runs.study.point_extremes import STATE
 from jointplay.solver.runs.study.point_run import PointRun

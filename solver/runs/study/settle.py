@@ -1,7 +1,7 @@
 """The time until a point settles, in legs of some periods; then the record begins."""
 
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import SECTIONS, SectionKind
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.problem import ENDLESS, WINDOW, most_settling, scales_of

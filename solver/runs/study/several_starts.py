@@ -12,7 +12,7 @@ from jointplay.records.motion import FAILED, UNDECIDED
 from jointplay.records.point import PointEnd, PointStatus
 from jointplay.records.study import StudyDataset
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.problem import LaneStart
+from jointplay.solver.lanes.problem import LaneStart
 from jointplay.solver.nonlinear.verdict import VERDICTS
 from jointplay.solver.runs.study.cycles import attributes_of
 from jointplay.solver.runs.study.plan import Study

@@ -8,10 +8,10 @@ from jointplay.records.arrays import Floats
 from jointplay.records.energy_residual import RELATIVE_ENERGY_RESIDUAL
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES as ROWS_OF_SAMPLES
 from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.runs.lane_results import failure_of, statistics_of
 from jointplay.solver.runs.work_precision.plan import Run
 from jointplay.solver.scene.document import Scene

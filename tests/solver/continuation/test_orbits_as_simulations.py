@@ -8,9 +8,9 @@ import pytest
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.runs.certificate.companions import Companions
 from tests.solver.completed_runs import run
 from tests.solver.continuation.oscillator import document

@@ -11,9 +11,9 @@ from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels import kernel_cache
 from jointplay.solver.kernels.emit import enclosure
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.runs.results import Summary
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene.document import Scene

@@ -8,9 +8,9 @@ that end on its onsets.
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.lane import aligned_zeros
 from jointplay.solver.kernels.target import own_target
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.lane import aligned_zeros
 
 LANES = own_target().lanes
 

@@ -9,9 +9,9 @@ from jointplay.solver.kernels.emit.functions import SIGNATURES
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import SectionKind
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import Event, LaneProblem
 from jointplay.solver.scene.document import Scene
 from tests.solver.readable_mechanics import preset
 

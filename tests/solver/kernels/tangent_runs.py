@@ -4,7 +4,7 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.tangents import compile_tangents
-from jointplay.solver.kernels.loop.bundle import Bundle, LaneProblem
+from jointplay.solver.lanes.bundle import Bundle, LaneProblem
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
 

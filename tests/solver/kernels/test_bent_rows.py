@@ -5,9 +5,9 @@ import pytest
 
 from jointplay.solver.integrators import method_for
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.lane import Lane
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.presets import document
 

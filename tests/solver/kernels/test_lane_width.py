@@ -18,8 +18,8 @@ from pathlib import Path
 import numpy as np
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.integrators import TSITOURAS5
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kinds import admit
 from jointplay.solver.mechanics.tree import spanning_tree

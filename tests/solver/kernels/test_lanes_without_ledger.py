@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.runs.lane_results import statistics_of
 from tests.solver.readable_mechanics import preset
 

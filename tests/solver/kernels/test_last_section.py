@@ -3,9 +3,9 @@
 import pytest
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import SECTIONS, SectionKind
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import Event, LaneProblem
 from tests.solver.readable_mechanics import preset
 
 

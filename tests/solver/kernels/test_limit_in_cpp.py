@@ -11,7 +11,7 @@ from benchmarks.limit.product import WAYS, Measured
 from benchmarks.limit.program import WIDTHS, Program, compiler
 from benchmarks.limit.table import PRODUCT, ROWS, WHEEL, C, table
 from benchmarks.limit.turns import take_turns
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 
 CHECKED = 0.01
 """s: one or two contacts have begun in each of the first eight presses."""

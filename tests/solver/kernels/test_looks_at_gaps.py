@@ -4,10 +4,10 @@ import pytest
 
 from jointplay.solver.kernels.jit import kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.onset import forget_looks, look_at_eighths, look_between
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.step import Workspace, group_of, step_of
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from tests.solver.readable_mechanics import preset
 
 

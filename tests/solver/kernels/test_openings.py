@@ -16,11 +16,11 @@ from jointplay.solver.kernels.emit.judging import RELEASE
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.slots import DTYPE
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.lane import aligned_zeros
 from jointplay.solver.kernels.loop.openings import dip, falling_root
 from jointplay.solver.kernels.loop.runs import DTYPE as RUN
 from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.target import own_target
+from jointplay.solver.lanes.lane import aligned_zeros
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.readable_mechanics import preset
 

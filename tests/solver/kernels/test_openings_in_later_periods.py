@@ -3,8 +3,8 @@
 import math
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from tests.solver.readable_mechanics import preset
 
 PERIODS, SPEED = 12, 25.0

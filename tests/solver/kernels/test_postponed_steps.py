@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop import bundle as bundles
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES
+from jointplay.solver.lanes import bundle as bundles
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.scene.document import Scene
 
 COUNT, DURATION, KNOTS = 20_001, 1.0, 40

@@ -9,9 +9,9 @@ import pytest
 from jointplay.solver.kernels.emit.closer_looks import EVERY
 from jointplay.solver.kernels.jit import kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.extremes.search.rounding import GROWN, ROUNDING, zigzags
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.scene.channels import channels
 from tests.solver.readable_mechanics import preset
 

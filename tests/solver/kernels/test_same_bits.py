@@ -14,11 +14,11 @@ from jointplay.solver.kernels.emit.module import load
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS, Layout
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.lane import aligned_zeros
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.target import Target, own_target
 from jointplay.solver.kernels.trace.tracer import Tracer
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.lane import aligned_zeros
+from jointplay.solver.lanes.problem import LaneProblem
 from tests.solver.readable_mechanics import preset
 
 OWN = own_target()

@@ -24,8 +24,8 @@ from jointplay.solver.kernels.emit.slots import (
 )
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.readable_mechanics import preset
 

@@ -10,7 +10,7 @@ from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.completed_runs import CASE_3
 from tests.solver.kernels.companion import companion_growth

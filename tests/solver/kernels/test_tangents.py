@@ -6,8 +6,8 @@ from itertools import cycle
 import numpy as np
 import pytest
 
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.target import own_target
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.scene import presets
 from tests.solver.completed_runs import CASE_3
 from tests.solver.kernels.tangent_runs import bundle_of, grown, growth, problem

@@ -8,9 +8,9 @@ import pytest
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kinds import admit
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.force.distance import distance
 from jointplay.solver.mechanics.courses import acting_between

@@ -8,9 +8,9 @@ import pytest
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.tangents import compile_tangents
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kinds import admit
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene.document import Scene

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import IMPACT, SAMPLES, SECTIONS, Status
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.kinds.simulate import sample_count
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs import budget as slice_budget
 from jointplay.solver.runs.certificate.certificate import Certificate

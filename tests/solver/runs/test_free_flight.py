@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import SECTIONS, SectionKind, Status
 from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import Event, LaneProblem
 from tests.solver.completed_runs import run
 from tests.solver.runs.free_flights import Flight, Pair, ring, rotor
 

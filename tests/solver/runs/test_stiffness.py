@@ -8,10 +8,10 @@ import pytest
 from numpy.typing import NDArray
 
 from jointplay.records.failure import SimulationFailed
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kinds import admit
 from jointplay.solver.kinds.simulate import Admission
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.runs.results import Summary
 from jointplay.solver.runs.run_kernel import run_kernel
 from jointplay.solver.runs.simulate import Simulation

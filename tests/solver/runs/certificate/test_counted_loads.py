@@ -4,8 +4,8 @@ import sys
 from types import FrameType
 from typing import cast
 
-from jointplay.solver.kernels.loop.ready_lanes import make_ready
 from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.lanes.ready_lanes import make_ready
 from jointplay.solver.runs.dynamic_run import DynamicRun
 
 TIMES = 4

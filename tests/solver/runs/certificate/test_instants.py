@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.runs.certificate.companions import LADDER, RUN, TWIN, Companions
 from jointplay.solver.runs.certificate.instants import FIRST, Instants
 from tests.solver.runs.test_determinism import PROBLEMS, bundle_of, preset

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.runs.certificate.companions import RUN, TWIN, Companions
 from jointplay.solver.runs.certificate.estimate import SAFETY
 from jointplay.solver.runs.certificate.steepness import TOWARDS, steepness

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from jointplay.solver.kernels.loop.problem import LaneStart
+from jointplay.solver.lanes.problem import LaneStart
 from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.runs.study.restart_point import read, written
 from tests.solver.runs.study.test_run import Computed

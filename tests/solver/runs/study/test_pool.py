@@ -10,12 +10,12 @@ import pytest
 from jointplay.records.point import StudySlice
 from jointplay.solver.computations import computation_of
 from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kinds import admit
+from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.pool import Pool
 from jointplay.solver.runs.study.run import StudyRun
-from tests.solver.kernels.device.test_device_bundle import on_device
+from tests.solver.lanes.test_device_bundle import on_device
 
 LANES = 10
 SHORT = 1e-9

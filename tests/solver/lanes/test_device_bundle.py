@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.kernels.device.bundle import DeviceBundle
 from jointplay.solver.kernels.device.driver import Device, DeviceError
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, SectionKind, Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.device_bundle import DeviceBundle
+from jointplay.solver.lanes.problem import Event, LaneProblem
 from tests.solver.kernels.device.driver_by_host import DriverByHost
 from tests.solver.readable_mechanics import preset
 

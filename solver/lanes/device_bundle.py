@@ -19,8 +19,6 @@ from jointplay.solver.kernels.device.lanes import DeviceLanes, Sizes
 from jointplay.solver.kernels.device.trimmed import slots_of_energies, without
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.loop.bundle import Bundle, GroupState, LaneState
-from jointplay.solver.kernels.loop.ready_lanes import ENERGIES
 from jointplay.solver.kernels.loop.runs import (
     DTYPE,
     GROWTH,
@@ -29,6 +27,8 @@ from jointplay.solver.kernels.loop.runs import (
     SectionKind,
     Status,
 )
+from jointplay.solver.lanes.bundle import Bundle, GroupState, LaneState
+from jointplay.solver.lanes.ready_lanes import ENERGIES
 
 HANDED = ("filled", "impacts", "growths", "kept")
 """Fields of a run that say how much it has handed out."""

@@ -13,8 +13,6 @@ from jointplay.solver.kernels.emit.enclosure import HELD, SKIN
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BENDS
-from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import (
     DTYPE,
     NO_PAIR,
@@ -24,6 +22,8 @@ from jointplay.solver.kernels.loop.runs import (
     SectionKind,
 )
 from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER
+from jointplay.solver.lanes.lane import Lane
+from jointplay.solver.lanes.problem import Event, LaneProblem
 from jointplay.solver.mechanics.assembly import assemble, shortest_link, start_of
 from jointplay.solver.mechanics.impact_floors import impact_floor
 from jointplay.solver.mechanics.start.states import mechanism_size, start_state

@@ -3,10 +3,10 @@
 import numpy as np
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.hand_over import handed_over
-from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.hand_over import handed_over
+from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.scene.document import Scene
 from tests.solver.laws.thrown import pair, thrown
 

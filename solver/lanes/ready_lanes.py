@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.loop.beginning import begin, resting_rates
-from jointplay.solver.kernels.loop.binding import bind, own_start
 from jointplay.solver.kernels.loop.entry_points import set_clocks
-from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import DTYPE, Status
+from jointplay.solver.lanes.beginning import begin, resting_rates
+from jointplay.solver.lanes.binding import bind, own_start
+from jointplay.solver.lanes.lane import Lane, aligned_zeros
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.quantities.varied import REFUSALS, together
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import tangent_obstacle

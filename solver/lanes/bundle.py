@@ -16,14 +16,14 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.entry_point import PreparedCall
 from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
-from jointplay.solver.kernels.loop.binding import FIRST_STEP, number
 from jointplay.solver.kernels.loop.entry_points import advance, observe_rows, plan_anew
 from jointplay.solver.kernels.loop.extremes.search.brackets import room_for
-from jointplay.solver.kernels.loop.lane import Lane, aligned_zeros
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
-from jointplay.solver.kernels.loop.ready_lanes import ENERGIES, ReadyLanes, make_ready
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, RUNNING, SECTIONS, Buffers, Status
 from jointplay.solver.kernels.loop.workspace import Workspace
+from jointplay.solver.lanes.binding import FIRST_STEP, number
+from jointplay.solver.lanes.lane import Lane, aligned_zeros
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
+from jointplay.solver.lanes.ready_lanes import ENERGIES, ReadyLanes, make_ready
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import driven_speed
 
@@ -310,7 +310,8 @@ class Bundle:
     def energy(self, i: int) -> Floats:
         """Return a lane's kinetic, potential and stored elastic energy, J."""
         columns = np.array([self.kernel.rows.index(name) for name in ENERGIES], dtype=np.int64)
-        return self.observe(i, self.lane(i).row(), columns)[0]
+        (energies,) = self.observe(i, self.lane(i).row(), columns)
+        return np.asarray(energies, np.float64)
 
     def state(self, name: str) -> dict[str, NDArray[Any]]:
         """Return everything that the next step depends on, however many lanes there are.

@@ -6,10 +6,10 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Status
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.lane import Lane
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 
 KEPT = """
 total gross potential_start stored_start highest lowest highest_time lowest_time

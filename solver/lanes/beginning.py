@@ -8,8 +8,8 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.kernels.emit.knots import AT_ENDS
 from jointplay.solver.kernels.emit.stepping import ENDS
 from jointplay.solver.kernels.loop.entry_points import start_tangents
-from jointplay.solver.kernels.loop.lane import Lane
-from jointplay.solver.kernels.loop.problem import LaneStart
+from jointplay.solver.lanes.lane import Lane
+from jointplay.solver.lanes.problem import LaneStart
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.mechanics.impact_floors import resting_rate
 from jointplay.solver.scene.document import Scene

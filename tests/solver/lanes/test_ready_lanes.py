@@ -10,11 +10,11 @@ import pytest
 from jointplay.solver.integrators import method_for
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop import ready_lanes
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
-from jointplay.solver.kernels.loop.ready_lanes import ReadyLanes, make_ready
 from jointplay.solver.kernels.trace.operations import OPERATIONS, operate
+from jointplay.solver.lanes import ready_lanes
+from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.problem import LaneProblem, LaneStart
+from jointplay.solver.lanes.ready_lanes import ReadyLanes, make_ready
 from jointplay.solver.runs.study.scenes import Leaf, PointScenes
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
