@@ -5,6 +5,8 @@ from functools import cache
 from importlib import metadata
 from pathlib import Path
 
+from jointplay import records
+
 
 @cache
 def source_digest(folder: Path) -> str:
@@ -16,4 +18,7 @@ def source_digest(folder: Path) -> str:
     return digest.hexdigest()[:12]
 
 
-SOLVER_VERSION = f"{metadata.version('jointplay')}+{source_digest(Path(__file__).parent)}"
+_SOURCES = (Path(__file__).parent, Path(records.__file__).parent)
+"""Of the solver, and of the vocabulary, which orders points and tells attractors apart."""
+_DIGEST = hashlib.sha256("".join(map(source_digest, _SOURCES)).encode()).hexdigest()[:12]
+SOLVER_VERSION = f"{metadata.version('jointplay')}+{_DIGEST}"

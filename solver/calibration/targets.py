@@ -13,6 +13,8 @@ DEFAULT_TOLERANCE = 0.05
 """Relative: peaks of impacts are hardly known better."""
 MOST_SAMPLES = 100_000
 """Instants of a grid that a target is read off."""
+MOST_FROM_START = 1_000_000
+"""The same from the start of the run on, of which all are kept."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,11 +89,20 @@ def target_problems(target: CalibrationTarget, pointer: str) -> Iterator[Problem
 
 
 def _grid_problems(target: CalibrationTarget, step: float, pointer: str) -> Iterator[Problem]:
-    count = len(grid_indices(target.start, target.stop, step))
-    if count > MOST_SAMPLES:
-        sentence = f"These are {count} instants; read off at most {MOST_SAMPLES}."
+    within, before = (target.stop - target.start) / step, target.stop / step
+    if not within <= MOST_SAMPLES:
+        sentence = f"These are {within:.6g} instants; read off at most {MOST_SAMPLES}."
         yield Problem(f"{pointer}/sampled", sentence)
-    elif count < (2 if target.statistic == "range" else 1):
+        return
+    if before > MOST_FROM_START:
+        sentence = (
+            f"The grid has {before:.6g} instants until {target.stop:g} s, and {MOST_FROM_START} at"
+            " most are kept; give a coarser one, or an earlier window."
+        )
+        yield Problem(f"{pointer}/sampled", sentence)
+        return
+    count = len(grid_indices(target.start, target.stop, step))
+    if count < (2 if target.statistic == "range" else 1):
         sentence = (
             f"The window has {count or 'no'} multiple of {step:g} s in it; give a longer one."
         )

@@ -46,7 +46,7 @@ def target_and_case_problems(job: CalibrationJob) -> list[Problem]:
 
 def _twice_set(job: CalibrationJob) -> Iterable[Problem]:
     for index, case in enumerate(job.cases):
-        for name in case.parameters.keys() & job.parameters.keys():
+        for name in (name for name in case.parameters if name in job.parameters):
             sentence = f"'{name}' is to be found; a case cannot set it. Leave it out of one."
             yield Problem(f"/cases/{index}/parameters/{name}", sentence)
 

@@ -24,12 +24,14 @@ from jointplay.solver.runs.study.fields import (
     distinct,
     geometry_columns,
     inadmissible,
+    out_of_turn,
     structure_columns,
 )
 from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
 from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import POINTER, set_parameters
+from jointplay.solver.scene.references import without_effect
 from jointplay.solver.scene.sizes import ill_sized
 
 LASH = "/clearance/lash"
@@ -58,6 +60,7 @@ def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
     columns = {leaf.path: scenes.column(leaf) for leaf in scenes.leaves}
     suspects = inadmissible(scenes) | ill_sized(base, columns, points.count)
     one.refuse(suspects)
+    one.refuse(out_of_turn(scenes))
     placed = PlacedPoints(points, scene, scenes, kept, of_parameters(echo, points))
     _check_mechanisms(job, one, scenes, placed.structure)
     check_period(scene, differently_driven(scenes))
@@ -123,9 +126,14 @@ class _One:
 
 
 def _check_effect(points: Points, scenes: PointScenes, scene: Scene, echo: Echo) -> None:
-    """Refuse a parameter that reaches nothing, because others go to the same targets after it."""
+    """Refuse a parameter without effect: beside another field, or since others override it."""
     reaching = {leaf.column for leaf in scenes.leaves}
-    problems = []
+    idle = {path: sentence for path, _, sentence in without_effect(scenes.base)}
+    problems = [
+        Problem(points.axes[leaf.column].name_pointer, idle[leaf.path])
+        for leaf in scenes.leaves
+        if leaf.path in idle
+    ]
     for k, axis in enumerate(points.axes):
         if k in reaching:
             continue

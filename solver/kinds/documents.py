@@ -82,7 +82,10 @@ def filled(
 
 
 def digest(document: Mapping[str, Any]) -> str:
-    """Return the SHA-256 of a filled-in job without its label, and of the preset it names."""
+    """Return the SHA-256 of a filled-in job without its label, and of the preset it names.
+
+    The order of its keys counts: bodies, drivers and axes are numbered by it.
+    """
     spec = {
         key: value
         for key, value in document.items()
@@ -90,5 +93,5 @@ def digest(document: Mapping[str, Any]) -> str:
     }
     if "preset" in document["scene"]:
         spec["preset"] = presets.digest(document["scene"]["preset"])
-    canonical = json.dumps(spec, sort_keys=True, separators=(",", ":"), allow_nan=False)
+    canonical = json.dumps(spec, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(canonical.encode()).hexdigest()

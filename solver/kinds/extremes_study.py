@@ -12,7 +12,12 @@ from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.job import ChannelChoice, Energies, Job
 from jointplay.solver.kinds.limits import check_size
 from jointplay.solver.kinds.methods import check_study
-from jointplay.solver.kinds.observables import chosen, coordinate_channels, peak_channels
+from jointplay.solver.kinds.observables import (
+    chosen,
+    coordinate_channels,
+    peak_channels,
+    shared_channels,
+)
 from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.statistics import (
     SamplesPerPeriod,
@@ -88,7 +93,9 @@ class ExtremesStudy(StudyKind[J]):
         _check_length(job)
         points = self.points(job)
         checked = check_points(job, points)
-        default = peak_channels(checked) or coordinate_channels(checked)
+        offered = {channel.name for channel in shared_channels(checked)}
+        peaks = [name for name in peak_channels(checked) if name in offered]
+        default = peaks or coordinate_channels(checked)
         channels = chosen(checked, job.channels, default, "/channels")
         units = periods(checked.scenes)
         if job.periods is not None and units.notes:
@@ -117,12 +124,14 @@ class ExtremesStudy(StudyKind[J]):
 
 
 def _check_domains(placed: PlacedPoints, study: Study) -> None:
-    """Refuse what the point that runs longest asks of a function that refuses it."""
-    point = int(np.argmax(study.duration))
-    problems = domain_problems(placed.scenes.scene(point), float(study.duration[point]))
-    named = [Problem(at, f"{placed.beginning(point)}{detail}") for at, detail in problems]
-    if named:
-        raise InvalidInput(named)
+    """Refuse what points ask of functions that refuse it: the longest, and those at the ends."""
+    columns = [study.duration, *(placed.scenes.column(leaf) for leaf in placed.scenes.leaves)]
+    ends = [int(end) for column in columns for end in (np.argmax(column), np.argmin(column))]
+    for point in dict.fromkeys(ends):
+        problems = domain_problems(placed.scenes.scene(point), float(study.duration[point]))
+        named = [Problem(at, f"{placed.beginning(point)}{detail}") for at, detail in problems]
+        if named:
+            raise InvalidInput(named)
 
 
 def _check_length(job: ExtremesStudyJob) -> None:

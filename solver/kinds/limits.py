@@ -77,10 +77,13 @@ def check_size(study: Study, run: float, pointer: str, most: float = MOST_PERIOD
             f" limit is {most:g}. Ask for fewer points or periods."
         )
     if study.stored_bytes > MOST_BYTES:
+        sections = f" with {study.record} sections of {len(study.observables)} observables"
+        what, fewer = (
+            (sections, "sections, or fewer observables") if study.record else ("", "points")
+        )
         problems.append(
-            f"{points} points with {study.record} sections of {len(study.observables)} observables"
-            f" are about {study.stored_bytes / 1e9:.3g} GB; the limit is {MOST_BYTES / 1e9:g} GB."
-            " Record fewer sections, or fewer observables."
+            f"{points} points{what} are about {study.stored_bytes / 1e9:.3g} GB; the limit is"
+            f" {MOST_BYTES / 1e9:g} GB. Ask for fewer {fewer}."
         )
     if problems:
         raise LimitExceeded(Problem(pointer, sentence) for sentence in problems)

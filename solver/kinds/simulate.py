@@ -211,9 +211,8 @@ def section_count(scene: Scene, period: Period, job: SimulateJob) -> int:
     if period.seconds is None:
         return 0
     first = section_offset(scene, period.seconds, job.section.crank_angle)
-    if first > job.duration:
-        return 0
-    return math.floor((job.duration - first) / period.seconds * (1.0 + 1e-12)) + 1
+    whole = (job.duration - first) / period.seconds
+    return math.floor(whole + 1e-12 * max(1.0, whole)) + 1
 
 
 def _check_followed(scene: Scene, duration: float) -> None:

@@ -38,6 +38,8 @@ from jointplay.solver.scene.once_per_scene import once_per_scene
 ASSEMBLED = CLOSED
 NEARBY, NEARBY_SEED, ASIDE = 3, 7, 0.05
 """Poses beside the start: how many, how they are drawn, and how far off, in rad and links."""
+LAWS: Final = {"contact", "friction"}
+"""Parts of a clearance that no pose depends on."""
 GEOMETRY: Final[Any] = MECHANISM | {"start": True}
 RATES: Final[Any] = {
     "angular_velocities": True,
@@ -165,6 +167,11 @@ class _Found:
     opened: Assembly | None
     """With joints with play as far open as what is given needs, where it needs that."""
 
+    @property
+    def stretched(self) -> bool:
+        """Whether joints with play would be opened as far as they go for what is given."""
+        return bool(self.closed.misfits and self.demands.slack(self.closed.pose))
+
 
 class _Poses(NamedTuple):
     """Poses of a scene, whatever its rates are, as `_Found` has their assemblies."""
@@ -187,10 +194,16 @@ def assemble(scene: Scene) -> Assembly:
     found = _found_of(scene)
     if found.opened is not None and within_play(found.demands, scene, found.opened.pose):
         return found.opened
-    if not found.closed.misfits or not found.demands.slack(found.closed.pose):
+    if not found.stretched:
         return found.closed
     pose = opened_but_for_one(found.demands, scene, found.closed.pose)
     return found.closed if pose is None else _assembly(found.demands, found.demands.loose, pose)
+
+
+def opens_play(scene: Scene) -> bool:
+    """Return whether what is given opens play: then the start depends on how large it is."""
+    found = _found_of(scene)
+    return found.opened is not None or found.stretched
 
 
 def assemble_closed(scene: Scene) -> Assembly:
@@ -213,10 +226,11 @@ def _once(kept: BoundedDict[str, Kept], key: str, find: Callable[[], Kept]) -> K
 def start_of(scene: Scene, one: Scene) -> tuple[Floats, Floats]:
     """Return the pose, (3 bodies,), and the rates, (3 bodies, points), at the start of many points.
 
-    They differ in speeds of drivers; `one` is the scene of one of them. ValueError or TypeError
-    where more differs that poses depend on, or rates are given, which hold or not by point.
+    They differ in speeds of drivers, and in clearances that nothing given opens; `one` is the scene
+    of one of them. ValueError or TypeError where more differs that poses depend on, or rates are
+    given, which hold or not by point.
     """
-    play = {"joints": {"__all__": {"clearance"}}}
+    play: Any = {"joints": {"__all__": {"clearance": LAWS if opens_play(one) else True}}}
     scene.model_dump_json(include=GEOMETRY, exclude=play | {"drivers": {"__all__": {"speed"}}})
     pose = assemble(one).pose
     rates, given = start_rates(Demands.of(scene, shortest_link(scene)), pose)

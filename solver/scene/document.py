@@ -4,7 +4,7 @@ Bodies carry named points in body coordinates (origin at the centre of mass). Jo
 points together; a reference ``body.point`` names one, ``ground.point`` a point that never moves.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 from pydantic import Field
 
@@ -67,10 +67,14 @@ class Start(Strict):
     guides: Annotated[dict[Name, GuideStart], Field(max_length=128)] = {}
 
 
+POINTER_KEY: Final = r"(0|[1-9][0-9]{0,8}|[A-Za-z_.-][A-Za-z0-9_.-]{0,64})"
+"""A field, a name, or an index, which is written in one way."""
+
+
 class Target(Strict):
     """Where a parameter goes to: a JSON pointer into this document, and a factor."""
 
-    path: Annotated[str, Field(pattern=r"^(/[A-Za-z0-9_.-]{1,65}){1,8}$")]
+    path: Annotated[str, Field(pattern=rf"^(/{POINTER_KEY}){{1,8}}$")]
     factor: float = 1.0
 
 

@@ -2,6 +2,7 @@
 
 import copy
 import math
+import sys
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
@@ -142,7 +143,8 @@ def _complaint(name: str, parameter: Parameter, value: object, *, varies: bool) 
     unit = "" if parameter.unit == "1" else f" {parameter.unit}"
     if isinstance(value, bool) or not isinstance(value, int | float):
         return f"'{name}' is a number" + (f" in{unit}." if unit else ".")
-    return _outside(name, parameter, float(value), unit)
+    beyond_floats = isinstance(value, int) and abs(value) > sys.float_info.max
+    return _outside(name, parameter, math.inf if beyond_floats else float(value), unit)
 
 
 def _outside(name: str, parameter: Parameter, value: float, unit: str) -> str | None:

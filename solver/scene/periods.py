@@ -220,21 +220,29 @@ def period_of(speeds: Sequence[float]) -> Period:
         return Period(
             None, f"A driver turns slower than {SLOWEST:g} rad/s, so there is no period in reach."
         )
+    for base in speeds:  # each is held against it: of 1, 40 and 1600 all keep to 40
+        turns = _turns_until_all_come_round(base, speeds)
+        if turns is not None:
+            return Period(turns * (2.0 * math.pi / base))
     first = speeds[0]
-    turns = Fraction(1)
-    for speed in speeds[1:]:
-        ratio = _whole_numbers(speed / first)
-        exact = ratio > 0 and abs(float(ratio) * first - speed) <= RATIO_TOLERANCE * speed
+    other = next(s for s in speeds if _turns_until_all_come_round(first, [s]) is None)
+    return Period(
+        None,
+        f"The drivers' speeds {first:g} and {other:g} rad/s have no common period;"
+        " choose speeds in a ratio of whole numbers.",
+    )
+
+
+def _turns_until_all_come_round(base: float, speeds: Sequence[float]) -> int | None:
+    """Return how often a driver turns until others have made whole turns; None: they never do."""
+    turns = 1
+    for speed in speeds:
+        ratio = _whole_numbers(speed / base)
+        exact = ratio > 0 and abs(float(ratio) * base - speed) <= RATIO_TOLERANCE * speed
         if not exact or ratio.numerator > LARGEST_RATIO:
-            return Period(
-                None,
-                f"The drivers' speeds {first:g} and {speed:g} rad/s have no common period;"
-                " choose speeds in a ratio of whole numbers.",
-            )
-        # the first driver makes `turns` turns until every other one has made whole turns
-        whole = Fraction(ratio.denominator)
-        turns = Fraction(math.lcm(int(turns), int(whole)))
-    return Period(float(turns) * (2.0 * math.pi / first))
+            return None
+        turns = math.lcm(turns, ratio.denominator)
+    return turns
 
 
 @lru_cache(maxsize=1024)

@@ -13,7 +13,7 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
 from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.parameter_problems import parameter_problems
-from jointplay.solver.scene.parameters import targeted_paths
+from jointplay.solver.scene.parameters import targeted_paths, value_at
 from jointplay.solver.scene.sizes import size_problems
 from jointplay.solver.scene.varying_forces import varying_problems
 
@@ -50,15 +50,23 @@ def idle_fields(scene: Scene) -> Iterator[tuple[str, str, str]]:
 
     A field with its default counts as not given: filled-in documents have all fields.
     """
+    for pointer, other, sentence in without_effect(scene):
+        contact, _, field = pointer.rpartition("/")
+        law = value_at(scene, contact)
+        if getattr(law, field) != type(law).model_fields[field].default:
+            yield pointer, other, sentence
+
+
+def without_effect(scene: Scene) -> Iterator[tuple[str, str, str]]:
+    """Yield the same for all fields that have no effect, whatever their values are."""
     for name, joint in scene.joints.items():
         if joint.slack is None:
             continue
-        law, pointer = joint.slack.contact, f"/joints/{name}/clearance/contact"
-        other, fields = law.idle_beside()
+        pointer = f"/joints/{name}/clearance/contact"
+        other, fields = joint.slack.contact.idle_beside()
         for field in fields:
-            if getattr(law, field) != type(law).model_fields[field].default:
-                sentence = f"'{field}' has no effect beside a given '{other}'; leave one out."
-                yield f"{pointer}/{field}", f"{pointer}/{other}", sentence
+            sentence = f"'{field}' has no effect beside a given '{other}'; leave one out."
+            yield f"{pointer}/{field}", f"{pointer}/{other}", sentence
 
 
 def part_problems(scene: Scene) -> Iterator[Problem]:

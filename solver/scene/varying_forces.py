@@ -52,13 +52,22 @@ def _over(scene: Scene, pointer: str, element: Varying, over: Over) -> Iterator[
         yield from _driver(scene, pointer, element, over)
 
 
+def is_over_turns(scene: Scene, element: Varying) -> bool:
+    """Return whether an element's course is a function of the angle of a driver that turns."""
+    over = element.follows()
+    if element.course is None or over is None or over.quantity != "driver" or over.rate:
+        return False
+    driver = scene.drivers.get(over.driver or "")
+    return driver is not None and turns(scene, driver)
+
+
 def _driver(scene: Scene, pointer: str, element: Varying, over: Over) -> Iterator[Problem]:
     if over.driver is None or over.driver not in scene.drivers:
         sentence = "Name the driver." if over.driver is None else ""
         sentence = sentence or unknown("driver", over.driver or "", scene.drivers)
         yield Problem(f"{pointer}/over/driver", sentence)
         return
-    if over.rate or element.course is None or not turns(scene, scene.drivers[over.driver]):
+    if element.course is None or not is_over_turns(scene, element):
         return
     if not repeats_every_turn(element.course):
         period = element.course.period

@@ -13,12 +13,15 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 
 from jointplay.records.arrays import Flags, Floats, Integers
-from jointplay.solver.mechanics.assembly import link_lengths
+from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.laws.function.whole_turn import repeats_every_turn
+from jointplay.solver.mechanics.assembly import link_lengths, opens_play
 from jointplay.solver.quantities.units import Strict
 from jointplay.solver.quantities.varied import REFUSALS
 from jointplay.solver.runs.study.scenes import OF_STARTS, Leaf, PointScenes, replaced
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import value_at
+from jointplay.solver.scene.varying_forces import is_over_turns
 
 _CONFIG = ConfigDict(
     strict=Strict.model_config["strict"],
@@ -32,7 +35,8 @@ HARMLESS = re.compile(
     r")"
 )
 """Numbers that neither the assembly at t = 0 nor any check of names depends on, but for what
-`structure_columns` has of them. Everything else counts as geometry."""
+`structure_columns` and `out_of_turn` have of them, and clearances where the start opens play.
+Everything else counts as geometry."""
 OF_MOTION = re.compile(r"/drivers/([^/]+)/motion/.+")
 """Numbers of prescribed motions, of which an assembly depends on the position at t = 0."""
 OF_CLEARANCE = re.compile(r"/joints/([^/]+)/clearance/([^/]+)")
@@ -58,6 +62,27 @@ def inadmissible(scenes: PointScenes) -> Flags:
     return bad
 
 
+def out_of_turn(scenes: PointScenes) -> Flags:
+    """Return (points,) at which a course over a driver's angle does not repeat every turn."""
+    bad = np.zeros(len(scenes.values), np.bool_)
+    for name, element in scenes.base.forces.items():
+        pointer = f"/forces/{name}/course/"
+        leaves = [leaf for leaf in scenes.leaves if leaf.path.startswith(pointer)]
+        if not leaves or not (isinstance(element, Varying) and is_over_turns(scenes.base, element)):
+            continue
+        columns = np.stack([scenes.column(leaf) for leaf in leaves], axis=1)
+        numbers, which = np.unique(columns, axis=0, return_inverse=True)
+        keys = [leaf.path.removeprefix(pointer).split("/") for leaf in leaves]
+        repeats = np.empty(len(numbers), np.bool_)
+        for index, row in enumerate(numbers.tolist()):
+            course: Any = element.course
+            for key, value in zip(keys, row, strict=True):
+                course = replaced(course, key, value)
+            repeats[index] = repeats_every_turn(course)
+        bad |= ~repeats[which.reshape(-1)]
+    return bad
+
+
 def structure_columns(scenes: PointScenes) -> Iterator[Integers]:
     """Yield (points,) numbers that tell which points have equations of the same form."""
     for leaf in scenes.leaves:
@@ -75,15 +100,15 @@ def structure_columns(scenes: PointScenes) -> Iterator[Integers]:
 def geometry_columns(scenes: PointScenes) -> Iterator[Floats]:
     """Yield (points,) numbers on which the assembly depends.
 
-    Of a number of the start only its ends count: points between them are put together when they
-    are run, and one that does not start as it says fails by itself.
+    Of a number of the start, or of play that it opens, only its ends count: points between them are
+    put together when they are run, and one that does not start as it says fails by itself.
     """
-    without_lengths = not link_lengths(scenes.base)
+    without_lengths, opened = not link_lengths(scenes.base), opens_play(scenes.base)
     for leaf in scenes.leaves:
         # what touches gives the scale of a mechanism none of whose bodies has two joints apart
         scale = without_lengths and OF_CLEARANCE.fullmatch(leaf.path) is not None
         scale = scale and not is_clearance(scenes.base, leaf.path)
-        if OF_STARTS.fullmatch(leaf.path):
+        if OF_STARTS.fullmatch(leaf.path) or (opened and OF_CLEARANCE.fullmatch(leaf.path)):
             column = scenes.column(leaf)
             yield (column == column.max()).astype(np.float64) - (column == column.min())
         elif moved := OF_MOTION.fullmatch(leaf.path):

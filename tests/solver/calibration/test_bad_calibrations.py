@@ -61,6 +61,10 @@ BAD: dict[str, tuple[dict[str, Any], str, str]] = {
     "window backwards": (target(**{"from": 0.02}), f"{T}/to", "before it begins"),
     "grid too coarse": (target(sampled=1.0, **{"from": 0.01}), f"{T}/sampled", "no multiple"),
     "grid too fine": (target(sampled=1e-9), f"{T}/sampled", "at most 100000"),
+    "grid finer than numbers": (target(sampled=5e-324), f"{T}/sampled", "at most 100000"),
+    "grid of a late window": (
+        target(sampled=1e-6, **{"from": 1000.0, "to": 1000.01}), f"{T}/sampled", "earlier window"
+    ),
     "unknown statistic": (target(statistic="mean"), f"{T}/statistic", "'maximum'"),
     "nothing to fit": (target(weight=0.0), f"{T}/weight", "No target has a weight"),
     "ideal mechanism": (
