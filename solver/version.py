@@ -19,6 +19,6 @@ def source_digest(folder: Path) -> str:
 
 
 _SOURCES = (Path(__file__).parent, Path(records.__file__).parent)
-"""Of the solver, and of the vocabulary, which orders points and tells attractors apart."""
+"""Sources of the solver, and of the vocabulary, which orders points and tells attractors apart."""
 _DIGEST = hashlib.sha256("".join(map(source_digest, _SOURCES)).encode()).hexdigest()[:12]
 SOLVER_VERSION = f"{metadata.version('jointplay')}+{_DIGEST}"

@@ -20,7 +20,7 @@ from jointplay.service.results.stores import ResultsOfThePath, StudyOfThePath
 from jointplay.service.results.streaming import as_json
 from jointplay.service.studies.answers import axes
 from jointplay.service.studies.schemas import Status
-from jointplay.solver.nonlinear.verdict import grounds
+from jointplay.solver.nonlinear.grounds import grounds
 from jointplay.storage.studies.reader import StudyReader
 
 PNG = "image/png"

@@ -25,8 +25,9 @@ from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers_time import drivers_time
 from jointplay.solver.scene.pairs import pairs_of
-from jointplay.solver.scene.periods import characteristic_time, common_period
+from jointplay.solver.scene.periods import common_period
 from jointplay.solver.scene.sentences import schema_problems
+from jointplay.solver.scene.time_scales import characteristic_time
 
 _IDLE = 300.0  # s; it is small, and a page that is open soon asks again
 MOST_TURNS = 20.0

@@ -12,12 +12,8 @@ from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.study.fields import distinct, geometry_columns
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import (
-    characteristic_time,
-    common_period,
-    first_speed,
-    idle_period,
-)
+from jointplay.solver.scene.periods import common_period, first_speed, idle_period
+from jointplay.solver.scene.time_scales import characteristic_time
 
 _SPEED = re.compile(
     r"/period|/drivers/[^/]+/(speed|motion/.+)|/forces/[^/]+/(course/.+|no_load_speed)"

@@ -22,16 +22,11 @@ from jointplay.solver.runs.admission import STANDARD_TOLERANCE, Admission
 from jointplay.solver.scene.channels import channels, select
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.domains import domain_problems
+from jointplay.solver.scene.least_common_period import Period
 from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.parameters import set_parameters
-from jointplay.solver.scene.periods import (
-    Period,
-    characteristic_time,
-    common_period,
-    drivers_period,
-    quickest_driver,
-    section_offset,
-)
+from jointplay.solver.scene.periods import common_period, drivers_period, section_offset
+from jointplay.solver.scene.time_scales import characteristic_time, quickest_driver
 
 WITHOUT_PERIOD = (
     "Without one a simulation has no Poincare section; a study has them where a channel crosses a"

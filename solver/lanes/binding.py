@@ -31,13 +31,9 @@ from jointplay.solver.quantities.scalars import greatest, least, minimum, sqrt
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.periods import (
-    characteristic_time,
-    common_period,
-    driven_speed,
-    driven_travel,
-)
+from jointplay.solver.scene.periods import common_period
 from jointplay.solver.scene.references import inner_states
+from jointplay.solver.scene.time_scales import characteristic_time, driven_speed, driven_travel
 
 STEPS_IN_A_PERIOD = 100
 """Fewest steps in a period of the fastest driver, or in the scene's own scale of time."""

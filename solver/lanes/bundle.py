@@ -25,7 +25,7 @@ from jointplay.solver.lanes.lane import Lane, aligned_zeros
 from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 from jointplay.solver.lanes.ready_lanes import ENERGIES, ReadyLanes, make_ready
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import driven_speed
+from jointplay.solver.scene.time_scales import driven_speed
 
 LaneState = tuple[Floats, Any, Floats]
 """A lane's numbers (slots,), its run, and its first energies (3,), J."""

@@ -20,7 +20,7 @@ correlated numbers, in `batch_means`. The logistic map at r = 3.9, from the star
 >>> import numpy as np
 >>> from jointplay.solver.nonlinear.lyapunov import exponent_from_growth
 >>> from jointplay.solver.nonlinear.recurrence import recurrence_period
->>> from jointplay.solver.nonlinear.verdict import decide
+>>> from jointplay.solver.nonlinear.decision import decide
 >>> from jointplay.solver.nonlinear.zero_one import zero_one_test
 >>> orbit = np.empty((1000, 1))
 >>> orbit[0] = 0.3

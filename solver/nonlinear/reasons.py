@@ -3,7 +3,8 @@
 from collections.abc import Iterable
 
 from jointplay.records.study import StudySource
-from jointplay.solver.nonlinear.verdict import UNDECIDED, VERDICTS, grounds
+from jointplay.solver.nonlinear.grounds import grounds
+from jointplay.solver.nonlinear.verdict import UNDECIDED, VERDICTS
 
 _NAME = next(name for name, code in VERDICTS.items() if code == UNDECIDED)
 

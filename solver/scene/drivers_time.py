@@ -10,7 +10,7 @@ from jointplay.solver.quantities.equal_ratios import equal_ratios
 from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import MovingDriver
-from jointplay.solver.scene.periods import SLOWEST, period_of
+from jointplay.solver.scene.least_common_period import SLOWEST, period_of
 
 LOOKED_AT = equal_ratios(1e-10, 1e10, 2001)
 """Instants at which a motion that never repeats is looked at, s: a decade beyond the lengths of a

@@ -1,40 +1,18 @@
 """Periods of a scene's drivers: what a revolution is, and whether there is one."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from fractions import Fraction
-from functools import lru_cache
 from typing import NamedTuple
 
-from jointplay.solver.laws.force import ForceElement
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.laws.function.whole_turn import repeats_every_turn
-from jointplay.solver.quantities.scalars import Scalar, greatest, sqrt
 from jointplay.solver.scene.clocks import timed, turns
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.drivers import Driver, MovingDriver
+from jointplay.solver.scene.drivers import MovingDriver
+from jointplay.solver.scene.least_common_period import Period, period_of
 from jointplay.solver.scene.once_per_scene import once_per_scene
-
-LARGEST_RATIO = 1000
-"""Speeds whose ratio needs larger whole numbers than this count as incommensurate."""
-SLOWEST = 1e-9
-"""Speeds below, rad/s or m/s, give no time scale: a revolution takes two centuries."""
-RATIO_TOLERANCE = 1e-12
-"""Relative mismatch within which a ratio of speeds is taken as exact: rounding of the input."""
 
 AGREEING = 1e-6
 """Relative mismatch up to which a scene gives the period that its drivers have: six digits."""
-
-
-@dataclass(frozen=True)
-class Period:
-    """The least common period of the drivers; none has a reason."""
-
-    seconds: float | None
-    note: str = ""
-    given: bool = False
-    """True where the scene gives it, because its drivers have none in common."""
 
 
 def common_period(scene: Scene) -> Period:
@@ -179,130 +157,6 @@ def first_speed(scene: Scene) -> float:
         if element.course is not None and 0.0 < element.course.period < math.inf:
             return 2.0 * math.pi / element.course.period
     return 1.0 if scene.period is None else 2.0 * math.pi / scene.period
-
-
-def driven_speed(scene: Scene, lever: float, until: float) -> float:
-    """Return the sum of the drivers' angular speeds, rad/s.
-
-    A motion counts with the least r whose powers exceed its derivatives (see
-    `kernels.emit.enclosure`), over 0..`until` s, in rad or in `lever`, m.
-    """
-    total = 0.0
-    for driver in scene.drivers.values():
-        turning = turns(scene, driver)
-        if isinstance(driver, MovingDriver):
-            total += driver.motion.quickness(until, 1.0 if turning else lever)
-        elif turning:
-            total += abs(driver.clock_rate)
-    return total
-
-
-def driven_travel(scene: Scene, unit: float, until: float) -> float:
-    """Return how far functions move driven sliders over 0..`until` s, m, as seen in `unit`, s.
-
-    The least length L with |x^(k)| <= L (2 pi / unit)^k for each derivative of each of their
-    motions; of a sinusoidal motion with that period its amplitude. 0: there is none.
-    """
-    ways = [
-        bound * math.prod([unit / (2.0 * math.pi)] * order)
-        for driver in scene.drivers.values()
-        if isinstance(driver, MovingDriver) and not turns(scene, driver)
-        for order, bound in enumerate(driver.motion.largest(until), start=1)
-    ]
-    return max(ways, default=0.0)
-
-
-def period_of(speeds: Sequence[float]) -> Period:
-    """Return the least common period of turning drivers, whose speeds (rad/s) are positive."""
-    if not speeds:
-        return Period(None, "No driver turns, so there is no period.")
-    if min(speeds) < SLOWEST:
-        return Period(
-            None, f"A driver turns slower than {SLOWEST:g} rad/s, so there is no period in reach."
-        )
-    for base in speeds:  # each is held against it: of 1, 40 and 1600 all keep to 40
-        turns = _turns_until_all_come_round(base, speeds)
-        if turns is not None:
-            return Period(turns * (2.0 * math.pi / base))
-    first = speeds[0]
-    other = next(s for s in speeds if _turns_until_all_come_round(first, [s]) is None)
-    return Period(
-        None,
-        f"The drivers' speeds {first:g} and {other:g} rad/s have no common period;"
-        " choose speeds in a ratio of whole numbers.",
-    )
-
-
-def _turns_until_all_come_round(base: float, speeds: Sequence[float]) -> int | None:
-    """Return how often a driver turns until others have made whole turns; None: they never do."""
-    turns = 1
-    for speed in speeds:
-        ratio = _whole_numbers(speed / base)
-        exact = ratio > 0 and abs(float(ratio) * base - speed) <= RATIO_TOLERANCE * speed
-        if not exact or ratio.numerator > LARGEST_RATIO:
-            return None
-        turns = math.lcm(turns, ratio.denominator)
-    return turns
-
-
-@lru_cache(maxsize=1024)
-def _whole_numbers(ratio: float) -> Fraction:
-    return Fraction(ratio).limit_denominator(LARGEST_RATIO)
-
-
-def characteristic_time(scene: Scene, length: float) -> Scalar:
-    """Return a time scale, s: the shortest driver period, else that of a pendulum, else 1 s."""
-    speeds = [speed for driver in scene.drivers.values() for speed in _speeds(scene, driver)]
-    speeds += [speed for element in scene.forces.values() for speed in _paces(scene, element)]
-    turning = [speed for speed in speeds if speed >= SLOWEST]
-    if turning:
-        return 2.0 * math.pi / greatest(turning)
-    gravity = sqrt(sum(part * part for part in scene.gravity))
-    return 2.0 * math.pi * sqrt(length / gravity) if gravity > 0.0 else 1.0
-
-
-def quickest_driver(scene: Scene, length: float) -> float:
-    """Return the time in which the fastest driver turns, bends, or moves by 2 pi lengths, s.
-
-    Infinite where all drivers stand.
-    """
-    paces = []
-    for driver in scene.drivers.values():
-        lever = 1.0 if turns(scene, driver) else length
-        straight = not isinstance(driver, MovingDriver)
-        paces += [speed / (lever if straight else 1.0) for speed in _speeds(scene, driver)]
-        if isinstance(driver, MovingDriver) and math.isinf(driver.motion.bend):
-            paces.append(driver.motion.speed_within(lever) / lever)
-    fastest = max(paces, default=0.0)
-    return 2.0 * math.pi / fastest if fastest else math.inf
-
-
-def _speeds(scene: Scene, driver: Driver) -> list[float]:
-    """Return what gives a driver's motion a scale of time, rad/s.
-
-    Of an angle that is a polynomial of time it is the speed after the first radian.
-    """
-    if not isinstance(driver, MovingDriver):
-        return [abs(driver.clock_rate)]
-    found = [2.0 * math.pi / driver.motion.bend]
-    if turns(scene, driver):
-        found.append(driver.motion.speed_within(1.0))
-    return found
-
-
-def _paces(scene: Scene, element: ForceElement) -> list[float]:
-    """Return what gives a force element a scale of time, rad/s."""
-    over = element.follows()
-    if not isinstance(element, Varying) or element.course is None or over is None:
-        return [element.fastest]
-    bends = 2.0 * math.pi / element.course.bend
-    if over.quantity == "time":
-        return [bends]
-    if over.quantity == "driver" and over.driver is not None and not over.rate:
-        driver = scene.drivers[over.driver]
-        if not isinstance(driver, MovingDriver):
-            return [bends * abs(driver.clock_rate)]
-    return []
 
 
 def section_offset(scene: Scene, period: float, crank_angle: float) -> float:

@@ -5,8 +5,8 @@ from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.periods import characteristic_time
 from jointplay.solver.scene.references import inner_states
+from jointplay.solver.scene.time_scales import characteristic_time
 
 METHOD = "method"
 """Last column: number of the method that made the step; see `number_of`."""

@@ -17,7 +17,7 @@ from jointplay.solver.runs.ideal.dead_point import lost_at
 from jointplay.solver.runs.ideal.path import FEWEST_A_SCALE, Path
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import MovingDriver
-from jointplay.solver.scene.periods import quickest_driver
+from jointplay.solver.scene.time_scales import quickest_driver
 
 MOST_POSES = 4096
 """Poses of a path: seconds."""

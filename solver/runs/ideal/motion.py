@@ -18,7 +18,8 @@ from jointplay.solver.runs.ideal.constraints import Constraints, solve, solve_tr
 from jointplay.solver.runs.ideal.dead_point import elsewhere, lost_at
 from jointplay.solver.runs.ideal.path import Lost, Path
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import characteristic_time, forces_repeat, quickest_driver
+from jointplay.solver.scene.periods import forces_repeat
+from jointplay.solver.scene.time_scales import characteristic_time, quickest_driver
 
 COMES_BACK = 1e-6
 """Distance of poses a period apart, in rad and lengths of the shortest link, that is rounding."""

@@ -12,7 +12,8 @@ from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.scene.channels import BODY
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import ContactPair, contact_pairs
-from jointplay.solver.scene.periods import drivers_period, quickest_driver
+from jointplay.solver.scene.periods import drivers_period
+from jointplay.solver.scene.time_scales import quickest_driver
 
 QUANTITIES = tuple(quantity for quantity, _, _ in BODY)
 INSTANTS_A_PERIOD = 96

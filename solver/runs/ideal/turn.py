@@ -12,7 +12,7 @@ from jointplay.solver.runs.ideal.path import Path
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers_time import drivers_time
 from jointplay.solver.scene.once_per_scene import once_per_scene
-from jointplay.solver.scene.periods import quickest_driver
+from jointplay.solver.scene.time_scales import quickest_driver
 
 MOST_WORK = 40_000
 """Coordinates of all poses after which a check leaves off: seconds."""

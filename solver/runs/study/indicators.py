@@ -9,6 +9,7 @@ import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.nonlinear.batch_means import FEWEST_BATCHES
+from jointplay.solver.nonlinear.decision import BY_CHANCE, CREEPS, decide
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from jointplay.solver.nonlinear.lyapunov import (
     confirmed,
@@ -22,7 +23,7 @@ from jointplay.solver.nonlinear.recurrence import (
     recurrence_period,
 )
 from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
-from jointplay.solver.nonlinear.verdict import BY_CHANCE, CREEPS, Verdict, decide
+from jointplay.solver.nonlinear.verdict import Verdict
 from jointplay.solver.nonlinear.whole_turns import unwound
 from jointplay.solver.nonlinear.zero_one import zero_one_test
 from jointplay.solver.runs.study.rotating_sections import (

@@ -9,7 +9,7 @@ from PIL import Image
 from jointplay.records.coarse_to_fine import coarse_to_fine, order_of, over_axes
 from jointplay.records.motion import colour_of
 from jointplay.service.charts import schemas
-from jointplay.solver.nonlinear.verdict import grounds
+from jointplay.solver.nonlinear.grounds import grounds
 from tests.service.answers import get
 from tests.worker_by_hand import CHART
 

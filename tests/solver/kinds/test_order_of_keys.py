@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from jointplay.solver.kinds import admit
-from jointplay.solver.scene.periods import period_of
+from jointplay.solver.scene.least_common_period import period_of
 
 SPREADS = {
     "clearance": {"distribution": "uniform", "low": 1e-4, "high": 5e-4},

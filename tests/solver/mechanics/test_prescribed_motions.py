@@ -12,7 +12,8 @@ from jointplay.solver.runs.ideal.following import follow
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.clocks import clocks
-from jointplay.solver.scene.periods import characteristic_time, common_period, driven_speed
+from jointplay.solver.scene.periods import common_period
+from jointplay.solver.scene.time_scales import characteristic_time, driven_speed
 from tests.solver.completed_runs import collect, run
 from tests.solver.driven_motions import carried, function, independent, moved
 from tests.solver.mechanics.test_mechanics import anywhere, assert_formulations_agree

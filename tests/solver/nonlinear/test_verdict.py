@@ -7,7 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from jointplay.solver.nonlinear.decision import decide
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
+from jointplay.solver.nonlinear.grounds import grounds
 from jointplay.solver.nonlinear.lyapunov import confirmed
 from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
@@ -18,8 +20,6 @@ from jointplay.solver.nonlinear.verdict import (
     UNDECIDED,
     VERDICTS,
     Verdict,
-    decide,
-    grounds,
 )
 from jointplay.solver.nonlinear.zero_one import zero_one_test
 from tests.solver.nonlinear.exponents import map_exponent, tangent_exponent

@@ -8,8 +8,10 @@ import pytest
 from jointplay.records.failure import InvalidInput
 from jointplay.records.point import PointEnd
 from jointplay.solver.kinds import Study, admit
+from jointplay.solver.nonlinear.decision import decide
 from jointplay.solver.nonlinear.estimate import UNKNOWN
-from jointplay.solver.nonlinear.verdict import QUASI_PERIODIC, UNDECIDED, VERDICTS, decide, grounds
+from jointplay.solver.nonlinear.grounds import grounds
+from jointplay.solver.nonlinear.verdict import QUASI_PERIODIC, UNDECIDED, VERDICTS
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import InStep, in_step

@@ -9,8 +9,9 @@ from scipy.integrate import solve_ivp
 
 from jointplay.records.point import PointEnd
 from jointplay.solver.kinds import Study, admit
+from jointplay.solver.nonlinear.grounds import grounds
 from jointplay.solver.nonlinear.recurrence import leaves_an_orbit
-from jointplay.solver.nonlinear.verdict import VERDICTS, grounds
+from jointplay.solver.nonlinear.verdict import VERDICTS
 from jointplay.solver.runs.study.indicators import Sections, indicators_of
 from jointplay.solver.runs.study.run import StudyRun
 from tests.solver.nonlinear.textbook import HENON, logistic
