@@ -139,8 +139,8 @@ def failure_of(bundle: Bundle, lane: int, tolerance: float, scene: Scene) -> Sim
         sentence = f"At t = {stopped.time:.9g} s {left}."
         return SimulationFailed("outside-of-a-function", sentence, stopped.time)
     status, at, steps = stopped.status, stopped.time, stopped.steps
-    step = stopped.number("next_step")
-    if not bundle.kernel.tableau.error:
+    step, fixed = stopped.number("next_step"), not bundle.kernel.tableau.error
+    if fixed and status in (Status.UNDERFLOW, Status.NO_PROGRESS):
         return SimulationFailed(
             "fixed-step-too-long",
             f"With its fixed step the motion grew beyond all numbers by t = {at:.9g} s. Choose a"
@@ -169,6 +169,6 @@ def failure_of(bundle: Bundle, lane: int, tolerance: float, scene: Scene) -> Sim
     return SimulationFailed(
         "onset-not-located",
         f"The beginning of a contact near t = {at:.9g} s could not be located to 1e-9 m."
-        " Try a smaller tolerance.",
+        f" Try a smaller {'step' if fixed else 'tolerance'}.",
         at,
     )
