@@ -10,8 +10,8 @@ LONGEST_IDEAL_RUN = 100.0
 """The same for an ideal mechanism that never repeats: every pose follows from the one before."""
 MOST_TURNS_FOLLOWED = 300.0
 """Turns of the fastest driver of an ideal mechanism in the period of all its drivers."""
-MOST_FIXED_STEPS = 1e10
-"""Steps of a run whose step is given: some hours of one core."""
+MOST_FIXED_STEPS = 4e9
+"""Steps of a run whose step is given, as of any run: some hours of one core."""
 MOST_SAMPLES = 100_000_000
 MOST_BYTES = 10_000_000_000
 STEP_BYTES = 32_000_000

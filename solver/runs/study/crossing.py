@@ -9,6 +9,10 @@ from jointplay.solver.kernels.loop.runs import SectionKind
 from jointplay.solver.lanes.problem import Event
 
 
+ANGLES = (".theta", ".angle")
+"""Ends of the names of channels that are angles: of bodies, and between two bodies."""
+
+
 def crossing_event(kernel: Kernel, section: Mapping[str, Any], not_before: float = 0.0) -> Event:
     """Return the event of a section as a job has it: with channel, value and direction.
 
@@ -20,5 +24,5 @@ def crossing_event(kernel: Kernel, section: Mapping[str, Any], not_before: float
         name, factor, offset = kernel.rows.multiples[name]
         value, sense = (value - offset) / factor, sense if factor > 0.0 else -sense
     row = kernel.rows.index(name)
-    turn = 2.0 * math.pi if name.endswith(".theta") else 0.0
+    turn = 2.0 * math.pi if name.endswith(ANGLES) else 0.0
     return Event(SectionKind.CROSSING, row, value, sense, turn, not_before)
