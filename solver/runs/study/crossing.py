@@ -8,7 +8,6 @@ from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.runs import SectionKind
 from jointplay.solver.lanes.problem import Event
 
-
 ANGLES = (".theta", ".angle")
 """Ends of the names of channels that are angles: of bodies, and between two bodies."""
 
