@@ -7,6 +7,8 @@ from fnmatch import fnmatchcase
 from jointplay.records.quantity_terms import in_other_terms
 
 _LONGEST_PATTERN = 80  # the longest name of a channel has 64 characters
+_SPECIAL = frozenset("*?[")
+_MOST_GLOBS = 500  # each is held against every channel
 _MOST_NAMED = 20  # what is wrong, so often; a near name takes 10 ms to find
 _MOST_LISTED = 12
 
@@ -41,14 +43,17 @@ def choose(text: str | None, names: Sequence[str]) -> list[str]:
     """
     if text is None:
         return list(names)
-    patterns = _patterns(text)
-    unknown = [p for p in patterns if not any(_matches(name, p) for name in names)]
-    if unknown:
-        raise no_such_channel(unknown, names)
+    patterns, known = _patterns(text), set(names)
     if not patterns:
         raise NoSuchChannel(["The list of channels is empty; name some, or leave it out."])
-    in_turn = (name for pattern in patterns for name in names if _matches(name, pattern))
-    return list(dict.fromkeys(in_turn))
+    globs = {pattern for pattern in patterns if not _SPECIAL.isdisjoint(pattern)}
+    if len(globs) > _MOST_GLOBS:
+        raise NoSuchChannel([f"The list has {len(globs)} globs; give at most {_MOST_GLOBS}."])
+    found = {p: _matching(p, names) if p in globs else [p] * (p in known) for p in patterns}
+    unknown = [pattern for pattern in patterns if not found[pattern]]
+    if unknown:
+        raise no_such_channel(unknown, names)
+    return list(dict.fromkeys(name for pattern in patterns for name in found[pattern]))
 
 
 def no_such_channel(unknown: Sequence[str], names: Sequence[str]) -> NoSuchChannel:
@@ -61,8 +66,10 @@ def _patterns(text: str) -> list[str]:
     return list(dict.fromkeys(pattern for pattern in given if pattern))
 
 
-def _matches(name: str, pattern: str) -> bool:
-    return len(pattern) <= _LONGEST_PATTERN and fnmatchcase(name, pattern)
+def _matching(pattern: str, names: Sequence[str]) -> list[str]:
+    if len(pattern) > _LONGEST_PATTERN:
+        return []
+    return [name for name in names if fnmatchcase(name, pattern)]
 
 
 def _suggestion(pattern: str, names: Sequence[str]) -> str:

@@ -53,6 +53,7 @@ from jointplay.service.pieces import Pieces
 from jointplay.service.prober import Prober
 from jointplay.service.problems.handlers import install
 from jointplay.service.problems.kinds import OF_THE_DOOR
+from jointplay.service.problems.unexpected import UnexpectedErrors
 from jointplay.service.readiness import Readiness
 from jointplay.service.request_log import RequestLog
 from jointplay.service.results.damage import answer_damage
@@ -199,6 +200,7 @@ def _add_middleware(app: FastAPI, settings: Settings) -> None:
     app.add_middleware(Pieces)
     app.add_middleware(ConcurrencyLimit, unlocked=unlocked, keys=settings.keys == "required")
     app.add_middleware(Targets)
+    app.add_middleware(UnexpectedErrors)
     app.add_middleware(ContentPolicy)
     if settings.log_format == "json":
         app.add_middleware(RequestLog)

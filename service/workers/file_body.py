@@ -8,18 +8,24 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from hashlib import sha256
 from pathlib import Path
-from typing import IO, Final
+from typing import IO, TYPE_CHECKING, Final
 
 from fastapi import Request
+from fastapi.concurrency import run_in_threadpool
 
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.uploads import Kept
 from jointplay.worker.transient_faults import is_full
 
+if TYPE_CHECKING:
+    from hashlib import _Hash
+
 LARGEST_FILE: Final = 2**34
 PATIENCE: Final = 30.0
 """Seconds that any file may take, and by which one that arrives may be behind: when a machine is
 lost, nobody closes its connection."""
+GATHERED: Final = 2**20
+"""Bytes that are written at once."""
 SLOWEST: Final = 20_000.0
 """Bytes a second that it must arrive with beyond them."""
 
@@ -50,7 +56,6 @@ async def arrived(request: Request, folder: Path, kept: Kept) -> AsyncIterator[I
         try:
             async with asyncio.timeout(PATIENCE) as limit:
                 digest = await _received(request, content, kept, limit)
-            content.flush()
         except TimeoutError:
             raise RequestRefused(
                 kinds.BODY_TOO_SLOW,
@@ -75,12 +80,25 @@ async def arrived(request: Request, folder: Path, kept: Kept) -> AsyncIterator[I
 async def _received(
     request: Request, content: IO[bytes], kept: Kept, limit: asyncio.Timeout
 ) -> bytes:
-    digest, received = sha256(), 0
+    digest, received, gathered = sha256(), 0, bytearray()
     until = asyncio.get_running_loop().time() + PATIENCE
+
+    async def write() -> None:  # in a thread: a disk may stall, and other requests shall not
+        await run_in_threadpool(_write, content, digest, bytes(gathered))
+        kept.wrote(len(gathered))
+        gathered.clear()
+
     async for piece in request.stream():  # no more than its length: see `service.targets`
         received += len(piece)
         limit.reschedule(until + received / SLOWEST)
-        digest.update(piece)
-        content.write(piece)
-        kept.wrote(len(piece))
+        gathered += piece
+        if len(gathered) >= GATHERED:
+            await write()
+    await write()
     return digest.digest()
+
+
+def _write(content: IO[bytes], digest: "_Hash", piece: bytes) -> None:
+    digest.update(piece)
+    content.write(piece)
+    content.flush()

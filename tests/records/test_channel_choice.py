@@ -68,6 +68,13 @@ def test_a_quantity_by_another_term_is_the_one_that_was_meant(name, meant):
     assert str(caught.value).startswith(said.removesuffix("?"))
 
 
+def test_many_names_are_looked_up_and_globs_are_few():
+    names = [f"body{k}.x" for k in range(2000)]
+    assert choose(",".join(names), names) == names
+    with pytest.raises(NoSuchChannel, match="501 globs; give at most 500"):
+        choose(",".join(f"*{k}" for k in range(501)), names)
+
+
 def test_a_hostile_list_is_refused_quickly():
     names = [f"body{index}.x" for index in range(100)]
     hostile = ",".join(f"b{index}.x" for index in range(5000)) + "," + "*a" * 5000
