@@ -12,6 +12,7 @@ from jointplay.records.peak import Peak
 from jointplay.solver.kernels.emit.slots import TIME
 from jointplay.solver.kernels.loop.runs import PACE_STEPS, SLOWEST_PACE, Status
 from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.lane import Lane
 from jointplay.solver.quantities.extremes import refined_peaks
 from jointplay.solver.runs.left_domains import left_domain
 from jointplay.solver.scene.document import Scene
@@ -25,16 +26,29 @@ MOST_INSTANTS = 200_000
 def peaks_of(bundle: Bundle, lane: int, names: Sequence[str]) -> dict[str, Peak]:
     """Return the extremes of channels so far, in the order of the names."""
     rows, at = bundle.kernel.rows, bundle.lane(lane)
-    records = [at[block] for block in ("lowest", "lowest_time", "highest", "highest_time")]
-    found = {
-        name: Peak(*(float(column[r]) for column in records)) for r, name in enumerate(rows.watched)
-    }
+    ends = [_record(at, end, sense) for end, sense in (("lowest", -1.0), ("highest", 1.0))]
+    columns = [column.tolist() for column in (*ends[0], *ends[1])]
+    found = {name: Peak(*row) for name, *row in zip(rows.watched, *columns, strict=False)}
     for name, (source, factor, offset) in rows.multiples.items():
         found[name] = found[source].scaled(factor, offset)
     unwatched = [name for name in names if name not in found]
     if unwatched:
         found |= prescribed_peaks(bundle, lane, unwatched, at.time)
     return {name: found[name] for name in names}
+
+
+def _record(at: Lane, end: str, sense: float) -> tuple[Floats, Floats]:
+    """Return extremes of one side so far, (rows,), and their times, s.
+
+    A channel is looked at where it turns, and at the end of a run: of a lane that has not come to
+    its end, what it rises or falls to is not recorded yet.
+    """
+    values, times = at[end], at[f"{end}_time"]
+    if at.status == Status.DONE:
+        return values, times
+    now = at["previous"]
+    beyond = sense * now > sense * values
+    return np.where(beyond, now, values), np.where(beyond, at.time, times)
 
 
 def prescribed_peaks(
