@@ -107,15 +107,20 @@ def test_points_in_two_directions_or_in_no_grid_keep_their_values():
     values = np.array([[1.0], [2.0], [2.0], [1.0]])
     parameters = [Channel("clearance", "m", "")]
     statistics = {"steps": np.arange(4.0)}
-    both = StudyDataset({}, parameters, values, np.full(4, 2), statistics=statistics)
+    there_and_back = {"job": {"continuation": "both"}}
+    both = StudyDataset(there_and_back, parameters, values, np.full(4, 2), statistics=statistics)
     found = on_axes(both)["steps"]
     assert found.sel(clearance=1.0).values.tolist() == [0.0, 3.0]
     assert found.sel(direction="backward").values.tolist() == [3.0, 2.0]
-    listed = StudyDataset({}, parameters, values[:3], np.full(3, 2), statistics=statistics)
+    listed = StudyDataset({"job": {}}, parameters, values[:3], np.full(3, 2), statistics=statistics)
     listed = replace(listed, statistics={"steps": np.arange(3.0)})
     found = on_axes(listed)["steps"]
     assert found.dims == ("point",)
     assert found["clearance"].values.tolist() == [1.0, 2.0, 2.0]
+    twice = StudyDataset({"job": {}}, parameters, values, np.full(4, 2), statistics=statistics)
+    found = on_axes(twice)["steps"]  # as a list of points, or rows of a design, may have values
+    assert found.dims == ("point",)
+    assert found.values.tolist() == [0.0, 1.0, 2.0, 3.0]
 
 
 def test_what_a_job_of_another_kind_has_is_not_found(client, finished_job, finished_sweep):

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.point import PointStatus
 from jointplay.records.point_numbers import meanings_of
-from jointplay.records.study import StudySource
+from jointplay.records.study import BACKWARD, FORWARD, StudySource, directions_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -69,9 +69,9 @@ def _axes(
     sizes = [len(values) for values, _ in found]
     cells = int(np.prod(sizes)) if sizes else 0
     told = {one.name: _told(one) for one in study.parameters}
-    if cells and study.points in (cells, 2 * cells):
+    turns = 1 if directions_of(study) is None else 2
+    if cells and study.points == turns * cells:
         indices = np.ravel_multi_index([inverse for _, inverse in found], sizes)
-        turns = study.points // cells
         order = np.lexsort((np.arange(study.points), indices))
         if np.array_equal(np.bincount(indices, minlength=cells), np.full(cells, turns)):
             coordinates: dict[str, tuple[Any, ...]] = {
@@ -80,7 +80,7 @@ def _axes(
             }
             if turns == 1:
                 return names, coordinates, order
-            directions = np.array(["forward", "backward"])
+            directions = np.array([FORWARD, BACKWARD])
             coordinates["direction"] = (["direction"], directions, {})
             return [*names, "direction"], coordinates, order
     coordinates = {"point": (["point"], np.arange(study.points), {})}
