@@ -147,7 +147,7 @@ def sensitivity(source: StudySource, question: Question) -> dict[str, Any]:
     used = (done & np.isfinite(found)).all(axis=1)
     lost = (ended & ~(done & np.isfinite(found))).any(axis=1)
     values = source.values.reshape(*shape, parameters)[used]
-    error = _ERROR * source.attributes["job"].get("tolerance", 0.0) * _size(source, name)
+    error = _ERROR * source.attributes["job"].get("tolerance", 0.0) * _size(source, name, done)
     analysis = Analysis(design, parameters, question, values, found[used], error)
     return {
         "complete": bool(ended.all()),
@@ -164,11 +164,14 @@ def sensitivity(source: StudySource, question: Question) -> dict[str, Any]:
     }
 
 
-def _size(source: StudySource, name: str) -> float:
-    """Return what errors of an output are shares of: the largest value of its channel, if any."""
+def _size(source: StudySource, name: str, done: Flags) -> float:
+    """Return what errors of an output are shares of: the largest value of its channel, if any.
+
+    done : any shape, those that count: a run that fails may have come to any value before.
+    """
     channel = channel_of(source, name)
     ends = [name] if channel is None else [f"{channel}.minimum", f"{channel}.maximum"]
-    values = np.abs([output(source, one) for one in ends])
+    values = np.abs([output(source, one)[done.ravel()] for one in ends])
     return float(values[np.isfinite(values)].max(initial=0.0))
 
 

@@ -292,3 +292,11 @@ def test_what_varies_by_errors_of_the_runs_is_said_to():
     assert told(1e-9, tolerance=1e-12)["note"] == ""
     assert told(1e-3, tolerance=1e-6)["note"] == ""
     assert sensitivity(study_of(ishigami, 64, 3, tolerance=1e-3), MAXIMUM)["note"] == ""
+
+
+def test_where_a_run_came_to_before_it_failed_is_no_size_of_the_output():
+    study = study_of(ishigami, 64, 3, failed=(2,), tolerance=1e-3)
+    plain = sensitivity(study, MAXIMUM)["note"]
+    study.peaks("rod.x").maximum[2] = 1e9
+    assert "errors of the runs" not in plain
+    assert sensitivity(study, MAXIMUM)["note"] == plain
