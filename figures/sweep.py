@@ -14,6 +14,7 @@ from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import Scale, largest_of, scale
 from jointplay.records.arrays import Floats
 from jointplay.records.channel import by_name
+from jointplay.records.extremes import whole_peaks
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudySource
 
@@ -128,7 +129,7 @@ class _Row:
             shown = scale(statistics[name].unit, values)
             part, _, statistic = name.rpartition(".")
             return cls({"": values}, shown, f"{part}\n{shown.label(statistic)}")
-        peaks = source.peaks(name)
+        peaks = whole_peaks(source, name)
         extremes = {"largest": peaks.maximum[points], "smallest": peaks.minimum[points]}
         size = max(largest_of(values) for values in extremes.values())
         panels = {which: _known(values, size) for which, values in extremes.items()}

@@ -75,11 +75,13 @@ export class Quantities {
     return { name: channel, unit, curves: [band, curve("maximum", 1), curve("minimum", 0), mean].filter(Boolean) };
   }
 
+  /** A point that failed has extremes of what it had computed: they are not those of whole runs. */
   column(quantity) {
     const { channel } = this;
     const name = quantity ? `${channel}.${quantity}` : channel;
-    return this.pages.flatMap(({ peaks, statistics }) =>
-      (EXTREMES.includes(quantity) ? peaks[channel][quantity] : statistics[name].values)
-        .map((value) => value ?? NaN));
+    const extreme = EXTREMES.includes(quantity);
+    return this.pages.flatMap(({ peaks, statistics, status }) =>
+      (extreme ? peaks[channel][quantity] : statistics[name].values)
+        .map((value, i) => (extreme && status[i] === "failed" ? NaN : value ?? NaN)));
   }
 }

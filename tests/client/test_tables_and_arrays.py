@@ -14,6 +14,8 @@ from jointplay.client import Expired, NotFound, Refused
 from jointplay.client.axes import on_axes
 from jointplay.records.channel import Channel
 from jointplay.records.job import JobError
+from jointplay.records.peak import PeakColumns
+from jointplay.records.point import PointStatus
 from jointplay.records.study import StudyDataset
 from jointplay.storage.catalogue.records import BlockState
 from tests.worker_by_hand import BIFURCATION, CHART, known_section
@@ -75,6 +77,7 @@ def test_tables_of_a_sweep(client, finished_sweep):
     np.testing.assert_array_equal(force["maximum"], [1.0, 2.0, 3.0, 4.0, np.nan, 6.0])
     assert force["friction"].tolist() == [0.0, 0.05] * 3
     assert set(force["unit"]) == {"N"}
+    assert force["status"].tolist() == [*["done"] * 4, "failed", "done"]
     assert client.job(finished_sweep).points["status"].tolist()[4] == "failed"
 
 
@@ -121,6 +124,21 @@ def test_points_in_two_directions_or_in_no_grid_keep_their_values():
     found = on_axes(twice)["steps"]  # as a list of points, or rows of a design, may have values
     assert found.dims == ("point",)
     assert found.values.tolist() == [0.0, 1.0, 2.0, 3.0]
+
+
+def test_arrays_have_no_extremes_of_points_that_failed():
+    found = np.array([1.0, 0.2, 3.0])
+    study = StudyDataset(
+        {"job": {}},
+        [Channel("clearance", "m", "")],
+        np.array([[1.0], [2.0], [3.0]]),
+        np.array([PointStatus.done, PointStatus.failed, PointStatus.done]),
+        channels=[Channel("force", "N", "")],
+        extremes={"force": PeakColumns(-found, found, found, found)},
+    )
+    force = on_axes(study)["force"]
+    assert float(force.sel(extreme="maximum").mean()) == 2.0
+    assert force.sel(extreme="minimum").isnull().values.tolist() == [False, True, False]
 
 
 def test_what_a_job_of_another_kind_has_is_not_found(client, finished_job, finished_sweep):

@@ -130,3 +130,13 @@ def test_colours_are_said_to_go_on_only_where_values_lie_beyond_them(odd, ends):
     )
     figure = drawn_with(known, "chart", select(known, ["lyapunov"]))
     assert figure.axes[0].collections[0].colorbar.extend == ends
+
+
+def test_what_a_point_came_to_before_it_failed_has_no_colour():
+    chart = finished()
+    failed = (chart.values == [2.0, 5.0]).all(axis=1)
+    chart.status[failed] = PointStatus.failed
+    chosen = select(chart, ["stroke.maximum"])
+    mesh = drawn_with(chart, "chart", chosen).axes[0].collections[0]
+    blank = np.ma.getmaskarray(np.ma.asarray(mesh.get_array()).reshape(SIDE, SIDE))
+    assert np.argwhere(blank).tolist() == [[2, 5]]

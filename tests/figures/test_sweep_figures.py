@@ -9,6 +9,7 @@ from drawn import drawn_with, stand_apart
 
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection, page, saving
+from jointplay.records.point import PointStatus
 
 
 def test_extremes_of_a_sweep_are_drawn_over_its_parameter_in_order():
@@ -27,6 +28,15 @@ def test_extremes_of_a_sweep_are_drawn_over_its_parameter_in_order():
     force = source.extremes["left.normal_force"]
     np.testing.assert_allclose(largest.lines[0].get_ydata(), force.maximum * 1e-3)
     np.testing.assert_allclose(smallest.lines[0].get_ydata(), force.minimum)
+
+
+def test_what_a_point_came_to_before_it_failed_is_not_drawn():
+    source = sweep((30,))
+    source.status[4] = PointStatus.failed
+    largest, smallest = drawn_with(source, "left.normal_force", None).axes
+    for axes in (largest, smallest):
+        assert np.flatnonzero(np.isnan(axes.lines[0].get_ydata())).tolist() == [4]
+    assert np.isfinite(source.peaks("left.normal_force").maximum[4])
 
 
 def test_a_statistic_is_drawn_over_its_parameter():

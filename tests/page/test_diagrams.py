@@ -28,6 +28,20 @@ EXPONENT = """async () => {
 }"""
 
 
+EXTREMES = """async () => {
+  const { Quantities } = await import("/page/interface/quantities.js");
+  const quantities = new Quantities(new URLSearchParams("channel=force&of=maximum"), () => {});
+  const peaks = { force: { unit: "N", maximum: [1, 0.2, null] } };
+  quantities.take([{ peaks, statistics: {}, status: ["done", "failed", "waiting"] }], true);
+  return quantities.column("maximum").map((one) => (Number.isNaN(one) ? null : one));
+}"""
+
+
+def test_what_a_point_of_a_sweep_came_to_before_it_failed_is_not_drawn(browsing, service_url):
+    with browsing.page(f"{service_url}/") as page:
+        assert page.evaluate(EXTREMES) == [1, None, None]
+
+
 def test_exponents_of_a_diagram_have_bars_of_their_errors(browsing, service_url):
     with browsing.page(f"{service_url}/") as page:
         first, last = page.evaluate(EXPONENT)

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.extremes import whole_peaks
 from jointplay.records.point import PointStatus
 from jointplay.records.point_numbers import meanings_of
 from jointplay.records.study import BACKWARD, FORWARD, StudySource, directions_of
@@ -21,7 +22,8 @@ def on_axes(study: StudySource) -> "xr.Dataset":
     A channel whose extremes were kept has the axis ``extreme`` besides, one that was taken at
     sections the axis ``section``.  Points that are no grid, such as a list of them, stay on one
     axis ``point`` with the parameters as coordinates; those of both directions of a continuation
-    have the axis ``direction``.  What was not computed is NaN.
+    have the axis ``direction``.  What was not computed is NaN, and so are extremes of points that
+    failed.
     """
     import xarray as xr
 
@@ -45,7 +47,7 @@ def on_axes(study: StudySource) -> "xr.Dataset":
             told = {"units": unit, "long_name": long_name} if unit else {}
             variables[name] = (axes, laid_out(np.asarray(values)), told)
     for one in study.channels:
-        peaks = study.peaks(one.name)
+        peaks = whole_peaks(study, one.name)
         pair = np.stack([peaks.minimum, peaks.maximum], axis=1)
         variables[one.name] = ([*axes, "extreme"], laid_out(pair), _told(one))
     if study.channels:

@@ -108,7 +108,10 @@ class TabledJob(JobRecord, ABC):
 
     @property
     def peaks(self) -> "pd.DataFrame":
-        """Signed extremes with their times, one row a channel; of a sweep of each point."""
+        """Signed extremes with their times, one row a channel; of a sweep of each point.
+
+        A point whose ``status`` is failed has those of what it had computed.
+        """
         self._insist("extremes", "peaks", "points")
         if not self.is_study:
             found = self.results.peaks()
@@ -126,6 +129,8 @@ class TabledJob(JobRecord, ABC):
             "channel": names * study.points,
         }
         columns |= {name: np.repeat(column, len(names)) for name, column in _values(study).items()}
+        status = [PointStatus(code).name for code in study.status]
+        columns["status"] = np.repeat(status, len(names))
         columns["unit"] = [channel.unit for channel in study.channels] * study.points
         for name in PEAK:
             columns[name] = np.column_stack([getattr(one, name) for one in extremes]).ravel()
