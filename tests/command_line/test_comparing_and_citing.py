@@ -12,6 +12,7 @@ import pytest
 import yaml
 
 from jointplay.command_line import certificate, cite
+from jointplay.command_line.exits import Exit
 from jointplay.local import load
 
 ROOT = Path(__file__).parents[2]
@@ -44,6 +45,39 @@ def test_local_runs_are_drawn_over_one_another_with_a_table_of_peaks(jointplay, 
     assert {row["run"] for row in rows} == {"mass=1", "mass=2"}
     for row in rows:
         assert row["minimum"] <= row["maximum"]
+
+
+def test_a_comparison_says_which_runs_have_not_come_to_their_end(jointplay, runs, tmp_path):
+    """A force is given up to 5 mm: the mass is there after 25 ms."""
+    course = {"type": "table", "knots": [-5e-3, 5e-3], "values": [0.0, 0.0], "outside": "refused"}
+    force = {"type": "force", "first": "ground.O", "second": "mass.c", "direction": [1.0, 0.0]}
+    force |= {"magnitude": 1.0, "over": {"quantity": "x"}, "course": course}
+    scene = {
+        "name": "given-up-to-5-mm",
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {"mass": {"mass": 1.0, "inertia": 1.0, "points": {"c": [0.0, 0.0]}}},
+        "joints": {
+            "guide": {
+                "type": "prismatic",
+                "guide": "ground.O",
+                "slider": "mass.c",
+                "axis": [1.0, 0.0],
+            }
+        },
+        "forces": {"given": force},
+        "start": {"velocities": {"mass": [0.2, 0.0]}},
+    }
+    (tmp_path / "short.json").write_text(json.dumps(scene))
+    short = tmp_path / "SHORT"
+    assert (
+        jointplay("run", tmp_path / "short.json", "--duration", "1", "-o", short).code
+        == Exit.FAILED
+    )
+    chosen = ["--channels", "energy.kinetic", "-o", tmp_path / "both.png"]
+    ended = jointplay("compare", runs / "a", short, *chosen)
+    assert ended.code == 0, ended.err
+    (said,) = (line for line in ended.out.splitlines() if " at t = " in line)
+    assert re.search(r"failed at t = 0\.025 s of 1 s", said)
 
 
 @pytest.mark.parametrize(

@@ -77,6 +77,7 @@ def compare(
         if windowed:
             peaks = [_peaks_inside(job, names, start, stop) for job in jobs]
         about = _span(start, stop) if windowed else _settled(jobs, labels)
+        about = [*about, *_ended_early(jobs, labels)]
     of_runs = list(zip(labels, peaks, strict=True))
     table = [{"run": label, **of_run[name]} for name in names for label, of_run in of_runs]
     found = {"figure": str(output), "start": start, "stop": stop, "peaks": table}
@@ -119,6 +120,16 @@ def _settled(jobs: list["Job"], labels: list[str]) -> list[str]:
     settles = [job.job.get("settle") for job in jobs]
     pairs = zip(labels, settles, strict=True)
     return [f"peaks of {label} from t = {settle:g} s on" for label, settle in pairs if settle]
+
+
+def _ended_early(jobs: list["Job"], labels: list[str]) -> list[str]:
+    """Say which runs have not come to their end, and how far they came."""
+    return [
+        f"{label} is {job.state} at t = {job.progress.time:.6g} s of {job.job['duration']:g} s:"
+        " its peaks and curves are of that"
+        for label, job in zip(labels, jobs, strict=True)
+        if job.state != "succeeded"
+    ]
 
 
 def _drawn(panels: dict[str, list["Curve"]], form: "Form", page: "Options") -> bytes:
