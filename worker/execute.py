@@ -120,15 +120,23 @@ def execute(
     if outcome.state == "left":
         return outcome
     summary, certificate = simulation.summary(), simulation.certificate()
+    statistics = _storable(summary.statistics)
     with publishing():
         writer.seal(
             target,
             peaks=summary.peaks,
-            summary=summary.statistics,
+            summary=statistics,
             complete=outcome.state == "succeeded",
             certificate=None if certificate is None else record_of(certificate),
         )
-    return replace(outcome, statistics=summary.statistics)
+    return replace(outcome, statistics=statistics)
+
+
+def _storable(statistics: Mapping[str, Any]) -> dict[str, Any]:
+    """Return statistics without a ledger whose works are beyond all numbers, which JSON has not."""
+    energy = statistics["energy"]
+    known = energy is None or all(map(math.isfinite, energy.values()))
+    return {**statistics, "energy": energy if known else None}
 
 
 def _begin(

@@ -57,11 +57,16 @@ class Trajectory:
 
     @cached_property
     def reached(self) -> float:
-        """Time of the last sample that can be read, s."""
-        samples = self._reader.samples
+        """Time up to which the run is known, s.
+
+        That of the last sample, and of one that ended before its time that of its last step.
+        """
+        reader, samples = self._reader, self._reader.samples
         if self._intervals is not None:
             samples = self._intervals.behind
-        return float(self._reader.history([], samples - 1, samples)[0][0]) if samples else 0.0
+        last = float(reader.history([], samples - 1, samples)[0][0]) if samples else 0.0
+        ended_early = reader.sealed and not reader.complete and self._intervals is None
+        return max(last, reader.steps.end) if ended_early and reader.steps is not None else last
 
     @property
     def covered(self) -> float:
