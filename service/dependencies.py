@@ -58,7 +58,7 @@ JobId = Annotated[str, Path(description="Id of the job, as POST /v1/jobs returne
 
 def expired(job: Job) -> RequestRefused:
     """Return the refusal of a job that can be read no more."""
-    moment = datetime.fromtimestamp(job.expires or job.removed or 0.0, UTC)
+    moment = datetime.fromtimestamp(job.expires or job.deleted or job.removed or 0.0, UTC)
     sentence = f"Job {job.id} expired or was deleted at {moment:%Y-%m-%dT%H:%M:%SZ}."
     return RequestRefused(kinds.EXPIRED_JOB, sentence)
 

@@ -151,8 +151,8 @@ def delete_batch(unit: Unit, batch_id: str) -> Batch:
         live = sum(count for state, count in batch.states.items() if not state.terminal)
         raise BatchNotFinished(batch_id, live)
     there = tables.unexpired(unit.now)
-    expired = update(_job).where(_job.c.batch == batch_id, there).values(expires=unit.now)
-    unit.execute(expired)
+    gone = {"expires": unit.now, "deleted": unit.now}
+    unit.execute(update(_job).where(_job.c.batch == batch_id, there).values(gone))
     forget_batch(unit, batch_id)
     unit.execute(delete(tables.batch).where(tables.batch.c.id == batch_id))
     return batch

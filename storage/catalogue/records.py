@@ -166,6 +166,7 @@ class Job(JobRequest):
     damaged: str | None = None  # which file of its results is not what was stored
     processor: str | None = None  # class of the processors that compute it, from its first claim on
     stored: int | None = None  # bytes of its results, if it has ended and is some owner's
+    deleted: float | None = None  # when it was, by the clock that may be set later
     further_labels: tuple[str, ...] | None = None  # that it was asked for with later; in no row
 
     @property
@@ -176,10 +177,11 @@ class Job(JobRequest):
     def expired(self, now: float) -> bool:
         """Whether it and its results can be read no more; what is still live never expires.
 
-        What was removed stays so, whatever the clock says.
+        What was deleted or removed stays so, whatever the clock says.
         """
         due = self.expires is not None and self.expires <= now
-        return self.state.terminal and (due or self.removed is not None)
+        gone = self.removed is not None or self.deleted is not None
+        return self.state.terminal and (due or gone)
 
 
 @dataclass(frozen=True)

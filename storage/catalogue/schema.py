@@ -6,9 +6,9 @@ from sqlalchemy import Connection, inspect, text
 
 from jointplay.storage.catalogue import functions, tables
 
-REVISION = "0014"
+REVISION = "0015"
 """The newest migration; a test compares it with the folder storage/migrations. One that takes
-something away which programs before it need is called by the next thousand: 1001 after 0014."""
+something away which programs before it need is called by the next thousand: 1001 after 0015."""
 
 
 def present_revision(connection: Connection) -> str | None:

@@ -83,6 +83,7 @@ job = Table(
     Column("owner", String(64), nullable=False, server_default=""),
     Column("processor", String(64)),
     Column("stored", BigInteger),
+    Column("deleted", Float(53)),
     # each list filter with the paging key behind it
     Index("ix_job_state_id", "state", "id"),
     Index("ix_job_batch_id", "batch", "id"),
@@ -101,7 +102,7 @@ job = Table(
 def unexpired(now: ColumnElement[float] | float) -> ColumnElement[bool]:
     """Whether a job that has ended is there to be read: see `records.Job.expired`."""
     # no IS NULL: SQLite may then go through the index that begins with `removed`
-    kept = func.coalesce(job.c.removed, 0.0) == 0.0
+    kept = func.coalesce(job.c.removed, job.c.deleted, 0.0) == 0.0
     return kept & (job.c.expires.is_(None) | (job.c.expires > now))
 
 
@@ -118,6 +119,10 @@ Index(
     sqlite_where=MEASURED,
     postgresql_where=MEASURED,
 )
+
+TO_REMOVE: Final = job.c.deleted.is_not(None) & job.c.removed.is_(None)
+"""Jobs that were deleted, with results that are there still."""
+Index("ix_job_to_remove", job.c.id, sqlite_where=TO_REMOVE, postgresql_where=TO_REMOVE)
 
 NO_SOLVER: Final = "no worker has its solver"
 """Activity of a job that no worker may take."""

@@ -170,19 +170,25 @@ def expire(unit: Unit, job_id: str) -> Job:
     if not job.state.terminal:
         raise JobNotFinished(job_id, job.state.value)
     if not job.expired(unit.now):
-        unit.execute(update(_job).where(_job.c.id == job_id).values(expires=unit.now))
+        gone = {"expires": unit.now, "deleted": unit.now}
+        unit.execute(update(_job).where(_job.c.id == job_id).values(gone))
     return labelled_job(unit, job_id)
 
 
 def removable(unit: Unit, limit: int) -> tuple[str, ...]:
-    """Return expired jobs whose results are still there, those first that expired first."""
-    found = unit.execute(
+    """Return jobs whose results are to go and are still there: what was deleted, what expired.
+
+    What expired first comes first. What was deleted goes whatever the clock says.
+    """
+    deleted = select(_job.c.id).where(tables.TO_REMOVE).order_by(_job.c.id).limit(limit)
+    expired = (
         select(_job.c.id)
         .where(_job.c.removed.is_(None), _job.c.expires <= unit.now, _job.c.state.in_(TERMINAL))
         .order_by(_job.c.expires)
         .limit(limit)
     )
-    return tuple(found.scalars())
+    found = [*unit.execute(deleted).scalars(), *unit.execute(expired).scalars()]
+    return tuple(dict.fromkeys(found))[:limit]
 
 
 def mark_removed(unit: Unit, jobs: Sequence[str]) -> None:

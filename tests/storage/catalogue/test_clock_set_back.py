@@ -7,7 +7,7 @@ from stepped_clock import Clock
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob
+from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob, SubmittedBatch
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
 LEASE, REPUBLISH_AFTER, HOUR = 30.0, 20.0, 3600.0
@@ -76,15 +76,29 @@ def test_a_lead_is_not_waited_for(catalogue: Catalogue, clock: Clock) -> None:
     assert not catalogue.take_lead("relay", "other", 5)
 
 
-def test_what_was_removed_does_not_come_back(catalogue: Catalogue, clock: Clock) -> None:
+def ended_batch(catalogue: Catalogue) -> SubmittedBatch:
+    """Return a batch of a job that is done, and of one that failed."""
     batch = catalogue.submit_batch([NEW, replace(NEW, digest="e" * 64)])
-    done, failed = batch.jobs
-    for job, state in ((done, BlockState.done), (failed, BlockState.failed)):
+    for job, state in zip(batch.jobs, (BlockState.done, BlockState.failed), strict=True):
         catalogue.claim_block(f"{job}-0", "worker", LEASE)
         error = JobError("solver", "diverged", "it did") if state is BlockState.failed else None
         catalogue.finish(f"{job}-0", 1, BlockEnd(state, error))
-        catalogue.delete(job)
-    catalogue.mark_removed(catalogue.removable(10))
+    return batch
+
+
+@pytest.mark.parametrize("removed", [True, False])
+@pytest.mark.parametrize("together", [True, False])
+def test_what_was_deleted_does_not_come_back(
+    catalogue: Catalogue, clock: Clock, together: bool, removed: bool
+) -> None:
+    batch = ended_batch(catalogue)
+    if together:
+        catalogue.delete_batch(batch.batch.id)
+    else:
+        for job in batch.jobs:
+            catalogue.delete(job)
+    if removed:
+        catalogue.mark_removed(catalogue.removable(10))
     clock.now -= HOUR
     assert all(catalogue.expired(catalogue.get(job)) for job in batch.jobs)
     assert catalogue.jobs().jobs == ()
@@ -92,4 +106,19 @@ def test_what_was_removed_does_not_come_back(catalogue: Catalogue, clock: Clock)
     assert catalogue.identical(NEW) is None
     again = catalogue.submit(NEW, reuse=True)
     assert (again.cached, again.job.id in batch.jobs) == (False, False)
-    assert catalogue.get(done).expires == clock.now + HOUR
+    assert catalogue.get(batch.jobs[0]).expires == clock.now + HOUR
+    assert catalogue.removable(10) == (() if removed else batch.jobs)
+
+
+def test_what_expired_and_was_removed_does_not_come_back(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    kept = catalogue.submit(replace(NEW, expires=clock.now + HOUR)).job.id
+    catalogue.claim_block(f"{kept}-0", "worker", LEASE)
+    catalogue.finish(f"{kept}-0", 1, BlockEnd(BlockState.done))
+    clock.now += HOUR
+    assert catalogue.removable(10) == (kept,)
+    catalogue.mark_removed((kept,))
+    clock.now -= HOUR
+    assert catalogue.expired(catalogue.get(kept))
+    assert catalogue.jobs().jobs == ()

@@ -15,6 +15,8 @@ from jointplay.storage.catalogue.records import NewJob
 from tests.postgresql_server import Server
 
 LATER = (
+    "DROP INDEX ix_job_to_remove",
+    "ALTER TABLE job DROP COLUMN deleted",
     "DROP TABLE installation",
     "DROP TABLE label",
     "DROP TABLE tally",
