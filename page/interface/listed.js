@@ -14,16 +14,17 @@ export async function listed(job) {
 }
 
 /**
- * Returns the jobs of a list without those that are no longer among its newest, though as new: deleted by others, or
- * not what the filters ask for.
+ * Returns a list of jobs, the newest first, with a stretch of it as it is now.  Jobs of the stretch that are no longer
+ * there are left out: others deleted them, or they are not what the filters ask for any more.
  *
- * @param newest jobs of the list now, the newest first; next: whether there are more behind them
+ * @param page `{jobs, next}`: the stretch, and the id of its last job if there are more behind it
+ * @param after the id of the job before the stretch; null: it begins with the newest
  * @param gone called with each job that is left out
  */
-export function stillListed(jobs, newest, next, gone) {
-  const ids = new Set(newest.map(({ id }) => id));
-  const oldest = jobs.findLastIndex(({ id }) => ids.has(id));
-  const isGone = ({ id }, place) => !ids.has(id) && (place < oldest || !next);
-  jobs.filter(isGone).forEach(gone);
-  return jobs.filter((job, place) => !isGone(job, place));
+export function renewed(list, { jobs, next }, after, gone) {
+  const now = new Set(jobs.map(({ id }) => id));
+  const before = list.filter(({ id }) => after !== null && id >= after);
+  const behind = list.filter(({ id }) => next !== null && id < next);
+  list.slice(before.length, list.length - behind.length).filter(({ id }) => !now.has(id)).forEach(gone);
+  return [...before, ...jobs, ...behind];
 }

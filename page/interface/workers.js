@@ -13,8 +13,13 @@ export function processOf(name) {
   return name.split(":").slice(0, 2).join(":");
 }
 
-/** Returns a sentence, or more, on why queued jobs wait. */
-export function whyQueued(alive) {
+/**
+ * Returns a sentence, or more, on why a queued job waits.
+ *
+ * @param activity what is known of it: null, or that no worker has its solver
+ * @param usage of the owner of the page's key, as `/v1/usage` tells it
+ */
+export function whyQueued(alive, activity = null, usage = {}) {
   const busy = alive.filter(({ blocks }) => blocks.length).length;
   if (!alive.length) {
     return [
@@ -25,9 +30,21 @@ export function whyQueued(alive) {
         ". The jobs stay where they are and begin as soon as there is a worker."),
     ];
   }
-  return [element("p", {}, busy < alive.length
-    ? `${alive.length - busy} of ${alive.length} workers ${alive.length - busy === 1 ? "has" : "have"} nothing to do: this begins in a moment.`
-    : `All ${alive.length} workers are busy with other jobs; this one is waiting for its turn.`)];
+  if (busy === alive.length) {
+    return [element("p", {}, `All ${alive.length} workers are busy with other jobs; this one is waiting for its turn.`)];
+  }
+  const idle = `${alive.length - busy} of ${alive.length} workers ${alive.length - busy === 1 ? "has" : "have"} nothing to do`;
+  return [element("p", {}, `${idle}${whyNotYet(activity, usage)}`)];
+}
+
+/** Returns the end of a sentence on workers that have nothing to do, and a job that waits. */
+function whyNotYet(activity, { running_blocks: running, most_running_blocks: most }) {
+  if (activity) return `, but this one waits: ${activity}.`;
+  if (!most) return ": this begins in a moment.";
+  const limit = `${most === 1 ? "one block" : `${most} blocks`} of each owner may be computed at one time`;
+  return running < most
+    ? `: this begins in a moment, unless its owner has as many blocks computed as one may: ${limit}.`
+    : `, but ${limit}: this begins when one of yours ends.`;
 }
 
 /** Returns a table of the blocks of a job that workers have, or null. */

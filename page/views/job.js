@@ -132,7 +132,8 @@ class Head {
       await pause(PATIENCE, this.signal);
       if (this.job.state !== "queued") return;
       try {
-        this.queued = whyQueued(await workers(this.signal));
+        const usage = await get("/v1/usage", {}, this.signal);
+        this.queued = whyQueued(await workers(this.signal), this.job.activity, usage);
       } catch {
         if (this.signal.aborted) return; // else it is asked again
       }

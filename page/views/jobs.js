@@ -6,7 +6,7 @@ import {
 import { element, fill } from "../interface/element.js";
 import { jobFilters } from "../interface/job_filters.js";
 import { JobRow } from "../interface/job_row.js";
-import { listed, stillListed } from "../interface/listed.js";
+import { listed, renewed } from "../interface/listed.js";
 import { address, note } from "../interface/route.js";
 import { whyQueued, workers } from "../interface/workers.js";
 import { trouble } from "../interface/trouble.js";
@@ -20,7 +20,7 @@ const NEWEST = 20; // jobs that are looked at again every second
 const AHEAD = 200; // rows below what is seen that are asked for before they are scrolled to
 const BEYOND = 8; // rows above and below what is seen
 const MOST_COMPARED = 4;
-const MOST_ASKED = 12; // jobs that are looked at again one by one
+const RARELY = 5; // of how many looks one is at those that are older, where they have all ended
 
 export async function show(room, { query, signal }) {
   const kinds = Object.keys(await describedKinds(signal).catch(() => ({}))); // the list says what is wrong
@@ -32,6 +32,7 @@ export async function show(room, { query, signal }) {
 class JobList {
   constructor(query, kinds, signal) {
     Object.assign(this, { signal, jobs: null, next: null, chosen: new Map(), rows: new Map() });
+    this.looks = 0;
     this.deleted = new Set(); // ids, of which an answer may be on its way that is from before
     this.asked = new AbortController(); // for the newest list; answers to what was asked before are not taken
     signal.addEventListener("abort", () => this.asked.abort());
@@ -119,30 +120,31 @@ class JobList {
   }
 
   async look() {
-    const { jobs, next } = await this.page(null, NEWEST);
-    const known = new Map(this.jobs.map((job, place) => [job.id, place]));
-    const fresh = jobs.filter(({ id }) => !known.has(id));
-    for (const job of jobs) if (known.has(job.id)) this.jobs[known.get(job.id)] = job;
-    if (fresh.length === NEWEST) await this.load(); // there may be more between
-    else this.jobs = [...fresh, ...stillListed(this.jobs, jobs, next, ({ id }) => this.chosen.delete(id))];
-    await this.lookAgain(new Set(jobs.map(({ id }) => id)));
-    await this.tellWhy(jobs.some(({ state }) => state === "queued"));
+    const newest = await this.page(null, NEWEST);
+    const known = new Set(this.jobs.map(({ id }) => id));
+    const apart = newest.next !== null && newest.jobs.every(({ id }) => !known.has(id));
+    if (apart) await this.load(); // there may be more between
+    else this.renew(newest, null);
+    await this.lookBelow(newest.next);
+    await this.tellWhy(newest.jobs.some(({ state }) => state === "queued"));
     this.draw();
   }
 
-  async lookAgain(seen) {
-    const shown = this.jobs.slice(...this.range());
-    const moving = shown.filter(({ id, state }) => !TERMINAL.has(state) && !seen.has(id));
-    await Promise.all(moving.slice(0, MOST_ASKED).map((job) => this.lookAt(job)));
+  /** Looks at the rows that are seen and older than the newest: they may be deleted by others, or have other states. */
+  async lookBelow(newest) {
+    const seen = this.jobs.slice(...this.range()).filter(({ id }) => newest !== null && id < newest);
+    if (!seen.length) return;
+    const moving = seen.some(({ state }) => !TERMINAL.has(state));
+    if (!moving && (this.looks += 1) % RARELY) return;
+    const after = this.jobs[this.jobs.indexOf(seen[0]) - 1]?.id ?? null;
+    this.renew(await this.page(after, seen.length), after);
   }
 
-  async lookAt(job) {
-    try {
-      Object.assign(job, await listed(await get(`/v1/jobs/${job.id}`, {}, this.signal)));
-    } catch (error) {
-      if (![404, 410].includes(error.status)) throw error;
-      this.gone({ done: [job] }); // somebody else deleted it
-    }
+  /** Takes a stretch of the list as it is now. */
+  renew(page, after) {
+    this.jobs = renewed(this.jobs, page, after, ({ id }) => this.chosen.delete(id));
+    const further = this.jobs.length > 0 && page.next !== null && this.jobs.at(-1).id < page.next;
+    if (!further) this.next = page.next;
   }
 
   /** Says what to do where jobs are queued and nobody is there to compute them. */
@@ -182,7 +184,8 @@ class JobList {
     this.loading = true;
     try {
       const page = await this.page(this.next, PAGE);
-      this.jobs.push(...page.jobs);
+      const last = this.jobs.at(-1)?.id ?? null; // a look meanwhile may have come further
+      this.jobs.push(...page.jobs.filter(({ id }) => last === null || id < last));
       this.next = page.next;
       this.draw();
     } catch (error) {

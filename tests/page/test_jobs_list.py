@@ -222,6 +222,29 @@ def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, 
         assert barriers(page) == []
 
 
+@pytest.mark.parametrize(
+    ("running", "most", "said"),
+    [
+        (0, 0, ": this begins in a moment."),
+        (1, 1, ", but one block of each owner may be computed at one time: this begins when"),
+        (2, 3, ": this begins in a moment, unless its owner has as many blocks computed as one"),
+    ],
+)
+def test_a_job_that_waits_for_its_owners_others_is_not_said_to_begin(
+    browsing, service_url, worker, catalogue, running, most, said
+):
+    """It was said to begin in a moment as long as any worker had nothing to do."""
+    limits = {"running_blocks": running, "most_running_blocks": most}
+    job = worker.submit(label="others first", duration=2.0 + most)
+    with (
+        browsing.page(f"{service_url}/#/") as page,
+        heard_of(catalogue, "test", Solver("1", "zen4")),
+    ):
+        page.route("**/v1/usage", lambda one: one.fulfill(json=one.fetch().json() | limits))
+        page.goto(f"{service_url}/#/job/{job}")
+        page.get_by_text(f"1 of 1 workers has nothing to do{said}").wait_for()
+
+
 def test_unknown_and_deleted_jobs_say_what_to_do(browsing, http, service_url, worker):
     gone = worker.finished()
     http.delete(f"/v1/jobs/{gone}").raise_for_status()

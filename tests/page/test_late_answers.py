@@ -182,6 +182,47 @@ def test_a_finished_job_that_somebody_deleted_leaves_the_list(browsing, http, se
         page.get_by_role("heading", name="No job matches these filters").wait_for()
 
 
+def test_older_jobs_that_somebody_deleted_leave_the_list_too(browsing, http, service_url):
+    """Only the newest 20 were asked for again, and those that go on."""
+    job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+    jobs = [job | {"label": "older"} for _ in range(25)]
+    batch = http.post("/v1/batches", json={"jobs": jobs}).raise_for_status().json()
+    http.post(f"/v1/batches/{batch['id']}/cancel").raise_for_status()
+    oldest, second, third, *_ = sorted(batch["job_ids"])
+    with browsing.page(f"{service_url}/#/jobs?label=older") as page:
+        for one in (oldest, third):
+            page.locator(f"[data-job='{one}']").get_by_role("checkbox").check()
+            http.delete(f"/v1/jobs/{one}").raise_for_status()
+        for one in (oldest, third):
+            page.locator(f"[data-job='{one}']").wait_for(state="detached")
+        page.get_by_text("23 shown").wait_for()
+        page.locator(f"[data-job='{second}']").wait_for()
+        expect(page.get_by_role("button", name=re.compile("^Delete [0-9]"))).to_have_count(0)
+
+
+def test_jobs_leave_a_list_of_a_state_that_they_have_no_more(browsing, http, service_url):
+    """The older ones stayed; one that came to the state later was put before newer ones."""
+    job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+    jobs = [job | {"label": "by state"} for _ in range(25)]
+    batch = http.post("/v1/batches", json={"jobs": jobs}).raise_for_status().json()
+    second, third, *_, newest = sorted(batch["job_ids"])
+    http.post(f"/v1/jobs/{newest}/cancel").raise_for_status()
+    with browsing.page(f"{service_url}/#/jobs?label=by+state&state=queued") as page:
+        page.locator(f"[data-job='{second}']").wait_for()
+        http.post(f"/v1/jobs/{second}/cancel").raise_for_status()
+        page.locator(f"[data-job='{second}']").wait_for(state="detached")
+        page.locator(f"[data-job='{third}']").wait_for()
+        http.delete(f"/v1/jobs/{second}").raise_for_status()
+        page.goto(f"{service_url}/#/jobs?label=by+state&state=cancelled")
+        page.locator(f"[data-job='{newest}']").wait_for()
+        http.post(f"/v1/jobs/{third}/cancel").raise_for_status()
+        page.locator(f"[data-job='{third}']").wait_for()
+        expect(page.locator(".row")).to_have_count(2)
+        top = "row => row.getBoundingClientRect().top"
+        above, below = (page.locator(f"[data-job='{one}']") for one in (newest, third))
+        assert above.evaluate(top) < below.evaluate(top)
+
+
 def test_what_a_batch_refused_stays_to_be_read(browsing, http, service_url):
     """The next look at the batch wiped it away; a double click did a thing twice."""
     job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
