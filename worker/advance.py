@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from jointplay.storage.object_stores import StoredObject
+from jointplay.storage.object_stores.taken import heard
 
 
 class Advance:
@@ -39,7 +40,8 @@ class _Noted(StoredObject):
 
     def put(self, pieces: Iterable[bytes]) -> None:
         """See `ObjectStore.put`."""
-        self.target.put(noted(pieces, self.note))
+        with heard(self.note):
+            self.target.put(noted(pieces, self.note))
 
 
 def noted_target(target: StoredObject, note: Callable[[], None]) -> StoredObject:

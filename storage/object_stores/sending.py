@@ -15,6 +15,8 @@ from typing import Final
 
 import httpx
 
+from jointplay.storage.object_stores.taken import TAKEN
+
 _TIMEOUT: Final = httpx.Timeout(5.0, write=30.0, read=120.0)
 """Seconds for a connection; without a byte taken; from the last byte to the answer."""
 _PAUSES: Final = (1.0, 2.0, 4.0)
@@ -62,8 +64,10 @@ def _failure(key: str, reason: str) -> ConnectionError:
 
 
 def _pieces(content: mmap.mmap) -> Iterator[bytes]:
+    taken = TAKEN.get()
     for at in range(0, len(content), _PIECE):
         yield content[at : at + _PIECE]
+        taken()
 
 
 @lru_cache(maxsize=1)

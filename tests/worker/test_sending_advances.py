@@ -6,6 +6,7 @@ from contextlib import closing
 from pathlib import Path
 from typing import Self
 
+import httpx
 import pytest
 
 from jointplay.service.app import create_app
@@ -14,9 +15,11 @@ from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Block, BlockState, JobState, NewJob
+from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.object_stores.folder import Folder
+from jointplay.storage.object_stores.s3 import Bucket
 from jointplay.storage.settings import Settings
-from jointplay.worker.advance import Advance
+from jointplay.worker.advance import Advance, noted_target
 from jointplay.worker.execute import Answer
 from jointplay.worker.joined import computing
 from jointplay.worker.joined.connection import Connection
@@ -109,6 +112,45 @@ def test_each_piece_that_is_sealed_is_an_advance(
     assert outcome.state == "succeeded"
     assert len(found) > 10
     assert found == [*range(found[0], found[0] + len(found))]
+
+
+class InBucket(AttemptFiles):
+    """Keeps what is put in a bucket."""
+
+    bucket = Bucket("//results/here?endpoint=http://127.0.0.1:1")
+
+    def put(self, name: str, pieces: Iterable[bytes]) -> None:
+        self.bucket.replace(name, pieces)
+
+
+def test_each_piece_that_a_bucket_takes_is_an_advance(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Objects are gathered first: nothing was heard of while they were sent."""
+    advance, found = Counting(), list[int]()
+
+    def put(_address: str, *, content: Iterable[bytes], **_: object) -> httpx.Response:
+        found.extend(advance.count for _ in content)
+        return httpx.Response(200)
+
+    monkeypatch.setattr(httpx, "put", put)
+    for name in ("AWS_ACCESS_KEY_ID", "AWS_SECRET_ACCESS_KEY"):
+        monkeypatch.setenv(name, "nobody")
+    target = noted_target(StoredObject(InBucket.bucket, "sealed"), advance.note)
+    target.put([bytes(12 * MEBIBYTE)])
+    assert found == [*range(found[0], found[0] + 12)]
+    found.clear()
+    here = Settings(data=tmp_path, running="data")
+    here.sealed_run(BLOCK.job, 1).put([bytes(6 * MEBIBYTE)])
+    rows = here.running_folder(BLOCK.job) / "a1" / "parts" / "0"
+    rows.parent.mkdir(parents=True)
+    rows.write_bytes(bytes(7 * MEBIBYTE))
+    scratch = Scratch(InBucket(here, BLOCK), here, BLOCK, advance)
+    scratch.send_sealed()
+    assert found == [*range(found[0], found[0] + 6)]
+    found.clear()
+    scratch.send(scratch.take())
+    assert found == [*range(found[0], found[0] + 7)]
 
 
 class Upload(Connection):

@@ -13,6 +13,7 @@ from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.storage.catalogue.errors import CatalogueError
 from jointplay.storage.catalogue.records import Block
 from jointplay.storage.object_stores.folder import Folder
+from jointplay.storage.object_stores.taken import heard
 from jointplay.storage.packed.running import DOCUMENTS, PARTS, ROWS
 from jointplay.storage.settings import Settings
 from jointplay.worker.advance import Advance, noted
@@ -144,7 +145,7 @@ class Scratch:
 
     def send(self, taken: Taken) -> None:
         """Have others see these files, and close them."""
-        with taken.opened, self._sending:
+        with taken.opened, self._sending, heard(self._advance.note):
             for name, file in taken.files:
                 self._send(name, file)
             for name in taken.gone:
@@ -172,6 +173,7 @@ class Scratch:
                             self._sending,
                             suppress(OSError, CatalogueError),  # `send` tries again
                             _File(self._folder / name) as file,
+                            heard(self._advance.note),
                         ):
                             if file.size >= _LARGE:
                                 self._send(name, file)
@@ -189,7 +191,8 @@ class Scratch:
         for name in self._files.own_sealed():
             sealed = self._files.sealed(name)
             if sealed is not None and isinstance(sealed.object_store, Folder):
-                with _File(Path(sealed.object_store.root) / sealed.key) as file:
+                path = Path(sealed.object_store.root) / sealed.key
+                with _File(path) as file, heard(self._advance.note):
                     self._elsewhere.put(name, self._pieces(file))
 
     def _send(self, name: str, file: "_File") -> None:
