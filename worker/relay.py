@@ -14,7 +14,7 @@ from redis.exceptions import RedisError
 
 from jointplay.records.log_lines import about, begin
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.errors import Unavailable, WrongRevision
 from jointplay.storage.catalogue.records import QUEUES
 from jointplay.storage.installation import OtherFiles, require_own_files
 from jointplay.storage.settings import Settings
@@ -191,11 +191,12 @@ def main() -> None:
     if settings.redis_url is None:
         raise SystemExit("set JOINTPLAY_REDIS_URL, such as redis://localhost:6379/0")
     catalogue = Catalogue(settings.catalogue_url)
-    catalogue.migrate()
     try:
+        catalogue.migrate()
         require_own_files(settings, catalogue)
-    except OtherFiles as error:
-        raise SystemExit(f"the relay does not start: {error}") from None
+    except (Unavailable, WrongRevision, OtherFiles) as error:  # the service tells what helps
+        why = ": ".join((str(error), *getattr(error, "__notes__", ())))
+        raise SystemExit(f"the relay does not start: {why}") from None
     relay = Relay(catalogue, settings)
     with WakeUpListener(settings.redis_url) as listener:
         while not stop.is_set():

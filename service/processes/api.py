@@ -4,7 +4,6 @@ import argparse
 import gc
 import socket
 import sys
-from functools import partial
 
 import uvicorn
 from fastapi import FastAPI
@@ -14,6 +13,7 @@ from jointplay.service.access.first_key import require_key_beyond_this_machine
 from jointplay.service.memory import keep_no_free_memory
 from jointplay.service.processes.connections import protocol
 from jointplay.service.processes.handshakes import EncryptedConfig
+from jointplay.service.processes.refused_start import RefusedStart
 from jointplay.storage.settings import Settings
 
 LONGEST_HEAD = 256 * 1024
@@ -42,8 +42,9 @@ def main() -> None:
     host = inherited[0].getsockname()[0] if inherited else arguments.host
     require_key_beyond_this_machine(host, again=arguments.again)
     encrypted = arguments.ssl_certfile or arguments.ssl_keyfile
+    refused = RefusedStart()
     configuration = (EncryptedConfig if encrypted else uvicorn.Config)(
-        partial(_application, patient=arguments.again),
+        lambda: refused.watched(_application(patient=arguments.again)),
         factory=True,
         host=arguments.host,
         port=arguments.port,
@@ -57,7 +58,10 @@ def main() -> None:
         timeout_graceful_shutdown=5,
         h11_max_incomplete_event_size=LONGEST_HEAD,
     )
-    uvicorn.Server(configuration).run(sockets=inherited)
+    try:
+        uvicorn.Server(configuration).run(sockets=inherited)
+    except SystemExit as ended:  # it did not start
+        sys.exit(refused.sentence or ended.code)
 
 
 def _application(*, patient: bool) -> FastAPI:

@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -18,6 +19,8 @@ _STEADY = 30.0  # a process that ran this long was well: its failures are forgot
 _BOUND = Path(__file__).with_name("bound.py")
 _LONGER = 5  # times of the patience for which a process that computes is waited for
 _POLL = 0.02
+_TOLD = 12  # lines at the end of a log that are looked at for why its process ended
+_LOGGED = re.compile(r"\d{4}-\d{2}-\d{2} \S+ [A-Z]+ |{")  # begins a line of `records.log_lines`
 _LITTLE = 2**16  # bytes that are free on a disk on which nothing can be started
 
 
@@ -123,8 +126,7 @@ class Child:
         computed = None
         while not answers():
             if not self.alive:
-                last = self._written().splitlines()[-12:]
-                told = [line for line in last if not line[:1].isspace()]  # no traceback's
+                told = _reasons(self._written().splitlines()[-_TOLD:])
                 if shutil.disk_usage(self.log.parent).free < _LITTLE:  # which the log cannot tell
                     told.append(f"the disk with {self.log.parent} is full")
                 how = (
@@ -159,3 +161,13 @@ class Child:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self._process.pid, signal.SIGKILL)  # what it may have left behind, too
         self._process.wait()
+
+
+def _reasons(lines: Sequence[str]) -> list[str]:
+    """Return what a process says itself of its end, or else the errors that it logged.
+
+    Lines of a traceback are left out.
+    """
+    flush = [line for line in lines if line.strip() and not line[:1].isspace()]
+    own = [line for line in flush if not _LOGGED.match(line)]
+    return own or [line for line in flush if " ERROR " in line or '"ERROR"' in line] or flush

@@ -39,6 +39,7 @@ from jointplay.storage.catalogue.errors import (
     CatalogueError,
     Interrupted,
     Unavailable,
+    WrongRevision,
 )
 from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
@@ -96,7 +97,7 @@ class Catalogue:
         """Raise if the database does not answer, or its schema is not one of this program."""
         found = self.connections.repeated(self._named_revision)
         if not schema.serves(found):
-            raise RuntimeError(
+            raise WrongRevision(
                 f"the catalogue is at revision {found}, this program needs {schema.REVISION}"
             )
 

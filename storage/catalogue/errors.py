@@ -32,6 +32,10 @@ class Broken(Unavailable):
         super().__init__("is damaged, or is being restored")
 
 
+class WrongRevision(CatalogueError, RuntimeError):
+    """The database's schema is not one of this program."""
+
+
 class JobNotFound(CatalogueError):
     """No job has this id."""
 

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from sqlalchemy import Connection, inspect, text
 
 from jointplay.storage.catalogue import functions, tables
+from jointplay.storage.catalogue.errors import WrongRevision
 
 REVISION = "0015"
 """The newest migration; a test compares it with the folder storage/migrations. One that takes
@@ -29,7 +30,7 @@ def upgrade(connection: Connection) -> None:
 
     Raises
     ------
-    RuntimeError
+    WrongRevision
         The database is of a newer program that took something away which this one needs.
     """
     from alembic import command
@@ -40,7 +41,7 @@ def upgrade(connection: Connection) -> None:
     configuration.attributes["connection"] = connection
     found = present_revision(connection)
     if found is not None and found > REVISION:
-        raise RuntimeError(f"the catalogue {_newer(found)}; run that one")
+        raise WrongRevision(f"the catalogue {_newer(found)}; run that one")
     if found is None:
         tables.metadata.create_all(connection)
         functions.make(connection)
