@@ -25,7 +25,8 @@ def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
     It takes seconds a job where disks are slow.
     """
     try:
-        jobs = catalogue.removable(_AT_ONCE)
+        due = catalogue.removable(_AT_ONCE)
+        jobs = catalogue.give_up(due) if due else ()
     except Unavailable as fault:
         _log.warning("nothing is removed now: %s", fault)
         return

@@ -293,6 +293,7 @@ class Catalogue:
     reap = durably(upkeep.reap)
     settle = writing(fair_queueing.settle)
     removable = reading(upkeep.removable)
+    give_up = writing(upkeep.give_up)
     mark_removed = writing(upkeep.mark_removed)
     unmeasured = reading(stored.unmeasured)
     note_stored = writing(stored.note_stored)

@@ -191,6 +191,21 @@ def removable(unit: Unit, limit: int) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))[:limit]
 
 
+def give_up(unit: Unit, jobs: Sequence[str]) -> tuple[str, ...]:
+    """Delete those among jobs that have expired, and return them, before their results go.
+
+    A request for the same may have found one meanwhile, which is kept longer since then.
+    """
+    if unit.shared:  # in the order that all others have
+        wanted = select(_job.c.id).where(_job.c.id.in_(jobs)).order_by(_job.c.id)
+        unit.execute(wanted.with_for_update(key_share=True)).all()
+    due = _job.c.deleted.is_not(None) | (_job.c.expires <= unit.now)
+    still = _job.c.id.in_(jobs) & _job.c.removed.is_(None) & _job.c.state.in_(TERMINAL) & due
+    gone = update(_job).where(still).values(deleted=func.coalesce(_job.c.deleted, unit.now))
+    found = set(unit.execute(gone.returning(_job.c.id)).scalars())
+    return tuple(job for job in jobs if job in found)
+
+
 def mark_removed(unit: Unit, jobs: Sequence[str]) -> None:
     """Remember that the results of jobs are gone."""
     unit.execute(update(_job).where(_job.c.id.in_(jobs)).values(removed=unit.now, stored=0))
