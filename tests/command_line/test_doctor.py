@@ -86,6 +86,15 @@ def ran(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+REACHED = {"time": 0.1, "fraction": 1.0}
+
+
+def change(folder: Path, **fields: object) -> None:
+    """Change what is said of the end of a run."""
+    outcome = json.loads((folder / "outcome.json").read_text())
+    (folder / "outcome.json").write_text(json.dumps(outcome | fields))
+
+
 @pytest.fixture
 def folder(ran: Path, tmp_path: Path) -> Path:
     return shutil.copytree(ran, tmp_path / "OUT")
@@ -102,6 +111,13 @@ def test_nothing_is_wrong_with_what_a_run_left(jointplay, folder: Path) -> None:
         (lambda out: (out / "job.json").write_text("{}"), "is not the job of", True),
         (lambda out: (out / "job.json").unlink(), "is not the job of", True),
         (lambda out: (out / "outcome.json").write_text("{"), "is no JSON document", True),
+        (lambda out: change(out, state="qucceeded"), "is not what a run writes", True),
+        (lambda out: change(out, state="cancelled"), "is not the end of", True),
+        (lambda out: change(out, state="failed"), "is not what a run writes", True),
+        (lambda out: change(out, finished="yesterday"), "is not what a run writes", True),
+        (lambda out: change(out, progress={"time": 0.1}), "is not what a run writes", True),
+        (lambda out: change(out, progress=dict(REACHED, time=0.3)), "is not the end of", True),
+        (lambda out: change(out, progress=dict(REACHED, fraction=0.5)), "is not the end of", True),
         (lambda out: (out / "running").mkdir(), "is left over", True),
         (lambda out: (out / "results.zarr.zip.0123.partial").touch(), "is left over", True),
     ],

@@ -1,6 +1,5 @@
 """A job whose results are in a folder, as the same object that a client has."""
 
-import json
 import shutil
 from collections.abc import Iterator
 from datetime import UTC, datetime
@@ -12,13 +11,12 @@ from jointplay.client.errors import ClientError, NotFound
 from jointplay.client.job import Job
 from jointplay.storage.errors import ResultsError
 from jointplay.worker.local.folder import OUTCOME_FILE, STORE
+from jointplay.worker.local.outcome import outcome_of
 
 if TYPE_CHECKING:
     from jointplay.local.folder_results import FolderResults
     from jointplay.storage.results.reader import ResultReader
     from jointplay.storage.studies.reader import StudyReader
-
-_OUTCOME = ("state", "error", "started", "finished", "progress")
 
 
 class FolderJob(Job):
@@ -63,13 +61,11 @@ class FolderJob(Job):
 
     def _outcome(self, end: float, *, complete: bool) -> dict[str, Any]:
         """Return how the job ended; of a store alone only that it is whole, or not, is known."""
-        path = self._folder / OUTCOME_FILE
         try:
-            found: dict[str, Any] = json.loads(path.read_bytes())
-            _ = [found[name] for name in _OUTCOME]
-        except (ValueError, TypeError, KeyError) as error:
+            found = outcome_of(self._folder)
+        except ValueError as error:
             sentence = "is not what was written; remove it, the results can be read without it"
-            raise ResultsError(f"{path} {sentence}.") from error
+            raise ResultsError(f"{self._folder / OUTCOME_FILE} {sentence}.") from error
         except (FileNotFoundError, NotADirectoryError):
             written = datetime.fromtimestamp(self._folder.stat().st_mtime, UTC).isoformat()
             found = {
