@@ -5,9 +5,14 @@ machine or container, or of a system without /proc.
 """
 
 import os
+import re
 import socket
 from functools import cache
 from pathlib import Path
+from typing import Final
+
+_OWN_NAME: Final = re.compile(r"[^@:]*:([1-9]\d{0,9}):(\d+):(.+)", re.ASCII)
+"""What `own_name` returns. With a key before an "@" it is of a worker that joined, and chose it."""
 
 
 def own_name() -> str:
@@ -18,16 +23,16 @@ def own_name() -> str:
 
 def has_ended(name: str) -> bool:
     """Return whether the process of this name is certain to have ended."""
-    parts = name.split(":", 3)
-    if not _pid_space() or parts[3:] != [_pid_space()]:
+    found = _OWN_NAME.fullmatch(name)
+    if found is None or not _pid_space() or found[3] != _pid_space():
         return False
-    _, pid, started, _ = parts
+    pid, started = int(found[1]), found[2]
     try:
-        os.kill(int(pid), 0)
-        return _started(int(pid)) != started  # "": it waits for its parent; other: a later one
+        os.kill(pid, 0)
+        return _started(pid) != started  # "": it waits for its parent; other: a later one
     except ProcessLookupError:
         return True
-    except PermissionError:  # another user's, of whom /proc may tell nothing
+    except (PermissionError, OverflowError):  # another user's, whom /proc may not tell; no id
         return False
 
 

@@ -54,6 +54,15 @@ class Relay:
         self._results: threading.Thread | None = None
         self._lead_until = 0.0
 
+    def turn(self) -> None:
+        """Do a round; what goes wrong in it is logged, and tried again in another one."""
+        try:
+            self.do_round()
+        except Unavailable as error:
+            _log.warning("trying again: %s", error)
+        except Exception:  # noqa: BLE001  (without a relay no job would be computed)
+            _log.exception("trying again")
+
     def do_round(self) -> None:
         """Do what is due now, if this process leads."""
         now = time.monotonic()
@@ -178,7 +187,10 @@ class Relay:
             self._results.join(_RESULTS_PATIENCE)
         self._app.close()
         self._redis.close()
-        self._catalogue.release_lead(_TASK, self._name)
+        try:
+            self._catalogue.release_lead(_TASK, self._name)
+        except Unavailable as error:
+            _log.warning("another relay takes over in %g s: %s", _LEAD_SECONDS, error)
 
 
 def main() -> None:
@@ -200,10 +212,7 @@ def main() -> None:
     relay = Relay(catalogue, settings)
     with WakeUpListener(settings.redis_url) as listener:
         while not stop.is_set():
-            try:
-                relay.do_round()
-            except Unavailable as error:
-                _log.warning("trying again: %s", error)
+            relay.turn()
             listener.wait(settings.relay_period)
     relay.release_lead()
     catalogue.close()

@@ -150,9 +150,13 @@ def wake_again(unit: Unit, block_id: str, solver: Solver) -> None:
 
 
 def machine_of(worker: str) -> str:
-    """Return what tells the machine of a worker from others: its boot, or else its name."""
-    host, _, _, boot, *_ = [*worker.split(":"), "", "", ""]
-    return boot or host
+    """Return what tells the machine of a worker from others: its boot, or else its name.
+
+    A worker that joined with a key may say what it likes: its machine is one of that key.
+    """
+    key, at, name = worker.rpartition("@")
+    host, _, _, boot, *_ = [*name.split(":"), "", "", ""]
+    return f"{key}{at}{boot or host}"
 
 
 _HOLDER: Final = select(_block.c.worker).where(_block.c.id == bindparam("of_block"))

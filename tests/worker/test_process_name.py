@@ -68,3 +68,17 @@ def test_nothing_is_said_of_processes_of_other_users(monkeypatch: pytest.MonkeyP
 @pytest.mark.parametrize("name", ["worker", "host:1", "host:1:1", "host:1:1:", "host:1:1:other:5"])
 def test_nothing_is_said_of_processes_elsewhere(name: str) -> None:
     assert not has_ended(name)
+
+
+@pytest.mark.parametrize("pid", ["x", "", "0", "-1", str(2**31), "9" * 30, "１"])
+def test_nothing_is_said_of_names_that_a_worker_has_made_up(pid: str) -> None:
+    """Those that join choose theirs, and the relay asks about each of them."""
+    host, _, started, space = own_name().split(":", 3)
+    assert not has_ended(f"{host}:{pid}:{started}:{space}")
+
+
+def test_nothing_is_said_of_a_worker_that_joined_with_a_key() -> None:
+    """It could ask about the processes of the service's machine."""
+    host, pid, started, space = own_name().split(":", 3)
+    assert has_ended(f"{host}:{pid}:{int(started) - 1}:{space}")
+    assert not has_ended(f"ab12@{host}:{pid}:{int(started) - 1}:{space}")

@@ -10,6 +10,7 @@ from redis import Redis
 
 from jointplay.service.processes.broker import Broker
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import SILENT, Unavailable
 from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker import relay as relay_module
@@ -276,3 +277,43 @@ def test_the_end_of_a_block_wakes_the_relay_where_owners_are_limited(
         tasks.run_block(f"{job}-0")
         assert catalogue.get(job).state.terminal
         until(lambda: listening.get_message(timeout=0.1) is not None)
+
+
+def test_a_worker_whose_name_is_made_up_does_not_end_the_relay(
+    relay: Relay, catalogue: Catalogue, redis: Redis
+) -> None:
+    """A worker that joins chooses its own, and holds a block with it."""
+    space = own_name().split(":", 3)[3]
+    for name in (f"h:x:1:{space}", f"h:{10**30}:1:{space}"):
+        job = catalogue.submit(NEW).job.id
+        assert catalogue.claim_block(f"{job}-0", name, lease=30.0)
+    later = catalogue.submit(NEW).job.id
+    relay.do_round()
+    assert later in str(redis.lrange(FRESH, 0, -1))
+
+
+def test_what_goes_wrong_in_a_round_is_tried_again(
+    relay: Relay, catalogue: Catalogue, redis: Redis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail() -> tuple[str, ...]:
+        raise ValueError
+
+    catalogue.submit(NEW)
+    with monkeypatch.context() as now:
+        now.setattr(catalogue, "holders", fail)
+        relay.turn()
+    until(lambda: redis.llen(FRESH) == 1, act=relay.turn)
+
+
+def test_a_relay_ends_also_while_the_catalogue_does_not_answer(
+    catalogue: Catalogue, settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise Unavailable(SILENT)
+
+    relay = Relay(catalogue, settings)
+    relay.do_round()
+    with monkeypatch.context() as now:
+        now.setattr(catalogue, "release_lead", fail)
+        relay.release_lead()
+    catalogue.release_lead("relay", own_name())

@@ -167,6 +167,15 @@ def test_losses_of_the_only_machine_end_a_job(catalogue: Catalogue, clock: Clock
     assert states == [BlockState.queued] * 2 + [BlockState.failed]
 
 
+def test_a_worker_of_a_key_cannot_lose_blocks_in_the_name_of_another_machine(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    catalogue.note_worker(GOOD.format(1), OLD)
+    block = f"{catalogue.submit(RUN).job.id}-0"
+    states = [lose(catalogue, block, f"key@{GOOD.format(n)}", clock) for n in range(5)]
+    assert states == [BlockState.queued] * 5
+
+
 def test_a_job_that_came_alone_is_taken_before_studies_and_batches(catalogue: Catalogue) -> None:
     study = catalogue.submit(STUDY).job.id
     batch = catalogue.submit_batch([RUN] * 2).jobs
