@@ -11,6 +11,7 @@ import pytest
 
 from jointplay.client import Peak
 from jointplay.command_line.demo import cases_of, rows_of, table
+from jointplay.service.processes.folder_lock import holding
 from jointplay.solver.scene import presets
 
 README = (Path(__file__).parents[2] / "README.md").read_text()
@@ -79,6 +80,21 @@ def test_the_table_has_a_line_for_every_published_number():
     for line, entry in zip(lines, scene["reported"], strict=True):
         assert f"{entry['value']:g}" in line
         assert re.split(r"\s{2,}", line)[5] == "1.0000"
+
+
+def test_the_demo_leaves_what_is_in_its_folder_already(tmp_path):
+    data = tmp_path / "service"
+    data.mkdir()
+    (data / "thesis.txt").write_text("mine")
+    refused = subprocess.run([*DEMO, str(tmp_path)], capture_output=True, text=True)
+    assert refused.returncode == 2
+    assert "holds something else than a service" in refused.stderr
+    (data / "catalogue.sqlite").touch()
+    with holding(data):  # by a service
+        refused = subprocess.run([*DEMO, str(tmp_path)], capture_output=True, text=True)
+    assert refused.returncode == 3
+    assert "is in use by another" in refused.stderr
+    assert (data / "thesis.txt").read_text() == "mine"
 
 
 @pytest.mark.long

@@ -1,6 +1,5 @@
 """``jointplay demo``: a service from start to stop, beside the numbers of a scene's source."""
 
-import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -33,7 +32,8 @@ def demo(
     """Start a service, run a scene's published cases over HTTP, and stop everything.
 
     Figures of every case go to the folder; the published numbers are printed beside ours. The jobs
-    are kept there, too: the last lines printed are the commands that draw other figures of them.
+    are kept there, too, with those of earlier times: the last lines printed are the commands that
+    draw other figures of them.
 
     Example: `jointplay demo seven-bar-press -o demo`
     """
@@ -45,8 +45,7 @@ def demo(
     if not scene.get("reported"):
         raise Stopped(f"{scene['name']} carries no reported numbers to be set beside ours.")
     cases = cases_of(scene)
-    data = output / "service"
-    shutil.rmtree(data, ignore_errors=True)  # what an earlier demo left
+    data = _data_folder(output)
     typer.echo("starting broker, API and workers", err=as_json)
     with running_service(data, workers=workers) as url, Client(url) as client:
         typer.echo(f"the service answers at {url}; submitting {len(cases)} jobs", err=as_json)
@@ -66,6 +65,14 @@ def demo(
         f"  jointplay plot {jobs[-1].id}",
     ]
     print_result(facts, lines, as_json=as_json)
+
+
+def _data_folder(output: Path) -> Path:
+    """Return where the service keeps its jobs: what is there already is kept."""
+    data = output / "service"
+    if data.is_dir() and any(data.iterdir()) and not (data / "catalogue.sqlite").exists():
+        raise Stopped(f"{data} holds something else than a service; give another folder with -o.")
+    return data
 
 
 def _finished(jobs: list["Job"]) -> list["Job"]:
