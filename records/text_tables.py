@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-_FORMATS: Final = {"f": "%.17g", "i": "%d", "u": "%d", "U": "%s"}
+_FORMATS: Final = {"f": "%.17g", "i": "%d", "u": "%d", "b": "%d", "U": "%s"}
 """By kind of dtype; 17 significant digits give back every bit of a double, NaN is ``nan``."""
 
 
@@ -35,7 +35,7 @@ def csv_lines(
     for comment in comments:
         for line in comment.splitlines() or [""]:
             yield f"# {line}".rstrip() + "\n"
-    yield ",".join(titles) + "\n"
+    yield ",".join(map(_cell, titles)) + "\n"
     for block in blocks:
         columns = [_quoted(np.asarray(column)) for column in block]
         row = ",".join([_FORMATS[column.dtype.kind] for column in columns]) + "\n"
@@ -45,13 +45,15 @@ def csv_lines(
 
 
 def _quoted(column: NDArray[Any]) -> NDArray[Any]:
-    """Return a column of text with quotes about what would be cut elsewhere (RFC 4180)."""
+    """Return a column of text as cells."""
     if column.dtype.kind != "U":
         return column
-    cells = column.tolist()
-    return np.array(
-        ['"' + one.replace('"', '""') + '"' if {*one} & {*',"\n'} else one for one in cells]
-    )
+    return np.array([_cell(word) for word in column.tolist()])
+
+
+def _cell(word: str) -> str:
+    """Put quotes about text that would be cut elsewhere (RFC 4180)."""
+    return '"' + word.replace('"', '""') + '"' if {*word} & {*',"\r\n'} else word
 
 
 def json_numbers(values: NDArray[np.float64]) -> str:

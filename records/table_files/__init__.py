@@ -19,7 +19,7 @@ from jointplay.records.table_files import (
     npz,
     parquet,
 )
-from jointplay.records.table_files.column import Column
+from jointplay.records.table_files.column import Column, apart
 
 __all__ = ["FORMS", "SUFFIXES", "Column", "NotInstalled", "UnknownForm", "encode", "form_of"]
 
@@ -66,5 +66,5 @@ def encode(path: PurePath | str, columns: Sequence[Column], *, complete: bool) -
     complete
         Whether the run came to its end; in all files but CSV.
     """
-    content: bytes = form_of(path).encode(columns, complete=complete)
+    content: bytes = form_of(path).encode(apart(columns), complete=complete)
     return content

@@ -13,5 +13,5 @@ NEEDS = None
 def encode(columns: Sequence[Column], *, complete: bool) -> bytes:
     """Return a header row ``time [s],slider7.x [m]`` and one row a sample."""
     del complete  # has no place in a table
-    titles = [f"{one.label} [{one.unit}]" if one.unit else one.label for one in columns]
+    titles = [one.title for one in columns]
     return "".join(csv_lines(titles, [[column.values for column in columns]])).encode()

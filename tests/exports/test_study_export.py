@@ -19,7 +19,6 @@ from jointplay.exports.study import point_json, point_lines, section_json, secti
 from jointplay.exports.table_columns import columns_of
 from jointplay.records.window_query import WindowQuery
 
-UNITS = {"lyapunov": "1/s", "lyapunov_error": "1/s"}
 OBSERVED = ["left.eccentricity_x", "block.vx"]
 
 
@@ -50,7 +49,7 @@ def test_sections_of_one_point_have_no_parameter():
 def test_points_have_a_word_for_what_became_of_them_and_a_verdict():
     source = bifurcation(points=6, judged=True, failed=(1,), unfinished=(4, 5))
     source = replace(source, reasons={3: "it recurs after 2, K is 0"})
-    header, *rows = rows_of(point_lines(source, [], range(6), UNITS))
+    header, *rows = rows_of(point_lines(source, [], range(6)))
     assert header[:6] == ["point", "status", "verdict", "reason", "failure", "play [m]"]
     assert [row[3] for row in rows[2:4]] == ["", "it recurs after 2, K is 0"]
     assert [row[1] for row in rows] == ["done", "failed", "done", "done", "running", "waiting"]
@@ -67,13 +66,13 @@ def test_points_have_a_word_for_what_became_of_them_and_a_verdict():
 def test_a_continuation_that_goes_both_ways_has_a_direction():
     source = bifurcation(points=3, record=2, both=True)
     told = ["forward"] * 3 + ["backward"] * 3
-    header, *rows = rows_of(point_lines(source, [], range(6), UNITS))
+    header, *rows = rows_of(point_lines(source, [], range(6)))
     assert header[:3] == ["point", "direction", "status"]
     assert [row[1] for row in rows] == told
     header, *rows = rows_of(section_lines(source, OBSERVED, range(2, 5)))
     assert header[:3] == ["point", "direction", "play [m]"]
     assert [row[1] for row in rows] == ["forward"] * 2 + ["backward"] * 4
-    for pieces in (point_json(source, [], range(6), UNITS), section_json(source, [], range(6))):
+    for pieces in (point_json(source, [], range(6)), section_json(source, [], range(6))):
         assert json.loads("".join(pieces))["direction"] == told
     job = SimpleNamespace(is_study=True, study=lambda *_: source)
     for table in ("points", "poincare"):
@@ -85,7 +84,7 @@ def test_a_continuation_that_goes_both_ways_has_a_direction():
 
 def test_extremes_of_a_sweep_stand_beside_its_parameters():
     source = sweep((4, 2))
-    header, *rows = rows_of(point_lines(source, ["stroke"], range(2, 8), UNITS))
+    header, *rows = rows_of(point_lines(source, ["stroke"], range(2, 8)))
     assert header[3:] == [
         "play [m]",
         "friction [1]",
@@ -112,9 +111,7 @@ def test_json_gives_back_every_bit_and_null_for_what_is_no_number():
     assert document["status"] == ["done", "failed", "done", "done"]
     assert document["time"][1] == document["sections"]["block.vx"][1] == []
     assert document["sections"]["block.vx"][3] == source.section_values["block.vx"][4].tolist()
-    document = json.loads(
-        "".join(point_json(source, [], range(5), UNITS)), parse_constant=pytest.fail
-    )
+    document = json.loads("".join(point_json(source, [], range(5))), parse_constant=pytest.fail)
     assert document["columns"]["lyapunov [1/s]"][2] is None
     assert document["columns"]["lyapunov [1/s]"][4] == source.indicators["lyapunov"][4]
     assert document["verdict"][2] == ""

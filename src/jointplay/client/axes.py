@@ -9,6 +9,7 @@ from jointplay.records.extremes import whole_peaks
 from jointplay.records.point import PointStatus
 from jointplay.records.point_numbers import meanings_of
 from jointplay.records.study import BACKWARD, FORWARD, StudySource, directions_of
+from jointplay.records.study_columns import channel_names, numbers, parameter_names
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,19 +42,20 @@ def on_axes(study: StudySource) -> "xr.Dataset":
         names = np.array([*study.verdict_names, ""])
         variables["verdict"] = (axes, laid_out(names[study.verdicts]))
     meanings = meanings_of(study)
-    for name, values in {**study.indicators, **study.statistics}.items():
-        if name != "verdict":
-            unit, long_name = meanings.get(name, ("", ""))
-            told = {"units": unit, "long_name": long_name} if unit else {}
-            variables[name] = (axes, laid_out(np.asarray(values)), told)
+    for number in numbers(study):
+        long_name = meanings.get(number.name, ("", ""))[1]
+        told = {"units": number.unit, "long_name": long_name}
+        variables[number.name] = (axes, laid_out(number.values), told)
+    called = channel_names(study)
     for one in study.channels:
         peaks = whole_peaks(study, one.name)
         pair = np.stack([peaks.minimum, peaks.maximum], axis=1)
-        variables[one.name] = ([*axes, "extreme"], laid_out(pair), _told(one))
+        variables[called[one.name]] = ([*axes, "extreme"], laid_out(pair), _told(one))
     if study.channels:
         coordinates["extreme"] = (["extreme"], np.array(EXTREMES), {})
     for one in study.observables:
-        variables[one.name] = ([*axes, "section"], laid_out(study.sections(one.name)), _told(one))
+        sections = laid_out(study.sections(one.name))
+        variables[called[one.name]] = ([*axes, "section"], sections, _told(one))
     if study.observables:
         told = {"units": "1", "long_name": "sections that were recorded"}
         variables["sections"] = (axes, laid_out(study.counts), told)
@@ -66,11 +68,11 @@ def _axes(
     study: StudySource,
 ) -> tuple[list[str], dict[str, tuple[Any, ...]], NDArray[np.int64] | None]:
     """Return the axes, their coordinates, and the points in their order; None: no grid."""
-    names = [one.name for one in study.parameters]
+    names = parameter_names(study)
     found = [np.unique(column, return_inverse=True) for column in study.values.T]
     sizes = [len(values) for values, _ in found]
     cells = int(np.prod(sizes)) if sizes else 0
-    told = {one.name: _told(one) for one in study.parameters}
+    told = dict(zip(names, map(_told, study.parameters), strict=True))
     turns = 1 if directions_of(study) is None else 2
     if cells and study.points == turns * cells:
         indices = np.ravel_multi_index([inverse for _, inverse in found], sizes)

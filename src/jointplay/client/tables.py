@@ -4,7 +4,7 @@
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +18,9 @@ from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.kinds_with import kinds_with
 from jointplay.records.peak import PEAK
 from jointplay.records.point import PointStatus
-from jointplay.records.point_numbers import meanings_of
 from jointplay.records.study import StudySource, directions_of
+from jointplay.records.study_columns import channel_names, numbers, parameters, words
+from jointplay.records.table_files import Column
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -100,10 +101,12 @@ class TabledJob(JobRecord, ABC):
         inside = np.arange(study.record) < study.counts[:, None]
         point, section = np.nonzero(inside)
         columns: dict[str, Any] = {"point": point, "section": section}
-        columns |= {name: column[point] for name, column in _values(study).items()}
+        given, called = _given(study), channel_names(study)
+        columns |= {one.name: one.values[point] for one in given}
         columns["time"] = study.section_times()[inside]
-        columns |= {one.name: study.sections(one.name)[inside] for one in study.observables}
-        units = {one.name: one.unit for one in (*study.parameters, *study.observables)}
+        for one in study.observables:
+            columns[called[one.name]] = study.sections(one.name)[inside]
+        units = {called[one.name]: one.unit for one in study.observables} | _units(given)
         return _table(columns, units | {"time": "s"}, "point", "section")
 
     @property
@@ -128,14 +131,14 @@ class TabledJob(JobRecord, ABC):
             "point": np.repeat(np.arange(study.points), len(names)),
             "channel": names * study.points,
         }
-        columns |= {name: np.repeat(column, len(names)) for name, column in _values(study).items()}
+        given = _given(study)
+        columns |= {one.name: np.repeat(one.values, len(names)) for one in given}
         status = [PointStatus(code).name for code in study.status]
         columns["status"] = np.repeat(status, len(names))
         columns["unit"] = [channel.unit for channel in study.channels] * study.points
         for name in PEAK:
             columns[name] = np.column_stack([getattr(one, name) for one in extremes]).ravel()
-        units = {one.name: one.unit for one in study.parameters}
-        return _table(columns, units, "point", "channel")
+        return _table(columns, _units(given), "point", "channel")
 
     @property
     def impacts(self) -> "pd.DataFrame":
@@ -147,26 +150,22 @@ class TabledJob(JobRecord, ABC):
 
     @property
     def points(self) -> "pd.DataFrame":
-        """Values, status, verdict and its reason, indicators, statistics: one row a point."""
+        """Status, verdict and its reason, values, indicators, statistics: one row a point.
+
+        A parameter that is called as another column, such as `steps`, is `parameter.steps`.
+        """
         self._insist_on_points()
         # one section of each: they are not in this table
         study = self.results.study(None, None, (0, 1))
-        columns = _values(study)
+        found = [*words(study), *parameters(study)]
         if study.observables:
-            columns["sections"] = study.counts
-        columns["status"] = [PointStatus(code).name for code in study.status]
-        codes = {point: failure.code for point, failure in study.failures.items()}
-        columns["failure"] = [codes.get(point, "") for point in range(study.points)]
-        if study.verdicts is not None:
-            names = [*study.verdict_names, None]
-            columns["verdict"] = [names[code] for code in study.verdicts]
-            reasons = study.reasons
-            columns["reason"] = [reasons.get(point) for point in range(study.points)]
-        numbers = {**study.indicators, **study.statistics}
-        columns |= {name: one for name, one in numbers.items() if name != "verdict"}
-        units = {one.name: one.unit for one in study.parameters}
-        units |= {name: unit for name, (unit, _) in meanings_of(study).items()}
-        return _table(columns, units).rename_axis("point")
+            found.append(Column("sections", "1", study.counts))
+        found += numbers(study)
+        columns: dict[str, Any] = {one.name: one.values for one in found}
+        for name in ("verdict", "reason", "attractor"):
+            if name in columns:
+                columns[name] = [word or None for word in columns[name].tolist()]
+        return _table(columns, _units(found)).rename_axis("point")
 
     def _insist(self, what: str, *results: str) -> None:
         """Raise `NotFound` if jobs of this kind have none of these results."""
@@ -204,13 +203,15 @@ class TabledJob(JobRecord, ABC):
         return in_netcdf(found)
 
 
-def _values(study: StudySource) -> dict[str, Any]:
+def _given(study: StudySource) -> list[Column]:
     """Return the direction, where there are two, and the parameters of each point."""
     directions = directions_of(study)
-    words = {} if directions is None else {"direction": directions}
-    return words | {
-        one.name: study.values[:, column] for column, one in enumerate(study.parameters)
-    }
+    words = [] if directions is None else [Column("direction", "", directions)]
+    return [*words, *parameters(study)]
+
+
+def _units(columns: Sequence[Column]) -> dict[str, str]:
+    return {one.name: one.unit for one in columns if one.unit}
 
 
 def _table(columns: Mapping[str, Any], units: Mapping[str, str], *index: str) -> "pd.DataFrame":

@@ -85,7 +85,6 @@ def _rows(job: "Job", asked: Asked) -> Text:
 
 
 def _study(job: "Job", asked: Asked) -> Text:
-    from jointplay.command_line.summary import units
     from jointplay.exports.study import point_json, point_lines, section_json, section_lines
 
     query = asked.query
@@ -98,8 +97,8 @@ def _study(job: "Job", asked: Asked) -> Text:
     if of_points:
         values = len(chosen) * (4 * len(names) + len(source.parameters) + 3)
         if asked.form == "json":
-            return Text(point_json(source, names, chosen, units(source)), values)
-        return Text(point_lines(source, names, chosen, units(source), comments), values)
+            return Text(point_json(source, names, chosen), values)
+        return Text(point_lines(source, names, chosen, comments), values)
     values = int(source.counts[chosen.start : chosen.stop].sum()) * (len(names) + 3)
     if asked.form == "json":
         return Text(section_json(source, names, chosen), values)

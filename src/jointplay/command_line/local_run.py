@@ -62,7 +62,6 @@ def _go_on(output: Path) -> str:
 def _write(found: dict[str, Any], output: Path) -> Path:
     """Write the table of results into the folder, and return its path."""
     from jointplay.command_line.peaks import peak_lines
-    from jointplay.command_line.summary import units
     from jointplay.exports.study import point_lines
 
     if found["accuracy"] is not None:
@@ -71,7 +70,7 @@ def _write(found: dict[str, Any], output: Path) -> Path:
         table, text = output / "calibration.json", json_text(found["calibration"]) + "\n"
     elif (study := found["points"]) is not None:
         channels = [channel.name for channel in study.channels]
-        lines = point_lines(study, channels, range(study.points), units(study))
+        lines = point_lines(study, channels, range(study.points))
         table, text = output / "points.csv", "".join(lines)
     elif found["peaks"] is None:  # a calibration that did not come to its end has nothing
         return output

@@ -115,13 +115,6 @@ def _sections_of(source: "StudySource") -> dict[str, int] | None:
     return {"fewest": int(counts.min()), "most": int(counts.max())}
 
 
-def units(source: "StudySource") -> dict[str, str]:
-    """Return the units of the statistics and indicators of points, by name."""
-    from jointplay.records.point_numbers import meanings_of
-
-    return {name: unit for name, (unit, _) in meanings_of(source).items()}
-
-
 def _missed(job: Mapping[str, Any], fewest: int) -> str:
     """Return why points have fewer sections than were asked for; empty: they have all."""
     section, wanted = job.get("section"), job.get("record", 0)

@@ -1,17 +1,23 @@
 """Studies as CSV or JSON text, piece by piece: memory does not grow with points and sections."""
 
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.attractors import attractors_of
 from jointplay.records.channel import TIME, by_name
 from jointplay.records.point import PointStatus
-from jointplay.records.run import Floats
 from jointplay.records.study import StudySource, directions_of
+from jointplay.records.study_columns import (
+    channel_names,
+    parameters,
+    point_columns,
+    results,
+    words,
+)
+from jointplay.records.table_files import Column
 from jointplay.records.text_tables import csv_lines, json_list, json_numbers, json_object
 
 _BLOCK = 200_000  # values that are held at a time
@@ -35,8 +41,9 @@ def section_lines(
     described = by_name(source.observables)
     directions = directions_of(source)
     titles = ["point", *([] if directions is None else ["direction"])]
-    titles += [*(one.title for one in source.parameters), "section", TIME.title]
-    titles += [described[name].title for name in observables]
+    titles += [*(one.title for one in parameters(source)), "section", TIME.title]
+    called = channel_names(source)
+    titles += [described[name]._replace(name=called[name]).title for name in observables]
     yield from csv_lines(titles, _section_blocks(source, observables, points, directions), comments)
 
 
@@ -65,24 +72,21 @@ def point_lines(
     source: StudySource,
     channels: Sequence[str],
     points: range,
-    units: Mapping[str, str],
     comments: Sequence[str] = (),
 ) -> Iterator[str]:
     """Write one row a point: its values, what became of it, extremes, indicators and statistics.
 
-    Whole lines; numbers have 17 significant digits, what is not known is `nan`.  `units` are those
-    of indicators and statistics, by name.
+    Whole lines; numbers have 17 significant digits, what is not known is `nan`.
     """
-    columns: dict[str, Any] = dict(words_of_points(source))
-    columns |= {one.title: source.values[:, at] for at, one in enumerate(source.parameters)}
-    columns |= columns_of_points(source, channels, units)
-    yield from csv_lines(["point", *columns], _point_blocks(points, columns), comments)
+    columns = point_columns(source, channels)
+    titles = ["point", *(one.title for one in columns)]
+    yield from csv_lines(titles, _point_blocks(points, columns), comments)
 
 
-def _point_blocks(points: range, columns: Mapping[str, Any]) -> Iterator[list[Any]]:
+def _point_blocks(points: range, columns: Sequence[Column]) -> Iterator[list[Any]]:
     """Give the columns of `point_lines` for a few points at a time."""
     for first, last in _blocks(points, 8 * len(columns)):
-        yield [range(first, last), *(column[first:last] for column in columns.values())]
+        yield [range(first, last), *(one.values[first:last] for one in columns)]
 
 
 def section_json(source: StudySource, observables: Sequence[str], points: range) -> Iterator[str]:
@@ -104,9 +108,7 @@ def section_json(source: StudySource, observables: Sequence[str], points: range)
     yield "\n"
 
 
-def point_json(
-    source: StudySource, channels: Sequence[str], points: range, units: Mapping[str, str]
-) -> Iterator[str]:
+def point_json(source: StudySource, channels: Sequence[str], points: range) -> Iterator[str]:
     """Write what has one number a point as one JSON document.
 
     Yields
@@ -117,12 +119,11 @@ def point_json(
     """
     part = slice(points.start, points.stop)
     document = _head(source, points)
-    words = words_of_points(source)
-    for name in ("direction", "verdict", "reason", "attractor"):
-        if name in words:
-            document[name] = [json.dumps(words[name][part])]
-    found = columns_of_points(source, channels, units)
-    columns = {title: json_list([json_numbers(one[part])]) for title, one in found.items()}
+    for one in words(source):
+        if one.name in ("direction", "verdict", "reason", "attractor"):
+            document[one.name] = [json.dumps(one.values[part].tolist())]
+    found = results(source, channels)
+    columns = {one.title: json_list([json_numbers(one.values[part])]) for one in found}
     yield from json_object({**document, "columns": json_object(columns)})
     yield "\n"
 
@@ -151,53 +152,6 @@ def _rows(source: StudySource, points: range, name: str) -> Iterator[str]:
                 yield f"[{json_numbers(row[: int(counts[point])])}]"
 
     return json_list(lists())
-
-
-def columns_of_points(
-    source: StudySource, channels: Sequence[str], units: Mapping[str, str]
-) -> dict[str, Floats]:
-    """Return counts of sections, extremes, indicators and statistics of all points, by title."""
-    columns: dict[str, Floats] = {}
-    if source.observables:
-        columns["sections [1]"] = source.counts.astype(np.float64)
-    described = {one.name: one.unit for one in source.channels}
-    for name in channels:
-        peaks, unit = source.peaks(name), described[name]
-        columns[f"{name} minimum [{unit}]"] = peaks.minimum
-        columns[f"{name} minimum at [s]"] = peaks.minimum_time
-        columns[f"{name} maximum [{unit}]"] = peaks.maximum
-        columns[f"{name} maximum at [s]"] = peaks.maximum_time
-        columns[f"{name} range [{unit}]"] = peaks.maximum - peaks.minimum
-    left_out = described.keys() - set(channels)
-    for name, one in {**source.indicators, **source.statistics}.items():
-        # a verdict is there as a word
-        if name != "verdict" and name.rpartition(".")[0] not in left_out:
-            columns[f"{name} [{units.get(name, '1')}]"] = one
-    return columns
-
-
-def words_of_points(source: StudySource) -> dict[str, list[str]]:
-    """Return status, verdict with its reason, attractor, and code of a failure of all points.
-
-    Where a continuation goes both ways, the direction is the first of them.
-    """
-    directions = directions_of(source)
-    words = {} if directions is None else {"direction": directions.tolist()}
-    words["status"] = [PointStatus(code).name for code in source.status]
-    if source.verdicts is not None:
-        names: NDArray[np.str_] = np.array([*source.verdict_names, ""])
-        words["verdict"] = names[source.verdicts].tolist()
-        reasons = source.reasons
-        words["reason"] = [reasons.get(point, "") for point in range(source.points)]
-    if "states" in source.attributes:
-        found = attractors_of(source)
-        named = {code: found.name_of(code) for code in np.unique(found.labels).tolist()}
-        words["attractor"] = [named[code] for code in found.labels.tolist()]
-    failures = source.failures
-    words["failure"] = [
-        failures[point].code if point in failures else "" for point in range(source.points)
-    ]
-    return words
 
 
 def _blocks(points: range, width: int) -> Iterator[tuple[int, int]]:

@@ -1,19 +1,18 @@
 """The columns of a job's table: what goes into a file that is not written piece by piece."""
 
-import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from jointplay.exports.study import columns_of_points, words_of_points
 from jointplay.exports.table_query import Table, check, point_range
 from jointplay.records.channel_choice import choose
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
-from jointplay.records.point_numbers import meanings_of
 from jointplay.records.run import inside
 from jointplay.records.study import directions_of
+from jointplay.records.study_columns import channel_names, parameters, point_columns
 from jointplay.records.table_files import Column
 from jointplay.records.window_query import WindowQuery
 
@@ -101,28 +100,21 @@ def _of_study(
     directions = directions_of(source)
     if directions is not None:
         yield Column("direction", "", directions[first + row])
-    for at, one in enumerate(source.parameters):
-        yield Column(one.name, one.unit, source.values[first + row, at])
+    for one in parameters(source):
+        yield replace(one, values=one.values[first + row])
     yield Column("section", "", section)
     yield Column("time", "s", source.section_times(first, last)[counted])
     wanted = choose(None if channels is None else ",".join(channels), _names(source.observables))
-    units = {one.name: one.unit for one in source.observables}
+    units, called = {one.name: one.unit for one in source.observables}, channel_names(source)
     for name in wanted:
-        yield Column(name, units[name], source.sections(name, first, last)[counted])
+        yield Column(called[name], units[name], source.sections(name, first, last)[counted])
 
 
 def _of_points(source: "StudySource", channels: Names, part: slice) -> Iterator[Column]:
     yield Column("point", "", np.arange(part.start, part.stop))
-    for name, words in words_of_points(source).items():
-        yield Column(name, "", np.array(words[part], np.str_))
-    for at, one in enumerate(source.parameters):
-        yield Column(one.name, one.unit, source.values[part, at])
-    units = {name: unit for name, (unit, _) in meanings_of(source).items()}
     wanted = choose(None if channels is None else ",".join(channels), _names(source.channels))
-    for title, values in columns_of_points(source, wanted, units).items():
-        found = re.fullmatch(r"(.*) \[(.*)\]", title)
-        name, unit = found.groups() if found else (title, "")
-        yield Column(name, unit, values[part])
+    for one in point_columns(source, wanted):
+        yield replace(one, values=one.values[part])
 
 
 def _names(described: Sequence[Any]) -> list[str]:
