@@ -10,6 +10,7 @@ STATISTICS = {
         "steps in which a channel strayed too far for all its extremes to be found",
     ),
     "onsets": ("1", "beginnings of contact"),
+    "slow_impacts": ("1", "impacts slower than the smallest rate by which their law divides"),
     "smallest_step": ("s", "smallest accepted step"),
     "driver_work": ("J", "work of the drivers"),
     "contact_loss": ("J", "energy lost in normal contact"),

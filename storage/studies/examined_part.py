@@ -4,6 +4,7 @@ Whoever seals the study takes over what is found here: a fault must be that of t
 """
 
 import json
+import re
 from typing import Any, Final
 
 import numpy as np
@@ -25,18 +26,28 @@ from jointplay.storage.studies.points import INDICATORS, STATISTICS
 
 LARGEST_PART: Final = 2**28
 """Bytes of the file that a block leaves at most."""
+MOST_NUMBERS: Final = 4096
+"""Statistics and indicators of a point at most."""
+_CODE: Final = re.compile(r"[a-z][a-z0-9-]{0,63}")
+_LONGEST: Final = 10_000  # characters
 _PACKED: Final = 2**16
 """Bytes of a file of chunks at most beside them."""
 
 
-def require_part(files: Running, layout: StudyLayout, index: int) -> None:
+def require_part(files: Running, layout: StudyLayout, index: int, *, same: bool) -> None:
     """Raise `CorruptStore` if a block did not leave all its points, with the chunks before them.
 
-    `files` : of the running study, whose documents say by what digest it is known.
+    Parameters
+    ----------
+    files
+        Of the running study, whose documents say by what digest it is known.
+    same
+        Whether the solver is the one that gave this layout: others may have other numbers.
     """
     try:
         found = Part.read(files, part.final_name(index), files.digest.decode())
         _require_points(found, layout)
+        _require_names(found, layout, same=same)
         _require_words(found)
         _require_chunks(files, found, layout)
     except FileNotFoundError as error:
@@ -86,21 +97,32 @@ def _is(array: NDArray[Any], shape: tuple[int, ...]) -> bool:
     return array.shape == shape and array.dtype.kind in "fiu"
 
 
-def _require_words(found: Part) -> None:
-    """Raise `CorruptStore` if names or sentences are none that a sealed study can have."""
+def _require_names(found: Part, layout: StudyLayout, *, same: bool) -> None:
+    """Raise `CorruptStore` if a number of a point is none that a point of this study can have."""
     for path in found.numbers:
         group, _, name = path.partition("/")
-        if group not in (STATISTICS, INDICATORS) or not is_storable(name):
+        known = name in layout.outputs if same else is_storable(name)
+        if group not in (STATISTICS, INDICATORS) or not known or name in layout.coordinates:
             raise CorruptStore(f"{path!r} is no number of a point")
-    texts = [*found.reasons.values()]
-    texts += [text for one in found.failures.values() for text in (one.code, one.detail)]
-    numbers = [one.time for one in found.failures.values()]
-    if not all(isinstance(one, str) for one in texts):
-        raise CorruptStore("a reason is no text")
+    if len(found.numbers) > MOST_NUMBERS:
+        raise CorruptStore(f"block {found.index} has more numbers of a point than there can be")
+
+
+def _require_words(found: Part) -> None:
+    """Raise `CorruptStore` if sentences are none that a sealed study can have."""
+    failures = [*found.failures.values()]
+    if not all(isinstance(one.code, str) and _CODE.fullmatch(one.code) for one in failures):
+        raise CorruptStore("the code of a failure is no word")
+    texts = [*found.reasons.values(), *(one.detail for one in failures)]
+    if not all(isinstance(one, str) and len(one) <= _LONGEST for one in texts):
+        raise CorruptStore("a reason is no text, or longer than there can be")
+    if not all(one.replace("\n", " ").isprintable() for one in texts):
+        raise CorruptStore("a reason has characters that no text has")
     if not all(isinstance(one, dict) for one in found.documents.values()):
         raise CorruptStore("a result is no object")
-    if not all(isinstance(one, float | int) for one in numbers):
+    if not all(type(one.time) is float or type(one.time) is int for one in failures):
         raise CorruptStore("a time is no number")
+    _ = [float(one.time) for one in failures]
     json.dumps([*found.documents.values()], allow_nan=False)
 
 

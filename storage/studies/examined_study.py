@@ -21,6 +21,7 @@ from jointplay.storage.results.examination import (
 )
 from jointplay.storage.results.metadata import FILE, Document
 from jointplay.storage.studies import documents
+from jointplay.storage.studies.examined_part import MOST_NUMBERS
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.points import INDICATORS, STATISTICS
 from jointplay.storage.studies.store import FAILURES, REASONS, RESULTS
@@ -29,8 +30,6 @@ _OWN: Final = frozenset({"complete", "failures", "summary", "layout"})
 """Attributes that the job does not give: the digest of the layout is one of all its last bits."""
 _SECTIONS: Final = "sections/"
 _NUMBERS: Final = (f"{STATISTICS}/", f"{INDICATORS}/")
-_MOST_NUMBERS: Final = 4096
-"""Statistics and indicators of a point at most."""
 _DIGEST: Final = re.compile("[0-9a-f]{64}")
 
 
@@ -41,7 +40,7 @@ def examined_study(source: Ranges, layout: StudyLayout, *, same: bool) -> Docume
     """
     rows, columns = layout.chunk
     chunks = (layout.points // rows + 1) * (layout.record // columns + 1)
-    files, root = opened(source, chunks * (len(layout.observables) + 1) + 2 * _MOST_NUMBERS)
+    files, root = opened(source, chunks * (len(layout.observables) + 1) + 2 * MOST_NUMBERS)
     summary, failures = root.get("summary"), root.get("failures")
     if root.get("complete") is not True or not isinstance(summary, dict):
         raise CorruptStore(f"{source} is no study that came to its end")
@@ -55,7 +54,7 @@ def examined_study(source: Ranges, layout: StudyLayout, *, same: bool) -> Docume
     names = [key.removesuffix(f"/{FILE}") for key in files if key.startswith(_NUMBERS)]
     names = [name for name in names if f"{name}/{FILE}" in files.entries and name.count("/") == 1]
     names = [name for name in names if name.partition("/")[2] not in layout.coordinates]
-    if len(names) > _MOST_NUMBERS:
+    if len(names) > MOST_NUMBERS:
         raise CorruptStore(f"{source} has more numbers of a point than there can be")
     expected = json.loads(metadata.serialise(documents.sealed(layout, (), {})[FILE]["attributes"]))
     require_alike(root, expected | dict.fromkeys(_OWN), set(_OWN))

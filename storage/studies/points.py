@@ -13,6 +13,8 @@ from jointplay.records.run import Floats
 
 STATISTICS: Final = "statistics"
 INDICATORS: Final = "indicators"
+_MOST_CODES: Final = 255
+_OTHER: Final = "other"
 
 
 @dataclass
@@ -61,8 +63,9 @@ class Points:
         """
         failure = np.zeros(len(self.status), np.uint8)
         failure_time = np.full(len(self.status), np.nan)
+        position = {code: at for at, code in enumerate(codes, 1)}
         for point, found in self.failures.items():
-            failure[point - first] = 1 + codes.index(found.code)
+            failure[point - first] = position.get(found.code) or position[_OTHER]
             failure_time[point - first] = found.time
         nothing = np.full(len(self.status), np.nan)
         return {
@@ -86,8 +89,12 @@ def ordered(names: Iterable[str]) -> list[str]:
 
 
 def failure_codes(failures: Mapping[int, Failure]) -> list[str]:
-    """List the codes of failures, in the order of the attribute `failures`."""
-    return sorted({failure.code for failure in failures.values()})
+    """List the codes of failures, in the order of the attribute `failures`.
+
+    Only programs that hand in made-up results have more than fit a byte: the last ones are one.
+    """
+    codes = sorted({failure.code for failure in failures.values()})
+    return codes if len(codes) <= _MOST_CODES else [*codes[: _MOST_CODES - 1], _OTHER]
 
 
 def together(

@@ -62,6 +62,9 @@ def test_a_study_is_readable_and_repeats_itself_from_its_job_file(
         12,
         30,
     )
+    assert (
+        reader.statistics.keys() | reader.indicators.keys() <= layout_of_study(study).outputs.keys()
+    )
     assert reader.attributes["job"] == study.job
     assert reader.attributes["digest"] == study.digest
     assert [(spec.name, spec.unit) for spec in reader.parameters] == [("clearance", "m")]

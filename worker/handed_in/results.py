@@ -167,9 +167,9 @@ def _require_of_study(settings: Settings, job: Job, block: Block) -> None:
         if not settings.sealed_study(job.id).exists():
             raise CorruptStore("nothing was sealed")
         return
-    layout = expected_of(job).layout
+    layout, same, _ = expected_of(job)
     if isinstance(layout, StudyLayout):
-        require_part(settings.running_study(job.id), layout, block.index)
+        require_part(settings.running_study(job.id), layout, block.index, same=same)
 
 
 def _require_identity(root: Document, job: Job, name: str) -> None:

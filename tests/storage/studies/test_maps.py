@@ -127,7 +127,8 @@ def test_a_map_is_another_study_than_its_points_alone():
 def test_a_map_that_was_handed_in_is_taken_for_what_the_job_gives_and_no_other(tmp_path, study):
     store, layout = study.write(tmp_path / "whole"), study.layout
     for index in range(len(layout.blocks)):
-        require_part(Running(tmp_path / "whole", digest=layout.digest), layout, index)
+        files = Running(tmp_path / "whole", digest=layout.digest)
+        require_part(files, layout, index, same=False)
     for same in (True, False):
         examined_study(StoredObject(Folder(str(tmp_path)), store.name), layout, same=same)
     files = {name: content for name, content in files_of(store).items() if name != "MANIFEST.json"}

@@ -7,11 +7,17 @@ from itertools import count
 
 import numpy as np
 import pytest
+import zarr
 from made_up_studies import MadeUpStudy, made_up_layout, packed, target
+from zarr.storage import ZipStore
 
-from jointplay.records.point import StudySlice
+from jointplay.records.channel import Channel
+from jointplay.records.point import Failure, StudySlice
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore, InvalidAppend, StoreExists
+from jointplay.storage.packed.running import Running
+from jointplay.storage.studies import block as block_module
 from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.examined_part import require_part
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import create, seal
 
@@ -62,6 +68,65 @@ def test_a_part_without_the_chunks_it_builds_on_is_refused(tmp_path, record):
     assert not StudyBlock.done(tmp_path, study.layout, 1)
     with pytest.raises(CorruptStore, match="lacks"):
         seal(tmp_path, study.layout, target(tmp_path))
+
+
+KNOWN = ("steps", "energy_residual", "lyapunov", "verdict")
+
+
+def handed_in(folder, monkeypatch, **changes):
+    """Leave a block whose points have what the changes say, and look at it."""
+    layout = made_up_layout()
+    study = MadeUpStudy(replace(layout, outputs={name: Channel(name, "1") for name in KNOWN}))
+    honest = study.end
+    monkeypatch.setattr(study, "end", lambda point: replace(honest(point), **changes))
+    create(folder, study.layout)
+    study.write_block(folder, 0)
+    files = Running(folder, digest=study.layout.digest)
+    require_part(files, study.layout, 0, same=True)
+
+
+def test_a_block_that_is_handed_in_as_it_was_computed_is_taken(tmp_path, monkeypatch):
+    handed_in(tmp_path, monkeypatch)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"code": "A code"},
+        {"code": "x" * 65},
+        {"code": "ill\0"},
+        {"code": "ill", "detail": "x" * 10_001},
+        {"code": "ill", "detail": "\x1b[2J"},
+        {"code": "ill", "detail": "\ud800"},
+        {"reason": "x" * 10_001},
+        {"statistics": {"steps": 1.0, "made_up": 1.0}},
+        {"indicators": {"verdict": 1.0, "made_up": 1.0}},
+    ],
+)
+def test_a_block_with_what_no_point_has_is_not_taken(tmp_path, monkeypatch, changes):
+    with pytest.raises(CorruptStore):
+        handed_in(tmp_path, monkeypatch, **changes)
+
+
+@pytest.mark.parametrize("time", [10**400, True, "1", None])
+def test_a_block_whose_point_failed_at_no_time_is_not_taken(tmp_path, monkeypatch, time):
+    monkeypatch.setattr(
+        block_module, "Failure", lambda code, detail, _: Failure(code, detail, time)
+    )
+    with pytest.raises(CorruptStore):
+        handed_in(tmp_path, monkeypatch)
+
+
+def test_a_study_whose_points_fail_for_more_reasons_than_there_are_is_sealed(tmp_path, monkeypatch):
+    study = MadeUpStudy(made_up_layout(points=300), failing=range(300))
+    honest = study.end
+    monkeypatch.setattr(study, "end", lambda point: replace(honest(point), code=f"ill-{point:03}"))
+    path = study.write(tmp_path / "store")
+    reader = StudyReader(path)
+    assert [one.code for one in reader.failures.values()] == [f"ill-{k:03}" for k in range(300)]
+    names = reader.attributes["failures"]
+    told = [names[code] for code in zarr.open_array(ZipStore(path, mode="r"), path="failure")[:]]
+    assert told == [f"ill-{k:03}" for k in range(254)] + ["other"] * 46
 
 
 @pytest.mark.parametrize("written", [0, 1, 3, 5, 8])
