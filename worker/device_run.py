@@ -24,6 +24,7 @@ from jointplay.solver.runs.study.required_study import required_study
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import Claim
+from jointplay.worker.advance import Advance
 from jointplay.worker.beside import MOST_BLOCKS
 from jointplay.worker.local.devices import Lanes
 from jointplay.worker.local.pooled import LAUNCH
@@ -42,8 +43,11 @@ class Blocks(Protocol):
         """Claim at most so many queued blocks of a claim's study; none if none can be had."""
         ...
 
-    def compute(self, claim: Claim, /) -> None:
-        """Compute a block to its end; `CatalogueError`, where its own attempt has ended."""
+    def compute(self, claim: Claim, advance: Advance | None = None, /) -> None:
+        """Compute a block to its end; `CatalogueError`, where its own attempt has ended.
+
+        `advance` : that of all blocks that are computed together.
+        """
         ...
 
 
@@ -90,6 +94,8 @@ class _DeviceRun:
         self._claims: dict[int, Claim] = {}
         """Those of attempts that are under way."""
         self._ended = 0
+        self._advance = Advance()
+        """Of all attempts: while one waits for the catalogue, none of them has stalled."""
 
     def run(self, first: Claim) -> int:
         """Compute the first block, and others, until none is under way; count them."""
@@ -131,7 +137,7 @@ class _DeviceRun:
         def attempt() -> None:
             with computed_by(partial(self._computation, getcurrent().parent)):
                 try:
-                    self._blocks.compute(claim)
+                    self._blocks.compute(claim, self._advance)
                     self._ended += 1
                 except (Fenced, Unavailable) as fault:
                     _log.warning("%s; leaving it", fault)

@@ -8,6 +8,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.settings import Settings
+from jointplay.worker.advance import Advance
 from jointplay.worker.beside import claim_beside
 from jointplay.worker.own_solver import own_solver
 from jointplay.worker.scratch.computing import compute
@@ -29,6 +30,6 @@ class OwnBlocks:
             _log.warning("none is claimed beside block %s: %s", claim.block.id, fault)
             return ()
 
-    def compute(self, claim: Claim) -> None:
+    def compute(self, claim: Claim, advance: Advance | None = None) -> None:
         """Compute a block, and tell the catalogue how it ended."""
-        compute(self._catalogue, self._settings, claim, self._draining)
+        compute(self._catalogue, self._settings, claim, self._draining, advance)

@@ -46,7 +46,7 @@ class JoinedBlocks:
             _log.warning("none is claimed beside block %s: %s", claim.block.id, fault)
             return ()
 
-    def compute(self, claim: Claim) -> None:
+    def compute(self, claim: Claim, advance: Advance | None = None) -> None:
         """Compute a block; where this machine has no room for its files, put it off.
 
         Raises
@@ -55,13 +55,13 @@ class JoinedBlocks:
             The block is another worker's, or the service is out of reach or refuses this worker.
         """
         try:
-            self._compute(claim)
+            self._compute(claim, advance or Advance())
         except OSError as fault:
             block = claim.block
             _log.warning("block %s is put off: %s", block.id, fault)
             self._connection.report(block, "put-off", Activity(activity=waits_for(fault)))
 
-    def _compute(self, claim: Claim) -> None:
+    def _compute(self, claim: Claim, advance: Advance) -> None:
         block = claim.block
         with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
             settings = Settings(
@@ -73,7 +73,6 @@ class JoinedBlocks:
                 **self._customs.model_dump(),
             )
             files = FilesOfService(self._connection, self._bucket, block)
-            advance = Advance()
             scratch = Scratch(files, settings, block, advance)
             attempt = JoinedAttempt(self._connection, claim, scratch)
             beat = partial(attempt.heartbeat, block.id, block.attempt, settings.lease)

@@ -24,15 +24,23 @@ _log = logging.getLogger(__name__)
 
 
 def compute(
-    catalogue: Catalogue, settings: Settings, claim: Claim, draining: threading.Event
+    catalogue: Catalogue,
+    settings: Settings,
+    claim: Claim,
+    draining: threading.Event,
+    advance: Advance | None = None,
 ) -> None:
-    """Compute a block, and tell the catalogue how it ended; see `BlockRun`."""
+    """Compute a block, and tell the catalogue how it ended; see `BlockRun`.
+
+    `advance` : that of all blocks that are computed together, if several are.
+    """
+    advance = advance or Advance()
     if settings.sends:
         with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
-            _compute_in(Path(folder), catalogue, settings, claim, draining)
+            _compute_in(Path(folder), catalogue, settings, claim, draining, advance)
     else:
         there = partial(require_reachable, settings, catalogue)
-        BlockRun(catalogue, settings, claim, draining, there).run()
+        BlockRun(catalogue, settings, claim, draining, there, advance).run()
 
 
 def _compute_in(
@@ -41,10 +49,10 @@ def _compute_in(
     settings: Settings,
     claim: Claim,
     draining: threading.Event,
+    advance: Advance,
 ) -> None:
     block = claim.block
     here = settings.model_copy(update={"data": folder, "running": "data"})
-    advance = Advance()
     scratch = Scratch(AttemptFiles(settings, block), here, block, advance)
     there = partial(require_reachable, settings, catalogue)
     beat = partial(catalogue.heartbeat, block.id, block.attempt, settings.lease)

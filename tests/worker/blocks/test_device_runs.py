@@ -1,6 +1,7 @@
 """Blocks that a worker computes together on a device; this processor does what the driver does."""
 
 import threading
+import time
 from collections.abc import Mapping
 from functools import partial
 from typing import Any
@@ -16,10 +17,12 @@ from jointplay.solver.runs.study.lane_group import Make
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.counters import ON_DEVICES
+from jointplay.storage.catalogue.errors import SILENT, Unavailable
 from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, WorkerDevice
 from jointplay.storage.settings import Settings
-from jointplay.worker import tasks
+from jointplay.worker import block_run, tasks
 from jointplay.worker.device_run import compute_on_device
+from jointplay.worker.lease import Lease
 from jointplay.worker.local.devices import opener
 from jointplay.worker.local.folder import STORE
 from jointplay.worker.own_blocks import OwnBlocks
@@ -120,6 +123,35 @@ def test_blocks_are_computed_together_beside_those_of_others(
     compute(catalogue, settings, study, driver, block=seal.index)
     assert driver.launches == launches
     assert finish(catalogue, settings, study) == whole
+
+
+def test_blocks_that_wait_for_one_whose_end_cannot_be_told_have_not_stalled(
+    catalogue: Catalogue, settings: Settings, study: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    leases: list[Lease] = []
+    enter, finish_block = Lease.__enter__, catalogue.finish
+    failed_at: list[float] = []
+    advanced: list[float] = []
+
+    def entered(lease: Lease) -> Lease:
+        leases.append(lease)
+        return enter(lease)
+
+    def fails_twice(*given: Any) -> JobState:
+        if len(failed_at) == 1:
+            now = time.monotonic()
+            advanced.extend(now - lease._advance.age() for lease in leases)
+        if len(failed_at) < 2:
+            failed_at.append(time.monotonic())
+            raise Unavailable(SILENT)
+        return finish_block(*given)
+
+    monkeypatch.setattr(block_run, "ASK_AGAIN", 0.01)
+    monkeypatch.setattr(Lease, "__enter__", entered)
+    monkeypatch.setattr(catalogue, "finish", fails_twice)
+    compute(catalogue, settings, study, DriverByHost())
+    assert len(advanced) > 1
+    assert min(advanced) >= failed_at[0]
 
 
 def test_a_worker_that_shall_end_gives_all_blocks_back_with_restart_points(
