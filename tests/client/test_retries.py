@@ -6,13 +6,23 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from datetime import UTC, datetime, timedelta
 from email.utils import format_datetime
+from functools import partial
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from inspect import signature
 
 import httpx
 import pytest
 
-from jointplay.client import AsyncClient, Client, NotAllowed, Overloaded, Unreachable, connection
+from jointplay.client import (
+    AsyncClient,
+    Client,
+    NotAllowed,
+    Overloaded,
+    Refused,
+    ServiceFailure,
+    Unreachable,
+    connection,
+)
 from jointplay.client.asynchronous.network import AwaitedNetwork
 from jointplay.client.network import BlockingNetwork
 from jointplay.service import prober, windows
@@ -25,8 +35,8 @@ PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0
 def front(answers, behind=None) -> Iterator[tuple[str, list]]:
     """A server that gives these answers first; what follows goes to the service behind it.
 
-    An answer is a status with headers; "lost": the connection closes without one; "unheard": the
-    service gets the request, and its answer is lost.
+    An answer is a status with headers, and a body if it has one; "lost": the connection closes
+    without one; "unheard": the service gets the request, and its answer is lost.
     """
     heard = []
 
@@ -40,8 +50,8 @@ def front(answers, behind=None) -> Iterator[tuple[str, list]]:
             if first == "lost":
                 self.close_connection = True
             elif isinstance(first, tuple):
-                status, headers = first
-                self.reply(status, headers, b"")
+                status, headers, *body = first
+                self.reply(status, headers, *(body or [b""]))
             else:
                 kept = {k: v for k, v in self.headers.items() if k.lower() != "host"}
                 got = httpx.request(
@@ -93,6 +103,43 @@ def number_of_jobs(url):
     return len(
         httpx.get(f"{url}/v1/jobs?page_size=1000", trust_env=False, timeout=60).json()["jobs"]
     )
+
+
+PROBLEM = {"Content-Type": "application/problem+json"}
+PAGE = {"Content-Type": "text/html"}
+
+
+@pytest.mark.parametrize("page", [b"<html>", b"", b"[1]", b"\xff", b"[" * 100_000])
+def test_a_page_in_place_of_an_answer_is_a_failure_of_the_service(connect, page):
+    with front([(200, PAGE, page)] * 2) as (url, _), connect(url) as client:
+        for ask in (client.jobs, lambda: client.submit(PENDULUM)):
+            with pytest.raises(ServiceFailure, match="is no service of jointplay"):
+                list(ask())
+
+
+@pytest.mark.parametrize(
+    "page", [b"<html>", b"[]", b"{}", b'{"errors": 3}', b'{"errors": [1, {}, {"detail": 2}]}']
+)
+@pytest.mark.parametrize(("status", "kind"), [(500, ServiceFailure), (422, Refused)])
+def test_a_problem_that_is_none_is_still_an_error_of_its_status(connect, page, status, kind):
+    with (
+        front([(status, PROBLEM, page)]) as (url, _),
+        connect(url) as client,
+        pytest.raises(kind),
+    ):
+        client.submit(PENDULUM)
+
+
+def test_a_job_is_waited_for_while_a_proxy_sends_a_page(connect, fresh_service, pauses):
+    events = (200, {"Content-Type": "text/event-stream"}, b"event: progress\ndata: <html>\n\n")
+    answers = []
+    with front(answers, fresh_service) as (url, heard), connect(url) as client:
+        job = client.submit(PENDULUM)
+        cancel = partial(httpx.post, f"{fresh_service}/v1/jobs/{job.id}/cancel", trust_env=False)
+        answers += [None, events, (200, PAGE, b"<html>"), events]
+        job.wait(check=False, report=lambda _: cancel())
+    assert job.state == "cancelled"
+    assert len(heard) > 3  # once submitted, and asked past three pages
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from urllib.parse import quote
 import httpx
 from httpx_sse import ServerSentEvent
 
-from jointplay.client.errors import OVERLOADED, ClientError, Unreachable, error_from
+from jointplay.client.errors import OVERLOADED, ClientError, ServiceFailure, Unreachable, error_from
 from jointplay.client.network import Network
 
 DEFAULT_URL = "http://127.0.0.1:8000"
@@ -78,8 +78,7 @@ class Connection:
 
     def get(self, path: str, query: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """GET the JSON document at ``path``; parameters that are None are left out."""
-        document: dict[str, Any] = json.loads(self.content(path, query))
-        return document
+        return document_in(self.content(path, query), self.url)
 
     def content(self, path: str, query: Mapping[str, Any] | None = None) -> bytes:
         """GET what is at ``path``, as bytes."""
@@ -96,8 +95,7 @@ class Connection:
             headers["Content-Type"] = "application/json"
             # NaN passes here: the service says which field
             arguments["content"] = json.dumps(document).encode()
-        answer: dict[str, Any] = self._exchange("POST", path, **arguments).json()
-        return answer
+        return document_in(self._exchange("POST", path, **arguments).content, self.url)
 
     def delete(self, path: str) -> None:
         """DELETE ``path``."""
@@ -154,6 +152,18 @@ class Connection:
             return Unreachable(f"No service answers at {self.url}; {sentence}")
         broke = f"The connection to {self.url} broke ({type(error).__name__})"
         return Unreachable(f"{broke}; the job itself goes on.")
+
+
+def document_in(content: str | bytes, url: str) -> dict[str, Any]:
+    """Return the JSON object that an answer of 200 is; `ServiceFailure` where it is none."""
+    try:
+        document = json.loads(content)
+    except (ValueError, RecursionError):
+        document = None
+    if not isinstance(document, dict):
+        sentence = f"What answers at {url} is no service of jointplay, but a proxy or a page."
+        raise ServiceFailure(sentence)
+    return document
 
 
 def segment(text: str) -> str:

@@ -127,9 +127,11 @@ def error_from(response: "httpx.Response") -> ClientError:
         return ServiceFailure(f"The service failed with {status}: {detail}")
     name = str(problem.get("type", "")).rsplit("/", 1)[-1]
     kind = _BY_PROBLEM.get(name) or _BY_STATUS.get(status, Refused)
+    told = problem.get("errors")
     fields = [
-        FieldProblem(str(one.get("pointer") or one.get("parameter") or ""), one["detail"])
-        for one in problem.get("errors") or ()
+        FieldProblem(str(one.get("pointer") or one.get("parameter") or ""), str(one["detail"]))
+        for one in (told if isinstance(told, list) else ())
+        if isinstance(one, dict) and "detail" in one
     ]
     return kind(detail, status=status, problem=name, fields=fields)
 
@@ -137,7 +139,10 @@ def error_from(response: "httpx.Response") -> ClientError:
 def _problem_in(response: "httpx.Response") -> dict[str, Any]:
     """Return the problem document, or an empty one when something else answered (a proxy)."""
     if response.headers.get("content-type", "").startswith("application/problem+json"):
-        document = response.json()
+        try:
+            document = response.json()
+        except (ValueError, RecursionError):
+            return {}
         if isinstance(document, dict):
             return document
     return {}

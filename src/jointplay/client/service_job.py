@@ -7,7 +7,7 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from jointplay.client.connection import Connection, segment
+from jointplay.client.connection import Connection, document_in, segment
 from jointplay.client.errors import Overloaded, ServiceFailure, Unreachable
 from jointplay.client.http_results import HttpResults
 from jointplay.client.job import Job
@@ -99,7 +99,7 @@ class ServiceJob(Job):
                 if deadline is not None and time.monotonic() > deadline:
                     return
                 if event.event == "progress":
-                    yield event.json()
+                    yield document_in(event.data, self._connection.url)
         except Unreachable:
             if deadline is None or time.monotonic() < deadline:
                 raise
