@@ -86,6 +86,8 @@ WRONG = {
     "a folder without a job": (["run", ".", "-o", "OUT"], ". is a folder; give a job or a scene"),
     "no address at all": (["ls", "--url", "foo"], "it has no http:// in front"),
     "nothing to resume": (["run", "--resume", "missing"], "missing holds no run"),
+    "a seed to resume": (["run", "--resume", "missing", "--seed", "0"], "beside it there can only"),
+    "no settling": (["run", "--resume", "missing", "--settle", "0"], "beside it there can only"),
     "more to resume": (["run", "slider-crank", "--resume", "missing"], "beside it there can only"),
     "no such results": (["export", "missing"], "missing"),
     "a folder without results": (["plot", "."], "no results"),

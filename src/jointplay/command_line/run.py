@@ -74,12 +74,9 @@ def run(
 
 
 def _insist_alone(source: object, output: object, settings: object, options: Any) -> None:
-    if (
-        source
-        or output
-        or settings
-        or any(value not in (None, [], False) for value in options.values())
-    ):
+    # of numbers 0 is given, too
+    given = [one for one in options.values() if not (one is None or one is False or one == [])]
+    if source or output or settings or given:
         raise Stopped(
             "--resume OUT goes on with OUT/job.json as it is; beside it there can only be"
             " --processes, --device, --figures and --json."
