@@ -126,15 +126,20 @@ def impacts_of(source: Source, joint: str) -> NDArray[Any]:
 
 
 def extremes(time: Floats, values: Floats, span: int) -> tuple[Floats, Floats]:
-    """Keep the smallest and the largest value of every `span` samples, in order of time."""
+    """Keep the smallest and the largest value of every `span` samples, in order of time.
+
+    Where a value is not known (NaN) the first one of the span is kept as well: a gap stays one.
+    """
     if span <= 2:
         return time, values
-    starts = np.arange(0, len(values), span)
-    chosen = [
-        start + extreme(values[start : start + span])
-        for start in starts
-        for extreme in (np.argmin, np.argmax)
-    ]
+    unknown = np.isnan(values)
+    lower, upper = np.where(unknown, np.inf, values), np.where(unknown, -np.inf, values)
+    chosen: list[int] = []
+    for start in range(0, len(values), span):
+        inside = slice(start, start + span)
+        chosen += [start + int(lower[inside].argmin()), start + int(upper[inside].argmax())]
+        if unknown[inside].any():
+            chosen.append(start + int(unknown[inside].argmax()))
     order = np.unique(chosen)
     return time[order], values[order]
 

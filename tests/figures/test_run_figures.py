@@ -14,6 +14,7 @@ from test_every_figure import CHOICES
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection, UnknownFigure, colours, page
 from jointplay.figures.mechanism_marks import EDGE, TINTS
+from jointplay.figures.sampling import extremes
 from jointplay.records.channel import Channel
 from jointplay.records.peak import Peak
 from jointplay.records.run import Dataset
@@ -205,6 +206,14 @@ def test_a_long_history_keeps_its_extremes():
     assert len(time) <= 4002
     assert shown.max() == 9.0
     assert time[shown.argmax()] == motion.time[54_321]
+
+
+def test_extremes_beside_what_is_not_known_are_kept_and_so_is_the_gap():
+    time = np.arange(12.0)
+    values = np.array([1.0, 5.0, np.nan, -3.0, 2.0, 1.0, 0.5, 4.0, np.nan, np.nan, np.nan, np.nan])
+    kept, drawn = extremes(time, values, 4)
+    assert kept.tolist() == [1.0, 2.0, 3.0, 6.0, 7.0, 8.0]
+    np.testing.assert_array_equal(drawn, values[kept.astype(int)])
 
 
 def test_extremes_that_no_sample_comes_near_are_marked(motion):

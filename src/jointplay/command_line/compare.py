@@ -11,8 +11,9 @@ from jointplay.command_line.exits import Stopped
 from jointplay.command_line.figure_options import form_of, page_of, with_figure_options
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, job_of
 from jointplay.command_line.output import print_result
-from jointplay.command_line.peaks import Row, peak_rows, peak_table
+from jointplay.command_line.peaks import peak_rows, peak_table
 from jointplay.command_line.typed_window import check_ends, check_start
+from jointplay.command_line.window_peaks import peaks_inside
 from jointplay.records.whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -75,38 +76,13 @@ def compare(
                 panels[name].append(Curve(label, one.unit, window.time, one.values))
         write_whole(output, _drawn(panels, form, page))
         if windowed:
-            peaks = [_peaks_inside(job, names, start, stop) for job in jobs]
+            peaks = [peaks_inside(job, names, start, stop, _SPANS) for job in jobs]
         about = _span(start, stop) if windowed else _settled(jobs, labels)
         about = [*about, *_ended_early(jobs, labels)]
     of_runs = list(zip(labels, peaks, strict=True))
     table = [{"run": label, **of_run[name]} for name in names for label, of_run in of_runs]
     found = {"figure": str(output), "start": start, "stop": stop, "peaks": table}
     print_result(found, [*about, *peak_table(table, "run"), output], as_json=as_json)
-
-
-def _peaks_inside(
-    job: "Job", names: list[str], start: float | None, stop: float | None
-) -> dict[str, Row]:
-    """Return the peaks of a window by channel; of what is drawn, where the steps are not kept."""
-    from jointplay.client import Peak, Refused
-
-    try:
-        found = job.results.peaks(start, stop)
-    except Refused:
-        window = job.window(names, start, stop, points=_SPANS)
-        if not len(window.time):
-            raise Stopped(f"{job.id} has nothing in this window of time; widen it.") from None
-        found = {}
-        for name, one in window.channels.items():
-            low, high = int(one.values.argmin()), int(one.values.argmax())
-            found[name] = Peak(
-                float(one.values[low]),
-                float(window.time[low]),
-                float(one.values[high]),
-                float(window.time[high]),
-                one.unit,
-            )
-    return {row["channel"]: row for row in peak_rows(found)}
 
 
 def _span(start: float | None, stop: float | None) -> list[str]:
