@@ -111,11 +111,14 @@ def _require_names(found: Part, layout: StudyLayout, *, same: bool) -> None:
 def _require_words(found: Part) -> None:
     """Raise `CorruptStore` if sentences are none that a sealed study can have."""
     failures = [*found.failures.values()]
-    if not all(isinstance(one.code, str) and _CODE.fullmatch(one.code) for one in failures):
+    texts = [*found.reasons.values()]
+    texts += [text for one in failures for text in (one.code, one.detail)]
+    if not all(isinstance(one, str) for one in texts):
+        raise CorruptStore("a reason is no text")
+    if max(map(len, texts), default=0) > _LONGEST:
+        raise CorruptStore("a reason is longer than there can be")
+    if not all(_CODE.fullmatch(one.code) for one in failures):
         raise CorruptStore("the code of a failure is no word")
-    texts = [*found.reasons.values(), *(one.detail for one in failures)]
-    if not all(isinstance(one, str) and len(one) <= _LONGEST for one in texts):
-        raise CorruptStore("a reason is no text, or longer than there can be")
     if not all(one.replace("\n", " ").isprintable() for one in texts):
         raise CorruptStore("a reason has characters that no text has")
     if not all(isinstance(one, dict) for one in found.documents.values()):
