@@ -158,6 +158,8 @@ def _be_present() -> None:
             spent_report.send(catalogue, own_name())
         except Unavailable as fault:
             _log.debug("not known to be there: %s", fault)
+        except Exception:  # noqa: BLE001 - it is told for as long as the process lives
+            _log.exception("not known to be there")
         time.sleep(settings.heartbeat)
 
 

@@ -6,8 +6,11 @@ import sys
 from contextlib import closing
 from pathlib import Path
 
+import pytest
+
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
+from jointplay.worker import tasks
 from tests.waiting import until
 
 PRESENT = (
@@ -42,3 +45,19 @@ def test_it_is_known_again_after_a_restoration_of_the_catalogue(tmp_path: Path) 
                 assert process.poll() is None
             finally:
                 process.kill()
+
+
+def test_it_is_told_whatever_goes_wrong_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[str] = []
+
+    class Wrong:
+        def note_worker(self, name: str, *_: object) -> None:
+            told.append(name)
+            if len(told) == 1:
+                raise ValueError("an answer that nobody expected")
+            raise SystemExit  # ends the thread
+
+    monkeypatch.setattr(tasks, "_platform", lambda: (Settings(heartbeat=0.01), Wrong()))
+    with pytest.raises(SystemExit):
+        tasks._be_present()
+    assert len(told) == 2
