@@ -55,7 +55,7 @@ class SimulationWork:
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Simulate, unless an attempt that was lost had come to its end."""
         target = self._sealed(self._block.attempt)
-        if (adopted := self._adopted(target)) is not None:
+        if (adopted := self._adopted(target, advanced)) is not None:
             return adopted
         self._clear(target)
         target = noted_target(leaving_room(target, self._settings), advanced)
@@ -90,7 +90,7 @@ class SimulationWork:
     def _sealed(self, attempt: int) -> StoredObject:
         return self._settings.sealed_run(self._block.job, attempt)
 
-    def _adopted(self, target: StoredObject) -> Outcome | None:
+    def _adopted(self, target: StoredObject, advanced: Callable[[], None]) -> Outcome | None:
         """Take over what an attempt sealed that was lost before it could say so.
 
         It may have had the number of this one, see `_clear`. Returns None if none sealed anything.
@@ -99,7 +99,7 @@ class SimulationWork:
             lost = self._sealed(attempt)
             try:
                 run = ResultReader(Packed(lost))
-                run.verify()
+                run.verify(advanced)
             except (NotAStore, CorruptStore):
                 continue
             if run.complete and run.attributes["solver_version"] == SOLVER_VERSION:
@@ -157,7 +157,7 @@ class SealWork:
 
         What a block left and is damaged by now is computed again.
         """
-        if _is_sealed(self._target, self._layout, whole=True):
+        if _is_sealed(self._target, self._layout, advanced):
             return Outcome("succeeded", 0.0, 1.0)
         if self._target.exists():
             _log.warning("%s is not what it was, and is sealed again", self._target)
@@ -179,17 +179,19 @@ class SealWork:
         return Outcome("succeeded", 0.0, 1.0)
 
 
-def _is_sealed(target: StoredObject, layout: StudyLayout, *, whole: bool = False) -> bool:
+def _is_sealed(
+    target: StoredObject, layout: StudyLayout, advanced: Callable[[], None] | None = None
+) -> bool:
     """Whether there are results of this study, by this solver, of which the catalogue knows not.
 
-    An older copy of it was put back, or whoever sealed them was lost. `whole` : every byte is
-    looked at.
+    An older copy of it was put back, or whoever sealed them was lost. `advanced` : every byte is
+    looked at, file by file.
     """
     try:
         packed = Packed(target)
         attributes = StudyReader(packed).attributes
-        if whole:
-            verify(packed)
+        if advanced is not None:
+            verify(packed, advanced)
     except (NotAStore, CorruptStore):
         return False
     return bool(attributes["complete"]) and attributes["layout"] == layout.digest

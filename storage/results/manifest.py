@@ -1,7 +1,7 @@
 """The list of a sealed store's files with their checksums, the last file in it."""
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from hashlib import sha256
 from json.encoder import encode_basestring_ascii as _quoted
 
@@ -25,8 +25,8 @@ def listed(entries: Iterable[tuple[str, bytes]]) -> Iterator[tuple[str, bytes]]:
     yield MANIFEST, document.encode()
 
 
-def verify(files: Files) -> None:
-    """Compare every file with the manifest.
+def verify(files: Files, advanced: Callable[[], None] = lambda: None) -> None:
+    """Compare every file with the manifest; `advanced` is called before each.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def verify(files: Files) -> None:
     findings += [
         f"{key} has other bytes"
         for key, entry in expected.items()
-        if key in present and sha256(files.read(key)).hexdigest() != entry["sha256"]
+        if key in present and _digest(files, key, advanced) != entry["sha256"]
     ]
     if findings:
         rest = len(findings) - _MOST_NAMED
@@ -55,3 +55,8 @@ def verify(files: Files) -> None:
         raise CorruptStore(
             f"{files.source} is not what was sealed: {'; '.join(findings[:_MOST_NAMED])}{more}"
         )
+
+
+def _digest(files: Files, key: str, advanced: Callable[[], None]) -> str:
+    advanced()
+    return sha256(files.read(key)).hexdigest()

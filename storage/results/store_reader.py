@@ -1,5 +1,6 @@
 """A store opened for reading: its files, checked by its manifest and read by stock zarr."""
 
+from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
 from typing import Any, cast
@@ -28,8 +29,8 @@ class StoreReader:
         """Nothing will be added any more."""
         return isinstance(self.files, Packed)
 
-    def verify(self) -> None:
-        """Compare every file with the manifest.
+    def verify(self, advanced: Callable[[], None] = lambda: None) -> None:
+        """Compare every file with the manifest; `advanced` is called before each.
 
         Raises
         ------
@@ -38,7 +39,7 @@ class StoreReader:
         CorruptStore
             A file is missing, differs or was added.
         """
-        manifest.verify(self.files)
+        manifest.verify(self.files, advanced)
 
     def _array(self, key: str) -> zarr.Array[Any]:
         return cast("zarr.Array[Any]", self._root[key])

@@ -102,6 +102,26 @@ def test_rows_of_a_run_that_are_damaged_before_it_is_sealed_are_computed_again(
     assert found == expected
 
 
+def test_what_was_sealed_before_is_looked_at_file_by_file(
+    catalogue: Catalogue, settings: Settings
+) -> None:
+    """A large one takes longer than a worker may stand still."""
+    admission = admit({**LONG, "duration": 0.1})
+    assert isinstance(admission, Admission)
+    new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
+    job = catalogue.submit(new).job.id
+    claim = catalogue.claim_block(f"{job}-0", "this process", settings.lease)
+    assert claim is not None
+    work = SimulationWork(admission, claim, settings)
+    assert work.execute(lambda _: "continue", lambda: None).state == "succeeded"
+    advanced: list[bool] = []
+    computed: list[object] = []
+    ended = work.execute(computed.append, lambda: advanced.append(True))  # type: ignore[arg-type]
+    assert (ended.state, computed) == ("succeeded", [])
+    listed = files_of(settings.sealed_run(job, 1)).keys() - {"MANIFEST.json"}
+    assert len(advanced) == len(listed)
+
+
 @pytest.fixture(scope="module")
 def study() -> Study:
     study = admit(STUDY)
