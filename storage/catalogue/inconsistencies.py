@@ -12,7 +12,7 @@ from sqlalchemy import ColumnElement, Select, Table, and_, delete, exists, func,
 
 from jointplay.storage.catalogue import tables, upkeep
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.ending import lose, queue_again, settle
+from jointplay.storage.catalogue.ending import queue_again, settle
 from jointplay.storage.catalogue.records import TERMINAL, BlockState
 from jointplay.storage.catalogue.submission import drop_blocks
 
@@ -113,15 +113,20 @@ def _drop(unit: Unit, _: Patience, found: Sequence[str]) -> None:
     drop_blocks(unit, _block.c.id.in_(found), untouched=False)
 
 
+def _late(unit: Unit, patience: Patience) -> ColumnElement[bool]:
+    return _block.c.lease_until < unit.now - patience.lease
+
+
 def _overdue(unit: Unit, patience: Patience) -> list[str]:
-    late = _block.c.lease_until < unit.now - patience.lease
+    late = _late(unit, patience)
     return _ids(unit, select(_block.c.id).where(_block.c.state == BlockState.running, late))
 
 
 def _take_back(unit: Unit, patience: Patience, found: Sequence[str]) -> None:
-    rows = unit.execute(select(_block.c.id, _block.c.attempt).where(_block.c.id.in_(found)))
-    for block, attempt in rows.all():
-        lose(unit, block, attempt, patience.max_attempts)
+    columns = select(_block.c.id, _block.c.attempt, _block.c.job)
+    rows = unit.execute(columns.where(_block.c.id.in_(found))).all()
+    for _ in upkeep.take_back(unit, rows, _late(unit, patience), patience.max_attempts):
+        pass
 
 
 def _ahead(unit: Unit, patience: Patience) -> list[str]:

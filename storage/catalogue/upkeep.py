@@ -4,10 +4,11 @@ A job that expires can be read no more; its results are removed soon, and its ro
 were.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
 from operator import attrgetter
+from typing import Any
 
 from sqlalchemy import ColumnElement, case, delete, func, insert, select, true, update
 
@@ -141,13 +142,7 @@ def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = (), *, until: flo
         .limit(_REAP_AT_ONCE)
     ).all()
     requeued, given_up = [], []
-    for row in sorted(found, key=attrgetter("job")):  # locked in the order that all others have
-        lock_job(unit, row.job)
-        same = (block.c.id == row.id) & (block.c.attempt == row.attempt)
-        still = select(block.c.id).where(same, block.c.state == BlockState.running, lost)
-        if unit.execute(still.with_for_update()).one_or_none() is None:
-            continue  # its worker was heard of meanwhile
-        outcome = lose(unit, row.id, row.attempt, max_attempts)
+    for row, outcome in take_back(unit, found, lost, max_attempts):
         if outcome is BlockState.queued:
             requeued.append(row.id)
         else:
@@ -155,6 +150,23 @@ def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = (), *, until: flo
     unit.execute(delete(tables.idempotency).where(tables.idempotency.c.expires <= unit.now))
     usage.forget(unit)
     return Reaped(tuple(requeued), tuple(given_up))
+
+
+def take_back(
+    unit: Unit, found: Sequence[Any], lost: ColumnElement[bool], max_attempts: int
+) -> Iterator[tuple[Any, BlockState]]:
+    """Take back blocks that are still `lost` once they are locked; give each, and its state.
+
+    `found` : rows with their id, attempt and job.
+    """
+    block = tables.block
+    for row in sorted(found, key=attrgetter("job")):  # locked in the order that all others have
+        lock_job(unit, row.job)
+        same = (block.c.id == row.id) & (block.c.attempt == row.attempt)
+        still = select(block.c.id).where(same, block.c.state == BlockState.running, lost)
+        if unit.execute(still.with_for_update()).one_or_none() is None:
+            continue  # its worker was heard of meanwhile
+        yield row, lose(unit, row.id, row.attempt, max_attempts)
 
 
 def expire(unit: Unit, job_id: str) -> Job:

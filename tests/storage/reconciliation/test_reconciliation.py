@@ -1,9 +1,11 @@
 """Whatever contradicts itself in an installation is found, and mended where that can be."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
+from jointplay.storage.catalogue.inconsistencies import INCONSISTENCIES, Patience
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.reconciliation import findings, rows
@@ -145,6 +147,24 @@ def test_a_block_whose_worker_wakes_up_is_left_to_it(
     forget_the_worker(installed)
     monkeypatch.setattr(rows.time, "sleep", beat)
     assert installed.mend() == []
+
+
+def test_a_block_whose_worker_wakes_up_while_it_is_taken_back_is_left_to_it(
+    installed: Installed,
+) -> None:
+    """A heartbeat may come between the look and the lock, where a database is shared."""
+    forget_the_worker(installed)
+    block = f"{installed.jobs['running']}-0"
+    (overdue,) = (one for one in INCONSISTENCIES if "lease ran out" in one.found)
+    stale = replace(overdue, find=lambda *_: [block])
+    installed.catalogue.heartbeat(block, 1, installed.settings.lease)
+    installed.catalogue.reconcile(stale, Patience(installed.settings.lease, 1.0, 3))
+    (found,) = installed.catalogue.blocks(installed.jobs["running"])
+    assert (found.state, found.losses) == (BlockState.running, 0)
+    installed.sql("UPDATE block SET lease_until = 0")
+    installed.catalogue.reconcile(stale, Patience(installed.settings.lease, 1.0, 3))
+    (found,) = installed.catalogue.blocks(installed.jobs["running"])
+    assert (found.state, found.losses) == (BlockState.queued, 1)
 
 
 def test_orphaned_rows_are_removed(installed: Installed) -> None:
