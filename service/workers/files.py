@@ -37,7 +37,7 @@ def read_file(settings: SettingsDependency, held: HeldBlock, name: Name) -> Resp
     pieces = AttemptFiles(settings, held).read(name)
     try:
         first = next(pieces, b"")
-    except ValueError as error:
+    except (ValueError, IsADirectoryError, NotADirectoryError) as error:
         raise _no_file(name, error) from error
     except FileNotFoundError:
         raise RequestRefused(kinds.NOT_FOUND, f"The block has no file {name!r}.") from None

@@ -194,6 +194,14 @@ def test_a_file_in_place_of_a_folder_is_refused_and_leaves_nothing(
     assert found == ["00000001"]
 
 
+def test_a_folder_is_no_file_that_can_be_read(http: httpx.Client, address: str) -> None:
+    put = {"content": b"rows", "headers": digest(b"rows")}
+    assert http.put(f"{address}/files/a1/parts/00000001", **put).status_code == 204
+    assert http.get(f"{address}/files/a1/parts/00000001").content == b"rows"
+    for name in ("a1/parts", "a1", "a1/parts/00000001/more"):
+        assert http.get(f"{address}/files/{name}").status_code in (404, 422)
+
+
 def test_empty_files_count_too(
     http: httpx.Client, claim: Claim, address: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
