@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from filelock import FileLock
 
 from jointplay import progress
 from jointplay.command_line.calibrate import computed
@@ -177,6 +178,18 @@ def test_a_signal_ends_it_and_says_how_to_go_on(jointplay, tmp_path):
     nothing = jointplay("calibrate", "--resume", tmp_path / "other.json")
     assert nothing.code == 2
     assert "No calibration was begun" in nothing.line()
+
+
+def test_what_one_process_measures_no_other_one_changes(jointplay, document, tmp_path):
+    found, measured = tmp_path / "found.json", tmp_path / "found.json.measured"
+    Measured(measured, admit_calibration(json.loads(document.read_bytes())))
+    before = measured.read_bytes()
+    with FileLock(tmp_path / "found.json.lock"):
+        for how in ([document, "-o", found], ["--resume", found]):
+            ended = jointplay("calibrate", *how, "--processes", "1")
+            assert ended.code == 2
+            assert "Another process calibrates for" in ended.line()
+    assert measured.read_bytes() == before
 
 
 @pytest.mark.long

@@ -3,11 +3,14 @@
 import subprocess
 import sys
 from contextlib import closing
+from datetime import datetime
 from pathlib import Path
 
 import pytest
 
 from jointplay.command_line.application import run
+from jointplay.command_line.exits import Stopped
+from jointplay.command_line.worker import _moment
 from jointplay.service.processes.broker import Broker
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
@@ -83,3 +86,12 @@ def test_a_file_that_is_not_there_is_named(
     monkeypatch.setenv("JOINTPLAY_SETTINGS", "/no/such/file")
     assert run(["worker"]) == 2
     assert "JOINTPLAY_SETTINGS is /no/such/file, which is no file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("date", ["20261123", "2026-11-23", "20261123T00:00:00"])
+def test_a_date_without_dashes_is_no_number_of_seconds(date: str) -> None:
+    assert _moment(date) == datetime(2026, 11, 23).timestamp()
+    assert _moment("1795392000") == 1795392000.0
+    for wrong in ("123", "20261399", "soon"):
+        with pytest.raises(Stopped, match="must be a time such as"):
+            _moment(wrong)

@@ -2,6 +2,8 @@
 
 import re
 import shlex
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -116,12 +118,13 @@ def calibrate(
             spread={"factor": factor},
             tolerance=tolerance,
         )
-    outcome = computed(admit_calibration(given), processes, output)
-    found = with_misfits(outcome.document())
-    document = compact_json(found)
-    if output is not None:
-        write_whole(output, document + "\n")
-        _measured_beside(output).unlink(missing_ok=True)
+    with _alone_with(output):
+        outcome = computed(admit_calibration(given), processes, output)
+        found = with_misfits(outcome.document())
+        document = compact_json(found)
+        if output is not None:
+            write_whole(output, document + "\n")
+            _measured_beside(output).unlink(missing_ok=True)
     if preset_out is not None:
         from jointplay.solver.calibration.fitted_scene import fitted_scene
 
@@ -129,6 +132,27 @@ def calibrate(
         write_whole(preset_out, compact_json(fitted_scene(outcome, name)) + "\n")
     for line in [document] if as_json else calibration_lines(found):
         typer.echo(line)
+
+
+@contextmanager
+def _alone_with(output: Path | None) -> Iterator[None]:
+    """Keep other processes from a file of results and what is measured for it, or be stopped."""
+    from filelock import FileLock, Timeout
+
+    if output is None or not output.parent.is_dir():  # which whatever writes there tells
+        yield
+        return
+    lock = FileLock(output.with_name(f"{output.name}.lock"))
+    try:
+        lock.acquire(blocking=False)
+    except Timeout as error:
+        line = f"Another process calibrates for {output}; wait until that has ended."
+        raise Stopped(line) from error
+    try:
+        yield
+    finally:
+        Path(lock.lock_file).unlink(missing_ok=True)
+        lock.release()
 
 
 def _begun(output: Path) -> dict[str, Any]:

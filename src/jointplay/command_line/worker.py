@@ -12,6 +12,8 @@ from jointplay.command_line.options import AS_JSON
 from jointplay.command_line.output import print_result, remark
 
 _MARGIN = 30.0  # s for a restart point to be stored and sent
+_DATE = 8
+"""Digits of a date without dashes; a time in epoch seconds has more."""
 
 JOIN = Annotated[
     str | None,
@@ -116,7 +118,8 @@ def worker(
 def _moment(text: str) -> float:
     """Return epoch seconds of a time, local where it names no zone."""
     try:
-        return float(text) if text.isdigit() else datetime.fromisoformat(text).timestamp()
+        is_epoch = text.isdecimal() and len(text) > _DATE
+        return float(text) if is_epoch else datetime.fromisoformat(text).timestamp()
     except (ValueError, OverflowError) as error:
         line = f"--until is {text!r}; it must be a time such as 2026-11-23T18:00."
         raise Stopped(line) from error
