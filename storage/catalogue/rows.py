@@ -5,7 +5,7 @@ from dataclasses import asdict
 from functools import cache
 from typing import Any, Final
 
-from sqlalchemy import Update, bindparam, func, insert, select, update
+from sqlalchemy import ColumnElement, Update, bindparam, case, func, insert, select, update
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
@@ -13,6 +13,8 @@ from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import LEGAL_STEPS, Job, JobState
 
+LEAST_KEPT: Final = 86_400.0
+"""Seconds for which a job is kept from its end on, if it was to be kept as long as that."""
 job_table = tables.job
 _event = tables.event
 # made once: to make a statement takes longer than SQLite takes to execute it
@@ -70,8 +72,17 @@ def _step(to: JobState, *, failed: bool) -> Update:
     if failed:
         values["error"] = bindparam("failure", type_=job_table.c.error.type)
     if to.terminal:
-        values["finished"] = bindparam("moment")
+        moment = bindparam("moment", type_=job_table.c.finished.type)
+        values |= {"finished": moment, "expires": _kept_from(moment)}
     return update(job_table).where(*may_step).values(values)
+
+
+def _kept_from(moment: ColumnElement[float]) -> ColumnElement[float | None]:
+    """Return when a job that ends at a moment expires: its results can be read for a while."""
+    expires, created = job_table.c.expires, job_table.c.created
+    lifetime = expires - created
+    least = moment + case((lifetime > LEAST_KEPT, LEAST_KEPT), else_=lifetime)
+    return case((expires < least, least), else_=expires)
 
 
 def record_event(unit: Unit, job: str, kind: str, data: Mapping[str, Any]) -> None:

@@ -24,6 +24,7 @@ from jointplay.storage.catalogue.quotas import Quota, Uses
 from jointplay.storage.catalogue.records import (
     FRESH_QUEUE,
     INTERACTIVE_QUEUE,
+    LIVE,
     Block,
     BlockState,
     Job,
@@ -175,7 +176,7 @@ _job = tables.job
 _REUSABLE = (
     _job.c.state.in_(_REUSED),
     _job.c.damaged.is_(None),
-    tables.unexpired(bindparam("now")),
+    _job.c.state.in_(LIVE) | tables.unexpired(bindparam("now")),  # what is live never expires
 )
 _SAME_JOB = (
     select(_job.c.id)

@@ -5,14 +5,16 @@ from contextlib import closing
 from dataclasses import replace
 
 import pytest
+from sqlalchemy import update
 from stepped_clock import Clock
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import labels
+from jointplay.storage.catalogue import labels, tables
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import JobNotFinished
 from jointplay.storage.catalogue.records import BlockEnd, BlockState, NewJob, SubmissionKey
 
+DAY = 86_400.0
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 
 
@@ -88,6 +90,33 @@ def test_a_job_that_is_wanted_again_expires_later_and_an_expired_one_is_not_foun
     lasting = catalogue.submit(replace(NEW, expires=clock.now + 5), reuse=True)
     assert lasting.created
     assert catalogue.submit(NEW, reuse=True).job.expires is None
+
+
+@pytest.mark.parametrize(("lifetime", "kept"), [(7 * DAY, DAY), (60.0, 60.0)])
+def test_a_job_that_ends_late_can_be_read_for_a_while(
+    catalogue: Catalogue, clock: Clock, lifetime: float, kept: float
+) -> None:
+    """Its results were removed in the second in which it ended: nobody could read them."""
+    job = catalogue.submit(replace(NEW, expires=clock.now + lifetime)).job.id
+    clock.now += lifetime + 5.0  # it waited, or took so long
+    assert catalogue.submit(replace(NEW, expires=clock.now + lifetime), reuse=True).job.id == job
+    catalogue.claim_block(f"{job}-0", "worker", 30)
+    with catalogue.connections.writing() as connection:  # as if nobody had asked again
+        expires = update(tables.job).values(expires=clock.now - 5.0)
+        connection.execute(expires.where(tables.job.c.id == job))
+    catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.done))
+    assert catalogue.get(job).expires == clock.now + kept
+    clock.now += kept - 1.0
+    assert not catalogue.expired(catalogue.get(job))
+    clock.now += 1.0
+    assert catalogue.removable(10) == (job,)
+
+
+def test_a_job_that_ends_in_time_expires_when_it_was_to(catalogue: Catalogue, clock: Clock) -> None:
+    expires = clock.now + 7 * DAY
+    job = succeed(catalogue, replace(NEW, expires=expires))
+    assert catalogue.get(job).expires == expires
+    assert catalogue.get(succeed(catalogue, NEW)).expires is None
 
 
 def test_a_key_remembers_whether_it_was_answered_with_an_earlier_job(
