@@ -25,6 +25,7 @@ from jointplay.storage.catalogue.quotas import NO_QUOTA
 from jointplay.storage.catalogue.records import BlockEnd, BlockState
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
+from tests.waiting import until
 
 SCENE = {"preset": "slider-crank", "parameters": {"clearance": 1.25e-4}}
 JOB = {"kind": "simulate", "scene": SCENE, "duration": 0.125}
@@ -240,6 +241,9 @@ def test_an_expired_job_is_gone(own):
     assert http.get(address, params={"wait": 1}).json()["state"] == "running"
     assert http.get(address).status_code == 200  # what is being computed does not expire
     catalogue.finish(f"{job['id']}-0", 1, BlockEnd(BlockState.done))
+    ended = catalogue.get(job["id"])
+    assert 0.0 < ended.expires - ended.finished <= 0.7  # as long as from its submission on
+    until(lambda: http.get(address).status_code == 410)
     for path in ("", "/peaks", "/events", "/figures/orbit.png"):
         answer = http.get(address + path)
         assert (answer.status_code, answer.json()["type"]) == (410, "/problems/expired-job")
