@@ -1,4 +1,4 @@
-"""Euler's law from channels alone: a flat face that its cam pushes, a journal that oil turns."""
+"""Euler's law from channels alone: cams, journals in oil, pins with play; forces of slides."""
 
 from typing import Any
 
@@ -9,6 +9,7 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 from tests.solver.completed_runs import Run, run
+from tests.solver.sliders import bead, block, rocker, thrown
 
 CONTACT = {
     "law": "stiffness-and-dissipation",
@@ -24,6 +25,7 @@ PINS: dict[str, dict[str, list[float]]] = {
     "rotor": {"J": [0.02, 0.01]},
 }
 INERTIA = 2e-3
+SHAKEN = {"type": "sinusoidal", "amplitude": 0.02, "frequency": 20.0}
 
 
 def body(name: str) -> dict[str, Any]:
@@ -114,6 +116,81 @@ def test_a_flat_face_turns_as_its_moment_says(more: dict[str, Any], formulation:
     largest = float(np.abs(found["lift.moment"]).max())
     assert largest > 0.01
     np.testing.assert_allclose(INERTIA * found["arm.alpha"], moment, rtol=0, atol=1e-7 * largest)
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+def test_a_roller_turns_its_arm_by_friction_at_its_own_radius(formulation: str) -> None:
+    radius, document = 0.01, follower({"type": "roller-follower", "roller_radius": 0.01} | LASH)
+    del document["joints"]["lift"]["normal"]
+    found = run(document, 0.1, formulation=formulation, tolerance=1e-8)
+    x, y = arm(found, "arm.hook")
+    dx, dy = found["arm.x"] + x + 0.05, found["arm.y"] + y + 0.1
+    moment = of(found, "hinge", "arm.pivot") + of(found, "lift", "arm.face")
+    moment = moment - 500.0 * (x * dy - y * dx) + radius * found["lift.friction_force"]
+    largest = radius * float(np.abs(found["lift.friction_force"]).max())
+    assert largest > 1e-3
+    np.testing.assert_allclose(INERTIA * found["arm.alpha"], moment, rtol=0, atol=1e-7 * largest)
+    # the cam, which turns steadily about the origin, feels the opposite at the roller's centre
+    (x, y), fx, fy = arm(found, "arm.face"), found["lift.force_x"], found["lift.force_y"]
+    load = (found["arm.x"] + x) * fy - (found["arm.y"] + y) * fx
+    load = load + radius * found["lift.friction_force"] + 0.4 * 9.81 * found["cam.x"]
+    np.testing.assert_allclose(found["motor.torque"], load, rtol=0, atol=1e-7 * largest)
+
+
+def test_a_pin_turns_its_body_and_that_of_its_slot_by_friction_at_its_own_radius() -> None:
+    found = run(bead(), 0.02, tolerance=1e-8)
+    turning = 0.01 * (found["slot.wall_1.friction_force"] + found["slot.wall_2.friction_force"])
+    assert float(np.abs(turning).max()) > 0.1
+    np.testing.assert_allclose(5e-5 * found["bead.alpha"], turning, rtol=0, atol=1e-10)
+    found = run(rocker(1e-3), 0.3)  # the slot's body is the first one: it feels the opposite
+    turning = 0.01 * (found["slot.wall_1.friction_force"] + found["slot.wall_2.friction_force"])
+    x = found["crank.x"] + 0.2 * np.cos(found["crank.theta"]) + 0.5
+    y = found["crank.y"] + 0.2 * np.sin(found["crank.theta"])
+    moment = -(x * found["slot.force_y"] - y * found["slot.force_x"]) - turning
+    moment = moment - 2.0 * 9.81 * 0.3 * np.cos(found["rocker.theta"])
+    assert float(np.abs(turning).max()) > 0.1
+    inertia = 0.05 + 2.0 * 0.3**2
+    np.testing.assert_allclose(inertia * found["rocker.alpha"], moment, rtol=0, atol=1e-8)
+
+
+@pytest.mark.parametrize(("aside", "side"), [(0.5, 1.0), (-0.5, -1.0)])
+def test_friction_against_the_axis_is_positive_at_the_wall_on_its_left(
+    aside: float, side: float
+) -> None:
+    found = run(thrown(block(friction={"coefficient": 0.2}), 2.0, aside), 0.004)
+    corners = [f"guide.corner_{k}" for k in ((1, 2) if side > 0.0 else (3, 4))]
+    rubbed = sum(found[f"{corner}.friction_force"] for corner in corners)
+    pressed = sum(found[f"{corner}.normal_force"] for corner in corners)
+    assert float(np.max(pressed)) > 100.0
+    np.testing.assert_allclose(rubbed, side * 0.2 * pressed, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(found["guide.force_x"], -0.2 * pressed, rtol=1e-9, atol=1e-9)
+    assert all((side * found[f"{corner}.slip_velocity"] < -1.0).all() for corner in corners)
+
+
+@pytest.mark.parametrize("formulation", ["ideal", "reduced", "lagrange"])
+def test_the_force_of_a_driven_slide_has_that_of_its_driver_in_it(formulation: str) -> None:
+    """A block of 1 kg is shaken along (0.8, 0.6); a pendulum hangs on it, or nothing."""
+    document = block()
+    document |= {
+        "gravity": [0.0, -9.81],
+        "drivers": {"motor": {"joint": "guide", "motion": SHAKEN}},
+    }
+    del document["joints"]["guide"]["clearance"]
+    document["joints"]["guide"] |= {"axis": [0.8, 0.6]}
+    more: dict[str, Any] = {}
+    if formulation != "ideal":
+        document["bodies"]["rotor"] = body("rotor")
+        pin = {"type": "revolute", "bearing": "block.S", "journal": "rotor.J"}
+        document["joints"]["pin"] = pin
+        more = {"formulation": formulation}
+    found = run(document, 0.2, tolerance=1e-9, **more)
+    hung = [found[f"pin.force_{k}"] if more else 0.0 for k in "xy"]
+    for k, weight in (("x", 0.0), ("y", 9.81)):
+        held = found[f"block.a{k}"] + weight + hung["xy".index(k)]
+        np.testing.assert_allclose(found[f"guide.force_{k}"], held, rtol=0, atol=1e-8)
+    along = 0.8 * found["guide.force_x"] + 0.6 * found["guide.force_y"]
+    np.testing.assert_allclose(found["motor.torque"], along, rtol=0, atol=1e-8)
+    assert float(np.ptp(along)) > 1.0
 
 
 @pytest.mark.parametrize("law", ["short-bearing-film", "long-bearing-film"])
