@@ -95,7 +95,7 @@ class _DeviceRun:
         """Those of attempts that are under way."""
         self._ended = 0
         self._advance = Advance()
-        """Of all attempts: while one waits for the catalogue, none of them has stalled."""
+        """That of all attempts: while one waits for the catalogue, none of them has stalled."""
 
     def run(self, first: Claim) -> int:
         """Compute the first block, and others, until none is under way; count them."""

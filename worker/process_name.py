@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Final
 
 _OWN_NAME: Final = re.compile(r"[^@:]*:([1-9]\d{0,9}):(\d+):(.+)", re.ASCII)
-"""What `own_name` returns. With a key before an "@" it is of a worker that joined, and chose it."""
+"""The form of what `own_name` returns. With a key before an "@" a worker that joined chose it."""
 
 
 def own_name() -> str:

@@ -39,7 +39,8 @@ EXTREMES = """async () => {
 
 def test_what_a_point_of_a_sweep_came_to_before_it_failed_is_not_drawn(browsing, service_url):
     with browsing.page(f"{service_url}/") as page:
-        assert page.evaluate(EXTREMES) == [1, None, None]
+        extremes = page.evaluate(EXTREMES)
+        assert extremes == [1, None, None]
 
 
 def test_exponents_of_a_diagram_have_bars_of_their_errors(browsing, service_url):

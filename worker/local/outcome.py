@@ -1,4 +1,4 @@
-"""How a local run ended, as it is written beside its results."""
+"""The end of a local run, as it is written beside its results."""
 
 import json
 from datetime import datetime

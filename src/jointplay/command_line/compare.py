@@ -13,7 +13,6 @@ from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, job_of
 from jointplay.command_line.output import print_result
 from jointplay.command_line.peaks import peak_rows, peak_table
 from jointplay.command_line.typed_window import check_ends, check_start
-from jointplay.command_line.window_peaks import peaks_inside
 from jointplay.records.whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -51,6 +50,7 @@ def compare(
 
     Example: `jointplay compare OUT1 OUT2 --channels displacement --stop 0.5 -o both.svg`
     """
+    from jointplay.command_line.window_peaks import peaks_inside
     from jointplay.figures.overlay import MOST_CURVES, Curve
 
     check_ends(start, stop)
