@@ -1,8 +1,7 @@
 """Peaks of a window of time: of the trajectory where it is known, else of the samples."""
 
+import math
 from typing import TYPE_CHECKING, Literal
-
-import numpy as np
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.peaks import Row, peak_rows
@@ -10,6 +9,7 @@ from jointplay.command_line.peaks import Row, peak_rows
 if TYPE_CHECKING:
     from jointplay.client import Job
     from jointplay.client.window import Window
+    from jointplay.records.run import Floats
 
 Side = Literal["minimum", "maximum"]
 
@@ -40,7 +40,7 @@ def _extreme(job: "Job", window: "Window", name: str, side: Side) -> tuple[float
     """
     at = _place(window[name], side)
     if at is None:
-        return np.nan, np.nan
+        return math.nan, math.nan
     value, time = float(window[name][at]), float(window.time[at])
     if not window.exact:
         first, last = window.time[at - at % 2], window.time[at - at % 2 + 1]
@@ -50,7 +50,10 @@ def _extreme(job: "Job", window: "Window", name: str, side: Side) -> tuple[float
     return value, time
 
 
-def _place(values: "np.ndarray[tuple[int], np.dtype[np.float64]]", side: Side) -> int | None:
+def _place(values: "Floats", side: Side) -> int | None:
+    """Return where the extreme of what is known is; None where nothing is."""
+    import numpy as np
+
     if np.isnan(values).all():
         return None
     return int(np.nanargmin(values) if side == "minimum" else np.nanargmax(values))
