@@ -10,13 +10,18 @@ from typing import TYPE_CHECKING, Any
 from jointplay.client.errors import ClientError, NotFound
 from jointplay.client.job import Job
 from jointplay.storage.errors import ResultsError
-from jointplay.worker.local.folder import OUTCOME_FILE, STORE
+from jointplay.worker.local.folder import JOB_FILE, OUTCOME_FILE, RUNNING, STORE, holding
 from jointplay.worker.local.outcome import outcome_of
 
 if TYPE_CHECKING:
     from jointplay.local.folder_results import FolderResults
     from jointplay.storage.results.reader import ResultReader
     from jointplay.storage.studies.reader import StudyReader
+
+_TABLES = ("peaks.csv", "points.csv", "accuracy.json", "calibration.json")
+_FILES = (JOB_FILE, STORE, OUTCOME_FILE, *_TABLES)
+_FOLDERS = (RUNNING, "figures")
+"""That `run`, and the commands ``jointplay run`` and ``jointplay plot``, write into."""
 
 
 class FolderJob(Job):
@@ -32,8 +37,25 @@ class FolderJob(Job):
         raise ClientError(sentence)
 
     def delete(self) -> None:
-        """Remove the folder."""
-        shutil.rmtree(self._folder)
+        """Remove what a run leaves in its folder, and the folder if nothing else is in it.
+
+        A store that was given by itself is removed.
+
+        Raises
+        ------
+        BlockingIOError
+            Another process is computing the job.
+        """
+        if self._folder.is_file():
+            self._folder.unlink()
+            return
+        with holding(self._folder):
+            for name in _FILES:
+                (self._folder / name).unlink(missing_ok=True)
+            for name in _FOLDERS:
+                shutil.rmtree(self._folder / name, ignore_errors=True)
+        if not any(self._folder.iterdir()):
+            self._folder.rmdir()
 
     def _open_results(self) -> "FolderResults":
         from jointplay.local.folder_results import FolderResults

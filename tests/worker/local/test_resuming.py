@@ -5,6 +5,7 @@ import errno
 import json
 import math
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -182,6 +183,26 @@ def test_a_run_is_computed_by_one_process_at_a_time(tmp_path):
     begun(CRANK, folder, at=-1.0)
     with holding(folder), pytest.raises(BlockingIOError, match="another process"):
         jointplay.resume(folder)
+
+
+def test_of_a_folder_what_a_run_left_is_deleted_and_nothing_else(tmp_path):
+    folder, store = tmp_path / "OUT", tmp_path / "store.zip"
+    job = jointplay.run("pendulum", duration=0.1, output=folder)
+    shutil.copy(folder / "results.zarr.zip", store)
+    (folder / "figures").mkdir()
+    notes = folder / "notes.txt"
+    notes.write_text("mine")
+    with holding(folder), pytest.raises(BlockingIOError, match="another process"):
+        job.delete()
+    assert job.results.peaks()
+    job.delete()
+    assert [*folder.iterdir()] == [notes]
+    alone = jointplay.load(store)
+    alone.delete()
+    assert not store.exists()
+    other = jointplay.run("pendulum", duration=0.1, output=tmp_path / "other")
+    other.delete()
+    assert not (tmp_path / "other").exists()
 
 
 def test_what_was_begun_by_another_version_begins_anew(whole, tmp_path):
