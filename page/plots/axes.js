@@ -2,6 +2,9 @@
 
 import { apart, axisLabel, axisUnit } from "../interface/numbers.js";
 
+const ROUNDING = 1e-12; // of the larger end: a range that is narrower has no scale
+const LEAST = 1e-300; // of a range: below, powers of ten are rounded to nothing
+
 /** Returns how much larger letters are than on a page of usual size: they grow on large screens. */
 export function letters() {
   return parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
@@ -36,18 +39,27 @@ export function extent(lists, room = 0.04) {
     }
   }
   if (low > high) return [0, 1];
-  const margin = high > low ? (high - low) * room : Math.abs(high) / 2 || 1;
+  const margin = differ(low, high) ? (high - low) * room : Math.abs(high) / 2 || 1;
   return [low - margin, high + margin];
 }
 
-/** Returns round numbers in a range, about as many as wanted; at least two, which show the scale. */
+/** Returns whether two ends of a range differ by more than rounding. */
+function differ(low, high) {
+  return high - low > Math.max(ROUNDING * Math.max(Math.abs(low), Math.abs(high)), LEAST);
+}
+
+/**
+ * Returns round numbers in a range, about as many as wanted; at least two, which show the scale. A
+ * range that is rounding alone has its beginning.
+ */
 export function ticks([low, high], wanted) {
+  if (!differ(low, high)) return [low];
   const raw = (high - low) / Math.max(wanted, 1);
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].find((one) => one * power >= raw) * power;
   const found = [];
   for (let k = Math.ceil(low / step); k * step <= high + 1e-9 * step; k++) found.push(k * step);
-  return found.length < 2 && high > low ? ticks([low, high], 2 * Math.max(wanted, 1)) : found;
+  return found.length < 2 ? ticks([low, high], 2 * Math.max(wanted, 1)) : found;
 }
 
 /** Draws a frame with ticks and labels, whose units `[m]` get prefixes that suit the values. */

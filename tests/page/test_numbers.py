@@ -66,6 +66,26 @@ def test_the_scale_of_a_low_axis_can_be_read(browsing, service_url):
     assert len(point) <= 1
 
 
+NARROW = """async (lists) => {
+  const { extent, ticks } = await import("/page/plots/axes.js");
+  return lists.map((values) => [extent([values]), ticks([Math.min(...values), Math.max(...values)], 9)]);
+}"""
+
+
+def test_values_that_rounding_alone_parts_have_an_axis(browsing, service_url):
+    """Counting from one round number to the next never came to the end: 1e16 + 1 is 1e16."""
+    lists = [[1.0, 1 + 2.2e-16], [-3.0, -3 + 2e-12], [0.0, 5e-324], [1.0, 1 + 1e-9]]
+    with browsing.page(f"{service_url}/") as page:
+        one, minus, nought, apart = page.evaluate(NARROW, lists)
+    assert one == [pytest.approx([0.5, 1.5]), [1.0]]
+    assert minus == [pytest.approx([-4.5, -1.5]), [-3.0]]
+    assert nought[1] == [0.0]
+    (low, high), marks = apart
+    assert low < 1.0 and high > 1 + 1e-9
+    assert 2 <= len(marks) <= 20
+    assert all(1.0 <= one <= 1 + 1.001e-9 for one in marks)
+
+
 HIDDEN = """async ([titles, row, look, width]) => {
   const { table } = await import("/page/interface/table.js");
   const made = table("Numbers", titles, [row], look);
