@@ -30,7 +30,10 @@ export class Plane {
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
-  /** @param points `{x, y, units: [across, up], words, note}`; `words` say what the points are */
+  /**
+   * @param points `{x, y, names: [across, up], units: [across, up], words, note}`; `words` say what the
+   *   points are, `names` are those of the points: others may be chosen that have not come
+   */
   show(points) {
     this.points = points;
     this.draw();
@@ -38,16 +41,16 @@ export class Plane {
 
   draw() {
     if (!this.points || !this.canvas.clientWidth) return;
-    const { x, y, units, words, note } = this.points;
+    const { x, y, names, units, words, note } = this.points;
     const colours = palette();
     const context = prepared(this.canvas);
     const { clientWidth, clientHeight } = this.canvas;
     const size = letters();
     const to = scales([88 * size, 10, clientWidth - 88 * size - 14, clientHeight - 12 - 44 * size], extent([x]), extent([y]));
     drawCloud(context, to, [{ x, y, colour: colours["curve-0"] }]);
-    const [xLabel, yLabel] = this.chosen.map((name, i) => `${name} [${units[i]}]`);
+    const [xLabel, yLabel] = names.map((name, i) => `${name} [${units[i]}]`);
     drawAxes(context, to, { xLabel, yLabel }, colours);
-    this.canvas.setAttribute("aria-label", `${words}: ${this.chosen[1]} over ${this.chosen[0]}`);
+    this.canvas.setAttribute("aria-label", `${words}: ${names[1]} over ${names[0]}`);
     this.canvas.dataset.points = String(x.length);
     this.note.textContent = note || `${words}.`;
   }

@@ -135,6 +135,25 @@ def test_a_sweep_over_two_parameters_is_a_map(browsing, service_url, finished_sw
         page.get_by_role("heading", name="clearance = 100 µm, friction = 0.05").wait_for()
 
 
+def test_a_sweep_over_three_parameters_is_a_map_at_each_value_of_the_third(
+    browsing, service_url, worker
+):
+    """All were drawn over one another, and a click chose a point of any."""
+    grid = {"clearance": [1e-4, 2e-4], "friction": [0.0, 0.05], "restitution": [0.5, 0.75]}
+    job = worker.finished_study(kind="sweep", grid=grid, periods=1)
+    with browsing.page(f"{service_url}/#/job/{job}") as page:
+        page.get_by_role("img", name="over clearance and friction, at restitution = 0.5").wait_for()
+        page.get_by_label("At", exact=True).select_option("restitution = 0.75")
+        drawn = page.get_by_role("img", name="over clearance and friction, at restitution = 0.75")
+        drawn.click(position={"x": 100, "y": 40})  # the upper left: points 2 and 3
+        chosen = page.get_by_text("clearance = 100 µm, friction = 0.05, restitution = 0.75")
+        expect(chosen).to_be_visible()
+        page.get_by_label("Quantity").select_option("maximum")
+        drawn.click(position={"x": 100, "y": 40})
+        expect(page.get_by_text("maximum 4 ", exact=False)).to_be_visible()
+        assert barriers(page) == []
+
+
 def test_a_sweep_over_one_parameter_has_curves_of_what_is_known(
     browsing, service_url, worker, artifacts
 ):

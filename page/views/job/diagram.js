@@ -12,6 +12,7 @@ import { telling } from "../../plots/telling.js";
 import { VERDICTS, drawExponents, drawVerdicts } from "../../plots/verdicts.js";
 import { intoATurn } from "../../plots/turns.js";
 import { whenThere } from "../../interface/when_there.js";
+import { withNext } from "../../requests/pages.js";
 import { get } from "../../requests/service.js";
 
 // px of a page whose letters have the usual size
@@ -60,8 +61,8 @@ class Diagram {
     addEventListener("resize", () => this.draw(), { signal });
   }
 
-  query(start = null) {
-    return { observable: this.observable, start };
+  query() {
+    return { observable: this.observable };
   }
 
   async again() {
@@ -71,12 +72,9 @@ class Diagram {
   /** Takes an answer and those that follow it, unless another observable has been chosen meanwhile. */
   async take(answer) {
     const wanted = () => (this.observable ?? answer.observable) === answer.observable;
-    const pages = [answer];
-    while (wanted() && pages.at(-1).next_start !== null) {
-      const next = { ...this.query(pages.at(-1).next_start), observable: answer.observable };
-      pages.push(await get(this.job.links.bifurcation, next, this.signal));
-    }
-    if (!wanted()) return;
+    const ask = (start) => get(this.job.links.bifurcation, { start, observable: answer.observable }, this.signal);
+    const pages = await withNext(answer, ask, wanted);
+    if (!pages) return;
     if (!this.settled && (await this.findTelling(pages))) return;
     const { parameter } = answer;
     this.parameter = parameter;

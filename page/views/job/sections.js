@@ -5,29 +5,49 @@ import { note } from "../../interface/route.js";
 import { whenThere } from "../../interface/when_there.js";
 import { Plane, firstPlane } from "../../plots/plane.js";
 import { intoATurn } from "../../plots/turns.js";
+import { withNext } from "../../requests/pages.js";
 import { get } from "../../requests/service.js";
 
 export async function show(room, context) {
   const { job, query, signal } = context;
   const names = job.job.observables ?? job.job.channels;
-  const asked = ([x, y]) => ({ channels: [...new Set([x, y])].join(",") });
+  const asked = (chosen) => ({ channels: [...new Set(chosen)].join(",") });
+  const ask = (chosen, start = null) => get(job.links.poincare, { ...asked(chosen), start }, signal);
+  const trouble = element("p", { class: "notice bad", hidden: true });
+  const tell = (sentence) => {
+    trouble.textContent = sentence;
+    trouble.hidden = !sentence;
+  };
   const plane = new Plane(names, firstPlane(names, query), signal, async ([x, y]) => {
     note({ x, y });
-    take(await get(job.links.poincare, asked([x, y]), signal));
+    try {
+      await take(await ask([x, y]));
+    } catch (error) {
+      if (error.name !== "AbortError" && same(plane.chosen, [x, y])) tell(error.message);
+    }
   });
-  const panel = element("section", { class: "panel" }, plane.element);
-  const take = (answer) => {
-    if (!plane.chosen.every((name) => name in answer.channels)) return; // others were chosen meanwhile
-    const found = plane.chosen.map((name) => answer.channels[name]);
-    const [x, y] = found.map(({ values, unit }) => {
-      const numbers = values.flat().map((value) => value ?? NaN);
-      return unit === "rad" ? numbers.map(intoATurn(numbers)) : numbers;
+  const panel = element("section", { class: "panel" },
+    element("div", { "aria-live": "polite" }, trouble), plane.element);
+  const take = async (answer) => {
+    const chosen = [...plane.chosen];
+    const wanted = () => same(plane.chosen, chosen) && chosen.every((name) => name in answer.channels);
+    const pages = await withNext(answer, (start) => ask(chosen, start), wanted);
+    if (!pages) return; // others were chosen meanwhile
+    const [x, y] = chosen.map((name) => {
+      const numbers = pages.flatMap((page) => page.channels[name].values.flat()).map((value) => value ?? NaN);
+      return answer.channels[name].unit === "rad" ? numbers.map(intoATurn(numbers)) : numbers;
     });
     const words = x.length === 1 ? "1 section" : `${x.length} sections`;
-    plane.show({ x, y, units: found.map(({ unit }) => unit), words, note: answer.note });
+    const units = chosen.map((name) => answer.channels[name].unit);
+    tell("");
+    plane.show({ x, y, names: chosen, units, words, note: answer.note });
   };
-  await whenThere(room, context, job.links.poincare, () => asked(plane.chosen), (answer) => {
+  await whenThere(room, context, job.links.poincare, () => asked(plane.chosen), async (answer) => {
     if (!panel.isConnected) fill(room, panel);
-    take(answer);
+    await take(answer);
   });
+}
+
+function same(one, other) {
+  return one.every((name, i) => name === other[i]);
 }

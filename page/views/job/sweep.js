@@ -1,4 +1,4 @@
-/** A sweep: extremes and statistics over one parameter as curves, over two as a map. */
+/** A sweep: extremes and statistics over one parameter as curves, over two as a map, over more as maps. */
 
 import { element, fill } from "../../interface/element.js";
 import { short, withUnit } from "../../interface/numbers.js";
@@ -11,6 +11,7 @@ import { onNewColours, palette } from "../../mechanism/palette.js";
 import { drawAxes, extent, letters, scales } from "../../plots/axes.js";
 import { drawCurves } from "../../plots/curves.js";
 import { cellsAbout, drawMap } from "../../plots/heat_map.js";
+import { withNext } from "../../requests/pages.js";
 import { get } from "../../requests/service.js";
 
 // px of a page whose letters have the usual size
@@ -33,11 +34,12 @@ class Sweep {
       note(chosen);
       this.draw();
     });
+    this.others = element("div", { class: "filters channels" });
     this.canvas = element("canvas", { class: "canvas-plot", role: "img", onclick: (event) => this.click(event) });
     this.legend = element("ul", { class: "legend" });
     this.chosen = element("div", { role: "status" });
     this.table = element("div");
-    this.element = element("section", { class: "panel" }, this.quantities.element, this.canvas,
+    this.element = element("section", { class: "panel" }, this.quantities.element, this.others, this.canvas,
       this.legend, this.chosen,
       element("details", {}, element("summary", {}, "As a table"), this.table));
     onNewColours(() => this.draw(), signal);
@@ -46,17 +48,33 @@ class Sweep {
 
   /** Takes an answer and those that follow it. */
   async take(answer) {
-    const pages = [answer];
-    while (pages.at(-1).next_start !== null) {
-      const query = { start: pages.at(-1).next_start };
-      pages.push(await get(this.job.links.sweep, query, this.signal));
-    }
+    const pages = await withNext(answer, (start) => get(this.job.links.sweep, { start }, this.signal));
     this.parameters = Object.entries(answer.values).map(([name, { unit }]) => ({
       name, unit, label: `${name} [${unit}]`,
       values: pages.flatMap((page) => page.values[name].values),
     }));
     this.quantities.take(pages, this.parameters.length === 1);
+    this.layers = layersOf(this.parameters);
+    if (!this.layers.some(({ words }) => words === this.layer)) this.layer = this.layers[0].words;
+    this.offerLayers();
     this.draw();
+  }
+
+  /** Offers the values of the parameters that a map has no axis for. */
+  offerLayers() {
+    const offered = this.layers.map(({ words }) => words).join("; ");
+    if (offered === this.offered || this.layers.length === 1) return; // else a list that is open would be closed
+    this.offered = offered;
+    const select = element("select", { id: "layer", onchange: () => {
+      this.layer = select.value;
+      this.draw();
+    } }, this.layers.map(({ words }) => element("option", { value: words, selected: words === this.layer }, words)));
+    fill(this.others, element("div", { class: "field" }, element("label", { for: "layer" }, "At"), select));
+  }
+
+  /** Returns the points that are drawn, by their index. */
+  get drawn() {
+    return this.layers.find(({ words }) => words === this.layer).points;
   }
 
   draw() {
@@ -78,12 +96,14 @@ class Sweep {
       drawAxes(context, this.to, { xLabel: first.label, yLabel: title }, colours);
     } else {
       const inside = [left, 24, clientWidth - left - SCALE * size, height];
-      this.to = scales(inside, cellsAbout(first.values), cellsAbout(second.values));
-      drawMap(context, this.to, [first.values, second.values], curves[0].values, colours, unit);
+      const [x, y, values] = [first, second, curves[0]].map((one) => this.drawn.map((i) => one.values[i]));
+      this.to = scales(inside, cellsAbout(x), cellsAbout(y));
+      drawMap(context, this.to, [x, y], values, colours, unit);
       drawAxes(context, this.to, { xLabel: first.label, yLabel: second.label }, colours);
     }
     this.canvas.setAttribute("aria-label",
-      `${title} over ${this.parameters.map((one) => one.name).join(" and ")}`);
+      `${title} over ${this.parameters.slice(0, 2).map((one) => one.name).join(" and ")}${
+        this.layer && `, at ${this.layer}`}`);
     fill(this.legend, curves.length > 1 && curves.map(({ title: words, swatch }) =>
       element("li", {}, element("span", { class: `swatch ${swatch}` }), words)));
     this.list(curves.filter(({ values }) => values), unit);
@@ -96,7 +116,7 @@ class Sweep {
     const [first, second] = this.parameters;
     const away = (i) => Math.hypot(this.to.x(first.values[i]) - clientX + left,
       second ? this.to.y(second.values[i]) - clientY + top : 0);
-    this.pick(first.values.reduce((best, _, i) => (away(i) < away(best) ? i : best), 0));
+    this.pick(this.drawn.reduce((best, i) => (away(i) < away(best) ? i : best)));
   }
 
   pick(point) {
@@ -124,4 +144,17 @@ class Sweep {
         element("tbody", {}, rows))),
     count > MOST_ROWS && element("p", { class: "quiet small" }, `The first ${short(MOST_ROWS)} points.`));
   }
+}
+
+/** Returns `{words, points}` of the values that the third parameter and further ones have together. */
+function layersOf(parameters) {
+  const layers = new Map();
+  const others = parameters.slice(2);
+  parameters[0].values.forEach((_, i) => {
+    const key = JSON.stringify(others.map(({ values }) => values[i]));
+    const words = others.map(({ name, unit, values }) => `${name} = ${withUnit(values[i], unit, 6)}`).join(", ");
+    if (!layers.has(key)) layers.set(key, { words, points: [] });
+    layers.get(key).points.push(i);
+  });
+  return [...layers.values()];
 }

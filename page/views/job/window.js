@@ -67,12 +67,12 @@ export class PhasePortrait extends Look {
   }
 
   async ask(window, signal) {
-    const names = this.plane.chosen;
+    const names = [...this.plane.chosen];
     const found = await instants(this.job, names, window, Number(this.count.value), signal);
     const [x, y] = names.map((name) => found.columns[name]);
     const what = found.exact ? "instants" : "samples, the end of the window at most";
     const words = `${x.length} ${what}, ${withUnit(found.step, "s", 3)} apart`;
-    this.plane.show({ x, y, units: names.map((name) => found.units[name]), words });
+    this.plane.show({ x, y, names, units: names.map((name) => found.units[name]), words });
   }
 }
 
