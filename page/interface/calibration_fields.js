@@ -7,6 +7,8 @@ import { ParameterRange, rangeIn } from "./parameter_range.js";
 import { withParameters } from "../mechanism/parameters.js";
 import { play } from "../mechanism/placing.js";
 
+/** Of its fields, as the address keeps them. */
+export const NAMES = ["find", "measured", "generations"];
 const MOST = 6; // parameters, as the service allows
 
 /** Fields with the interface of `ParameterFields`; the address keeps them as `find` and `measured`. */
@@ -43,9 +45,10 @@ export class CalibrationFields {
       element("div", { class: "field" }, element("label", { for: "measured" }, "What was measured"),
         this.text,
         element("p", { class: "help", id: "measured-help" }, "A table with a head, cells between"
-          + " commas: channel, to [s] and value are needed; statistic (maximum, minimum, range,"
-          + " maximum_time, minimum_time), from [s], tolerance, weight and sampled [s] may be there."
-          + " A column named as a parameter sets it: equal ones are one case."),
+          + " commas: channel, to [s] and value are needed, or lowest and highest in place of a value;"
+          + " statistic (maximum, minimum, range, maximum_time, minimum_time), from [s], tolerance,"
+          + " relative_tolerance, weight, sampled [s] and note may be there. A column named as a"
+          + " parameter sets it: equal ones are one case."),
         this.wrong,
         printed.length > 0 && element("button", { type: "button", onclick: () => {
           this.text.value = linesOf(printed);

@@ -1,7 +1,7 @@
 /** Kinds of jobs as the page offers them: fields, and the document that they make. */
 
 import { ACCURACY, accuracyOf, accurate } from "./accuracy.js";
-import { CalibrationFields } from "./calibration_fields.js";
+import { CalibrationFields, NAMES as CALIBRATION } from "./calibration_fields.js";
 import { NONE } from "./drawn_parameters.js";
 import { formOfKind } from "./form_of_kind.js";
 import { linesOf } from "./measured_table.js";
@@ -188,6 +188,12 @@ export async function kindsOfJobs(signal) {
 export function fieldsOf(kind, document, offered, given, onchange) {
   if (kind === "calibration") return new CalibrationFields(document, given, onchange);
   return new ParameterFields(KINDS[kind].fields(document, offered), given, onchange, "");
+}
+
+/** Returns the names of the fields of a kind, as an address keeps them, whatever is offered of the scene. */
+export function namesOfFields(kind, document) {
+  if (kind === "calibration") return CALIBRATION;
+  return Object.keys(KINDS[kind].fields(document, { duration: null, sections: UNKNOWN }));
 }
 
 /**

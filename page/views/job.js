@@ -3,6 +3,7 @@
 import { deleteJob, mayDelete, retriable, retryJob } from "../interface/acting.js";
 import { element, fill } from "../interface/element.js";
 import { ago, withUnit } from "../interface/numbers.js";
+import { ofParameters } from "../interface/form_address.js";
 import { declaredFor, jobWords } from "../interface/job_words.js";
 import { KINDS, kindsOfJobs } from "../interface/kinds_of_job.js";
 import { address, go } from "../interface/route.js";
@@ -253,7 +254,7 @@ function changed(job) {
   const { scene, kind } = job.job;
   const given = Object.fromEntries(Object.entries(scene.preset ? scene.parameters ?? {} : {})
     .filter(([, value]) => value !== null));
-  const query = { ...given, kind: kind === "simulate" ? null : kind, ...KINDS[kind]?.given(job.job), job: job.id };
+  const query = { ...ofParameters(given), kind: kind === "simulate" ? null : kind, ...KINDS[kind]?.given(job.job), job: job.id };
   const link = (text, parts) => element("a", { class: "button", href: address(parts, query) }, text);
   const form = link("Run with changes", ["new", ...(scene.preset ? [scene.preset] : [])]);
   return scene.preset ? form : [form, link("Change the mechanism", ["editor"])];

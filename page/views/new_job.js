@@ -4,9 +4,10 @@ import { kept } from "../editor/kept.js";
 import { documentIn } from "../editor/written.js";
 import { asBefore, without } from "../interface/as_before.js";
 import { element, fill } from "../interface/element.js";
+import { inAddress, ofParameters } from "../interface/form_address.js";
 import { Estimate } from "../interface/estimate.js";
 import { jobAsText } from "../interface/job_as_text.js";
-import { KINDS, fieldsOf, kindsOfJobs, offers } from "../interface/kinds_of_job.js";
+import { KINDS, fieldsOf, kindsOfJobs, namesOfFields, offers } from "../interface/kinds_of_job.js";
 import { ParameterFields } from "../interface/parameter_fields.js";
 import { withUnit } from "../interface/numbers.js";
 import { go, note, route } from "../interface/route.js";
@@ -25,10 +26,12 @@ export async function show(room, { parts, query, signal }) {
     : before?.scene ?? written();
   const { name } = document_;
   document.title = `${name} · jointplay`;
-  const given = numbersOf(query, document_.parameters ?? {});
+  await kindsOfJobs(signal);
+  const kind = Object.hasOwn(KINDS, query.get("kind") ?? "") ? query.get("kind") : "simulate";
+  const given = inAddress(query, document_.parameters ?? {}, namesOfFields(kind, document_));
   const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
-  const [offered] = await Promise.all([offers(withDefaults(document_, given), signal), kindsOfJobs(signal)]);
-  const beginning = { kind: query.get("kind") ?? "simulate", label: query.get("label") ?? "", given };
+  const offered = await offers(withDefaults(document_, given.parameters), signal);
+  const beginning = { kind, label: query.get("label") ?? "", given };
   const form = new JobForm(document_, { wanted, before }, beginning, offered, signal);
   const turn = element("p", { class: "quiet small", role: "status" });
   const sketch = new Sketch(canvas, { labels: true, onFound: ({ drivers_time: once, repeats }) =>
@@ -93,7 +96,7 @@ class JobForm {
     this.asking = new AbortController();
     signal.addEventListener("abort", () => this.asking.abort());
     const changed = () => this.changed();
-    this.parameters = new ParameterFields(document_.parameters ?? {}, given, () => {
+    this.parameters = new ParameterFields(document_.parameters ?? {}, given.parameters, () => {
       changed();
       this.follow().catch(() => {});
     });
@@ -122,7 +125,7 @@ class JobForm {
         element("div", { class: "buttons" }, this.button)),
     );
     this.text = { refresh() {} };
-    this.choose(KINDS[kind] ? kind : "simulate", given);
+    this.choose(kind, given.fields);
     this.text = jobAsText(() => this.document());
   }
 
@@ -178,7 +181,7 @@ class JobForm {
     const noted = [...route().query.keys()].filter((name) => name !== "job");
     return {
       ...Object.fromEntries(noted.map((name) => [name, null])), kind, label: this.label.value.trim(),
-      ...this.parameters.values(), ...this.own.values(),
+      ...ofParameters(this.parameters.values()), ...this.own.values(),
     };
   }
 
@@ -199,7 +202,9 @@ class JobForm {
   /** Returns what the form would make of the earlier job, and what of that job's document stays as it is. */
   asEarlier() {
     const { kind, scene, label, ...document } = this.before;
-    const own = fieldsOf(kind, this.scene, this.offered, KINDS[kind].given(this.before), () => {}).all();
+    const fields = fieldsOf(kind, this.scene, this.offered, KINDS[kind].given(this.before), () => {});
+    if (kind === "calibration" && !fields.valid) return null; // its table is not of this mechanism
+    const own = fields.all();
     const made = KINDS[kind].made(own);
     return { made, document: without(document, Object.keys(own).filter((name) => !(name in made))) };
   }
@@ -225,11 +230,4 @@ class JobForm {
       this.button.disabled = false;
     }
   }
-}
-
-function numbersOf(query, declared) {
-  return Object.fromEntries([...query].map(([name, text]) => {
-    const word = declared[name]?.choices || text.trim() === "" || Number.isNaN(Number(text));
-    return [name, word ? text : Number(text)];
-  }));
 }

@@ -3,6 +3,7 @@
 import pytest
 
 from tests.page.browsing import barriers, expect
+from tests.page.test_run_with_changes import made_of, opened, shown
 
 MEASURED = "channel,to,value\nbearing.normal_force,0.018,{}"
 
@@ -29,6 +30,53 @@ def test_what_was_measured_is_given_as_a_table_and_can_be_changed(browsing, url,
             "channel,statistic,from,to,value,weight\nbearing.normal_force,maximum,0,0.018,800,1"
         )
         expect(page.get_by_label("To", exact=True)).to_have_value("10000000000")
+
+
+TABLE = """async ([cases, declared]) => {
+  const { casesOf, linesOf } = await import("/page/interface/measured_table.js");
+  return casesOf(linesOf(cases), declared);
+}"""
+CHANNEL = {"channel": "A.normal_force", "statistic": "maximum", "from": 0.0, "to": 1.0}
+CASES = [
+    {
+        "name": 'slow, "wet"; or\nnot',
+        "parameters": {"speed": 2.0, "weight": 3.0, "law": "dry, hard"},
+        "targets": [
+            CHANNEL | {"between": [None, 5.0], "weight": 1.0, "note": "read off, by eye"},
+            CHANNEL | {"between": [-1.5, 5.0], "sampled": 0.25, "absolute_tolerance": 2.0},
+        ],
+    },
+    {"targets": [CHANNEL | {"value": 1e300, "relative_tolerance": 0.125}]},
+]
+
+
+def test_a_table_keeps_all_that_a_calibration_knows(browsing, service_url):
+    """A target between two values, and a name with a comma, broke the form; others lost fields."""
+    declared = {"speed": {}, "weight": {}, "law": {"choices": ["dry, hard"]}}
+    with browsing.page(f"{service_url}/") as page:
+        found = page.evaluate(TABLE, [CASES, declared])
+    assert found["cases"] == CASES
+    assert found["lines"] == [[2, 4], [6]]  # the name of the first has two lines
+
+
+def test_run_with_changes_of_a_calibration_changes_one_line_alone(browsing, http, service_url):
+    bearing = {"channel": "bearing.normal_force", "to": 0.018}
+    first = bearing | {"value": 800, "relative_tolerance": 0.1, "note": "a load cell, new"}
+    second = bearing | {"between": [700, None], "weight": 0.5}
+    document = {
+        "kind": "calibration",
+        "scene": {"preset": "bouncing-journal"},
+        "parameters": {"stiffness": {"minimum": 1e9, "maximum": 1e10}},
+        "cases": [{"name": "steel, dry", "targets": [first, second]}],
+    }
+    before = made_of(http, document)
+    with browsing.page(f"{service_url}/#/jobs", expected=("422", "404")) as page:
+        assert made_of(http, opened(page, service_url, before["id"]))["job"] == before["job"]
+        measured = page.get_by_label("What was measured")
+        measured.fill(measured.input_value().replace(",800,", ",900,"))
+        now = made_of(http, shown(page))["job"]
+    before["job"]["cases"][0]["targets"][0]["value"] = 900
+    assert now == before["job"]
 
 
 FOUND = {

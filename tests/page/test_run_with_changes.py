@@ -1,6 +1,7 @@
 """“Run with changes” of a job changes what was changed in its form, and nothing else."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -131,3 +132,29 @@ def test_a_study_of_ones_own_mechanism_stays_one(browsing, http, service_url, ow
     assert now["scene"]["source"] == "a drawing"
     assert now["values"] == {"from": 20.0, "to": 30.0, "count": 3}
     assert now["tolerance"] == 1e-8
+
+
+NAMES = {"damping": "duration", "amplitude": "count", "gap": "label"}
+
+
+def test_parameters_with_the_names_of_fields_are_kept_apart_from_them(browsing, service_url, own):
+    """One took the value of the other when the address was opened again."""
+    own["parameters"] = {NAMES.get(name, name): one for name, one in own["parameters"].items()}
+    with browsing.page(f"{service_url}/#/jobs") as page:
+        page.evaluate("text => sessionStorage.setItem('jointplay-scene', text)", json.dumps(own))
+        page.goto(f"{service_url}/#/new?kind=bifurcation&record=7&speed=21")  # as before
+        expect(page.get_by_label("speed", exact=True)).to_have_value("21")
+        values = page.get_by_label("Values", exact=True)
+        expect(values).to_have_value("48")
+        for name, value in {"duration": "2.5", "count": "0.004", "label": "0.02"}.items():
+            page.get_by_label(name, exact=True).fill(value)
+        page.get_by_label("Label", exact=True).fill("mine")
+        expect(page).to_have_url(re.compile("label=mine"))
+        page.reload()
+        for name, value in {"duration": "2.5", "count": "0.004", "label": "0.02"}.items():
+            expect(page.get_by_label(name, exact=True)).to_have_value(value)
+        expect(values).to_have_value("48")
+        expect(page.get_by_label("Label", exact=True)).to_have_value("mine")
+        expect(page.get_by_label("Sections", exact=True)).to_have_value("7")
+        page.get_by_label("What to compute").select_option("simulate")
+        expect(page.get_by_label("Duration", exact=True)).not_to_have_value("2.5")
