@@ -31,12 +31,12 @@ async function show() {
   leaving = new AbortController();
   const { signal } = leaving;
   const here = route();
-  if (ONE_OF[here.view] && here.parts[0]) {
+  if (Object.hasOwn(ONE_OF, here.view) && here.parts[0]) {
     location.replace(address([ONE_OF[here.view], ...here.parts], Object.fromEntries(here.query)));
     return;
   }
-  const [title, load] = VIEWS[here.view] ?? [];
-  mark(BELONGS[here.view] ?? here.view);
+  const [title, load] = Object.hasOwn(VIEWS, here.view) ? VIEWS[here.view] : [];
+  mark(Object.hasOwn(BELONGS, here.view) ? BELONGS[here.view] : here.view);
   document.title = title ? `${title} · jointplay` : "jointplay";
   try {
     if (!load) throw new Error(`There is no view “${here.view}”. Choose one above.`);
@@ -80,6 +80,10 @@ async function comeBack() {
 window.addEventListener("unhandledrejection", (event) => {
   const { reason } = event; // the view was left meanwhile; or the service is away, which is said above
   if (reason?.name === "AbortError" || reason instanceof Unreachable) event.preventDefault();
+});
+document.querySelector(".skip").addEventListener("click", (event) => {
+  event.preventDefault(); // the address says which view is shown, not where on the page
+  content.focus();
 });
 window.addEventListener("hashchange", () => {
   window.scrollTo(0, 0);

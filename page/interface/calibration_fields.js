@@ -73,14 +73,19 @@ export class CalibrationFields {
     if (name === undefined) return;
     const row = new ParameterRange(this.declared, name, given, () => this.changed(), () => {
       this.rows = this.rows.filter((one) => one !== row);
-      this.changed();
+      this.listRows();
     });
     this.rows.push(row);
+    this.listRows();
+  }
+
+  /** Shows the rows that there are by now: one that is shown again loses the keyboard. */
+  listRows() {
+    fill(this.list, this.rows.map((row) => row.element));
     this.changed();
   }
 
   changed() {
-    fill(this.list, this.rows.map((row) => row.element));
     this.more.hidden = this.rows.length >= MOST || !this.unused().length;
     for (const row of this.rows) row.removal.hidden = this.rows.length === 1;
     this.check();

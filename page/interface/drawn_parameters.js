@@ -41,7 +41,7 @@ export class DrawnParameters {
       });
       const range = proposes(one.default);
       return {
-        [name]: { ...one, title, help: "What is drawn.", proposes, pointer: place },
+        [name]: { ...one, title, help: "What is drawn.", proposes, pointer: place, once: this.field },
         [kind]: {
           shown, title: `${title}, distribution`, help: "", unit: "1", choices: this.kinds,
           default: this.kinds[0],

@@ -53,8 +53,8 @@ const FORMS = {
   Python: python,
   "Command line": commandLine,
   curl: (job) =>
-    `curl -s ${location.origin}/v1/jobs -H 'Content-Type: application/json' \\\n  -d '${
-      JSON.stringify(job).replaceAll("'", "'\\''")}'`,
+    `curl -s ${location.origin}/v1/jobs -H 'Content-Type: application/json' \\\n  -d ${
+      inQuotes(JSON.stringify(job))}`,
   JSON: (job) => JSON.stringify(job, null, 2),
 };
 
@@ -87,9 +87,18 @@ function commandLine({ kind, scene, label, ...given }) {
     return "# save the JSON of this job as job.json, then\njointplay submit job.json --wait";
   }
   const words = [
-    ...Object.entries(scene.parameters ?? {}).map(([name, value]) => `--set ${name}=${value}`),
-    ...Object.entries(OPTIONS).filter(([name]) => given[name]).map(([name, option]) => `${option} ${given[name]}`),
-    ...(label ? [`--label '${label.replaceAll("'", "'\\''")}'`] : []),
+    ...Object.entries(scene.parameters ?? {}).map(([name, value]) => `--set ${quoted(`${name}=${value}`)}`),
+    ...Object.entries(OPTIONS).filter(([name]) => given[name]).map(([name, option]) => `${option} ${quoted(given[name])}`),
+    ...(label ? [`--label ${inQuotes(label)}`] : []),
   ];
-  return `jointplay submit ${[scene.preset, ...words].join(" ")} --wait`;
+  return `jointplay submit ${[quoted(scene.preset), ...words].join(" ")} --wait`;
+}
+
+/** Returns a word as a shell takes it literally; as it is, where nothing in it means more. */
+function quoted(word) {
+  return /^[\w.=:@%,+/-]+$/.test(word) ? String(word) : inQuotes(word);
+}
+
+function inQuotes(text) {
+  return `'${String(text).replaceAll("'", "'\\''")}'`;
 }

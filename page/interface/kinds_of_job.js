@@ -219,7 +219,7 @@ function varied(document, name, title, {
     default: proposes(choices.default)[part(one)],
   });
   return {
-    [name]: { ...choices, title, help, proposes, pointer: place },
+    [name]: { ...choices, title, help, proposes, pointer: place, once: "varied" },
     [part("from")]: end("from"),
     [part("to")]: end("to"),
     [part("count")]: {

@@ -1,5 +1,6 @@
 /** A form made of a scene's declared parameters: units, ranges, help. */
 
+import { NONE } from "./drawn_parameters.js";
 import { element } from "./element.js";
 import { short, typed, unitText } from "./numbers.js";
 
@@ -10,7 +11,9 @@ const SHOWN = 6; // others are folded away
  *
  * A unit or a help may be a function of the values of all fields: the unit of a range is its parameter's.
  * So may be the `pointer` to its place in the document, and whether a field is `shown`; what is hidden is
- * never wrong.
+ * never wrong. Of choices with the same `once` none may be made twice: the document has each by its name.
+ *
+ * Of a declared parameter with choices there is no other value; a form shows what a job had, whatever it was.
  *
  * @property element   the form's part
  * @property values()  what differs from the defaults; throws where something is wrong
@@ -19,7 +22,7 @@ export class ParameterFields {
   constructor(parameters, given = {}, onchange = () => {}, place = "/scene/parameters") {
     this.place = place;
     this.fields = Object.entries(parameters).map(([name, parameter]) =>
-      new Field(name, parameter, given[name], () => {
+      new Field(name, { ...parameter, isDeclared: place !== "" }, given[name], () => {
         this.propose(name);
         this.tell();
         onchange();
@@ -47,6 +50,16 @@ export class ParameterFields {
   tell() {
     const all = this.all();
     for (const field of this.fields) field.tell(all);
+    this.tellTwice();
+  }
+
+  /** Complains of what is chosen twice; returns whether nothing is. */
+  tellTwice() {
+    const choices = this.fields.filter(({ parameter, element: { hidden } }) => parameter.once && !hidden);
+    const twice = (one) => one.input.value !== NONE && choices.some((other) => other !== one
+      && other.parameter.once === one.parameter.once && other.input.value === one.input.value);
+    for (const one of choices) one.complain(twice(one) ? "It is named twice." : "");
+    return !choices.some(twice);
   }
 
   /** Shows in other fields what the choice in one proposes for them, but not in those that are given. */
@@ -64,7 +77,7 @@ export class ParameterFields {
   }
 
   get valid() {
-    return this.fields.map((field) => field.check()).every(Boolean);
+    return [...this.fields.map((field) => field.check()), this.tellTwice()].every(Boolean);
   }
 
   values() {
@@ -106,7 +119,7 @@ class Field {
     this.input = parameter.choices
       ? element(
           "select",
-          { id, onchange: checked, "aria-describedby": `${id}-help` },
+          { id, onchange: checked, "aria-describedby": `${id}-help ${id}-wrong` },
           [...new Set([...parameter.choices, shown])].map((one) => // what a job had may be none of them
             element("option", { value: one, selected: one === shown },
               parameter.words?.[one] ?? one)),
@@ -164,7 +177,9 @@ class Field {
     const { parameter } = this;
     const text = this.input.value.trim();
     let wrong = "";
-    if (!parameter.choices && !this.element.hidden) {
+    if (parameter.choices) {
+      if (parameter.isDeclared && !parameter.choices.includes(text)) wrong = `It is one of ${parameter.choices.join(", ")}.`;
+    } else if (!this.element.hidden) {
       const value = typed(text);
       const low = parameter.minimum ?? -Infinity;
       const high = parameter.maximum ?? Infinity;

@@ -3,9 +3,11 @@
 import { marks, play } from "./placing.js";
 import { turn } from "./turn.js";
 import { getArrays } from "../requests/arrays.js";
+import { mayPass, pause } from "../requests/service.js";
 
 const CHUNK = [256, 2048]; // samples that are fetched at once, at least and at most
 const KEPT = 49152; // samples
+const COME_BACK = 2000; // ms after which what did not come is asked for again
 /** The channels that the pictures of a scene are made of. */
 function needed(scene) {
   const bodies = Object.keys(scene.bodies).flatMap((body) =>
@@ -108,7 +110,14 @@ export class Motion {
       if (error.name === "AbortError") return;
       this.error = error;
       this.onNew();
+      if (mayPass(error)) this.comeBack().catch(() => {}); // until the view is left
     }
+  }
+
+  async comeBack() {
+    await pause(COME_BACK, this.signal);
+    this.error = null;
+    this.onNew();
   }
 
   /** Has what is incomplete, or on its way, fetched once more when it is drawn: the job has gone on. */

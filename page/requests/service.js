@@ -73,11 +73,23 @@ export function withQuery(path, query) {
 /** Returns the bytes that a GET answers in a form. */
 export async function getBytes(path, form, signal) {
   const ask = () => answered("GET", path, undefined, signal, form);
-  return (await patiently(ask, signal, isBusy)).arrayBuffer();
+  return whole((await patiently(ask, signal, isBusy)).arrayBuffer());
 }
 
 async function request(method, path, document, signal) {
-  return (await answered(method, path, document, signal, "application/json")).json();
+  const answer = await answered(method, path, document, signal, "application/json");
+  return whole(answer.json());
+}
+
+/** Returns what the body of an answer holds; one that was cut off is no answer. */
+async function whole(reading) {
+  try {
+    return await reading;
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    report(false);
+    throw new Unreachable();
+  }
 }
 
 async function answered(method, path, document, signal, form) {
@@ -103,12 +115,13 @@ async function answered(method, path, document, signal, form) {
 /** Waits, or throws AbortError as soon as the view is left. */
 export function pause(milliseconds, signal) {
   return new Promise((resolve, reject) => {
+    let timer;
     const left = () => {
       clearTimeout(timer);
       reject(new DOMException("The view was left.", "AbortError"));
     };
     if (signal?.aborted) return left();
-    const timer = setTimeout(() => {
+    timer = setTimeout(() => {
       signal?.removeEventListener("abort", left);
       resolve();
     }, milliseconds);

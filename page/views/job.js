@@ -34,7 +34,7 @@ const PATIENCE = 1500; // ms in the queue after which is asked who is there to c
 
 export async function show(room, { parts, query, signal }) {
   const [id, wanted] = parts;
-  TABS[wanted ?? "watch"]?.[1]().catch(() => {}); // its modules come along with the job
+  if (Object.hasOwn(TABS, wanted ?? "watch")) TABS[wanted ?? "watch"][1]().catch(() => {}); // its modules come along with the job
   const [job] = await Promise.all([
     get(`/v1/jobs/${encodeURIComponent(id ?? "")}`, {}, signal), kindsOfJobs(signal),
   ]);
@@ -195,6 +195,7 @@ class Head {
       box("bad", element("p", {}, element("strong", {}, `It failed${at}: `), job.error.detail),
         element("p", { class: "small" }, REMEDIES[job.error.class]));
     }
+    if (this.refused) box("bad", element("p", {}, this.refused));
     if (job.damaged) box("bad", element("p", {}, job.damaged));
     if (this.notes?.length) box("", this.notes);
     if (job.state === "queued" && this.queued) box("", this.queued);
@@ -239,12 +240,14 @@ class Head {
 
   async act(button, work) {
     button.disabled = true;
+    this.refused = null;
     try {
       await work();
     } catch (error) {
-      fill(this.notice, element("div", { class: "notice bad" }, error.message));
+      this.refused = error.message; // until something is tried again
     } finally {
       button.disabled = false;
+      this.refresh();
     }
   }
 }

@@ -103,3 +103,17 @@ def test_a_fit_in_which_nothing_fits_says_so(browsing, service_url, cost, misfit
     with browsing.page(f"{service_url}/", expected=("404",)) as page:  # of its figure
         told = page.evaluate(FIT, [FOUND | {"cost": cost, "misfits": misfits}])
     assert ("Nothing fits: " in told) is misfits
+
+
+def test_a_range_keeps_the_keyboard_as_it_is_typed(browsing, service_url):
+    """It was lost with the first letter."""
+    with browsing.page(f"{service_url}/#/new/bouncing-journal?kind=calibration") as page:
+        low = page.get_by_label("From", exact=True)
+        low.fill("")
+        page.keyboard.type("2.5e9")
+        expect(low).to_have_value("2.5e9")
+        expect(low).to_be_focused()
+        page.get_by_role("button", name="Find another one").click()
+        expect(page.get_by_label("From", exact=True)).to_have_count(2)
+        page.get_by_role("button", name="Leave out").first.click()
+        expect(page.get_by_label("From", exact=True)).to_have_count(1)

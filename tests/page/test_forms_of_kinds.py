@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 
 import pytest
 
@@ -265,3 +266,53 @@ def test_what_the_service_refuses_stands_beside_its_field(browsing, service_url)
         expect(page.get_by_label("Parameter 2, distribution", exact=True)).to_be_hidden()
         filled(page, **{"Parameter 1, high or standard deviation": "1e-5"})
         wrong(page, "Parameter 1, high or standard deviation", "is not above 'low'")
+
+
+@pytest.mark.parametrize(
+    ("kind", "first", "second"),
+    [
+        ("sweep", "First parameter", "Second parameter"),
+        ("sensitivity", "Parameter 1", "Parameter 2"),
+    ],
+)
+def test_what_is_chosen_twice_is_refused(browsing, service_url, kind, first, second):
+    """It was sent once, with the second range."""
+    with browsing.page(f"{service_url}/#/new/slider-crank?kind={kind}") as page:
+        chosen = page.get_by_label(first, exact=True).input_value()
+        again = page.get_by_label(second, exact=True)
+        again.select_option(chosen)
+        expect(page.get_by_text("It is named twice.")).to_have_count(2)
+        expect(again).to_have_attribute("aria-invalid", "true")
+        page.get_by_role("button", name="Run", exact=True).click()
+        expect(page.get_by_text("Correct the marked fields first.").first).to_be_visible()
+        again.select_option("–")
+        expect(page.get_by_text("It is named twice.")).to_have_count(0)
+
+
+TEXT = """async (job) => {
+  const { jobAsText } = await import("/page/interface/job_as_text.js");
+  const { element } = jobAsText(() => job);
+  [...element.querySelectorAll("button")].find((one) => one.textContent === "Command line").click();
+  return element.querySelector("pre").textContent;
+}"""
+CHOICE = """async (law) => {
+  const { ParameterFields } = await import("/page/interface/parameter_fields.js");
+  const declared = { law: { choices: ["dry", "wet"], default: "dry", help: "", unit: "1" } };
+  return new ParameterFields(declared, { law }).valid;
+}"""
+
+
+def test_a_command_to_copy_takes_values_literally(browsing, service_url):
+    """A link could give a value that a shell evaluates."""
+    evil = "$(touch x) 'y'"
+    scene = {"preset": "slider-crank", "parameters": {"clearance": 2e-4, "law": evil}}
+    job = {"kind": "simulate", "scene": scene, "duration": 0.5, "label": "it's"}
+    with browsing.page(f"{service_url}/") as page:
+        command = page.evaluate(TEXT, job)
+        known, unknown = page.evaluate(CHOICE, "wet"), page.evaluate(CHOICE, evil)
+    assert shlex.split(command) == [
+        *("jointplay", "submit", "slider-crank", "--set", "clearance=0.0002"),
+        *("--set", f"law={evil}", "--duration", "0.5", "--label", "it's", "--wait"),
+    ]
+    assert "--set clearance=0.0002 " in command
+    assert (known, unknown) == (True, False)

@@ -315,3 +315,37 @@ def test_a_lost_worker_is_named(browsing, service_url, worker, catalogue):
         page.get_by_text("running", exact=True).wait_for()
         catalogue.reap(3, ["mill-7"])
         page.get_by_text("The worker mill-7 was lost; another goes on.").wait_for()
+
+
+def test_a_list_has_all_that_came_at_once(browsing, http, service_url):
+    """A page may have fewer than was asked for; jobs behind it were left out for good."""
+    label = "came at once"
+    newest = re.compile(rf"/v1/jobs\?(?=.*page_size=20).*label={label.replace(' ', '.')}")
+    with browsing.page(f"{service_url}/healthz") as page:
+        page.route(
+            newest,
+            lambda route: route.continue_(url=route.request.url.replace("size=20", "size=2")),
+        )
+        page.goto(f"{service_url}/#/jobs?label={label.replace(' ', '+')}")
+        for count in (1, 6):
+            some = [JOB | {"label": label}] * (count - (count > 1))
+            http.post("/v1/batches", json={"jobs": some}).raise_for_status()
+            expect(page.locator(".row")).to_have_count(count)
+
+
+def test_why_a_job_was_not_cancelled_stays_to_be_read(browsing, service_url, worker, catalogue):
+    """The next word of its progress took the reason away."""
+    job_id = worker.submit(label="not to be cancelled")
+    claim = worker.start(job_id)
+    with browsing.page(f"{service_url}/#/job/{job_id}", expected=("500",)) as page:
+        refused = {"title": "Broken", "detail": "It cannot be cancelled now."}
+        page.route("**/cancel", lambda route: route.fulfill(status=500, json=refused))
+        page.get_by_role("button", name="Cancel").click()
+        reason = page.get_by_text("It cannot be cancelled now.")
+        expect(reason).to_be_visible()
+        catalogue.record_progress(
+            claim.block.id, claim.block.attempt, 60.0, time=0.5, fraction=0.25
+        )
+        bar = page.get_by_label("Progress of the job")
+        expect(bar).to_have_attribute("data-fraction", "0.25")
+        expect(reason).to_be_visible()

@@ -33,3 +33,20 @@ def test_a_button_of_a_job_keeps_it_as_the_job_goes_on(browsing, service_url, wo
             catalogue.record_progress(claim.block.id, claim.block.attempt, 60.0, **reached)
             expect(page.locator(".row")).to_contain_text(f"{percent} %")
             expect(button).to_be_focused()
+
+
+def test_the_content_is_skipped_to_and_its_view_stays(browsing, service_url):
+    """Its address was taken for that of a view, which there is not."""
+    with browsing.page(f"{service_url}/#/new/slider-crank") as page:
+        page.get_by_label("Label", exact=True).fill("kept")
+        skip = page.get_by_role("link", name="Skip to the content")
+        skip.focus()
+        skip.press("Enter")
+        expect(page.locator("#content")).to_be_focused()
+        expect(page.get_by_label("Label", exact=True)).to_have_value("kept")
+        expect(page).to_have_url(re.compile("#/new/slider-crank"))
+
+
+def test_an_address_of_no_view_says_so(browsing, service_url):
+    with browsing.page(f"{service_url}/#/toString") as page:
+        expect(page.get_by_text("There is no view “toString”.")).to_be_visible()

@@ -309,3 +309,45 @@ def test_many_instants_have_none_twice(browsing, service_url):
             assert abs(most / step - 1.0) < 1e-6
             assert abs(last - 1.5) < 1e-9
             assert abs(first - (1.5 - 19_999 * step)) < 1e-9
+
+
+WAITED = """async () => {
+  const { pause } = await import("/page/requests/service.js");
+  const left = new AbortController();
+  left.abort();
+  return pause(0, left.signal).catch(({ name }) => name);
+}"""
+CUT = """async () => {
+  const { get, getBytes } = await import("/page/requests/service.js");
+  const cut = () => new ReadableStream({ pull: (some) => some.error(new TypeError("cut off")) });
+  globalThis.fetch = async () => new Response(cut());
+  const of = (asked) => asked.catch((error) => error.constructor.name);
+  return Promise.all([of(get("/v1/jobs")), of(getBytes("/v1/jobs", "text/csv"))]);
+}"""
+
+
+def test_faults_have_the_names_that_the_page_knows(browsing, service_url):
+    with browsing.page(f"{service_url}/") as page:
+        page.get_by_role("heading", level=1).wait_for()
+        waited = page.evaluate(WAITED)
+        cut = page.evaluate(CUT)
+    assert waited == "AbortError"
+    assert cut == ["Unreachable", "Unreachable"]
+
+
+def test_a_motion_goes_on_after_an_answer_that_did_not_come(browsing, service_url):
+    """It stood still for ever."""
+    asked = []
+
+    def answer(route):
+        asked.append(route.request.url)
+        if len(asked) == 1:
+            route.abort()
+        else:
+            route.fulfill(body=archive([0.0, 1.0, 2.0], complete=True))
+
+    with browsing.page(f"{service_url}/", expected=("ERR_FAILED",)) as page:
+        page.route("**/late/history*", answer)
+        page.evaluate(MOTION)
+        page.wait_for_function("() => globalThis.pose?.[0] === 2")
+    assert len(asked) == 2
