@@ -53,7 +53,14 @@ from jointplay.storage.catalogue.records import (
     Submitted,
     SubmittedBatch,
 )
-from jointplay.storage.catalogue.units import claiming, durably, reading, writing
+from jointplay.storage.catalogue.units import (
+    claiming,
+    durably,
+    durably_once,
+    reading,
+    writing,
+    writing_once,
+)
 
 
 class Catalogue:
@@ -255,13 +262,13 @@ class Catalogue:
     claim_next = claiming(claims.claim_next)
     # by workers elsewhere, which go on where a power cut ends whoever keeps a catalogue in a file:
     # claims that were forgotten would give another worker the number of their attempt
-    claim_block_elsewhere = durably(claims.claim)
-    claim_next_elsewhere = durably(claims.claim_next)
+    claim_block_elsewhere = durably_once(claims.claim)
+    claim_next_elsewhere = durably_once(claims.claim_next)
     wake_again = writing(solvers.wake_again)
     held_by = reading(listing.held_by)
     queued_of = reading(listing.queued_of)
     note_worker = writing(solvers.note_worker)
-    note_spent = writing(tally.note_spent)
+    note_spent = writing_once(tally.note_spent)
     held = reading(holding.held)
     verdict = reading(holding.verdict)
     heartbeat = writing(holding.heartbeat)
@@ -298,7 +305,7 @@ class Catalogue:
     unmeasured = reading(stored.unmeasured)
     note_stored = writing(stored.note_stored)
     mend_after_setting_back = writing(upkeep.mend_after_setting_back)
-    pass_over = writing(usage.pass_over)
+    pass_over = writing_once(usage.pass_over)
     announce_again = writing(upkeep.announce_again)
     inconsistent = reading(inconsistencies.find)
     reconcile = writing(inconsistencies.mend)

@@ -105,7 +105,8 @@ class Connections:
     def repeated(self, unit: Callable[[], Answer]) -> Answer:
         """Carry out a unit, anew where it was interrupted, for as long as units wait for others.
 
-        If only the answer to a commit was lost, a unit that is repeated finds that it was done.
+        If only the answer to a commit was lost, a unit that is repeated must find that it was done;
+        of one that cannot, see `mark`.
         """
         give_up = time.monotonic() + _PATIENCE
         pause = _FIRST_PAUSE
@@ -120,6 +121,15 @@ class Connections:
             # apart from whoever was interrupted together with it
             time.sleep(pause * (1 + secrets.randbelow(1000) / 1000))
             pause = min(2 * pause, _LONGEST_PAUSE)
+
+    def mark(self, connection: Connection) -> int | None:
+        """Return what tells a unit that is repeated whether it was done; None: it was not."""
+        return self._database.mark(connection)
+
+    def committed(self, mark: int) -> bool:
+        """Tell whether the unit of a mark was done; errors of `writing`."""
+        with self._available():
+            return self._database.committed(mark)
 
     def close(self) -> None:
         """Close every connection of this process."""

@@ -37,6 +37,33 @@ def _in_unit(
     return method
 
 
+def _once_in_unit(
+    function: _InUnit[Given, Answer],
+    begin: Callable[["Connected"], AbstractContextManager[Connection]],
+) -> _Method[Given, Answer]:
+    """Make a method that, repeated as the answer to its commit was lost, answers what it did."""
+
+    def method(catalogue: "Connected", /, *given: Given.args, **named: Given.kwargs) -> Answer:
+        reached: list[tuple[int, Answer]] = []
+
+        def unit() -> Answer:
+            for earlier, found in reached:
+                if catalogue.connections.committed(earlier):
+                    return found
+            reached.clear()
+            with begin(catalogue) as connection:
+                answer = function(Unit(connection, catalogue.clock()), *given, **named)
+                mark = catalogue.connections.mark(connection)
+                if mark is not None:
+                    reached.append((mark, answer))
+            return answer
+
+        return catalogue.connections.repeated(unit)
+
+    update_wrapper(method, function)
+    return method
+
+
 def reading(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
     """Make a method of a function that reads in one unit."""
     return _in_unit(function, lambda catalogue: catalogue.connections.reading())
@@ -47,11 +74,21 @@ def writing(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
     return _in_unit(function, lambda catalogue: catalogue.connections.writing())
 
 
+def writing_once(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
+    """Make a method of a function that would do another thing if it were repeated."""
+    return _once_in_unit(function, lambda catalogue: catalogue.connections.writing())
+
+
+def durably_once(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
+    """Make a method as `writing_once`, whose writing is on the disk when it returns."""
+    return _once_in_unit(function, lambda catalogue: catalogue.connections.writing(durable=True))
+
+
 def durably(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
     """Make a method of a function that writes in one unit, on the disk when it returns."""
     return _in_unit(function, lambda catalogue: catalogue.connections.writing(durable=True))
 
 
 def claiming(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
-    """Make a method of a function that writes in one unit, which lasts as long as its caller."""
-    return _in_unit(function, lambda catalogue: catalogue.connections.claiming())
+    """Make a method as `writing_once`, whose writing lasts as long as its caller."""
+    return _once_in_unit(function, lambda catalogue: catalogue.connections.claiming())

@@ -35,6 +35,14 @@ class Database(Protocol):
         """Begin a writing unit, committed at the end; `durable`: it survives a power cut."""
         ...
 
+    def mark(self, connection: Connection) -> int | None:
+        """Return what tells later whether a unit was committed; None where it is always known."""
+        ...
+
+    def committed(self, mark: int) -> bool:
+        """Tell whether the unit of a mark was; Interrupted while that is not known."""
+        ...
+
     def now(self) -> float:
         """Return the time that all who share the database go by, epoch seconds."""
         ...

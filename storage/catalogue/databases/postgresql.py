@@ -105,6 +105,19 @@ class PostgreSQL:
                 yield connection
             connection.info["durable"] = durable  # of the session, as the setting is now
 
+    def mark(self, connection: Connection) -> int | None:
+        """Return the id of the transaction, if it has written anything."""
+        found = connection.exec_driver_sql("SELECT txid_current_if_assigned()").scalar_one()
+        return None if found is None else int(found)
+
+    def committed(self, mark: int) -> bool:
+        """Tell how the transaction of an id ended; Interrupted while it goes on."""
+        with self.reading() as connection:
+            status = connection.exec_driver_sql("SELECT txid_status(%s)", (mark,)).scalar_one()
+        if status == "in progress":
+            raise Interrupted(BUSY)
+        return bool(status == "committed")
+
     def now(self) -> float:
         """Return the server's time, by this process's steady clock since they were compared."""
         if self._ahead is None:

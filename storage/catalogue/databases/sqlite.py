@@ -145,6 +145,14 @@ class SQLite:
         if os.access(self._index, os.F_OK) and not os.access(self._index, os.W_OK):
             raise Unavailable(SILENT)
 
+    def mark(self, connection: Connection) -> int | None:
+        """Return none: no answer to a commit can be lost."""
+        return None
+
+    def committed(self, mark: int) -> bool:
+        """Say no: there are no marks."""
+        return False
+
     def now(self) -> float:
         """Return the time of the file system, which is everybody's."""
         return self._clock.now()

@@ -4,22 +4,25 @@ import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, closing, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import psycopg
 import pytest
+from sqlalchemy import Connection
 
 from jointplay.storage.catalogue import connections
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.errors import Fenced, Unavailable
+from jointplay.storage.catalogue.counters import COMPILING
+from jointplay.storage.catalogue.errors import SILENT, Fenced, Interrupted, Unavailable
 from jointplay.storage.catalogue.records import (
     BlockEnd,
     BlockState,
     JobState,
     NewJob,
+    Solver,
     SubmissionKey,
 )
 from tests.postgresql_server import Server
@@ -154,6 +157,44 @@ def test_lost_connections_are_not_noticed(
         postgresql.cut(url)
         act()
     assert apis[0].get(job).state is JobState.succeeded
+
+
+def test_what_was_done_is_not_done_again_when_only_its_answer_was_lost(
+    apis: Sequence[Catalogue], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    catalogue, solver = apis[0], Solver("0.1.0+abc", "p")
+    blocks = [f"{catalogue.submit(NEW).job.id}-0" for _ in range(4)]
+    database = catalogue.connections._database
+    writing = database.writing
+    lost: list[bool] = []
+
+    @contextmanager
+    def loses_each_first_answer(*, durable: bool) -> Iterator[Connection]:
+        with writing(durable=durable) as connection:
+            yield connection
+        lost.append(len(lost) % 2 == 0)
+        if lost[-1]:
+            raise Interrupted(SILENT)
+
+    monkeypatch.setattr(database, "writing", loses_each_first_answer)
+
+    def answered(act: Callable[[], Any]) -> Any:
+        lost.clear()
+        found = act()
+        assert lost == [True]
+        return found
+
+    for claim in (catalogue.claim_next, catalogue.claim_next_elsewhere):
+        assert answered(partial(claim, "worker", 30.0, solver)) is not None
+    for block in {*blocks} - {one.id for one in catalogue.held_by("worker")}:
+        assert answered(partial(catalogue.claim_block, block, "worker", 30.0)) is not None
+    assert len(catalogue.held_by("worker")) == 4
+    answered(partial(catalogue.note_spent, "worker", {COMPILING: 2.0}))
+    assert catalogue.census().totals[COMPILING] == 2.0
+    before = [catalogue.attempts(block[:-2])[0].started for block in blocks]
+    answered(partial(catalogue.pass_over, 5.0, before[0] + 1e6))
+    after = [catalogue.attempts(block[:-2])[0].started for block in blocks]
+    assert after == pytest.approx([moment + 5.0 for moment in before], abs=1e-3)
 
 
 def test_a_connection_that_is_lost_in_mid_unit_has_it_begun_anew(
