@@ -11,6 +11,7 @@ from jointplay.records.motion import LABELS
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 from jointplay.records.suggestions import did_you_mean
+from jointplay.records.window_query import wrong_end
 
 if TYPE_CHECKING:
     from typing_extensions import TypeIs
@@ -151,10 +152,11 @@ def select(
     NoSuchChannel
         A name or glob matches nothing.
     NotDrawable
-        The window ends before it begins.
+        The window ends before it begins, or an end is no number.
     """
-    if start is not None and stop is not None and start > stop:
-        raise NotDrawable(f"stop ({stop:g}) is before start ({start:g}); swap them.", "stop")
+    if (wrong := wrong_end(start, stop, "")) is not None:
+        end, sentence = wrong
+        raise NotDrawable(sentence, end)
     chosen = choose(",".join(channels), _names(source)) if channels else ()
     return Selection(tuple(chosen), tuple(joints), start, stop, over)
 

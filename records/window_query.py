@@ -1,7 +1,11 @@
 """A window of a run as it is asked for, wherever the run is."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
+
+End = Literal["start", "stop"]
 
 
 @dataclass(frozen=True)
@@ -23,3 +27,18 @@ class WindowQuery:
     def of_samples(self) -> bool:
         """Whether samples are asked for, as they are stored."""
         return self.points is None and self.step is None
+
+
+def wrong_end(start: float | None, stop: float | None, unit: str = " s") -> tuple[End, str] | None:
+    """Return the end (start or stop) that makes a window none, and why; None: it is a window.
+
+    Ends that are no numbers are neither before nor behind anything.
+    """
+    ends: tuple[tuple[End, float | None], ...] = (("start", start), ("stop", stop))
+    for end, value in ends:
+        if value is not None and math.isnan(value):
+            return end, f"{end} is not a number; give one, or leave it out."
+    if start is not None and stop is not None and start > stop:
+        sentence = f"stop ({stop:g}{unit}) is before start ({start:g}{unit}); swap them."
+        return "stop", sentence
+    return None

@@ -13,6 +13,7 @@ from test_every_figure import CHOICES
 
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection, UnknownFigure, colours, page
+from jointplay.figures.kind import select
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.figures.sampling import extremes
 from jointplay.records.channel import Channel
@@ -206,6 +207,13 @@ def test_a_long_history_keeps_its_extremes():
     assert len(time) <= 4002
     assert shown.max() == 9.0
     assert time[shown.argmax()] == motion.time[54_321]
+
+
+def test_ends_of_a_window_that_are_no_numbers_are_named(motion):
+    for end in ("start", "stop"):
+        with pytest.raises(NotDrawable, match=f"{end} is not a number") as refused:
+            select(motion, **{end: float("nan")})
+        assert refused.value.cause == end
 
 
 def test_extremes_beside_what_is_not_known_are_kept_and_so_is_the_gap():

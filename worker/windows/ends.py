@@ -1,6 +1,6 @@
 """Both ends of a window of time in a run."""
 
-from typing import Literal
+from jointplay.records.window_query import End, wrong_end
 
 ROUNDING = 1e-12
 """Share of a time by which a window may go beyond what is kept."""
@@ -15,7 +15,7 @@ class NoSuchWindow(ValueError):
         The end that is wrong.
     """
 
-    def __init__(self, end: Literal["start", "stop"], sentence: str) -> None:
+    def __init__(self, end: End, sentence: str) -> None:
         super().__init__(sentence)
         self.end = end
 
@@ -33,10 +33,10 @@ def ends_of(reached: float, start: float | None, stop: float | None) -> tuple[fl
     Raises
     ------
     NoSuchWindow
-        The window ends before it begins, before 0, or begins after `reached`.
+        The window ends before it begins, before 0, at no number, or begins after `reached`.
     """
-    if start is not None and stop is not None and start > stop:
-        raise NoSuchWindow("stop", f"stop ({stop:g} s) is before start ({start:g} s); swap them.")
+    if (wrong := wrong_end(start, stop)) is not None:
+        raise NoSuchWindow(*wrong)
     if stop is not None and stop < 0.0:
         raise NoSuchWindow("stop", f"The run begins at 0 s; {stop:g} s is before it.")
     first = 0.0 if start is None else max(start, 0.0)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import Literal
 
-from jointplay.records.window_query import WindowQuery
+from jointplay.records.window_query import WindowQuery, wrong_end
 
 Table = Literal["history", "poincare", "peaks", "impacts", "points"]
 TABLES: Mapping[bool, tuple[Table, ...]] = {
@@ -51,12 +51,8 @@ def check(table: Table | None, query: WindowQuery, *, of_study: bool) -> None:
             raise NoSuchPart(f"{option} is of a history; {shown} is written as it is.")
     if query.channels is not None and shown == "impacts":
         raise NoSuchPart("channels are not in the table impacts; leave them out.")
-    start, stop = query.start, query.stop
-    for end, value in (("start", start), ("stop", stop)):
-        if value is not None and math.isnan(value):
-            raise NoSuchPart(f"{end} is not a number; leave it out, or give one.")
-    if start is not None and stop is not None and start > stop:
-        raise NoSuchPart(f"stop {stop:g} is before start {start:g}; swap them.")
+    if (wrong := wrong_end(query.start, query.stop, "" if of_study else " s")) is not None:
+        raise NoSuchPart(wrong[1])
 
 
 def point_range(points: int, start: float | None, stop: float | None) -> range:

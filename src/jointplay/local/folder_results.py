@@ -1,6 +1,5 @@
 """Results of a job in a folder."""
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -23,7 +22,7 @@ from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.kinds_with import kinds_with
 from jointplay.records.resolution import of_samples
 from jointplay.records.sensitivity.analysis import NoSuchOutput, Question, Side, sensitivity
-from jointplay.records.window_query import WindowQuery
+from jointplay.records.window_query import WindowQuery, wrong_end
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
@@ -61,8 +60,6 @@ class FolderResults:
         names = _chosen(query.channels, reader)
         start, stop, points = query.start, query.stop, query.points
         _check_ends(start, stop)
-        if start is not None and stop is not None and start > stop:
-            raise _refused("stop", f"stop ({stop:g} s) is before start ({start:g} s); swap them.")
         if points is not None and points < 1:
             raise _refused("points", f"points is {points}; it is at least 1.")
         note = ""
@@ -235,10 +232,8 @@ def _chosen(channels: Names, reader: ResultReader) -> list[str]:
 
 
 def _check_ends(start: Seconds, stop: Seconds) -> None:
-    """Refuse ends of a window that are no numbers: they are neither before nor behind anything."""
-    for end, time in (("start", start), ("stop", stop)):
-        if time is not None and math.isnan(time):
-            raise _refused(end, f"{end} is not a number; give a time in s, or None.")
+    if (wrong := wrong_end(start, stop)) is not None:
+        raise _refused(*wrong)
 
 
 @contextmanager
