@@ -1,12 +1,17 @@
 """The process that computes windows of trajectories, kept warm: `jointplay.worker.windows`."""
 
 from jointplay.service.answering import AnsweringProcess, refusing
-from jointplay.service.problems import unavailable
+from jointplay.service.problems import RequestRefused
+from jointplay.service.problems.kinds import UNAVAILABLE
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.question import Answer, Question
 from jointplay.worker.windows.trajectory import Trajectory
 
 _PATIENCE = 240.0  # s; what is not compiled yet takes some 20 of them, and 60 on a busy machine
+
+
+class TooLong(RequestRefused):
+    """A window takes more computing than the patience, whatever else the service has to do."""
 
 
 class WindowProcess:
@@ -26,7 +31,11 @@ class WindowProcess:
     def _answer(self, question: Question) -> Answer:
         with refusing(
             "Many windows are being computed; ask again in a moment.",
-            unavailable("The window took too long to compute; a shorter one is faster.", 30),
+            TooLong(
+                UNAVAILABLE,
+                "The window took too long to compute; a shorter one is faster.",
+                headers={"Retry-After": "30"},
+            ),
             "The window could not be computed.",
         ):
             found = self._process.answer(question)

@@ -3,7 +3,8 @@
 import { get } from "../requests/service.js";
 
 /**
- * Returns curves of a channel by job: `{curves: [[times, values], …], unit, longName}` by channel.
+ * Returns `{channels, note}`: by channel its curves by job, `{curves: [[times, values], …], unit, longName}`,
+ * and what is to be known of them, as that their peaks are those of samples alone.
  *
  * @param jobs jobs as the service shows them; what one has not stored is left out
  * @param channels names
@@ -27,7 +28,7 @@ export async function histories(jobs, channels, [start, stop], points, signal) {
       curves, unit: described?.unit ?? "", longName: described?.long_name ?? "",
     };
   }
-  return found;
+  return { channels: found, note: [...new Set(answers.map((answer) => answer?.note).filter(Boolean))].join(" ") };
 }
 
 /** Returns times and values; of an overview minimum and maximum of each group in turn. */

@@ -4,7 +4,8 @@ import uPlot from "../vendor/uplot/uPlot.esm.min.js";
 import { element, fill } from "../interface/element.js";
 import { apart, axisUnit, short, withUnit } from "../interface/numbers.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
-import { pause } from "../requests/service.js";
+import { Newest } from "../requests/newest.js";
+import { mayPass, pause } from "../requests/service.js";
 import { histories } from "./history_data.js";
 import { axisFont, letters } from "./axes.js";
 import { drawUnconverged, drawImpacts } from "./marks.js";
@@ -12,6 +13,7 @@ import { Panning } from "./panning.js";
 
 const HEIGHT = 150; // px of a plot
 const QUIET = 60; // ms without a change of the window until it stands
+const COME_BACK = 2000; // ms after which what a busy service refused is asked for again
 
 export class HistoryPlots {
   /**
@@ -22,13 +24,20 @@ export class HistoryPlots {
   constructor(jobs, clock, signal, onWindow = () => {}) {
     Object.assign(this, { jobs, clock, signal, onWindow, plots: new Map(), onsets: [] });
     this.certificate = null;
+    this.questions = new Newest(() => this.ask());
     this.fetching = new AbortController();
+    this.standing = new AbortController();
     this.all = [clock.first, clock.last];
     this.window = [...this.all];
     this.room = element("div", {}, element("p", { class: "quiet" }, "Reading …"));
-    this.element = element("div", { class: "plot-stack" }, this.controls(), this.room);
+    this.note = element("p", { class: "quiet small", role: "status" });
+    this.element = element("div", { class: "plot-stack" }, this.controls(), this.room, this.note);
     this.key = `history-${Math.random()}`;
-    signal.addEventListener("abort", () => this.fetching.abort());
+    signal.addEventListener("abort", () => {
+      this.fetching.abort();
+      this.standing.abort();
+      this.clear();
+    });
     clock.listen((time) => this.follow(time));
     onNewColours(() => this.rebuild(), signal);
     new ResizeObserver(() => this.resize()).observe(this.room);
@@ -37,11 +46,17 @@ export class HistoryPlots {
   /** Shows these channels, in this order. */
   async show(channels) {
     this.channels = channels;
-    await this.fetch();
+    this.fetching.abort();
+    await this.questions.want();
   }
 
   /** Sets the window of time; it stays inside what there is. */
-  setWindow([start, stop]) {
+  setWindow(window) {
+    this.fetching.abort(); // it is of another
+    this.place(window);
+  }
+
+  place([start, stop]) {
     const width = Math.min(stop - start, this.all[1] - this.all[0]);
     const first = Math.min(Math.max(start, this.all[0]), this.all[1] - width);
     this.window = [first, first + width];
@@ -65,37 +80,41 @@ export class HistoryPlots {
     this.setWindow(this.window.map((one) => one + share * width));
   }
 
-  /** Shows what a running job has computed meanwhile. */
+  /** Shows what a running job has computed meanwhile, after what is on its way. */
   extend(last) {
     const whole = this.window[1] >= this.all[1] && this.window[0] <= this.all[0];
     this.all[1] = last;
-    if (whole) this.setWindow([...this.all]);
+    if (whole) this.place([...this.all]);
   }
 
   /** Tells of the window and fetches it once it stands still: a new address costs a frame. */
   later() {
-    this.fetching.abort();
-    this.fetching = new AbortController();
-    pause(QUIET, this.fetching.signal).then(() => {
+    this.standing.abort();
+    this.standing = new AbortController();
+    pause(QUIET, this.standing.signal).then(() => {
       if (this.signal.aborted) return; // the view was left, and the address is another's
       const whole = this.window[1] - this.window[0] >= this.all[1] - this.all[0];
       this.onWindow(whole ? [null, null] : this.window);
-      this.fetch();
+      this.questions.want();
     }, () => {});
   }
 
-  async fetch() {
-    this.fetching.abort();
+  async ask() {
+    if (this.signal.aborted || !this.channels) return;
     this.fetching = new AbortController();
     const { signal } = this.fetching;
     const points = Math.max(200, Math.min(this.room.clientWidth || 800, 4000));
     try {
-      this.data = await histories(this.jobs, this.channels, this.window, points, signal);
-      if (!signal.aborted) this.draw();
+      const { channels, note } = await histories(this.jobs, this.channels, this.window, points, signal);
+      if (signal.aborted) return;
+      this.data = channels;
+      this.note.textContent = note;
+      this.draw();
     } catch (error) {
       if (error.name === "AbortError") return;
+      this.clear();
       fill(this.room, element("p", { class: "notice" }, error.message));
-      this.plots.clear();
+      if (mayPass(error)) pause(COME_BACK, signal).then(() => this.questions.want(), () => {});
     }
   }
 
@@ -121,9 +140,14 @@ export class HistoryPlots {
     return curves.length === 1 ? curves[0] : uPlot.join(curves);
   }
 
-  rebuild() {
+  /** Ends the plots: each listens to the window, and to the cursors of the others. */
+  clear() {
     for (const { plot } of this.plots.values()) plot.destroy();
     this.plots.clear();
+  }
+
+  rebuild() {
+    this.clear();
     fill(this.room);
     if (!this.data) return;
     this.channels.forEach((channel, i) => {

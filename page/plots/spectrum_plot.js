@@ -11,10 +11,15 @@ const DECADES = 12; // below the strongest power; what lies deeper is rounding
 
 export class SpectrumPlot {
   constructor(signal) {
+    Object.assign(this, { signal });
     this.room = element("div");
     this.value = element("p", { class: "quiet small" }, "\u00a0");
     this.element = element("div", { role: "img", "aria-label": "Power over frequency" }, this.room, this.value);
     onNewColours(() => this.draw(), signal);
+    signal.addEventListener("abort", () => {
+      this.plot?.destroy();
+      this.plot = null;
+    });
     new ResizeObserver(() => this.plot?.setSize({ width: this.room.clientWidth, height: this.height }))
       .observe(this.room);
   }
@@ -29,7 +34,7 @@ export class SpectrumPlot {
     this.plot?.destroy();
     this.plot = null;
     fill(this.room);
-    if (!this.density?.frequency.length || !this.room.clientWidth) return;
+    if (this.signal.aborted || !this.density?.frequency.length || !this.room.clientWidth) return;
     const { frequency, density, unit, band_limit: limit } = this.density;
     const top = density.reduce((most, one) => Math.max(most, one), 0);
     const bottom = top / 10 ** DECADES;

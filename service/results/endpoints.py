@@ -75,7 +75,7 @@ def show_history(
             raise RequestRefused.of_parameter("step", "Give step or points, not both.")
         return _shown_as(form, file, exact.values(names, start, stop, query.step))
     if query.points is not None:
-        found = exact.overview(names, start, stop, query.points)
+        found = exact.overview(names, start, stop, query.points, has_note=form == JSON)
         if isinstance(found, schemas.Overview):
             return _shown_as(form, file, found)
         note = found

@@ -17,7 +17,7 @@ from jointplay.service.results import schemas
 from jointplay.service.results.queries import check_points, check_step
 from jointplay.service.results.stores import ReaderOfThePath
 from jointplay.service.results.streaming import Column
-from jointplay.service.windows import WindowProcess
+from jointplay.service.windows import TooLong, WindowProcess
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.ends import NoSuchWindow
 from jointplay.worker.windows.trajectory import Trajectory
@@ -51,15 +51,27 @@ class ExactReader:
         )
 
     def overview(
-        self, names: list[str], start: float | None, stop: float | None, points: int
+        self,
+        names: list[str],
+        start: float | None,
+        stop: float | None,
+        points: int,
+        *,
+        has_note: bool,
     ) -> schemas.Overview | str:
-        """Return extremes of equal spans of time, or a sentence: why they are not known exactly."""
+        """Return extremes of equal spans of time, or a sentence: why they are not known exactly.
+
+        That depends on the run and the window alone: where the service is too busy, it is refused,
+        and so is what takes too long, unless the answer `has_note`.
+        """
         check_points(points, len(names))
         edges = self.trajectory.edges(start, stop, points)
         try:
             found = self.trajectory.extremes(names, edges)
-        except RequestRefused as busy:
-            return str(busy)
+        except TooLong as refused:
+            if not has_note:
+                raise
+            return str(refused)
         if found.values is None:
             return found.refused
         return schemas.Overview.model_construct(

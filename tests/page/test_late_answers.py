@@ -352,3 +352,56 @@ def test_a_motion_goes_on_after_an_answer_that_did_not_come(browsing, service_ur
         page.evaluate(MOTION)
         page.wait_for_function("() => globalThis.pose?.[0] === 2")
     assert len(asked) == 2
+
+
+HISTORY = """async () => {
+  const { HistoryPlots } = await import("/page/plots/history_plots.js");
+  const { Clock } = await import("/page/mechanism/clock.js");
+  const others = fetch;
+  Object.assign(globalThis, { asked: [], told: 0, left: new AbortController() });
+  const held = ({ signal }) => new Promise((resolve, reject) => {
+    const one = { resolve, aborted: false };
+    asked.push(one);
+    signal.addEventListener("abort", () => {
+      one.aborted = true;
+      reject(new DOMException("", "AbortError"));
+    });
+  });
+  globalThis.fetch = (path, options) =>
+    path.startsWith("/late") ? held(options) : others(path, options);
+  const time = { values: [0, 1], unit: "s" };
+  const channels = { a: { values: [0, 1], unit: "m", long_name: "" } };
+  globalThis.reply = (nth, note, status) =>
+    asked[nth].resolve(new Response(JSON.stringify({ time, channels, note }), { status }));
+  const job = { job: { channels: ["a"], output_step: 1 }, links: { history: "/late/history" } };
+  globalThis.plots = new HistoryPlots([job], new Clock(0, 2), left.signal, () => (told += 1));
+  document.querySelector("main").replaceChildren(plots.element);
+  plots.show(["a"]);
+}"""
+
+
+def test_a_history_comes_while_its_job_goes_on(browsing, service_url):
+    """Each word of progress gave up what was on its way; and a refusal was the last word."""
+    with browsing.page(f"{service_url}/") as page:
+        page.get_by_role("heading", level=1).wait_for()
+        page.evaluate(HISTORY)
+        page.evaluate("() => plots.extend(4)")
+        page.wait_for_function("() => told === 1")
+        given_up = page.evaluate("() => asked.map(({ aborted }) => aborted)")
+        assert given_up == [False]
+        page.evaluate("() => reply(0, 'Peaks of samples.', 200)")
+        expect(page.get_by_text("Peaks of samples.")).to_be_visible()
+        page.wait_for_function("() => asked.length === 2")  # what has been computed meanwhile
+        page.evaluate("() => reply(1, '', 500)")
+        expect(page.locator(".uplot")).to_have_count(0)
+        page.wait_for_function("() => asked.length === 3")
+        page.evaluate("() => reply(2, '', 200)")
+        expect(page.locator(".uplot")).to_have_count(1)
+        expect(page.get_by_text("Peaks of samples.")).to_have_count(0)
+        page.evaluate("() => plots.setWindow([0, 1])")
+        page.wait_for_function("() => asked.length === 4")
+        page.evaluate("() => plots.setWindow([1, 2])")  # of another window, it is given up
+        page.wait_for_function("() => asked.length === 5 && asked[3].aborted")
+        page.evaluate("() => left.abort()")
+        drawn = page.evaluate("() => plots.plots.size")
+        assert drawn == 0

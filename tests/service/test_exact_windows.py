@@ -6,6 +6,7 @@ import pytest
 from jointplay.client import Client
 from jointplay.records.job import JobError
 from jointplay.records.resolution import Resolution
+from jointplay.service.answering import Busy, Hindered, NoAnswer, TooSlow
 from jointplay.service.results import schemas
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.packed import Packed
@@ -155,6 +156,31 @@ def test_what_cannot_be_computed_is_refused_or_said(http, job, worker):
     assert not shown["exact"]
     assert shown["resolution"]["basis"] == "samples"
     assert "keeps no steps" in shown["note"]
+
+
+@pytest.mark.parametrize("reason", [Busy, Hindered, NoAnswer, TooSlow])
+@pytest.mark.parametrize("media_type", ["application/json", "text/csv"])
+def test_numbers_do_not_depend_on_the_load(application, http, job, monkeypatch, reason, media_type):
+    """An overview was of samples alone, with status 200, whenever the service was busy."""
+
+    def answer(question):
+        raise reason
+
+    query = {"channels": FORCE, "points": 7}
+    address, accepted = f"/v1/jobs/{job}/history", {"Accept": media_type}
+    whole = http.get(address, params=query, headers=accepted).raise_for_status()
+    with monkeypatch.context() as patch:
+        patch.setattr(application.state.windows._process, "answer", answer)
+        found = http.get(address, params=query, headers=accepted)
+    if reason is TooSlow and media_type == "application/json":
+        assert found.status_code == 200
+        assert not found.json()["exact"]
+        assert "too long" in found.json()["note"]
+    else:
+        assert found.status_code == 503
+        assert 0 < int(found.headers["Retry-After"]) <= 30
+        assert found.json()["type"] == "/problems/unavailable"
+    assert http.get(address, params=query, headers=accepted).content == whole.content
 
 
 def test_a_running_job_has_windows_and_peaks_of_what_is_committed(http, worker):
