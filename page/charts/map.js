@@ -41,6 +41,7 @@ export class ChartMap {
     on("pointerdown", (event) => this.down(event));
     on("pointermove", (event) => this.move(event));
     on("pointerup", (event) => this.up(event));
+    on("pointercancel", () => (this.from = this.begun = null)); // the browser took it: it scrolls
     on("pointerleave", () => this.onhover(null));
     on("dblclick", () => this.all());
     on("keydown", (event) => this.key(event));

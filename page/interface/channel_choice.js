@@ -14,9 +14,10 @@ export class ChannelChoice {
       type: "search", "aria-label": "Find a channel", placeholder: "Find a channel",
       oninput: () => this.refresh(),
     });
+    this.said = element("p", { class: "quiet", role: "status" });
     this.element = element("details", {},
       element("summary", {}, `Channels (${channels.length})`),
-      element("div", { class: "stacked" }, this.search, this.list));
+      element("div", { class: "stacked" }, this.search, this.said, this.list));
     this.refresh();
   }
 
@@ -31,7 +32,9 @@ export class ChannelChoice {
   }
 
   choose(name, box) {
-    if (box.checked && this.names.length >= MOST) {
+    const full = box.checked && this.names.length >= MOST;
+    this.said.textContent = full ? `At most ${MOST} channels are shown; leave one out first.` : "";
+    if (full) {
       box.checked = false;
       return;
     }

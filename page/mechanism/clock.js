@@ -28,9 +28,10 @@ export class Clock {
     if (this.playing) return;
     if (this.time >= this.last) this.time = this.first;
     this.playing = true;
+    const run = (this.run = {}); // frames of one that was stopped may still come
     let before = null;
     const step = (now) => {
-      if (!this.playing) return;
+      if (this.run !== run) return;
       const passed = before === null ? 0 : Math.min(now - before, 100) / 1000;
       before = now;
       this.time += passed * this.speed;
@@ -44,6 +45,7 @@ export class Clock {
 
   stop() {
     this.playing = false;
+    this.run = null;
     this.tell();
   }
 

@@ -79,9 +79,10 @@ export class Sketch {
   async play() {
     if (this.playing) return;
     this.playing = true;
+    const run = (this.run = {}); // frames of one that was stopped may still come
     let last = performance.now();
     const step = (now) => {
-      if (!this.playing || !this.canvas.isConnected) return;
+      if (this.run !== run || !this.canvas.isConnected) return;
       if (this.poses.length > 1) this.draw((this.share + Math.max(now - last, 0) / SHOWN) % 1);
       last = now;
       requestAnimationFrame(step);
@@ -92,6 +93,7 @@ export class Sketch {
 
   stop() {
     this.playing = false;
+    this.run = null;
   }
 }
 

@@ -244,7 +244,7 @@ export class HistoryPlots {
       made("▸", "Later", () => this.move(0.5)),
       made("All", "The whole run", () => this.setWindow([...this.all])),
       element("span", { class: "quiet small" },
-        "Drag to zoom, shift-drag or scroll to pan, click to go there."));
+        "Drag or scroll to zoom, shift-drag or scroll sideways to pan, click to go there."));
   }
 }
 

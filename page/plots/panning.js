@@ -37,8 +37,9 @@ export class Panning {
       this.history.move((before - next.clientX) / this.plot.over.clientWidth);
       before = next.clientX;
     };
-    addEventListener("pointermove", moved);
-    addEventListener("pointerup", () => removeEventListener("pointermove", moved), { once: true });
+    const over = new AbortController();
+    addEventListener("pointermove", moved, { signal: over.signal });
+    for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => over.abort(), { signal: over.signal });
   }
 
   click(event) {

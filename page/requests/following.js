@@ -8,7 +8,8 @@ const COME_BACK = 1000; // ms after which a stream that was cut is opened again
 
 /**
  * Reads the stream of a job's events; comes back where it is cut, and misses nothing. It ends when
- * the job is finished or `signal` is aborted. (The browser's own EventSource shows no key.)
+ * the job is finished or `signal` is aborted. (The browser's own EventSource shows no key.) While the
+ * tab is hidden there is no stream: all tabs together have six connections to a service.
  *
  * @param onEvent called with each event of the history, once
  * @param onProgress called with the newest state and progress
@@ -28,19 +29,50 @@ export async function follow(address, { onEvent, onProgress, onLost, signal }) {
     }
   };
   while (!over && !signal.aborted) {
+    const stream = untilHidden(signal);
     try {
-      const seen = last ? { "Last-Event-ID": String(last) } : {};
-      const answer = await fetch(`${address}/events`, { headers: { ...keyHeaders(), ...seen }, signal });
+      await seen(signal);
+      const known = last ? { "Last-Event-ID": String(last) } : {};
+      const headers = { ...keyHeaders(), ...known };
+      const answer = await fetch(`${address}/events`, { headers, signal: stream.signal });
       report(true);
       if (answer.status === 200) await read(answer.body, take);
       else if (!mayPass(answer)) return onLost?.();
       if (!over) await pause(COME_BACK, signal);
     } catch (error) {
-      if (error.name === "AbortError") return;
+      if (signal.aborted) return;
+      if (stream.signal.aborted) continue; // the tab was hidden
       report(false);
       await pause(COME_BACK, signal).catch(() => {});
+    } finally {
+      stream.end();
     }
   }
+}
+
+/** Waits until the tab is seen; throws AbortError where the view is left before. */
+function seen(signal) {
+  return new Promise((resolve, reject) => {
+    const heard = new AbortController();
+    const look = () => {
+      if (!signal.aborted && document.hidden) return;
+      heard.abort();
+      if (signal.aborted) reject(new DOMException("The view was left.", "AbortError"));
+      else resolve();
+    };
+    document.addEventListener("visibilitychange", look, { signal: heard.signal });
+    signal.addEventListener("abort", look, { signal: heard.signal });
+    look();
+  });
+}
+
+/** Returns a `signal` that is aborted when the tab is hidden after it was seen, or the view is left; `end` forgets it. */
+function untilHidden(left) {
+  const [stream, heard] = [new AbortController(), new AbortController()];
+  const leave = () => (left.aborted || document.hidden) && stream.abort();
+  left.addEventListener("abort", leave, { signal: heard.signal });
+  document.addEventListener("visibilitychange", leave, { signal: heard.signal });
+  return { signal: stream.signal, end: () => heard.abort() };
 }
 
 /** Takes messages apart: lines `field: value`, an empty line after each message. */

@@ -19,12 +19,16 @@ import { get } from "../requests/service.js";
 const MOST = 4;
 
 export async function show(room, { query, signal }) {
-  const ids = (query.get("jobs") ?? "").split(",").filter(Boolean).slice(0, MOST);
-  const jobs = await Promise.all(ids.map((id) => get(`/v1/jobs/${encodeURIComponent(id)}`, {}, signal)));
+  const wanted = (query.get("jobs") ?? "").split(",").filter(Boolean).slice(0, MOST);
+  const found = await Promise.all(wanted.map((id) => jobOf(id, signal)));
+  const jobs = found.filter(Boolean);
+  const gone = wanted.filter((_, i) => !found[i]);
+  const ids = wanted.filter((_, i) => found[i]);
   const others = await candidates(ids, signal);
   const words = jobs.length ? differing(jobs, await declaredFor(jobs[0].job)) : [];
   const head = [
     element("h1", {}, "Compared jobs"),
+    gone.map((id) => element("p", { class: "notice" }, "The job ", element("code", {}, id), " is gone.")),
     element("ul", { class: "legend" }, jobs.map((job, i) => entry(job, i, ids, words[i]))),
     ids.length < MOST && adding(ids, others),
   ];
@@ -60,6 +64,16 @@ export async function show(room, { query, signal }) {
   draw();
   if (!calm()) clock.play();
   await plots.show(choice.names);
+}
+
+/** Returns a job; null: there is none any more. */
+async function jobOf(id, signal) {
+  try {
+    return await get(`/v1/jobs/${encodeURIComponent(id)}`, {}, signal);
+  } catch (error) {
+    if (error.status === 404 || error.status === 410) return null;
+    throw error;
+  }
 }
 
 function entry(job, i, ids, words) {

@@ -59,10 +59,17 @@ export async function show(room, { parts, query, signal }) {
     content,
   );
   const listeners = new Set();
-  if (!TERMINAL.has(job.state)) {
+  const events = []; // of the history so far
+  const hearers = new Set();
+  const over = TERMINAL.has(job.state);
+  if (!over) {
     follow(`/v1/jobs/${id}`, {
       signal,
-      onEvent: (event) => head.happened(event),
+      onEvent: (event) => {
+        head.happened(event);
+        events.push(event);
+        for (const hear of hearers) hear(event);
+      },
       onProgress: (now) => {
         Object.assign(job, now);
         head.refresh();
@@ -86,7 +93,13 @@ export async function show(room, { parts, query, signal }) {
     for (const listener of listeners) listener(job);
   };
   const { show: fillIn } = await tab[1][1]();
-  await fillIn(content, { job, query, signal, onChange: (listener) => listeners.add(listener) });
+  await fillIn(content, { // `onEvent` hears from the one stream of this view, while there is one
+    job, query, signal, onChange: (listener) => listeners.add(listener),
+    onEvent: !over && ((hear) => {
+      events.forEach(hear);
+      hearers.add(hear);
+    }),
+  });
 }
 
 class Head {

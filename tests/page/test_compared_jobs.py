@@ -76,3 +76,34 @@ def test_a_shorter_run_stays_as_it_ended(browsing, service_url, worker, catalogu
             page.evaluate(SOUGHT, 3.0 / 5.0)
         poses = [query for query in asked if "points" not in query]
         assert [float(query["start"][0]) for query in poses] == [0.0]
+
+
+def test_a_job_that_is_gone_leaves_the_others(browsing, service_url, worker):
+    """The whole view failed."""
+    job, gone = worker.finished(), "0" * 26
+    address = f"{service_url}/#/compare?jobs={gone},{job}"
+    with browsing.page(address, expected=("404", "422")) as page:
+        page.locator(".uplot").first.wait_for()
+        expect(page.locator("main .swatch")).to_have_count(1)
+        expect(page.get_by_text(f"The job {gone} is gone.")).to_be_visible()
+
+
+NINTH = """async () => {
+  const { ChannelChoice } = await import("/page/interface/channel_choice.js");
+  const names = [1, 2, 3, 4, 5, 6, 7, 8, 9].map(String);
+  const choice = new ChannelChoice(names, names.slice(0, 8), () => {});
+  document.querySelector("main").replaceChildren(choice.element);
+  const click = (n) => choice.list.querySelectorAll("input")[n].click();
+  click(8);
+  const refused = choice.element.querySelector("[role=status]")?.textContent;
+  click(0);
+  click(8);
+  return [refused, choice.element.querySelector("[role=status]")?.textContent, choice.names.length];
+}"""
+
+
+def test_a_channel_too_many_is_refused_with_a_word(browsing, service_url):
+    with browsing.page(f"{service_url}/") as page:
+        refused, then, count = page.evaluate(NINTH)
+    assert refused == "At most 8 channels are shown; leave one out first."
+    assert (then, count) == ("", 8)

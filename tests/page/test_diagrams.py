@@ -242,3 +242,42 @@ def test_two_runs_are_compared_in_the_same_plots(browsing, url, press, artifacts
 def test_the_reference_of_the_api_needs_nothing_from_elsewhere(browsing, service_url):
     with browsing.page(f"{service_url}/docs") as page:
         page.locator("#operations-jobs-submit_job_v1_jobs_post").wait_for()
+
+
+def test_a_choice_that_does_not_come_is_told(browsing, http, service_url, worker):
+    """What was drawn before stayed under the new name, without a word."""
+    study = worker.finished_study(**BIFURCATION)
+    observables = http.get(f"/v1/jobs/{study}").json()["job"]["observables"]
+    first, broken, other = observables[:3]
+    address = f"{service_url}/#/job/{study}/diagram?observable={first}"
+    with browsing.page(address, expected=("500",)) as page:
+        page.locator("canvas[data-done]").wait_for()
+        failing = re.compile(rf"/bifurcation\?.*{re.escape(broken)}")
+        refused = {"title": "Broken", "detail": "It broke."}
+        page.route(failing, lambda route: route.fulfill(status=500, json=refused))
+        page.get_by_label("Observable").select_option(broken)
+        told = page.get_by_text(f"This is still {first}. It broke.")
+        expect(told).to_be_visible()
+        page.get_by_label("Observable").select_option(other)
+        page.get_by_role("img", name=f"{other} at the sections").wait_for()
+        expect(told).to_have_count(0)
+
+
+CANCELLED = """async () => {
+  const { ChartMap } = await import("/page/charts/map.js");
+  const axis = { parameter: "p", unit: "m", values: [1, 2, 3] };
+  const { signal } = new AbortController();
+  const map = new ChartMap({ x: axis, y: axis }, signal, () => {}, () => {});
+  map.canvas.setPointerCapture = () => {}; // no pointer is there
+  const send = (name) => map.canvas.dispatchEvent(new PointerEvent(name));
+  send("pointerdown");
+  const held = map.from !== null;
+  send("pointercancel");
+  return [held, map.from];
+}"""
+
+
+def test_a_map_that_a_browser_scrolls_is_let_go(browsing, service_url):
+    with browsing.page(f"{service_url}/") as page:
+        held, after = page.evaluate(CANCELLED)
+    assert (held, after) == (True, None)

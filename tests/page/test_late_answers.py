@@ -405,3 +405,64 @@ def test_a_history_comes_while_its_job_goes_on(browsing, service_url):
         page.evaluate("() => left.abort()")
         drawn = page.evaluate("() => plots.plots.size")
         assert drawn == 0
+
+
+FRAMES = """async () => {
+  const { Clock } = await import("/page/mechanism/clock.js");
+  const due = [];
+  globalThis.requestAnimationFrame = (step) => due.push(step);
+  const clock = new Clock(0, 10);
+  for (let n = 0; n < 3; n++) {
+    clock.play();
+    clock.stop();
+  }
+  clock.play();
+  const frames = [];
+  for (let now = 0; now < 300; now += 100) {
+    const steps = due.splice(0);
+    frames.push(steps.length);
+    for (const step of steps) step(now);
+  }
+  return [frames, clock.time];
+}"""
+
+
+def test_a_clock_that_is_stopped_and_started_goes_on_once(browsing, service_url):
+    """It went on twice, three times … as fast."""
+    with browsing.page(f"{service_url}/") as page:
+        frames, time = page.evaluate(FRAMES)
+    assert frames[1:] == [1, 1]
+    assert abs(time - 0.2) < 1e-12
+
+
+FIGURES = """async () => {
+  const { show } = await import("/page/views/job/figures.js");
+  const others = fetch;
+  globalThis.drawn = 0;
+  globalThis.fetch = async (path, options) => {
+    if (!path.startsWith("/late")) return others(path, options);
+    if (path.endsWith(".svg")) {
+      drawn += 1;
+      const circle = `<svg xmlns="http://www.w3.org/2000/svg" width="${10 * drawn}" height="10"/>`;
+      return new Response(new Blob([circle], { type: "image/svg+xml" }));
+    }
+    const svg = "/late/orbit.svg";
+    const figure = { name: "orbit", title: "An orbit", png: svg, svg };
+    return new Response(JSON.stringify({ figures: [figure] }));
+  };
+  globalThis.job = { state: "running", progress: { fraction: 0.5 }, links: { figures: "/late" } };
+  const room = document.createElement("div");
+  document.querySelector("main").replaceChildren(room);
+  const { signal } = new AbortController();
+  show(room, { job, signal, onChange: (listener) => (globalThis.happened = listener) });
+}"""
+
+
+def test_figures_of_a_job_that_runs_are_drawn_anew_at_its_end(browsing, service_url):
+    """Those that were drawn first stayed."""
+    with browsing.page(f"{service_url}/") as page:
+        page.get_by_role("heading", level=1).wait_for()
+        page.evaluate(FIGURES)
+        page.wait_for_function("() => document.querySelector('figure img')?.naturalWidth === 10")
+        page.evaluate("() => { job.state = 'succeeded'; happened(job); }")
+        page.wait_for_function("() => document.querySelector('figure img')?.naturalWidth === 20")

@@ -170,7 +170,14 @@ class Chart {
 
   async pick(point) {
     const [column, row] = point;
-    const found = await get(`${this.job.links.chart}/point`, { column, row }, this.signal);
+    let found;
+    try {
+      found = await get(`${this.job.links.chart}/point`, { column, row }, this.signal);
+    } catch (error) {
+      if (error.name === "AbortError") throw error;
+      fill(this.chosen, element("p", { class: "notice bad" }, error.message)); // what was there is of another point
+      return;
+    }
     const words = found.status !== "done" ? found.detail || found.status : [Object.entries(found.quantities)
       .filter(([, { value }]) => value !== null)
       .map(([, quantity]) => told(quantity)), found.detail].flat().filter(Boolean).join("; ");

@@ -36,6 +36,7 @@ class Diagram {
     this.settled = Boolean(this.observable); // which observable is shown
     this.canvas = element("canvas", { class: "canvas-plot", role: "img", onclick: (e) => this.click(e) });
     this.chosen = element("div", { role: "status" });
+    this.trouble = element("div", { "aria-live": "polite" });
     this.legend = element("ul", { class: "legend" });
     const observables = job.job.observables ?? [];
     this.select = element("select", { id: "observable", onchange: () => {
@@ -56,7 +57,7 @@ class Diagram {
           element("label", { for: "value" }, job.job.parameter),
           element("div", { class: "entry" }, this.at, this.unitOfAt)),
         element("p", { class: "quiet small" }, "Click the diagram, or give a value, to run that simulation.")),
-      this.canvas, this.legend, this.chosen);
+      this.trouble, this.canvas, this.legend, this.chosen);
     onNewColours(() => this.draw(), signal);
     addEventListener("resize", () => this.draw(), { signal });
   }
@@ -65,8 +66,16 @@ class Diagram {
     return { observable: this.observable };
   }
 
+  /** Asks for the observable that is chosen; says why it does not come, since another is drawn. */
   async again() {
-    await this.take(await get(this.job.links.bifurcation, this.query(), this.signal));
+    const { observable } = this;
+    try {
+      await this.take(await get(this.job.links.bifurcation, this.query(), this.signal));
+    } catch (error) {
+      if (error.name === "AbortError" || observable !== this.observable) return;
+      const shown = this.answer ? `This is still ${this.answer.observable}. ` : "";
+      fill(this.trouble, element("p", { class: "notice bad" }, `${shown}${error.message}`));
+    }
   }
 
   /** Takes an answer and those that follow it, unless another observable has been chosen meanwhile. */
@@ -76,6 +85,7 @@ class Diagram {
     const pages = await withNext(answer, ask, wanted);
     if (!pages) return;
     if (!this.settled && (await this.findTelling(pages))) return;
+    fill(this.trouble);
     const { parameter } = answer;
     this.parameter = parameter;
     this.unit = answer.values[parameter].unit;

@@ -5,7 +5,7 @@ import { jobAsText } from "../../interface/job_as_text.js";
 import { atWork, processOf, workers } from "../../interface/workers.js";
 import { TERMINAL, follow } from "../../requests/following.js";
 
-export async function show(room, { job, signal }) {
+export async function show(room, { job, signal, onChange, onEvent }) {
   const rows = element("tbody");
   const working = element("div");
   let asking = false;
@@ -31,14 +31,15 @@ export async function show(room, { job, signal }) {
         element("p", { class: "quiet small" }, `Solver ${job.solver_version}`)),
     ),
   );
-  follow(`/v1/jobs/${job.id}`, {
-    signal,
-    onProgress: (now) => tellWho(now).catch(() => (asking = false)),
-    onEvent: ({ type, time, data }) => rows.append(element("tr", {},
-      element("td", { class: "when", title: time }, new Date(time).toLocaleTimeString([], { hour12: false })),
-      element("td", {}, type),
-      element("td", { class: "small", title: details(data) }, details({ ...data, ...inShort(data) })))),
-  });
+  const hear = ({ type, time, data }) => rows.append(element("tr", {},
+    element("td", { class: "when", title: time }, new Date(time).toLocaleTimeString([], { hour12: false })),
+    element("td", {}, type),
+    element("td", { class: "small", title: details(data) }, details({ ...data, ...inShort(data) }))));
+  if (!onEvent) return void follow(`/v1/jobs/${job.id}`, { signal, onEvent: hear }); // it has ended
+  onEvent(hear);
+  const told = (now) => tellWho(now).catch(() => (asking = false));
+  onChange(told);
+  told(job);
 }
 
 /** Returns a block without its job's id, and a worker as its machine and process. */
