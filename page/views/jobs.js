@@ -122,8 +122,8 @@ class JobList {
   async look() {
     const newest = await this.page(null, NEWEST);
     const known = new Set(this.jobs.map(({ id }) => id));
-    const apart = newest.next !== null && newest.jobs.every(({ id }) => !known.has(id));
-    if (apart) await this.load(); // there may be more between
+    const apart = newest.jobs.every(({ id }) => !known.has(id));
+    if (apart && newest.next !== null) await this.load(); // there may be more between
     else this.renew(newest, null);
     await this.lookBelow(newest.next);
     await this.tellWhy(newest.jobs.some(({ state }) => state === "queued"));
@@ -143,8 +143,7 @@ class JobList {
   /** Takes a stretch of the list as it is now. */
   renew(page, after) {
     this.jobs = renewed(this.jobs, page, after, ({ id }) => this.chosen.delete(id));
-    const further = this.jobs.length > 0 && page.next !== null && this.jobs.at(-1).id < page.next;
-    if (!further) this.next = page.next;
+    if (!this.jobs.length || page.next === null || this.jobs.at(-1).id >= page.next) this.next = page.next;
   }
 
   /** Says what to do where jobs are queued and nobody is there to compute them. */

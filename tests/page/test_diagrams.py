@@ -245,7 +245,7 @@ def test_the_reference_of_the_api_needs_nothing_from_elsewhere(browsing, service
 
 
 def test_a_choice_that_does_not_come_is_told(browsing, http, service_url, worker):
-    """What was drawn before stayed under the new name, without a word."""
+    """The picture before stayed under the new name, without a word."""
     study = worker.finished_study(**BIFURCATION)
     observables = http.get(f"/v1/jobs/{study}").json()["job"]["observables"]
     first, broken, other = observables[:3]
