@@ -18,9 +18,14 @@ from numpy.typing import NDArray
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kinds import Admission, admit
-from jointplay.solver.lanes.bundle import Bundle
-from jointplay.solver.lanes.problem import LaneProblem
 from jointplay.solver.version import SOLVER_VERSION
+
+try:
+    from jointplay.solver.lanes.bundle import Bundle
+    from jointplay.solver.lanes.problem import LaneProblem
+except ModuleNotFoundError:  # of versions that had them in the loop
+    from jointplay.solver.kernels.loop.bundle import Bundle  # type: ignore[import-not-found,no-redef]
+    from jointplay.solver.kernels.loop.problem import LaneProblem  # type: ignore[import-not-found,no-redef]
 
 BUNDLE = 8
 SETTLING, STEADY = 30_000, 10_000
