@@ -353,3 +353,27 @@ def test_figures_of_a_job_that_runs_are_drawn_anew_at_its_end(browsing, service_
         page.wait_for_function("() => document.querySelector('figure img')?.naturalWidth === 10")
         page.evaluate("() => { job.state = 'succeeded'; happened(job); }")
         page.wait_for_function("() => document.querySelector('figure img')?.naturalWidth === 20")
+
+
+PANNED = """async () => {
+  const { Panning } = await import("/page/plots/panning.js");
+  const over = document.createElement("div");
+  document.querySelector("main").replaceChildren(over);
+  const moved = [];
+  new Panning({ over }, { move: (share) => moved.push(share) });
+  const send = (name, clientX) => over.dispatchEvent(
+    new PointerEvent(name, { clientX, shiftKey: true, bubbles: true }));
+  send("pointerdown", 0);
+  send("pointermove", 10);
+  send("pointercancel", 10);
+  send("pointermove", 20);
+  return moved.length;
+}"""
+
+
+def test_a_history_that_a_browser_scrolls_is_let_go(browsing, service_url):
+    """It went on with the pointer for ever."""
+    with browsing.page(f"{service_url}/") as page:
+        page.get_by_role("heading", level=1).wait_for()
+        moved = page.evaluate(PANNED)
+    assert moved == 1

@@ -85,6 +85,21 @@ def test_a_legend_says_what_the_colours_mean_and_a_click_offers_the_run(browsing
         expect(told).to_have_text(re.compile(r"after which the motion recurs: (\d+|none); "))
 
 
+def test_a_point_that_does_not_come_is_told(browsing, url, chart):
+    """The point before stayed below the map, with its button."""
+    with browsing.page(f"{url}/#/job/{chart}", expected=("500",)) as page:
+        painted(page)
+        place = page.get_by_label(MAP).bounding_box()
+        x, y = place["x"] + place["width"] / 2, place["y"] + place["height"] / 2
+        page.mouse.click(x, y)
+        page.get_by_role("button", name="Run this simulation").wait_for()
+        refused = {"title": "Broken", "detail": "It broke."}
+        page.route("**/chart/point*", lambda route: route.fulfill(status=500, json=refused))
+        page.mouse.click(x, y - 60)
+        expect(page.get_by_text("It broke.")).to_be_visible()
+        expect(page.get_by_role("button", name="Run this simulation")).to_have_count(0)
+
+
 def test_a_map_is_moved_with_keys(browsing, url, chart):
     with browsing.page(f"{url}/#/job/{chart}") as page:
         painted(page)

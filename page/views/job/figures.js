@@ -36,6 +36,7 @@ export async function show(room, context) {
     for (const { name, png } of figures) { // one after the other: the service draws them
       const address = openAddress(png, running).then((found) => (pictures.get(name).src = found));
       if (running) await address;
+      if (signal.aborted) return;
     }
   });
 }
