@@ -19,9 +19,12 @@ from jointplay.service.processes.api import LONGEST_HEAD
 from jointplay.service.results.queries import MOST_VALUES
 from jointplay.solver.kinds import KINDS
 from jointplay.solver.kinds.limits import (
+    LONGEST_IDEAL_RUN,
     LONGEST_RUN,
     MOST_BYTES,
     MOST_FIXED_STEPS,
+    MOST_GEOMETRIES,
+    MOST_OF_A_CHART,
     MOST_PERIODS,
     MOST_POINTS,
     MOST_SAMPLES,
@@ -164,11 +167,13 @@ def test_the_documentation_gives_the_limits_that_hold():
     assert f"| its JSON | {DEEPEST} levels" in documentation
     assert MOST_VALUES == 1_000_000
     assert "one million values" in documentation
-    assert (LONGEST_RUN, MOST_FIXED_STEPS, MOST_SAMPLES) == (1e6, 1e10, 10**8)
-    assert MOST_BYTES == 10**10
-    assert "a million periods, 10¹⁰ steps of `rk4`, 10⁸ samples, 10 GB" in documentation
-    assert (MOST_POINTS, MOST_PERIODS) == (100_000, 1e8)
-    assert "100 000 points, 10⁸ periods" in documentation
+    assert (LONGEST_RUN, LONGEST_IDEAL_RUN) == (1e6, 100.0)
+    assert "a million periods (100 of an ideal mechanism that does not come back" in documentation
+    assert (MOST_FIXED_STEPS, MOST_SAMPLES, MOST_BYTES) == (4e9, 10**8, 10**10)
+    assert "4·10⁹ steps of `rk4`, 10⁸ samples, 10 GB" in documentation
+    assert (MOST_POINTS, MOST_OF_A_CHART, MOST_PERIODS) == (100_000, 4_000_000, 1e8)
+    assert "100 000 points (`basin-stability` 4 million), 10⁸ periods" in documentation
+    assert f"{MOST_GEOMETRIES} geometries" in documentation
 
 
 def test_the_documentation_gives_the_bounds_of_what_is_done_at_once():
@@ -186,8 +191,9 @@ def test_the_documentation_gives_the_bounds_of_what_is_done_at_once():
         f"{owners.WAITING} (where no key is asked for: of all callers together)",
         f"{body.MOST_TOGETHER // 2**20} MiB together",
         f"{pieces.MOST_TOGETHER // 2**20} MiB together",
-        f"{fair_semaphore.DRAWN_AT_ONCE}; {fair_semaphore.EXPORTED_AT_ONCE};"
-        f" {fair_semaphore.LISTED_AT_ONCE}",
+        f"{fair_semaphore.DRAWN_AT_ONCE}",
+        f"{fair_semaphore.EXPORTED_AT_ONCE}",
+        f"{fair_semaphore.LISTED_AT_ONCE}",
         f"{fair_queue.OF_ONE} of a kind; of all kinds together no more than are left of the"
         f" {fair_queue.MOST_EVERYWHERE} of all owners",
     ]
