@@ -77,10 +77,10 @@ def check_size(study: Study, run: float, pointer: str, most: float = MOST_PERIOD
             f" limit is {most:g}. Ask for fewer points or periods."
         )
     if study.stored_bytes > MOST_BYTES:
-        sections = f" with {study.record} sections of {len(study.observables)} observables"
-        what, fewer = (
-            (sections, "sections, or fewer observables") if study.record else ("", "points")
-        )
+        what, fewer = "", "points"
+        if study.record:
+            what = f" with {study.record} sections of {len(study.observables)} observables"
+            fewer = "sections, or fewer observables"
         problems.append(
             f"{points} points{what} are about {study.stored_bytes / 1e9:.3g} GB; the limit is"
             f" {MOST_BYTES / 1e9:g} GB. Ask for fewer {fewer}."
