@@ -1,5 +1,7 @@
 """Closing a mechanism: constraints as arrays, their rank, and Newton's iteration on a pose."""
 
+from typing import Any
+
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
@@ -8,6 +10,7 @@ from jointplay.solver.linear_algebra.orthogonal import Decomposition
 from jointplay.solver.linear_algebra.products import applied, lengths, product
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.rows import Row
+from jointplay.solver.quantities.scalars import SLIGHT
 
 RANK_TOLERANCE = 1e-9
 """Columns of which less than this share of the longest is left count as zero (rows scaled by
@@ -40,7 +43,6 @@ def close(
     after which it ends.
     """
     count, still = len(pose), [0.0] * len(pose)
-    angles = np.arange(count) % 3 == 2
     for _ in range(iterations):
         residual, jacobian = arrays(mechanism.rows(pose.tolist(), still, driven), count)
         if not len(residual) or not np.isfinite(residual).all():
@@ -48,9 +50,7 @@ def close(
         if held is not None:
             jacobian[:, held] = 0.0
         step = Decomposition(jacobian * scale, RANK_TOLERANCE).least_squares(-residual)
-        # a turn of more than half a radian would lead to another assembly; positions follow
-        turn = float(np.abs(step[angles]).max())
-        pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
+        pose += scale * step * part_taken(step)
         if float(np.abs(step).max()) < max(converged, ROUNDING * count):
             break
 
@@ -67,7 +67,7 @@ def close_many(
 
     Where they get near, `close` does the rest; `held` coordinates, (3 bodies,), keep their values.
     """
-    count, angles = poses.shape[1], np.arange(poses.shape[1]) % 3 == 2
+    count = poses.shape[1]
     freed = np.where(held, 0.0, scale)
     for _ in range(iterations):
         rows = mechanism.rows(poses.T, np.zeros_like(poses.T), driven)
@@ -81,11 +81,19 @@ def close_many(
         square = product(jacobian, turned)
         square += (DAMPING * np.trace(square, axis1=1, axis2=2))[:, None, None] * np.eye(len(rows))
         step = applied(turned, solve(square, -residual))
-        turn = np.abs(step[:, angles]).max(axis=1)
-        step *= np.minimum(1.0, LARGEST_TURN / np.maximum(turn, 1e-300))[:, None]
+        step *= part_taken(step)[:, None]
         poses += freed * step
         if np.abs(step).max() < NEAR:
             break
+
+
+def part_taken(steps: Floats) -> Any:
+    """Return the part of steps, (..., 3 bodies), that turns no body by more than `LARGEST_TURN`.
+
+    A larger turn would lead to another assembly; positions follow.
+    """
+    turn = np.abs(steps[..., 2::3]).max(axis=-1)
+    return np.minimum(1.0, LARGEST_TURN / np.maximum(turn, SLIGHT))
 
 
 def arrays(rows: list[Row], count: int) -> tuple[Floats, Floats]:
@@ -102,4 +110,4 @@ def rank(scaled_jacobian: Floats) -> int:
     if not scaled_jacobian.size:
         return 0
     rows = lengths(scaled_jacobian)[:, None]
-    return Decomposition(scaled_jacobian / np.maximum(rows, 1e-300), RANK_TOLERANCE).rank
+    return Decomposition(scaled_jacobian / np.maximum(rows, SLIGHT), RANK_TOLERANCE).rank

@@ -9,7 +9,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import ASSEMBLED, shortest_link
-from jointplay.solver.mechanics.closing import LARGEST_TURN, RANK_TOLERANCE, arrays, close
+from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, part_taken
 from jointplay.solver.mechanics.start.guess import first_clocks
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
@@ -53,8 +53,7 @@ class _Dragging:
                 break
             normal = slopes.T @ slopes + damping * np.eye(len(free))
             step = np.linalg.solve(normal, slopes.T @ gap) @ free
-            turn = float(np.abs(step[2::3]).max())
-            there = here + self.scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
+            there = here + self.scale * step * part_taken(step)
             jacobian, closed = self._close(there)
             left = self._gap(there)
             far, near = float(np.linalg.norm(gap)), float(np.linalg.norm(left))

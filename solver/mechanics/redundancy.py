@@ -12,6 +12,7 @@ from jointplay.solver.mechanics.constraints_at_start import (
     constraints_at_start,
 )
 from jointplay.solver.mechanics.start.guess import first_clocks
+from jointplay.solver.quantities.scalars import SLIGHT
 from jointplay.solver.scene.document import Scene
 
 TAKES_PART = 1e-6
@@ -42,7 +43,7 @@ def self_stresses(scene: Scene) -> list[SelfStress]:
     """Return the states of self-stress of the ideal mechanism at its start."""
     start = constraints_at_start(scene)
     norms = np.linalg.norm(start.jacobian, axis=1, keepdims=True)
-    start = start._replace(jacobian=start.jacobian / np.maximum(norms, 1e-300))
+    start = start._replace(jacobian=start.jacobian / np.maximum(norms, SLIGHT))
     rows, jacobian = start.rows, start.jacobian
     found: list[SelfStress] = []
     independent: list[int] = []
@@ -106,7 +107,7 @@ def _one_sided(scene: Scene, start: ConstraintsAtStart, stress: Floats) -> bool:
     def bent(direction: Floats) -> float:
         moving = ideal.rows(pose, direction * scale, driven)
         gamma = np.array([row.gamma for row in moving]) - resting
-        return float(stress @ (gamma / np.maximum(norms, 1e-300)))
+        return float(stress @ (gamma / np.maximum(norms, SLIGHT)))
 
     count = len(free)
     form = np.zeros((count, count))

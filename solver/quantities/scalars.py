@@ -20,7 +20,7 @@ Scalar = Any
 """A float, a NumPy array or a traced expression."""
 
 SLIGHT = 1e-300
-"""Added to a length that may be zero, so that it can divide."""
+"""Added to a length that may be zero, or its least value, so that it can divide."""
 
 Scalars = Any
 """A sequence of scalars: a list, or an array of floats."""

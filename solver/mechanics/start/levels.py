@@ -12,7 +12,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.linear_algebra.orthogonal import Decomposition
 from jointplay.solver.linear_algebra.products import applied, length, lengths, product
-from jointplay.solver.mechanics.closing import LARGEST_TURN, RANK_TOLERANCE, ROUNDING
+from jointplay.solver.mechanics.closing import RANK_TOLERANCE, ROUNDING, part_taken
 from jointplay.solver.mechanics.start.given import Rows
 
 MOST_ITERATIONS = 60
@@ -84,11 +84,10 @@ def approach(
     counted `LESS` than the one before; else it is halved, and the iteration ends where that does
     not help.
     """
-    angles = np.arange(len(pose)) % 3 == 2
     found = levels(pose)
     for _ in range(iterations):
         step = step_of(found, scale)
-        step *= min(1.0, LARGEST_TURN / max(float(np.abs(step[angles]).max()), 1e-300))
+        step *= part_taken(step)
         went = _along(pose, step, levels, judged, _size(found[:judged]))
         if went is None:
             break

@@ -16,7 +16,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.linear_algebra.products import applied
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
-from jointplay.solver.mechanics.closing import LARGEST_TURN, NEAR, arrays
+from jointplay.solver.mechanics.closing import NEAR, arrays, part_taken
 from jointplay.solver.mechanics.start.closings import alike
 from jointplay.solver.mechanics.start.demands import KEPT, Demands
 from jointplay.solver.mechanics.start.given import Given, Rows, distance
@@ -160,7 +160,7 @@ def _settled(demands: Demands, pose: Floats, kept: Sequence[Given]) -> Floats:
     Bodies of which nothing is given turn towards zero, then slides go to their middle.
     """
     free, still = demands.free_angles, [0.0] * len(pose)
-    turning, angles = demands.length * np.eye(len(pose))[free], np.arange(len(pose)) % 3 == 2
+    turning = demands.length * np.eye(len(pose))[free]
     farthest = distance(demands.given, pose, np.zeros_like(pose)) * (1.0 + ALIKE)
     farthest += KEPT * demands.length
     for _ in range(MOST_ITERATIONS):
@@ -172,7 +172,7 @@ def _settled(demands: Demands, pose: Floats, kept: Sequence[Given]) -> Floats:
             Rows(*arrays(demands.closed.slides(pose.tolist(), still), len(pose))),
         ]
         step = step_of(levels, demands.scale)
-        step *= min(1.0, LARGEST_TURN / max(float(np.abs(step[angles]).max()), 1e-300))
+        step *= part_taken(step)
         found = _with(demands, pose + step, kept, 2)
         if found is None or _from_zero(demands, found) > (1.0 + KEPT) * _from_zero(demands, pose):
             break
