@@ -1,6 +1,6 @@
 """Names of the rows of a work array, ``work[slot, lane]``, in their order."""
 
-from __future__ import annotations
+from collections.abc import Sequence
 
 INSTANTS = 8
 """Instants of one step that are looked at together, however many lanes there are."""
@@ -19,13 +19,6 @@ class Layout:
         self._slots: dict[str, int] = {}
         self._blocks: dict[str, slice] = {}
 
-    def copy(self) -> Layout:
-        """Return a layout that begins with the same slots."""
-        copied = Layout()
-        copied._slots.update(self._slots)
-        copied._blocks.update(self._blocks)
-        return copied
-
     @property
     def size(self) -> int:
         """Number of slots."""
@@ -40,20 +33,17 @@ class Layout:
             A name has one already.
         """
         for name in names:
-            if name in self._blocks:
-                raise KeyError(f"slot '{name}' is taken")
-            self._blocks[name] = slice(self.size, self.size + 1)
-            self._slots[name] = self.size
+            self._take(name, [name])
 
     def add_block(self, name: str, count: int) -> None:
         """Give consecutive slots to ``name0, name1, …``; `count` may be 0."""
-        if name in self._blocks:
-            raise KeyError(f"block '{name}' is taken")
-        self._blocks[name] = slice(self.size, self.size + count)
-        for i in range(count):
-            if f"{name}{i}" in self._slots:
-                raise KeyError(f"slot '{name}{i}' is taken")
-            self._slots[f"{name}{i}"] = self.size
+        self._take(name, [f"{name}{i}" for i in range(count)])
+
+    def _take(self, block: str, names: Sequence[str]) -> None:
+        if block in self._blocks or not self._slots.keys().isdisjoint(names):
+            raise KeyError(f"'{block}' is taken")
+        self._blocks[block] = slice(self.size, self.size + len(names))
+        self._slots |= zip(names, range(self.size, self.size + len(names)), strict=True)
 
     def block(self, name: str) -> slice:
         """Return the slots of a block, or the one of a single name.
@@ -63,8 +53,7 @@ class Layout:
         KeyError
             Nothing has that name.
         """
-        found = self._blocks.get(name)
-        return slice(self._slots[name], self._slots[name] + 1) if found is None else found
+        return self._blocks[name]
 
     def __getitem__(self, name: str) -> int:
         return self._slots[name]

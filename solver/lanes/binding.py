@@ -11,17 +11,16 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.enclosure import HELD, SKIN
 from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.slots import KEEPS_LEDGER
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BENDS
 from jointplay.solver.kernels.loop.runs import (
-    DTYPE,
     NO_PAIR,
     PACE_STEPS,
     SAMPLES,
     SECTIONS,
     SectionKind,
 )
-from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER
 from jointplay.solver.lanes.lane import Lane
 from jointplay.solver.lanes.problem import Event, LaneProblem
 from jointplay.solver.mechanics.assembly import assemble, shortest_link, start_of
@@ -51,6 +50,11 @@ RESOLVED = 1.0
 STRICTEST = 1e-14
 """While nothing has moved as fast as the scene's scale of speed, the tolerance is smaller by as
 much, down to this: else what a run does that is nearly at rest would be lost in the tolerance."""
+FROM_ZERO = (
+    *("memory", "steps", "tried", "before_step"),
+    *("look_at", "look_beyond", "looked_into", "swing", "rough_until"),
+)
+"""Slots that are zero where a run begins."""
 FIRST_STEP = 1e-6
 """First step, in such periods."""
 
@@ -59,7 +63,7 @@ def bind(lane: Lane, problem: LaneProblem, like: Floats | None = None) -> None:
     """Set numbers, scales and starts, but no clocks; `like` : (slots,) that have the numbers."""
     kernel, scene = lane.kernel, problem.scene
     if like is not None:
-        lane.work[:, lane.index].T[:] = like
+        lane.column.T[:] = like
     else:
         lane["alike"].T[:], lane["bent"].T[:] = kernel.rows.alike, kernel.rows.bent
         number(lane, kernel, scene)
@@ -128,8 +132,7 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     for j, pair in enumerate(pairs):
         lane["impact_floor"][j] = impact_floor(scene, pair, length)
         lane["abrupt"][j] = pair.clearance.contact.jumps_at_onset
-        restart = RESTART * pair.play if problem.step is None else math.inf
-        lane["restart"][j] = restart
+        lane["restart"][j] = RESTART * pair.play if problem.step is None else math.inf
 
 
 def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None:
@@ -165,14 +168,12 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     """Set a lane's time, its run, and what falls due when."""
     scene = problem.scene
     since = 0.0 if problem.start is None else problem.start.time
-    for name in ("memory", "steps", "tried", "before_step"):
+    for name in FROM_ZERO:
         lane[name] = 0.0
     for name in ("time", "stage_time", "before_time"):
         lane[name] = since
     lane["pace_at"] = PACE_STEPS
     lane[KEEPS_LEDGER] = float(problem.ledger)
-    for name in ("look_at", "look_beyond", "looked_into", "swing", "rough_until"):
-        lane[name] = 0.0
     lane["smallest_step"] = period
     for k, clock in enumerate(clocks(scene).values()):
         travel = clock.rate * period / (clock.turn or 1.0)
@@ -181,8 +182,6 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     event = problem.event or Event(SectionKind.CRANK, 0)
     periods = 0 if problem.start is None else problem.start.period
     run = lane.run
-    for name in DTYPE.names or ():
-        run[name] = 0
     run["landing"] = NO_PAIR
     run["period"], run["common"] = period, common
     run["periods"], run["pace_time"] = periods, periods * period + since

@@ -30,6 +30,8 @@ from jointplay.solver.scene.time_scales import driven_speed
 LaneState = tuple[Floats, Any, Floats]
 """A lane's numbers (slots,), its run, and its first energies (3,), J."""
 
+HANDED_OUT = ("filled", "impacts", "growths", "kept")
+"""Fields of a run that say how much of the buffers it has filled."""
 ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
 STEPS_AT_ONCE = 32_768
@@ -79,7 +81,7 @@ class Bundle:
         self.kernel = kernel
         self.watch = watch
         self.tangents = tangents
-        size = (kernel.layout if tangents is None else tangents.layout).size
+        size = (tangents or kernel).layout.size
         self.width = width = kernel.lanes
         self.spare = aligned_zeros(kernel.layout.size, INSTANTS)
         self.brackets = room_for(kernel.rows.scanned)
@@ -126,7 +128,7 @@ class Bundle:
 
     def load_together(self, problems: Mapping[int, LaneProblem], like: int | None = None) -> None:
         """Give lanes problems that may be made ready together (`make_ready`); as `load`."""
-        numbers = None if like is None else self.lane(like).work[:, self.lane(like).index]
+        numbers = None if like is None else self.lane(like).column
         given = list(problems.values())
         if not given:
             return
@@ -156,8 +158,8 @@ class Bundle:
 
     def number_like(self, other: Bundle, i: int, scene: Scene) -> None:
         """Give the first lane the numbers of a scene that a lane of another bundle has already."""
-        size, source, first = self.kernel.layout.size, other.lane(i), self.lane(0)
-        first.work[:size, 0] = source.work[:size, source.index]
+        size, first = self.kernel.layout.size, self.lane(0)
+        first.column[:size] = other.lane(i).column[:size]
         if self.tangents is not None:
             number(first, self.tangents, scene)
 
@@ -196,6 +198,10 @@ class Bundle:
         lane["active"] = 1.0
         self.plan_anew(i)
         lane["next_due"] = -math.inf  # the first step is looked at, whatever is due in it
+        self.touched(i)
+
+    def touched(self, i: int) -> None:
+        """Note that a lane's numbers here are the newest ones; a bundle here has no others."""
 
     def plan_anew(self, i: int) -> None:
         """Let a lane go by what its run says of samples, sections and its end from now on."""
@@ -204,8 +210,8 @@ class Bundle:
 
     def stop(self, i: int) -> None:
         """Let a lane run no more: it is free, and what it had come to is lost."""
-        self.lane(i)["active"] = 0.0
-        self.runs["status"][i], self.runs["landing"][i] = Status.IDLE, NO_PAIR
+        self.lane(i).end(Status.IDLE)
+        self.touched(i)
 
     @property
     def attempts(self) -> int:
@@ -231,7 +237,7 @@ class Bundle:
 
         Comes back early when a lane ends or has as many rows as it can hold.
         """
-        for name in ("filled", "impacts", "growths", "kept"):
+        for name in HANDED_OUT:
             self.runs[name] = 0
         running = [group for group in self.groups if group.runs_on]
         goal = min((group.attempts for group in running), default=0) + budget
@@ -243,7 +249,7 @@ class Bundle:
 
     def workspace(self, group: GroupState) -> Workspace:
         """Return a group of lanes as kernels take it."""
-        of = self.kernel if self.tangents is None else self.tangents
+        of = self.tangents or self.kernel
         arrays = group.work, self.spare, group.runs, self.brackets
         return Workspace(of.addresses, of.slots, *arrays)
 
@@ -299,11 +305,7 @@ class Bundle:
     def states_of(self, lanes: Sequence[int]) -> list[LaneState]:
         """Return everything that the next step of some lanes depends on, for `take_up`."""
         return [
-            (
-                self.lane(i).work[:, self.lane(i).index].copy(),
-                self.runs[i].copy(),
-                self.first_energy[:, i].copy(),
-            )
+            (self.lane(i).column.copy(), self.runs[i].copy(), self.first_energy[:, i].copy())
             for i in lanes
         ]
 

@@ -19,19 +19,10 @@ from jointplay.solver.kernels.device.lanes import DeviceLanes, Sizes
 from jointplay.solver.kernels.device.trimmed import slots_of_energies, without
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.loop.runs import (
-    DTYPE,
-    GROWTH,
-    NO_PAIR,
-    Buffers,
-    SectionKind,
-    Status,
-)
-from jointplay.solver.lanes.bundle import Bundle, GroupState, LaneState
+from jointplay.solver.kernels.loop.runs import DTYPE, GROWTH, NO_PAIR, Buffers, SectionKind, Status
+from jointplay.solver.lanes.bundle import HANDED_OUT, Bundle, GroupState, LaneState
 from jointplay.solver.lanes.ready_lanes import ENERGIES
 
-HANDED = ("filled", "impacts", "growths", "kept")
-"""Fields of a run that say how much it has handed out."""
 ROWS, IMPACTS, GROWTHS = 80, 64, 16
 """That a lane hands out in a launch at most. Sections at events want room for a step's."""
 
@@ -100,9 +91,9 @@ class DeviceBundle(Bundle):
         self.groups[0].work[:, i] = column
         self.runs[i] = run
         self.first_energy[:, i] = first_energy
-        self._touched(i)
+        self.touched(i)
 
-    def _touched(self, i: int) -> None:
+    def touched(self, i: int) -> None:
         """Note that a lane's numbers here are the newest ones."""
         self._changed[i], self._stale[i] = True, False
 
@@ -113,16 +104,6 @@ class DeviceBundle(Bundle):
             array[:] = array[:, like]
         self.runs[:] = self.runs[like]
         self._changed[:] = True
-
-    def set_going(self, i: int) -> None:
-        """Let a lane run from where it is to the end that its run has."""
-        super().set_going(i)
-        self._touched(i)
-
-    def stop(self, i: int) -> None:
-        """Let a lane run no more: it is free, and what it had come to is lost."""
-        super().stop(i)
-        self._touched(i)
 
     def advance(self, budget: int) -> int:
         """Attempt at most `budget` steps.
@@ -136,7 +117,7 @@ class DeviceBundle(Bundle):
         lanes.launch(budget)
         lanes.device.finish()
         group.attempts += int(lanes.made.read().max(initial=0))
-        for name in HANDED:
+        for name in HANDED_OUT:
             self.runs[name] = 0
         self.runs[launched] = lanes.runs.read()[launched]
         group.buffers = group.buffers._replace(

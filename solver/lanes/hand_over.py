@@ -7,7 +7,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Status
-from jointplay.solver.lanes.bundle import Bundle
+from jointplay.solver.lanes.bundle import HANDED_OUT, Bundle
 from jointplay.solver.lanes.lane import Lane
 from jointplay.solver.lanes.problem import LaneProblem, LaneStart
 
@@ -51,7 +51,7 @@ def handed_over(bundle: Bundle, kernel: Kernel, problem: LaneProblem, sharper: f
             found.set_going(i)
         else:
             found.lane(i)["active"] = 0.0
-    for name in ("filled", "impacts", "growths", "kept", "landings"):
+    for name in (*HANDED_OUT, "landings"):
         found.runs[name] = 0
     found.runs["landing"] = NO_PAIR
     found.attempts = bundle.attempts

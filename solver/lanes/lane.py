@@ -28,11 +28,15 @@ class Lane:
     @property
     def slots(self) -> NDArray[np.void]:
         """Named slots, (1,); see `solver.kernels.emit.slots`."""
-        return self.kernel.slots if self.tangents is None else self.tangents.slots
+        return (self.tangents or self.kernel).slots
+
+    @property
+    def column(self) -> Floats:
+        """All its numbers, (slots,), which can be set."""
+        return self.work[:, self.index]
 
     def __getitem__(self, name: str) -> Floats:
-        layout = self.kernel.layout if self.tangents is None else self.tangents.layout
-        return self.work[layout.block(name), self.index]
+        return self.work[(self.tangents or self.kernel).layout.block(name), self.index]
 
     def __setitem__(self, name: str, value: NDArray[Any] | float) -> None:
         self[name][:] = value

@@ -71,7 +71,7 @@ def make_ready(
     like : (slots,)
         Of a lane that has the scene's numbers already, which saves looking at it again.
     """
-    size = (kernel.layout if tangents is None else tangents.layout).size
+    size = (tangents or kernel).layout.size
     work, runs = np.zeros((size, len(problems))), np.zeros(len(problems), DTYPE)
     problem = problems[0] if len(problems) == 1 else _joined(kernel, problems, scene_of)
     every = Lane(kernel, tangents, work, slice(None), runs)
@@ -100,8 +100,7 @@ def make_ready(
         kernel.module.observe_rest(group)
         energies[:, own] = lanes["channel"][columns]
     runs["status"] = Status.RUNNING
-    for name, value in (("active", 1.0), ("next_due", -np.inf)):
-        work[kernel.layout.block(name)] = value
+    every["active"], every["next_due"] = 1.0, -np.inf
     return ReadyLanes(np.ascontiguousarray(work.T), runs, np.ascontiguousarray(energies.T))
 
 

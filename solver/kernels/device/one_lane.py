@@ -9,7 +9,6 @@ from numba import carray, from_dtype, int64, types, void
 from jointplay.records.impact import IMPACT
 from jointplay.solver.kernels.device.lanes import Sizes
 from jointplay.solver.kernels.emit import functions, slots
-from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop import generated, runs
 from jointplay.solver.kernels.loop.lanes import attend_lanes, landing_lanes, settle_lanes
@@ -42,22 +41,18 @@ class LocalMemory(NamedTuple):
     run: Any
 
 
-def _at(kind: Any) -> Any:
-    return types.CPointer(kind)
-
-
-_NUMBERS, _RUN = _at(types.float64), _at(from_dtype(runs.DTYPE))
+_NUMBERS, _RUN = types.CPointer(types.float64), types.CPointer(from_dtype(runs.DTYPE))
 SIGNATURE = void(
-    _at(from_dtype(functions.DTYPE)),
-    _at(from_dtype(slots.DTYPE)),
+    types.CPointer(from_dtype(functions.DTYPE)),
+    types.CPointer(from_dtype(slots.DTYPE)),
     types.NamedTuple(
         [
             _NUMBERS,
             _RUN,
             _NUMBERS,
-            _at(from_dtype(IMPACT)),
-            _at(from_dtype(runs.GROWTH)),
-            _at(types.int64),
+            types.CPointer(from_dtype(IMPACT)),
+            types.CPointer(from_dtype(runs.GROWTH)),
+            types.CPointer(types.int64),
         ],
         GlobalMemory,
     ),
@@ -68,7 +63,6 @@ SIGNATURE = void(
 )
 
 
-@inner_kernel()
 def advance_one_lane(
     addresses: Any,
     slots: Any,

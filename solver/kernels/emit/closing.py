@@ -7,7 +7,7 @@ from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression
-from jointplay.solver.quantities.scalars import select_positive
+from jointplay.solver.quantities.scalars import Scalar, select_positive
 
 MOVED = 0.01
 """Share of a step's way by which closing loops may move its end."""
@@ -28,17 +28,17 @@ def source(equations: Equations, layout: Layout, fixed: FixedNodes) -> Source:
     return lane_function("project", outputs, layout, fixed)
 
 
-def drift(v: Callable[[str], Expression], coordinates: int) -> Expression:
+def drift(v: Callable[[str], Expression], coordinates: int) -> Scalar:
     """Return the square of how far the step's end was moved: in tolerances, at most one.
 
     Or in shares of the step's own way: where assemblies meet, rounding alone moves it by more than
     a small tolerance, but a step that ends in another assembly was moved far. What rounding alone
     moves it by does not count.
     """
-    total: Expression = 0.0 * v("tried")
+    total: Scalar = 0.0
     for first, speeds_to_states in ((0, v("tried")), (coordinates, 1.0)):
-        moved: Expression = 0.0 * v("tried")
-        way: Expression = moved
+        moved: Scalar = 0.0
+        way: Scalar = 0.0
         for i in range(coordinates):
             weight = (v("full") / v("fastest")) * v(f"weight{first + i}")
             correction = _beyond_rounding(v, first + i) * weight

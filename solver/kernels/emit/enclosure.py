@@ -64,8 +64,8 @@ def longest(v: Callable[[str], Expression], speeds: Iterable[str]) -> Expression
 
     speeds : slots of the angular speeds of all bodies that no driver turns.
     """
-    fastest = greatest((abs(v(name)) for name in speeds), v("driven_speed") * 0.0)
-    return TURN / (fastest + v("driven_speed") + SLIGHT)
+    driven = v("driven_speed")
+    return TURN / (greatest(abs(v(name)) for name in speeds) + driven + SLIGHT)
 
 
 def remainder(
@@ -78,9 +78,9 @@ def remainder(
     speeds, accelerations
         Slots of those of angles, at both ends of the step.
     """
-    tried, driven, none = v("tried"), v("driven_speed"), v("driven_speed") * 0.0
+    tried, driven = v("tried"), v("driven_speed")
     fastest = greatest((abs(v(name)) + driven for name in speeds), driven)
-    hardest = greatest((abs(v(name)) for name in accelerations), none)
+    hardest = greatest(abs(v(name)) for name in accelerations)
     square = tried * tried * maximum(fastest * fastest, hardest)
     return REMAINDER * v("lever") * square * square * square
 

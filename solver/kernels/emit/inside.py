@@ -10,7 +10,7 @@ from jointplay.solver.kernels.emit.emit import FixedNodes, Outputs, Tape
 from jointplay.solver.kernels.emit.judged_step import before
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.equations import Equations, numbered
 
 
 def source(
@@ -29,11 +29,7 @@ def source(
     """
     count = len(equations.coordinates)
     accelerations = [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
-    penetrations = [
-        (f"{name}{j}", expression)
-        for j, pair in enumerate(equations.penetrations)
-        for name, expression in zip(("penetration", "penetration_rate"), pair, strict=True)
-    ]
+    penetrations = numbered(("penetration", "penetration_rate"), equations.penetrations)
     slips = [(f"slip{j}", slip) for j, (slip, _) in enumerate(equations.slips)]
 
     def within(name: str) -> str:

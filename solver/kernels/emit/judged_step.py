@@ -25,7 +25,7 @@ from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.tracer import Expression, Tracer
 from jointplay.solver.quantities.elementary import coarse_log2
-from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
+from jointplay.solver.quantities.scalars import SLIGHT, maximum, minimum, select_positive
 
 SMALLEST_ERROR = 1e-16
 """Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
@@ -36,6 +36,17 @@ GROWN = 2.0
 def before(name: str) -> str:
     """Return the slot of a quantity of the step before."""
     return {"tried": "before_step"}.get(name, f"before_{name}")
+
+
+def where_accepted(outputs: Outputs) -> list[Output]:
+    """Return outputs that leave slots as they are in lanes that do not take the step.
+
+    Nodes have an order within one trace only, and some outputs are of that of the equations.
+    """
+    return [
+        (slot, new.tracer.variable("accept").select_positive(new, new.tracer.variable(slot)))
+        for slot, new in outputs
+    ]
 
 
 class JudgedStep:
@@ -53,10 +64,7 @@ class JudgedStep:
         self.angles = [i for i, name in enumerate(equations.coordinates) if name.endswith(".theta")]
         self.layout = layout
         self.tracer = Tracer()
-
-    def variable(self, name: str) -> Expression:
-        """Return the expression of a slot."""
-        return self.tracer.variable(name)
+        self.variable = self.tracer.variable
 
     def _sum(self, weights: Iterable[float | Expression], slots: Iterable[str]) -> Expression:
         """Return a weighted sum of slots, of as many as there are weights."""
@@ -74,17 +82,17 @@ class JudgedStep:
 
     def _judge(self) -> Source:
         """Error of the step, the next step size, and what needs attention."""
-        v, number = self.variable, self.tracer.constant
+        v = self.variable
         squared = self._squared_error() if self.tableau.error else self._overflow()
-        good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
+        good = select_positive(1.0 + 1e-12 - squared, 1.0, 0.0)
         magnitude = 0.5 * coarse_log2(squared)
         if self.tableau.error:
             next_step = v("tried") * growth(self.tableau.error_order, good, magnitude, v("memory"))
         else:  # fixed; after an overflow there is none
-            next_step = select_positive(good, v("step"), number(0.0))
+            next_step = select_positive(good, v("step"), 0.0)
         good, next_step, resumed = self._at_knots(good, next_step)
-        due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
-        pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
+        due = select_positive(v("next_due") - v("arrival"), 0.0, DUE)
+        pace = select_positive(v("steps") + 1.5 - v("pace_at"), PACE, 0.0)
         attention = REJECTED * (1.0 - good) + due + pace
         away = self._away()
         flags = [
@@ -92,8 +100,8 @@ class JudgedStep:
             for j, shape in enumerate(self.equations.enclosures)
         ]
         kinds = [reduce(maximum, kind) for kind in zip(*flags, strict=True)]
-        attention = select_positive(v("active"), reduce(add, kinds, attention), number(0.0))
-        inside = select_positive(v("active"), v("inside"), number(0.0))
+        attention = select_positive(v("active"), reduce(add, kinds, attention), 0.0)
+        inside = select_positive(v("active"), v("inside"), 0.0)
         outputs = [
             ("accept", good * v("active")),
             ("flag", attention + inside),
@@ -164,7 +172,7 @@ class JudgedStep:
         is_time = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
         due = maximum(is_time, v("tried") - GROWN * v("looked_into"))
         wanted = minimum(most, due)
-        return select_positive(wanted, self.tracer.constant(SWINGING), 0.0), most
+        return select_positive(wanted, SWINGING, 0.0), most
 
     def _away(self) -> Expression:
         """Return what journals may be away from the quintic that encloses them, m."""
@@ -203,5 +211,5 @@ class JudgedStep:
         """Almost zero, but infinite or NaN where a slope is."""
         overflow: Expression = self.tracer.constant(SMALLEST_ERROR)
         for i in range(self.states):
-            overflow = overflow + 1e-300 * abs(self.variable(f"slope{i}"))
+            overflow = overflow + SLIGHT * abs(self.variable(f"slope{i}"))
         return overflow

@@ -8,24 +8,16 @@ from numpy.typing import NDArray
 
 from jointplay.solver.integrators import Method
 from jointplay.solver.integrators.method import Rosenbrock
-from jointplay.solver.kernels.emit import (
-    bends,
-    closer_looks,
-    implicit,
-    inside,
-    scanning,
-    stepping,
-)
+from jointplay.solver.kernels.emit import bends, closer_looks, implicit, inside, scanning, stepping
 from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.module import Module, load
-from jointplay.solver.kernels.emit.slots import DenseRow, StepRow, slots_of
+from jointplay.solver.kernels.emit.slots import KEEPS_LEDGER, DenseRow, StepRow, slots_of
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.emit.turned_sines import TurnedSines
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.target import own_target
 from jointplay.solver.kernels.trace.equations import (
-    KEEPS_LEDGER,
     Equations,
     needed_again,
     right_hand_side,
@@ -81,12 +73,7 @@ def compile_kernel(
 ) -> Kernel:
     """Trace, emit and load the kernel of a scene's structure; seconds when it is not cached.
 
-    `lanes` : that it advances at once; 0: as many as suit the processor.
-
-    Raises
-    ------
-    LimitExceeded
-        The scene's equations are too long to compile.
+    `lanes` : that it advances at once; 0: as many as suit the processor. Raises what `trace` does.
     """
     equations = trace(scene, tree, formulation)
     rows, again = arrange(scene, equations), dict.fromkeys(needed_again(equations))

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from jointplay.solver.kernels.emit.emit import FixedNodes, Output, lane_function
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.trace.equations import numbered
 from jointplay.solver.kernels.trace.knots import KnotsOnPath
 from jointplay.solver.kernels.trace.tracer import Expression, Knots
 from jointplay.solver.quantities.scalars import floor, maximum, minimum, select_positive, sign
@@ -60,11 +61,7 @@ class KnotTracer:
 
     def at_end(self) -> list[Output]:
         """Return the arguments and their rates where a step ends."""
-        return [
-            (f"{name}{i}", value)
-            for i, path in enumerate(self.met)
-            for name, value in zip(AT_ENDS, (path.knots.argument, path.rate), strict=True)
-        ]
+        return numbered(AT_ENDS, [(path.knots.argument, path.rate) for path in self.met])
 
     def ends(self) -> list[tuple[str, str]]:
         """Return the slots of these: at the start of a step, and at its end."""
@@ -76,11 +73,11 @@ class KnotTracer:
         """Write what finds the time to the next knot of a clock."""
         if not self.clocked:
             return []
-        variable = self.clocked[0].rate.tracer.variable
-        soonest: Expression = variable("time") * 0.0 + FAR
+        time = self.clocked[0].rate.tracer.variable("time")
+        soonest = time.tracer.constant(FAR)
         for path in self.clocked:
             soonest = _sooner(soonest, path)
-        start = [("stage_time", variable("time"))]
+        start = [("stage_time", time)]
         return [
             lane_function("look_from_start", start, self.layout),
             lane_function("look_for_knots", [("to_knot", soonest)], self.layout, fixed),
@@ -91,13 +88,12 @@ class KnotTracer:
         if not self.met:
             return []
         variable = self.met[0].rate.tracer.variable
-        first: Expression = variable("tried") * 0.0 + 2.0
+        tried, first = variable("tried"), self.met[0].rate.tracer.constant(2.0)
         for i, path in enumerate(self.met):
             start, begun, end, ended = (
                 variable(f"{name}{i}") for name in (*(f"{n}_start" for n in AT_ENDS), *AT_ENDS)
             )
-            ways = begun * variable("tried"), ended * variable("tried")
-            first = minimum(first, _share(path.knots, start, end, *ways))
+            first = minimum(first, _share(path.knots, start, end, begun * tried, ended * tried))
         outputs = [("knot_share", first)]
         return [lane_function("meet_knots", outputs, self.layout, fixed)]
 
@@ -149,8 +145,7 @@ def _share(
     reached = maximum(extreme - length, -extreme)
     middle = 0.5 * select_positive(extreme - length, extreme + length, extreme)
     half = (0.5 - AT_END) * reached
-    distance: Expression = length * 0.0 + FAR
-    beyond: Expression = length * 0.0 - 1.0
+    distance, beyond = FAR, -1.0
     for position in positions:
         ahead = (position - x) * sense
         distance = minimum(distance, select_positive(ahead - AT_END * length, ahead, FAR))
@@ -170,7 +165,7 @@ def _cubic(first: Expression, last: Expression, theta: Expression) -> Expression
 
 def _root(first: Expression, last: Expression, value: Expression) -> Expression:
     """Return where that cubic has a value between 0 and 1."""
-    low, high, x = 0.0 * value, 0.0 * value + 1.0, value
+    low, high, x = 0.0, 1.0, value
     bend, cube = 3.0 - 2.0 * first - last, first + last - 2.0
     for _ in range(ITERATIONS):
         missing = value - _cubic(first, last, x)

@@ -12,7 +12,7 @@ from filelock import FileLock
 
 from jointplay.solver.kernels.cache import SPENT, cache_folder, without_collection, write_whole
 from jointplay.solver.kernels.emit.functions import Function
-from jointplay.solver.kernels.emit.machine_code import compiled, is_loaded, load_code
+from jointplay.solver.kernels.emit.machine_code import compiled, load_code
 from jointplay.solver.kernels.emit.tapes import Source, module_text
 from jointplay.solver.kernels.target import Target, own_target
 from jointplay.solver.kernels.watched import compile_elsewhere, is_watched
@@ -46,16 +46,14 @@ def load(sources: Sequence[Source], lanes: int = 0, target: Target | None = None
     target = replace(target, lanes=lanes or target.lanes)
     about = repr(([astuple(one) for one in sources], target.mark))
     prefix = f"jointplay.{hashlib.sha256(about.encode()).hexdigest()[:24]}"
-    if not is_loaded(prefix):
-        path = cache_folder() / f"{prefix}.o"
-        if is_watched() and not path.exists():
-            _compile_elsewhere(path, sources, target)
-        load_code(prefix, lambda: _code(path, sources, target))
+    load_code(prefix, lambda: _code(cache_folder() / f"{prefix}.o", sources, target))
     return Module(sources, prefix)
 
 
 def _code(path: Path, sources: Sequence[Source], target: Target) -> bytes:
     """Return a module's code; only one process compiles it, others find that it is done."""
+    if is_watched() and not path.exists():
+        _compile_elsewhere(path, sources, target)
     with FileLock(path.with_suffix(".lock")):
         if not path.exists():
             begun = time.process_time()

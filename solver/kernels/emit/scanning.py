@@ -42,9 +42,8 @@ def allocate(layout: Layout, rows: int, rest: int) -> None:
     """
     layout.add_block("marked", -(-rows // BYTES))
     layout.add_block("channel", rows + rest)
-    for block in (*BLOCKS[1:], "highest_time", "lowest_time", "known_range", "rounding"):
-        layout.add_block(block, rows)
-    for block in ("alike", "bent"):
+    known = ("highest_time", "lowest_time", "known_range", "rounding", "alike", "bent")
+    for block in (*BLOCKS[1:], *known):
         layout.add_block(block, rows)
 
 

@@ -92,6 +92,8 @@ looks_inside rough_until stored stored_start kledger1_ resumed
 """
 SLOTS = tuple(_SLOTS.split())
 """Blocks of the work array that loops read or write; see the `allocate` functions beside this."""
+KEEPS_LEDGER = "keeps_ledger"
+"""Slot that is positive in lanes whose works and impulses are wanted."""
 OF_TANGENTS = (
     "tangent",
     "tangent_impact_rate",

@@ -9,19 +9,22 @@ from itertools import count
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit import closing, enclosure
 from jointplay.solver.kernels.emit.emit import FixedNodes, Known, Output, Outputs, Tape
-from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
+from jointplay.solver.kernels.emit.judged_step import JudgedStep, before, where_accepted
+from jointplay.solver.kernels.emit.slots import KEEPS_LEDGER
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.emit.turned_sines import Angle, TurnedSines, turned_in_slopes
 from jointplay.solver.kernels.layout import MOTION, Layout
-from jointplay.solver.kernels.trace.equations import KEEPS_LEDGER, Equations
+from jointplay.solver.kernels.trace.equations import Equations
 from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
 ENDS = ("penetration", "penetration_rate", "slip", "slip_rate")
 """Quantities of a contact pair that are known at both ends of a step."""
-CONTACT = ("mode", "impact_rate", "inverse_rate", "impact_floor", "restart")
-ONSET = ("onset_time", "approach_rate", "onset_total", "opened", "abrupt")
+OF_CONTACT = (
+    *("mode", "impact_rate", "inverse_rate", "impact_floor", "restart"),
+    *("onset_time", "approach_rate", "onset_total", "opened", "abrupt"),
+)
 """Further ones: of its law, and of how its contact began and ended."""
 
 
@@ -46,7 +49,7 @@ def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) 
     for name in ENDS:
         layout.add_block(name, pairs)
         layout.add_block(f"{name}_start", pairs)
-    for name in (*CONTACT, *ONSET):
+    for name in OF_CONTACT:
         layout.add_block(name, pairs)
     enclosure.allocate(layout, pairs)
 
@@ -99,13 +102,10 @@ class StepTracer(JudgedStep):
 
     def _tried(self) -> list[Output]:
         """Return the length of the step, and what it would be if there were no knots ahead."""
-        v, none = self.variable, self.tracer.constant(0.0)
-        longest = self._longest()
-        if not self.knots.clocked:
-            return [("tried", select_positive(v("active"), longest, none))]
-        limited = minimum(longest, v("to_knot"))
-        tried = select_positive(v("active"), limited, none)
-        return [("tried", tried), ("unhindered", longest)]
+        v, longest = self.variable, self._longest()
+        limited = minimum(longest, v("to_knot")) if self.knots.clocked else longest
+        unhindered = [("unhindered", longest)] if self.knots.clocked else []
+        return [("tried", select_positive(v("active"), limited, 0.0)), *unhindered]
 
     def _longest(self) -> Expression:
         """Return the length of the step but for knots: as the last one says, within all bounds."""
@@ -175,12 +175,12 @@ class StepTracer(JudgedStep):
         outputs += [(f"eccentricity_start{i}", v(f"eccentricity{i}")) for i in paths]
         for i in range(self.states):
             outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
-        outputs = self._where_accepted(outputs)
+        outputs = where_accepted(outputs)
         tape = Tape(self.layout, self.fixed, self.known)
         tape.store([*outputs, ("step", v("next_step"))])
         tape.go_on_where(v(KEEPS_LEDGER))
         tape.carry(energies)
-        tape.store(self._where_accepted(self._added_to_ledger()))
+        tape.store(where_accepted(self._added_to_ledger()))
         return tape.function("take")
 
     def _added_to_ledger(self) -> list[Output]:
@@ -212,7 +212,7 @@ class StepTracer(JudgedStep):
         Those are the ones that accept it.
         """
         outputs = [(before(name), self.variable(name)) for name in self._remembered()]
-        accepted = self._where_accepted(outputs)
+        accepted = where_accepted(outputs)
         return [self._function("remember", outputs), self._function("remember_some", accepted)]
 
     def _remembered(self) -> list[str]:
@@ -222,17 +222,6 @@ class StepTracer(JudgedStep):
             for node in reachable(expression for _, expression in self.dense())
             if node.operation == "variable" and node.data != "theta"
         )
-
-    def _where_accepted(self, outputs: Outputs) -> list[Output]:
-        """Return outputs that leave slots as they are in lanes that do not take the step.
-
-        Nodes have an order within one trace only, and some outputs are of that of the equations.
-        """
-        found = []
-        for slot, new in outputs:
-            v = new.tracer.variable
-            found.append((slot, select_positive(v("accept"), new, v(slot))))
-        return found
 
     def dense(self) -> list[Output]:
         """Return time, state, modes and impact rates at the share `theta` of the step."""

@@ -160,7 +160,7 @@ class _Tape:
         build = self.build
         match words:
             case ["store", slot, value]:
-                self._store(slot, self._value(value))
+                build.store(self._value(value), self._place(self.target, slot))
             case ["mark", slot, value]:
                 self._mark(slot, self._value(value))
             case ["return", "call", name]:
@@ -183,9 +183,6 @@ class _Tape:
     def _load(self, array: str, slot: str) -> str:
         over = self.build.count > 1 and array == self.target and slot in self.written
         return self.build.load(self._place(array, slot), WRITTEN_OVER if over else "load")
-
-    def _store(self, slot: str, value: str) -> None:
-        self.build.store(value, self._place(self.target, slot))
 
     def _mark(self, slot: str, value: str) -> None:
         build, bits = self.build, mask(self.build, value)

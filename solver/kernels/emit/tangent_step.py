@@ -17,6 +17,7 @@ from functools import reduce
 from operator import add, mul
 
 from jointplay.solver.kernels.emit.emit import lane_function
+from jointplay.solver.kernels.emit.judged_step import where_accepted
 from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.emit.kinks import MEMORY
 from jointplay.solver.kernels.emit.tangent_method import COUPLING, NODES, STAGES, WEIGHTS
@@ -44,8 +45,7 @@ whose joints touch 80 times a second the exponent was 6.0 instead of 3.9 1/s at 
 
 def allocate(layout: Layout, states: int) -> None:
     """Give slots to a tangent on its way through a step."""
-    for name in ("passing_time", "begins", "spanned", "rest"):
-        layout.add(name)
+    layout.add("passing_time", "begins", "spanned", "rest")
     kept = [f"kept{s}_" for s in range(STAGES - 1)]
     for name in ("passing", "carried", "carried_slope", *kept):
         layout.add_block(name, states)
@@ -156,8 +156,7 @@ class TangentTracer:
         v = self.tracer.variable
         moved = [(f"tangent{i}", self._moved(WEIGHTS, i)) for i in range(self.states)]
         moved += [(f"kink_start{i}", v(f"kink_end{i}")) for i in range(MEMORY * self.kinks)]
-        taken = [(name, select_positive(v("accept"), new, v(name))) for name, new in moved]
-        return lane_function("arrive", taken, self.layout)
+        return lane_function("arrive", where_accepted(moved), self.layout)
 
     def _behind(self) -> tuple[Source, Source]:
         """Bring the tangent over the rest of the step behind an opening, with the slope there."""

@@ -9,6 +9,7 @@ The functions live in a module of their own, over a layout that begins with all 
 kernel's.
 """
 
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from jointplay.solver.kernels.emit import kinks, tangent_step
 from jointplay.solver.kernels.emit.emit import FixedNodes, Tape, lane_function
 from jointplay.solver.kernels.emit.functions import addresses_of
+from jointplay.solver.kernels.emit.judged_step import where_accepted
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.kinks import Kinks
 from jointplay.solver.kernels.emit.module import Module, load
@@ -25,9 +27,8 @@ from jointplay.solver.kernels.emit.slots import OF_TANGENTS
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.trace.derivative import Derivative
-from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.equations import Equations, numbered
 from jointplay.solver.kernels.trace.fixed_numbers import FixedNumbers
-from jointplay.solver.quantities.scalars import select_positive
 
 
 @dataclass(frozen=True)
@@ -48,12 +49,9 @@ class Tangents:
 def compile_tangents(kernel: Kernel) -> Tangents:
     """Derive, emit and load a kernel's tangent functions; seconds when they are not cached.
 
-    Raises
-    ------
-    LimitExceeded
-        The derivatives are too long to compile.
+    Raises LimitExceeded if the derivatives are too long to compile.
     """
-    equations, layout = kernel.equations, kernel.layout.copy()
+    equations, layout = kernel.equations, deepcopy(kernel.layout)
     piecewise = kinks.kinks_of(equations)
     allocate(layout, kernel.states, len(kernel.pairs), len(piecewise))
     fixed = FixedNodes(layout)
@@ -114,12 +112,11 @@ def hold_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> So
     turned = [tracer.lift(old + new) for old, new in zip(tangent, changes, strict=False)]
     along = Derivative({f"stage{i}": w for i, w in enumerate([*turned, *tangent[count:]])})
     changes += loops.correction([along(tracer.lift(row.rate)) for row in loops.rows])
-    taken = tracer.variable("accept")
-    outputs = [
-        (f"tangent{i}", select_positive(taken, old + new, old))
-        for i, (old, new) in enumerate(zip(tangent, changes, strict=True))
+    moved = [
+        (f"tangent{i}", w + change)
+        for i, (w, change) in enumerate(zip(tangent, changes, strict=True))
     ]
-    return lane_function("hold_tangent", outputs, layout, fixed)
+    return lane_function("hold_tangent", where_accepted(moved), layout, fixed)
 
 
 def along_motion(equations: Equations) -> Derivative:
@@ -141,11 +138,5 @@ def penetration_function(equations: Equations, layout: Layout, fixed: FixedNodes
     states = equations.states
     tangent = Derivative({f"stage{i}": tracer.variable(f"tangent{i}") for i in range(states)})
     motion = along_motion(equations)
-    outputs = []
-    for j, (penetration, rate) in enumerate(equations.penetrations):
-        outputs += [
-            (f"tangent_penetration{j}", tangent(penetration)),
-            (f"tangent_penetration_rate{j}", tangent(rate)),
-            (f"penetration_acceleration{j}", motion(rate)),
-        ]
-    return lane_function("tangent_penetrations", outputs, layout, fixed)
+    rates = [(tangent(gap), tangent(rate), motion(rate)) for gap, rate in equations.penetrations]
+    return lane_function("tangent_penetrations", numbered(OF_TANGENTS[2:], rates), layout, fixed)

@@ -3,7 +3,7 @@
 They call one another, and Python calls them. Loops call a second function of each, which counts.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from jointplay.solver.kernels.emit.functions import CALL_COUNT, COUNTED, Function, Signature
@@ -66,7 +66,7 @@ class Source:
 
     @property
     def _parameters(self) -> str:
-        return _listed(ARGUMENTS[self.over])
+        return ", ".join(f"{kind} {name}" for name, kind in ARGUMENTS[self.over].items())
 
     def function(self, prefix: str) -> Function:
         """Return the function, loaded under its name behind a prefix."""
@@ -81,8 +81,3 @@ def module_text(sources: Iterable[Source], prefix: str, lanes: int) -> str:
         return f'@"{prefix}.{name}"'
 
     return "\n".join([*(one.text(symbol, lanes) for one in sources), declared(lanes)])
-
-
-def _listed(arguments: Mapping[str, str]) -> str:
-    """Return arguments with their types."""
-    return ", ".join(f"{kind} {name}" for name, kind in arguments.items())

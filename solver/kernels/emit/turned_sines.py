@@ -18,7 +18,7 @@ from functools import reduce
 from jointplay.solver.kernels.emit.emit import FixedNodes, Output, Tape
 from jointplay.solver.kernels.emit.tapes import Source
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.trace.equations import Equations
+from jointplay.solver.kernels.trace.equations import Equations, numbered
 from jointplay.solver.kernels.trace.reachable import reachable
 from jointplay.solver.kernels.trace.tracer import Expression
 from jointplay.solver.quantities.elementary import polynomial
@@ -29,6 +29,8 @@ FARTHEST = 2.0**-5
 SINE = (-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0)
 LESS = (-1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0)
 """Coefficients of (sin d - d) / d^3 and of (cos d - 1) / d^2 in d^2."""
+
+AT_START = ("angle_start", "sine_start", "cosine_start")
 
 
 @dataclass(frozen=True)
@@ -70,16 +72,12 @@ class TurnedSines:
     def allocate(self, layout: Layout) -> None:
         """Give slots to sines where the step starts."""
         layout.add("sines_known")
-        for name in ("angle_start", "sine_start", "cosine_start"):
+        for name in AT_START:
             layout.add_block(name, len(self.angles))
 
     def at_end(self) -> list[Output]:
         """Return what an accepted step leaves for the next one, where it ends."""
-        return [
-            (f"{name}_start{n}", getattr(one, name))
-            for n, one in enumerate(self.angles)
-            for name in ("angle", "sine", "cosine")
-        ]
+        return numbered(AT_START, [(one.angle, one.sine, one.cosine) for one in self.angles])
 
     def source(self, layout: Layout, fixed: FixedNodes) -> Source:
         """Return the source of sines_at_start(W), for lanes that begin elsewhere than one ended."""

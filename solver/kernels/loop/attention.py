@@ -59,14 +59,10 @@ def attend(flag: int, s: Step, rows: np.ndarray) -> bool:
         return False
     if flag & REJECTED:
         return False
-    if flag & ONSET or run.landing != NO_PAIR:
-        landed = land(s)
-        if not landed:
-            work[at.accept, lane] = 0.0
-            return False
-    if flag & DUE:
-        return hand_out(s, rows)
-    return False
+    if (flag & ONSET or run.landing != NO_PAIR) and not land(s):
+        work[at.accept, lane] = 0.0
+        return False
+    return flag & DUE != 0 and hand_out(s, rows)
 
 
 @inner_kernel()

@@ -6,7 +6,7 @@ from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop import generated
-from jointplay.solver.kernels.loop.onset import NO_ONSET, first_onset
+from jointplay.solver.kernels.loop.onset import NO_ONSET, first_onset, newton_step
 from jointplay.solver.kernels.loop.periods import stop
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Status
 from jointplay.solver.kernels.loop.step import Step
@@ -30,7 +30,7 @@ def land(s: Step) -> bool:
     2. Redo the step so that it ends there. The redone step differs from the dense output that
        gave the time, so its end misses the onset by a little: from here on the pair is the target.
     3. Take the step once the target's penetration at its end is as good as zero (`LANDED`);
-       until then move the end by Newton's rule (`corrected_share`), unless another contact begins
+       until then move the end by Newton's rule (`newton_step`), unless another contact begins
        before: then that is the target.
     4. After `MOST_LANDINGS` redone steps, approach in steps of a quarter (`shorten`); after
        `MOST_SHORTENINGS` of them the run has failed.
@@ -48,10 +48,8 @@ def land(s: Step) -> bool:
     if target != NO_PAIR:
         alone = pair in (NO_PAIR, target)
         last = run.landings >= MOST_LANDINGS
-        penetration, rate = (
-            work[at.penetration + target, lane],
-            work[at.penetration_rate + target, lane],
-        )
+        penetration = work[at.penetration + target, lane]
+        rate = work[at.penetration_rate + target, lane]
         if alone and abs(penetration) <= (LANDED_AT_LAST if last else LANDED):
             return True
         if last:
@@ -61,7 +59,8 @@ def land(s: Step) -> bool:
             run.landing = NO_PAIR
             return True
         if alone:
-            pair, share = target, corrected_share(penetration, rate, work[at.tried, lane])
+            share = newton_step(1.0, penetration, rate, work[at.tried, lane])
+            pair, share = target, min(max(share, 0.1), 2.0)
     if pair == NO_PAIR:
         return True
     run.landing = pair
@@ -124,15 +123,6 @@ def lands_beside(j: int, s: Step) -> bool:
     if work[at.restart + j, lane] == np.inf:
         return bool(apart and penetration > 0.0)
     return bool(apart and work[at.penetration_rate + j, lane] > 0.0 and abs(penetration) <= LANDED)
-
-
-@inner_kernel()
-def corrected_share(penetration: float, rate: float, tried: float) -> float:
-    """Return the multiple of the step at which the gap is zero, by Newton's rule from its end."""
-    share = 1.0
-    if rate > 0.0:
-        share = 1.0 - penetration / (rate * tried)
-    return min(max(share, 0.1), 2.0)
 
 
 @inner_kernel()

@@ -21,6 +21,7 @@ from jointplay.solver.kernels.loop.extremes.passages import (
     next_passage,
     path_of,
 )
+from jointplay.solver.kernels.loop.extremes.search.local_extremes import place_evenly
 from jointplay.solver.kernels.loop.runs import SECTIONS, Run, SectionKind
 from jointplay.solver.kernels.loop.step import Step, channels_within
 
@@ -143,8 +144,7 @@ def instants_to_look_at(s: Step, shares: np.ndarray) -> int:
 
     Returns how many there are.
     """
-    for i in range(INSTANTS):
-        shares[i] = i / (INSTANTS - 1)
+    place_evenly(0.0, 1.0, shares)
     count = INSTANTS
     for j in range(s.at.pairs):
         path = path_of(j, s)

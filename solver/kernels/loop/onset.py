@@ -67,10 +67,8 @@ def next_suspect(sense: float, j: int, begun: int, s: Step) -> int:
     """
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
     for i in range(begun, INSTANTS):
-        penetration, rate = (
-            sense * spare[at.penetration + j, i],
-            sense * spare[at.penetration_rate + j, i],
-        )
+        penetration = sense * spare[at.penetration + j, i]
+        rate = sense * spare[at.penetration_rate + j, i]
         before = sense * work[at.penetration_start + j, lane]
         before_rate = sense * work[at.penetration_rate_start + j, lane]
         if i > 0:
@@ -110,6 +108,12 @@ def crossed_between(sense: float, j: int, left: float, right: float, s: Step) ->
 
 
 @inner_kernel()
+def newton_step(share: float, penetration: float, rate: float, tried: float) -> float:
+    """Return the share of a step at which a gap is closed, by Newton's rule from another one."""
+    return share - penetration / (rate * tried) if rate > 0.0 else share
+
+
+@inner_kernel()
 def polish(j: int, left: float, right: float, s: Step) -> float:
     """Return the root of pair j's gap in a bracket: sectioning, then Newton inside the bracket."""
     lane, at, work, spare = s.lane, s.at, s.work, s.spare
@@ -121,14 +125,13 @@ def polish(j: int, left: float, right: float, s: Step) -> float:
             right = spare[at.theta, i]
             left = right - (right - left) / INSTANTS if i == 0 else spare[at.theta, i - 1]
             penetration, rate = spare[at.penetration + j, i], spare[at.penetration_rate + j, i]
-            root = right - penetration / (rate * tried) if rate > 0.0 else right
-            root = min(max(root, left), right)
+            root = min(max(newton_step(right, penetration, rate, tried), left), right)
             break
     for _ in range(NEWTON_STEPS):
         spare[at.theta, 0] = root
         penetrations_within(s)
         penetration, rate = spare[at.penetration + j, 0], spare[at.penetration_rate + j, 0]
-        better = root - penetration / (rate * tried) if rate > 0.0 else root
+        better = newton_step(root, penetration, rate, tried)
         if left <= better <= right:
             root = better
     return root

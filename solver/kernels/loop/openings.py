@@ -99,10 +99,8 @@ def note_openings(s: Step, inside: bool) -> float:
     for j in range(at.pairs):
         if work[at.mode + j, lane] <= 0.0:
             continue
-        penetration, rate = (
-            work[at.penetration + j, lane],
-            work[at.penetration_rate + j, lane] * step,
-        )
+        penetration = work[at.penetration + j, lane]
+        rate = work[at.penetration_rate + j, lane] * step
         start = work[at.penetration_start + j, lane]
         start_rate = work[at.penetration_rate_start + j, lane] * step
         fixed = work[at.restart + j, lane] == np.inf

@@ -107,14 +107,9 @@ class Run:
     """Whole periods after which the tangent forgets latched impact rates; 0: never."""
 
 
-PAIRS = ("next", "stop", "due", "filled")
 DTYPE = np.dtype(
     [
-        (
-            name,
-            np.float64 if kind == "float" or name == "due" else np.int64,
-            (2,) if name in PAIRS else (),
-        )
+        (name, np.float64 if "float" in kind else np.int64, (2,) if "NDArray" in kind else ())
         for name, kind in Run.__annotations__.items()
     ],
     align=True,  # else a device takes eight loads for a number
@@ -138,13 +133,7 @@ class Buffers(NamedTuple):
 
     @classmethod
     def of(
-        cls,
-        lanes: int,
-        capacity: int,
-        width: int,
-        *,
-        tangents: bool,
-        steps: tuple[int, int, int],
+        cls, lanes: int, capacity: int, width: int, *, tangents: bool, steps: tuple[int, int, int]
     ) -> Buffers:
         """Return empty buffers; `steps` : lanes, capacity and width of accepted steps."""
         return cls(

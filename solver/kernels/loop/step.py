@@ -16,18 +16,15 @@ Addresses = Any
 
 
 class Step(NamedTuple):
-    """A lane's attempt at a step. Inlined, it costs nothing; else it is 30 numbers."""
+    """A lane's attempt at a step, of a `Workspace`. Inlined, it costs nothing; else 30 numbers."""
 
     lane: int
     """Column of the work array."""
     run: Run
     at: Slots
     work: np.ndarray
-    """All quantities of all lanes of the group, (slots, lanes)."""
     spare: np.ndarray
-    """Room for instants inside this step, (slots, INSTANTS)."""
     brackets: np.ndarray
-    """Room for those of a search; see `solver.kernels.loop.extremes.search.brackets`."""
     addresses: Addresses
 
 

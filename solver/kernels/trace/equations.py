@@ -1,6 +1,6 @@
 """Records a scene's equations of motion: once, from the readable mechanics."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from types import MappingProxyType
@@ -27,9 +27,6 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.domains import bounded_courses
 from jointplay.solver.scene.drivers import SteadyDriver
 from jointplay.solver.scene.references import inner_states
-
-KEEPS_LEDGER = "keeps_ledger"
-"""Slot that is positive in lanes whose works and impulses are wanted."""
 
 
 @dataclass(frozen=True)
@@ -238,15 +235,24 @@ def _windings(scene: Scene, tree: Tree, tracer: Tracer) -> dict[str, Expression]
     return found
 
 
+def numbered(
+    names: Sequence[str], rows: Iterable[tuple[Expression, ...]]
+) -> list[tuple[str, Expression]]:
+    """Return expressions by names of slots: those of a row, with its number behind each."""
+    return [
+        (f"{name}{j}", one)
+        for j, row in enumerate(rows)
+        for name, one in zip(names, row, strict=True)
+    ]
+
+
 def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
     """Return what is needed where a step ends: slopes, gaps, slips, journals."""
     count = len(equations.coordinates)
     speeds = [equations.tracer.variable(f"stage{count + i}") for i in range(count)]
     outputs = [(f"slope{i}", rate) for i, rate in (*enumerate(speeds), *equations.slopes)]
-    for j, (penetration, rate) in enumerate(equations.penetrations):
-        outputs += [(f"penetration{j}", penetration), (f"penetration_rate{j}", rate)]
-    for j, (slip, rate) in enumerate(equations.slips):
-        outputs += [(f"slip{j}", slip), (f"slip_rate{j}", rate)]
+    outputs += numbered(("penetration", "penetration_rate"), equations.penetrations)
+    outputs += numbered(("slip", "slip_rate"), equations.slips)
     for j, path in enumerate(equations.eccentricities):
         outputs += [(f"eccentricity{MOTION * j + k}", part) for k, part in enumerate(path)]
     return outputs

@@ -169,9 +169,7 @@ OPERATIONS: dict[str, Operation] = {
     ),
     "exponent_of": Operation(ON_FLOATS["exponent_of"], _nothing, _exponent),
     "mantissa_of": Operation(
-        ON_FLOATS["mantissa_of"],
-        lambda node, rates: node / node.arguments[0] * rates[0],
-        _mantissa,
+        ON_FLOATS["mantissa_of"], lambda node, rates: node / node.arguments[0] * rates[0], _mantissa
     ),
     "power_of_two": Operation(ON_FLOATS["power_of_two"], _nothing, _power_of_two),
     "quarter_turns": Operation(

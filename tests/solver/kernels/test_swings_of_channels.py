@@ -9,6 +9,7 @@ import pytest
 from jointplay.solver.kernels.emit.scanning import UNSEEN
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extremes.swinging import (
+    ALTERNATING,
     MUCH,
     NEARBY,
     REACH,
@@ -51,9 +52,11 @@ def one_by_one(values: Any, *of_lane: Any) -> tuple[Any, ...]:
         most = max(most, (MUCH * spread if swing > SEEN * spread else swing) / spread)
         about = 2401.0 / 384.0 * np.abs(np.diff(channel, 4)).max()
         by = swing if swing > SEEN * spread else about if about > UNSEEN * spread else 0.0
+        bend = UNKNOWN if np.isnan(change) else abs(last - first - LONGER * change)
+        bend += 1e-300
+        if (last - first) * (LONGER * change) < 0.0:
+            by = max(by, ALTERNATING * bend)
         if by > 0.0:
-            bend = UNKNOWN if np.isnan(change) else abs(last - first - LONGER * change)
-            bend += 1e-300
             close = max(min(highest - high, low - lowest) - REACH * by, 0.0)
             speed = abs(last - first)
             way = speed + np.sqrt(bend * close) + 1e-300
@@ -80,6 +83,8 @@ def test_eight_at_once_are_as_one_by_one(count: int) -> None:
         leasts = 10.0 ** random.uniform(-12.0, 0.5) * random.integers(0, 2, count)
         work[LEAST : LEAST + count, lane] = leasts
         changes = random.normal(size=count) * 10.0 ** random.uniform(-4.0, 0.0, count)
+        if draw % 4:  # channels go on as they did
+            changes = np.copysign(changes, own[:, -1] - own[:, 0])
         if draw % 8 == 0:  # no step before
             changes[:] = np.nan
         work[CHANGE : CHANGE + count, lane] = changes

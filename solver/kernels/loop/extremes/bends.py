@@ -10,7 +10,7 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import BENDS, INSTANTS
-from jointplay.solver.kernels.loop.extremes.search.local_extremes import look_evenly
+from jointplay.solver.kernels.loop.extremes.search.local_extremes import look_evenly, place_evenly
 from jointplay.solver.kernels.loop.step import Step, penetrations_within
 
 SWAY = 2.0
@@ -111,8 +111,7 @@ def find_cuts(low: float, high: float, s: Step, cuts: np.ndarray) -> int:
     for j in range(s.at.pairs):
         if not has_bend(j, s):
             continue
-        for i in range(INSTANTS):
-            wanted[i] = low + (high - low) * (i / (INSTANTS - 1))
+        place_evenly(low, high, wanted)
         count, more = 0, INSTANTS
         for turn in range(MOST_ROUNDS):
             for first in range(0, more, INSTANTS):

@@ -53,7 +53,7 @@ def look_closer(s: Step) -> None:
 @inner_kernel()
 def look_inside(wanted: bool, due: bool, s: Step) -> None:
     """Seek extremes of all channels in a step; in one that is only due, if some may be in reach."""
-    place_evenly(0.0, 1.0, s)
+    place_evenly(0.0, 1.0, s.spare[s.at.theta])
     channels_within(s)
     if due:
         wanted |= may_set_extremes(s)
@@ -76,11 +76,8 @@ def turns_before_onset(s: Step) -> bool:
     lane, at, work = s.lane, s.at, s.work
     longer = work[at.tried, lane] / work[at.before_step, lane]
     for r in range(at.rows):
-        start, end, rose = (
-            work[at.previous + r, lane],
-            work[at.channel + r, lane],
-            work[at.change + r, lane],
-        )
+        start, end = work[at.previous + r, lane], work[at.channel + r, lane]
+        rose = work[at.change + r, lane]
         # start + slope t + bend t², t in steps of the length before
         bend = ((end - start) / longer - rose) / (1.0 + longer)
         slope = rose + bend

@@ -10,11 +10,11 @@ from __future__ import annotations
 from llvmlite import ir
 from numba.core import cgutils, types
 
+from jointplay.solver.kernels.emit.lane_arithmetic import ALIGNED
 from jointplay.solver.kernels.layout import INSTANTS
 
 NUMBER, WORD, INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
 EIGHT, WORDS = ir.VectorType(NUMBER, INSTANTS), ir.VectorType(WORD, INSTANTS)
-ALIGNED = 8
 
 
 def _instruction(name):

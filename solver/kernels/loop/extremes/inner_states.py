@@ -54,7 +54,7 @@ def look_at_inner_states(s: Step) -> None:
         any_may |= is_in_reach(k, s)
     if not any_may:
         return
-    place_evenly(0.0, 1.0, s)
+    place_evenly(0.0, 1.0, s.spare[s.at.theta])
     states_within(s)
     rows, count = np.empty(s.at.inner_states, np.int64), 0
     for k in range(s.at.inner_states):

@@ -57,10 +57,8 @@ def any_in_reach(rows: np.ndarray, before: float, behind: float, s: Step) -> boo
     lane, at, work = s.lane, s.at, s.work
     for r in rows:
         start = work[at.previous + r, lane] - work[at.change + r, lane]
-        rose, fell = (
-            start - s.spare[at.channel + r, PER_STEP - 1],
-            start - s.spare[at.channel + r, PER_STEP + 1],
-        )
+        rose = start - s.spare[at.channel + r, PER_STEP - 1]
+        fell = start - s.spare[at.channel + r, PER_STEP + 1]
         far = REACH * PER_STEP * max(before * abs(fell), behind * abs(rose))
         highest, lowest = work[at.highest + r, lane], work[at.lowest + r, lane]
         turns = start + far > highest if rose > 0.0 else start - far < lowest

@@ -12,6 +12,7 @@ import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import MOTION
+from jointplay.solver.kernels.loop.extremes.search.brackets import TINY
 from jointplay.solver.kernels.loop.extremes.search.local_extremes import look_evenly
 from jointplay.solver.kernels.loop.step import Step
 from jointplay.solver.kernels.trace.rows import NO_ROW
@@ -128,7 +129,7 @@ def closest_approach(path: np.ndarray, part: int, s: Step) -> Passage:
             break
         share = better
     distance, way = np.sqrt(square), np.sqrt(way)
-    width = max(distance / (way + 1e-300), NARROWEST)
+    width = max(distance / (way + TINY), NARROWEST)
     return Passage(share, width, distance, way / s.work[s.at.tried, s.lane])
 
 
@@ -148,7 +149,7 @@ def orbiting_at_end(j: int, s: Step) -> float:
     first = at.eccentricity + MOTION * j
     x, y = work[first, lane], work[first + 1, lane]
     vx, vy = work[first + AXES, lane], work[first + AXES + 1, lane]
-    return float((x * vy - y * vx) / (np.sqrt(x * x + y * y) + 1e-300))
+    return float((x * vy - y * vx) / (np.sqrt(x * x + y * y) + TINY))
 
 
 @inner_kernel()
@@ -174,10 +175,7 @@ def look_about_passages(every: np.ndarray, low: float, high: float, s: Step) -> 
 
 @inner_kernel()
 def look_about_fast_passages(s: Step) -> None:
-    """Seek extremes of slip and penetration where they may be beyond those so far.
-
-    To be called while ``channel`` has the values at the step's end, before the scan.
-    """
+    """Seek extremes of slip and penetration where they may be beyond those so far."""
     for j in range(s.at.pairs):
         path = path_of(j, s)
         part = next_passage(j, 0, path, s)

@@ -12,12 +12,8 @@ import numpy as np
 from jointplay.solver.kernels.emit.closer_looks import EVERY
 from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
-from jointplay.solver.kernels.loop.extremes.swinging import (
-    NEARBY,
-    SEEN,
-    UNEVEN,
-    weigh_swings,
-)
+from jointplay.solver.kernels.loop.extremes.search.brackets import TINY
+from jointplay.solver.kernels.loop.extremes.swinging import NEARBY, SEEN, UNEVEN, weigh_swings
 from jointplay.solver.kernels.loop.step import Step
 
 
@@ -49,7 +45,7 @@ def may_set_extremes(s: Step) -> bool:
         work[at.rough_until, lane] = steps + EVERY
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
     if most > 0.0 or work[at.look_beyond, lane] == 0.0:
-        work[at.look_beyond, lane] = work[at.swing, lane] * (SEEN / (most + 1e-300))
+        work[at.look_beyond, lane] = work[at.swing, lane] * (SEEN / (most + TINY))
     # else channels rise by more than they swing, and the last limit holds
     work[at.looked_into, lane] = work[at.tried, lane]
     return near

@@ -23,10 +23,7 @@ step at the rates of both ends. A cubic goes 4/27."""
 
 @inner_kernel()
 def look_at_slips_in_flight(s: Step) -> None:
-    """Seek extremes of free journals' slips that turn in a step, if they may be new.
-
-    To be called while ``channel`` has the values at the step's end, before the scan.
-    """
+    """Seek extremes of free journals' slips that turn in a step, if they may be new."""
     rows, count = np.empty(s.at.pairs, np.int64), 0
     for j in range(s.at.pairs):
         if turns_in_flight(j, s):
@@ -43,11 +40,8 @@ def turns_in_flight(j: int, s: Step) -> bool:
     row = int(work[at.slip_row + j, lane])
     if work[at.mode + j, lane] > 0.0 or row == NO_ROW:
         return False
-    tried, first, last = (
-        work[at.tried, lane],
-        work[at.slip_rate_start + j, lane],
-        work[at.slip_rate + j, lane],
-    )
+    first, last = work[at.slip_rate_start + j, lane], work[at.slip_rate + j, lane]
+    tried = work[at.tried, lane]
     if first * last < 0.0:
         before = work[at.previous + row, lane]
         away = 0.5 * FARTHER * tried * first * first / (abs(first) + abs(last))

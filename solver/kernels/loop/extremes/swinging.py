@@ -8,7 +8,7 @@ A channel at a time, this took longer than all else that extremes take in a step
 from collections.abc import Callable
 from functools import reduce
 from itertools import pairwise
-from typing import Any, cast
+from typing import cast
 
 from numba import float64, int64, types
 from numba.core import cgutils
@@ -28,6 +28,7 @@ from jointplay.solver.kernels.loop.extremes.eights import (
     smaller,
     where,
 )
+from jointplay.solver.kernels.loop.extremes.search.brackets import TINY
 
 ROUGH = 0.003
 """Share of a channel's range by which it leaves its values at the ends of a rough step."""
@@ -38,25 +39,20 @@ REACH = 4.0
 at: one that swings more is. A swing that is not worth a search may grow until it is."""
 MUCH = SEEN / REACH
 """Share of its range that stands for a swing which is worth a search: it may grow by `REACH`."""
+ALTERNATING = 0.125
+"""Share of a channel's second difference from step to step by which every other step may swing,
+where the channel turned between them. At the limit of stability steps alternate: friction may
+reverse inside those in which a channel rises, and the others do not show it."""
 BARELY = 1.0 + 1e-9
 """A factor that is more than all rounding here."""
-TINY, UNKNOWN = 1e-300, 1e300
-"""The least bend of a channel, and what stands for that where there is no step before."""
+UNKNOWN = 1e300
+"""Stands for the bend of a channel where there is no step before."""
 NEARBY, UNEVEN = 0xFF, 0xFF00
 """Bits of an answer for a channel of each eight: an extreme is in reach; is rough."""
 FOUND = types.Tuple((int64, float64, float64))
 
 
-def _weigh(
-    _typing: Any,
-    values: Any,
-    channel: Any,
-    work: Any,
-    extremes: Any,
-    lane: Any,
-    longer: Any,
-    pause: Any,
-) -> Any:
+def _weigh(_typing, values, channel, work, extremes, lane, longer, pause):
     """Return what the channels of a step come to.
 
     Parameters
@@ -123,6 +119,8 @@ def _add(found, values, highest, lowest, change, kept):
     inside = _hidden(values)
     hidden = where(UNSEEN * spread < inside, inside, 0.0)
     by = where(seen < swing, swing, hidden)
+    turned = (end - start) * change < 0.0
+    by = where(turned, larger(by, ALTERNATING * bend), by)
     found.wait(_Approach(abs(end - start), bend, rest, REACH * by), kept & (by > 0.0))
 
 

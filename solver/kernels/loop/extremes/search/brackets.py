@@ -11,6 +11,8 @@ from jointplay.solver.kernels.layout import INSTANTS
 
 SHARP = 2e-7
 """Share of a channel's range up to now to which its extremes are sought."""
+TINY = 1e-300
+"""Added to what may be zero, so that it can divide."""
 NODES = 5
 MIDDLE, LAST = 2, NODES - 1
 MOST_ROUNDS = 18

@@ -3,7 +3,7 @@
 import numpy as np
 
 from jointplay.solver.kernels.jit import inner_kernel, kernel
-from jointplay.solver.kernels.loop.extremes.search.brackets import LAST, MIDDLE, NODES
+from jointplay.solver.kernels.loop.extremes.search.brackets import LAST, MIDDLE, NODES, TINY
 
 MOST_ITERATIONS = 8
 CLOSE = 1e-3
@@ -22,7 +22,6 @@ LEFT_OUT = 4.0
 """Slope of what a quartic leaves out, by its value, if not larger."""
 BESIDE = 1e-6
 """Distance from one of the nodes at which what is left out there is nothing but rounding."""
-TINY = 1e-300
 ROUNDED = 1.5e-14
 """Share of a value that its fourth difference is rounded by, by `ROUGH`."""
 TWELFTH = 1.0 / 12.0
@@ -60,12 +59,11 @@ def extreme(
         rise, fall = values[inner] - values[inner - 1], values[inner] - values[inner + 1]
         error = max(error, max(abs(rise), abs(fall)))
     rests = best + 2 <= LAST and sample == values[best + 1] == values[best + 2]
+    if not rests and best in (0, LAST):
+        rate = slope + abscissa * (2.0 * bend + abscissa * (3.0 * twist + abscissa * 4.0 * curl))
+        rests = sense * abscissa * rate > STEEP * error
     if rests:
         return float(best), sample, 0.0, second
-    if best in (0, LAST):
-        rate = slope + abscissa * (2.0 * bend + abscissa * (3.0 * twist + abscissa * 4.0 * curl))
-        if sense * abscissa * rate > STEEP * error:
-            return float(best), sample, 0.0, second
     if not sense * sample + second + error > sense * so_far:
         return float(best), sample, error, second
     low, high = max(best - 1, 0) - MIDDLE, min(best + 1, LAST) - MIDDLE

@@ -18,16 +18,16 @@ where a contact ends.  Extremes are evaluated where it turns."""
 
 
 @inner_kernel()
-def place_evenly(low: float, high: float, s: Step) -> None:
+def place_evenly(low: float, high: float, theta: np.ndarray) -> None:
     """Place eight instants evenly from one share of a step to another."""
     for i in range(INSTANTS):
-        s.spare[s.at.theta, i] = low + (high - low) * (i / (INSTANTS - 1))
+        theta[i] = low + (high - low) * (i / (INSTANTS - 1))
 
 
 @inner_kernel()
 def look_evenly(chosen: np.ndarray, low: float, high: float, s: Step) -> None:
     """Seek extremes of chosen rows between two shares of a step."""
-    place_evenly(low, high, s)
+    place_evenly(low, high, s.spare[s.at.theta])
     channels_within(s)
     seek_between(chosen, low, high, s)
 

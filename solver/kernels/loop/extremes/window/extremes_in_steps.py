@@ -23,12 +23,7 @@ from jointplay.solver.kernels.loop.extremes.window.book import (
 )
 from jointplay.solver.kernels.loop.extremes.window.polynomial_extreme import has_corner
 from jointplay.solver.kernels.loop.extremes.window.suspects import Part, find_suspects
-from jointplay.solver.kernels.loop.step import (
-    Step,
-    channels_within,
-    group_of,
-    step_of,
-)
+from jointplay.solver.kernels.loop.step import Step, channels_within, group_of, step_of
 from jointplay.solver.kernels.loop.unowned_view import unowned
 from jointplay.solver.kernels.loop.workspace import Workspace
 
@@ -100,7 +95,7 @@ def look_beside_ends(cornered: np.ndarray, low: float, high: float, s: Step) -> 
 def look_into_part(part: Part, wanted: Wanted, s: Step, book: np.ndarray) -> None:
     """Seek extremes of wanted rows in a part of a step, and let them count in a book."""
     low, high = part.low, part.high
-    place_evenly(low, high, s)
+    place_evenly(low, high, s.spare[s.at.theta])
     channels_within(s)
     behind = find_suspects(part, wanted.blocks, s, wanted.close, book, wanted.suspects)
     passing, bending = False, s.work[s.at.may_pass_bend, s.lane] > 0.0

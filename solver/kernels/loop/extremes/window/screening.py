@@ -5,7 +5,7 @@
 from collections.abc import Callable
 from functools import reduce
 from operator import add, or_
-from typing import Any, cast
+from typing import cast
 
 from numba import int64
 from numba.extending import intrinsic
@@ -37,9 +37,7 @@ JAGGED = 16
 """Bits of an answer for the channels which turn at every instant, if that is no rounding."""
 
 
-def _screen(
-    _typing: Any, values: Any, row: Any, book: Any, first: Any, begin: Any, end: Any, sharp: Any
-) -> Any:
+def _screen(_typing, values, row, book, first, begin, end, sharp):
     """Let the ends of a part of a step count, and return which channels may be beyond inside.
 
     Parameters

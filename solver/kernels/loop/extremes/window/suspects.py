@@ -84,15 +84,14 @@ def find_suspects(
             continue
         for k in range(INSTANTS):
             mark, r = marks >> k, first + k
+            rounded = mark >> ONE_BY_ONE & 1 != 0
             if mark >> JAGGED & 1:
                 if not looked:
                     place_closely(0.5 * (part.low + part.high), close[at.theta])
                     generated.channels_within(s.addresses, s.work, close, s.lane)
                     looked = True
-                if is_rounding(r, s, close, book):
-                    count_each(r, False, part, s, book)
-                    continue
-            if mark >> ONE_BY_ONE & 1:
+                rounded = is_rounding(r, s, close, book)
+            if rounded:
                 count_each(r, False, part, s, book)
             elif mark & 1 and r >= at.rows:
                 count_each(r, True, part, s, book)
