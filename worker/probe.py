@@ -72,6 +72,8 @@ class Mark:
     seconds: float
     fraction: float
     steps: float
+    reached: float
+    """Part of the run that has the steps; companions, by which `fraction` goes, may be behind."""
 
 
 def cost_of(document: dict[str, Any], *, on_devices: bool = False) -> Cost:
@@ -103,12 +105,10 @@ def _of_simulation(admission: Admission) -> Cost:
         seconds = marks[-1].seconds
         if seconds < BUDGET / 2:  # the clock is coarse, and the first run warms the caches
             seconds = min(seconds, _run(admission, BUDGET)[1][-1].seconds)
-        whole = Mark(seconds, 1.0, steps)
+        whole = Mark(seconds, 1.0, steps, 1.0)
     else:
         whole = _extrapolated(marks)
-    # of the trajectory: its companions, by which progress goes, may be behind
-    reached = max(outcome.time / float(admission.job["duration"]), 1e-9)
-    share = 1.0 if exact else reached
+    share = 1.0 if exact else max(marks[-1].reached, 1e-9)
     return Cost(
         seconds=whole.seconds,
         steps=round(whole.steps),
@@ -129,11 +129,11 @@ def _of_simulation(admission: Admission) -> Cost:
 def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int, int, int]:
     """Compute for `budget` seconds. Returns also bytes of documents, numbers and steps."""
     marks: list[Mark] = []
-    began = _worked()
+    began, duration = _worked(), float(admission.job["duration"])
 
     def report(progress: Progress) -> Answer:
-        spent = _worked() - began
-        marks.append(Mark(spent, progress.fraction, progress.steps() or 0))
+        spent, reached = _worked() - began, progress.time / duration
+        marks.append(Mark(spent, progress.fraction, progress.steps() or 0, reached))
         moved = len(marks) > 1 and progress.fraction > 0.0
         shown = marks[-1].steps >= _LEAST_STEPS or spent > _LONGEST
         return Answer.cancel if moved and shown and spent > budget else Answer.go_on
@@ -141,7 +141,7 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
     with tempfile.TemporaryDirectory(prefix="jointplay-", dir=_scratch()) as name:
         target = StoredObject(Folder(name), "store.zip")
         outcome = execute(admission, Path(name) / "running", target, report=report)
-        marks.append(Mark(_worked() - began, outcome.fraction, 0))
+        marks.append(Mark(_worked() - began, outcome.fraction, 0, outcome.time / duration))
         total, entries = target.size(), Packed(target).entries
     growing = steps = 0
     for key, entry in entries.items():
@@ -219,7 +219,7 @@ def _run_block(study: Study, index: int, budget: float) -> tuple[list[Mark], str
     for piece in run.slices():
         for point in piece.ended:
             failure = failure or (f"Point {point.point}: {point.detail}" if point.code else None)
-        marks.append(Mark(run.seconds, piece.fraction, run.steps))
+        marks.append(Mark(run.seconds, piece.fraction, run.steps, piece.fraction))
         first = marks[0]  # before it the starts of all points were put together: that is no pace
         if run.seconds - first.seconds > budget and piece.fraction > first.fraction:
             break
@@ -232,12 +232,14 @@ def _extrapolated(marks: list[Mark]) -> Mark:
     settled = next(mark for mark in marks if mark.fraction >= _BEGINNING * last.fraction)
     if settled.fraction >= last.fraction:
         first = marks[0]
-        settled = first if first.fraction < last.fraction else Mark(0.0, 0.0, 0.0)
+        settled = first if first.fraction < last.fraction else Mark(0.0, 0.0, 0.0, 0.0)
     share = (1.0 - last.fraction) / max(last.fraction - settled.fraction, 1e-12)
+    of_steps = (1.0 - last.reached) / max(last.reached - settled.reached, 1e-12)
     return Mark(
         last.seconds + share * (last.seconds - settled.seconds),
         1.0,
-        last.steps + share * (last.steps - settled.steps),
+        last.steps + of_steps * (last.steps - settled.steps),
+        1.0,
     )
 
 

@@ -29,6 +29,18 @@ def test_a_busy_machine_makes_no_estimate_of_a_few_steps(monkeypatch):
     assert 0.25 * stored < cost.bytes < 1.5 * stored
 
 
+def test_steps_are_those_of_a_trajectory_whose_companions_are_behind(monkeypatch):
+    """Those of a walking leg are half as far as it is: an estimate said twice its steps."""
+    monkeypatch.setattr(probe, "BUDGET", 0.0)
+    job = {"kind": "simulate", "scene": given("jansen-leg"), "duration": 6.0}
+    alone = Simulation(cast("Admission", admit(job | {"certificate": False})))
+    for _ in alone.slices():
+        pass
+    cost = probe.cost_of(admit(job).job)
+    assert not cost.exact
+    assert cost.steps == pytest.approx(alone.summary().statistics["steps"], rel=0.1)
+
+
 def test_what_is_compiled_on_the_way_is_no_pace_of_a_job(monkeypatch):
     """A second kernel, as of tangents, was: an estimate of a job of minutes said hours."""
     late, begun, clock = [0.0], SPENT.seconds, time.process_time
@@ -36,11 +48,11 @@ def test_what_is_compiled_on_the_way_is_no_pace_of_a_job(monkeypatch):
     monkeypatch.setattr(SPENT, "seconds", begun)  # that it is again what it was
     mark = probe.Mark
 
-    def marked(seconds, fraction, steps):
+    def marked(seconds, fraction, *reached):
         if fraction and not late[0]:  # from now on, as if it had been compiled
             late[0] = 1e6
             SPENT.seconds += 1e6
-        return mark(seconds, fraction, steps)
+        return mark(seconds, fraction, *reached)
 
     monkeypatch.setattr(probe, "Mark", marked)
     job = {"kind": "simulate", "scene": given("four-bar"), "duration": 6.0}
