@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -23,8 +23,13 @@ from jointplay.solver.runs.certificate.contacts import certified_contacts
 from jointplay.solver.runs.certificate.errors import errors_of
 from jointplay.solver.runs.certificate.growth import SHORTEST, Exponent
 from jointplay.solver.runs.certificate.kinds import FORCE, MEANINGS, PRESCRIBED, kinds_of
-from jointplay.solver.runs.certificate.remarks import remarks
-from jointplay.solver.runs.certificate.scales import CRITERION, motion_of, scales_of
+from jointplay.solver.runs.certificate.remarks import Lacking, remarks
+from jointplay.solver.runs.certificate.scales import (
+    CRITERION,
+    UNCONTROLLED_CRITERION,
+    motion_of,
+    scales_of,
+)
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import tangent_obstacle
@@ -111,24 +116,26 @@ def certify(
     columns = np.array([index(name) for name in [*names, *motion]], dtype=np.int64)
     values = companions.values(columns)
     units = [channel.unit for channel in channels] + list(motion.values())
-    scales = scales_of(values, [*names, *motion], units, scene)
+    controlled = bool(bundle.kernel.tableau.error)
+    scales = scales_of(values, [*names, *motion], units, scene, controlled)
     count = len(names)
-    safety = estimate.SAFETY if bundle.kernel.tableau.error else estimate.UNCONTROLLED
+    safety = estimate.SAFETY if controlled else estimate.UNCONTROLLED
     error, horizon = errors_of(companions, columns, values, scales, safety, count)
-    small = estimate.within(error, scales)
+    known = estimate.scales_from(scales, int(np.searchsorted(time, horizon)))
+    small = estimate.within(error[:, count:], known[:, count:])
     edges, share, spread = estimate.histogram(values[:, :, :count], time)
-    until = estimate.until(small[:, :count], time)
+    until = estimate.until(error[:, :count], scales[:, :count], time)
     kinds = kinds_of(channels, rows)
     forces = [end for end, kind in zip(until, kinds, strict=True) if kind == FORCE]
     contacts = certified_contacts(companions, time, horizon, safety)
     energy = _energy(companions, tolerance)
     lanes = _lanes_with_extremes(companions)
     facts = {
-        "note": remarks(companions, scene, time, horizon, contacts, energy["energy_in_tolerances"]),
+        "note": remarks(companions, scene, time, horizon, contacts, _lacking(companions, energy)),
         "horizon": horizon,
         "forces_until": float(min(forces)) if forces else None,
-        "converged": estimate.spans(small[:, count:], time),
-        "criterion": CRITERION,
+        "converged": estimate.spans(small, time),
+        "criterion": CRITERION if controlled else UNCONTROLLED_CRITERION,
         "impacts": None if contacts is None else asdict(contacts),
         "safety": safety,
         "bars": {kind: MEANINGS[kind] for kind in MEANINGS if kind in kinds},
@@ -166,15 +173,28 @@ def _energy(companions: Companions, tolerance: float) -> dict[str, float | None]
     ledger = ledger_of(bundle, RUN)
     residual, gross = ledger["residual"], ledger["gross_work"]
     share = abs(residual) / gross if gross > 0.0 else None
-    rounding = ROUNDING * float(np.abs(bundle.energy(RUN)).max())
     # fixed steps keep no tolerance; where hardly any work is done, rounding is all that is lacking
-    kept = bundle.kernel.tableau.error and abs(residual) > rounding
+    kept = bundle.kernel.tableau.error and not _is_rounding(companions, residual)
     return {
         "energy_residual": residual,
         "gross_work": gross,
         "energy_error": share,
         "energy_in_tolerances": share / tolerance if kept and share is not None else None,
     }
+
+
+def _is_rounding(companions: Companions, residual: float) -> bool:
+    """Return whether a residual of the ledger, J, is not more than rounding of its energies."""
+    return abs(residual) <= ROUNDING * float(np.abs(companions.bundle.energy(RUN)).max())
+
+
+def _lacking(companions: Companions, energy: Mapping[str, float | None]) -> Lacking:
+    """Return what a ledger lacks, `_energy` of it, as remarks need it."""
+    residual, share = energy["energy_residual"], energy["energy_error"]
+    controlled = bool(companions.bundle.kernel.tableau.error)
+    if controlled or share is None or _is_rounding(companions, residual or 0.0):
+        share = None
+    return Lacking(energy["energy_in_tolerances"], share)
 
 
 def _lanes_with_extremes(companions: Companions) -> list[int]:

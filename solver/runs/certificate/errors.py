@@ -27,19 +27,18 @@ def errors_of(
         the motion.
     values : (companions, instants, columns)
         What each companion has there.
-    scales : (columns,)
-        Sizes that errors are small against.
+    scales : (instants, columns)
+        Sizes that errors are small against, see `estimate.last_small`.
     safety
         Times that companions are apart which an error may be.
     """
     time = companions.instants.time[: companions.compared]
     times = np.where(drawn_rates(companions), max(estimate.UNCONTROLLED, safety), safety)
     apart = times[:, None] * estimate.apart(values)
-    near = estimate.near_claims(apart[:, channels:], scales[channels:])
+    near = estimate.near_claims(apart[:, channels:], scales[-1, channels:])
     steep = steepness(companions, safety, columns, values[TWIN - 1], near)
     error = estimate.around(np.maximum(apart, steep))
-    small = estimate.within(error, scales)
-    horizon = estimate.spans(small[:, channels:], time)[0][1]
+    horizon = float(time[estimate.last_small(error[:, channels:], scales[:, channels:])])
     later = estimate.around(estimate.UNCONTROLLED * estimate.parted(values))
     np.copyto(error, np.fmax(error, later), where=(time > horizon)[:, None])
     return error, horizon

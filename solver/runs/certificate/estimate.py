@@ -86,9 +86,25 @@ def around(apart: Floats) -> Floats:
 def within(error: Floats, scales: Floats) -> Flags:
     """Return where errors are small, (instants, channels).
 
-    error : (instants, channels). scales : (channels,) sizes that errors are compared with.
+    error : (instants, channels). scales : sizes that errors are compared with, (instants, channels)
+    or (channels,).
     """
-    return np.asarray(error <= CONVERGED * scales)
+    return np.asarray((error <= CONVERGED * scales) & (error < np.inf))
+
+
+def last_small(error: Floats, scales: Floats) -> int:
+    """Return the index of the last instant until which all errors are small.
+
+    error : (instants, channels). scales : (instants, channels) sizes that errors are compared with
+    if that instant is the last one: they do not become smaller from one instant to the next.
+    """
+    small = within(np.maximum.accumulate(error), scales).all(axis=1)
+    return int(np.flatnonzero(small)[-1]) if small.any() else 0
+
+
+def scales_from(scales: Floats, last: int) -> Floats:
+    """Return sizes of errors, (instants, channels): until the index `last` those that are there."""
+    return np.concatenate([np.broadcast_to(scales[last], scales[:last].shape), scales[last:]])
 
 
 def near_claims(apart: Floats, scales: Floats) -> Flags:
@@ -100,10 +116,13 @@ def near_claims(apart: Floats, scales: Floats) -> Flags:
     return np.asarray(around(np.asarray(claimed, np.float64)) > 0.0)
 
 
-def until(small: Flags, time: Floats) -> Floats:
-    """Return the time, s, until which each channel's error stays small from the start on."""
-    count = np.where(small.all(axis=0), len(small), (~small).argmax(axis=0))
-    return np.asarray(time[np.maximum(count - 1, 0)])
+def until(error: Floats, scales: Floats, time: Floats) -> Floats:
+    """Return the time, s, until which each channel's error stays small from the start on.
+
+    error, scales : as `last_small` takes them, of which each channel counts alone.
+    """
+    columns = range(error.shape[1])
+    return np.array([time[last_small(error[:, [k]], scales[:, [k]])] for k in columns])
 
 
 def spans(small: Flags, time: Floats) -> list[list[float]]:

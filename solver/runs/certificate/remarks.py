@@ -1,6 +1,7 @@
 """Remarks of a certificate about a run, as sentences; empty where there is nothing to say."""
 
 import math
+from dataclasses import dataclass
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.loop.runs import Status
@@ -17,6 +18,18 @@ UNLIKE, CHANCE = 0.25, 4.0
 both together: what chance makes of impacts that scatter."""
 USUAL = 10.0
 """Residual of the energy ledger, in tolerances of the gross work, above which a run says so."""
+LARGE = 0.01
+"""The same of fixed steps, as a share of the gross work."""
+
+
+@dataclass(frozen=True)
+class Lacking:
+    """What the energy ledger of a run lacks; none where it is rounding."""
+
+    tolerances: float | None
+    """Times the tolerance of the gross work; none where steps are fixed."""
+    share: float | None
+    """Of the gross work; none where steps are not fixed."""
 
 
 def remarks(
@@ -25,7 +38,7 @@ def remarks(
     time: Floats,
     horizon: float,
     contacts: CertifiedContacts | None,
-    residual: float | None,
+    lacking: Lacking,
 ) -> str:
     """Return all that there is to remark about a run.
 
@@ -37,14 +50,14 @@ def remarks(
         s.
     contacts
         Those that are certified; none where nothing can touch.
-    residual
-        Of the energy ledger, in tolerances of the gross work; none where no tolerance was kept.
+    lacking
+        By what the energy ledger is off.
     """
     found = (
         _nothing_known(time, horizon),
         "" if contacts is None else _made_by_steps(contacts, float(time[-1])),
         _different_contacts(companions),
-        _energy(residual),
+        _energy(lacking),
         _latched(companions, scene, 0.5 * float(time[-1])),
         _beyond_law(companions, scene),
         slow_impacts(companions.bundle, RUN),
@@ -89,14 +102,19 @@ def _different_contacts(companions: Companions) -> str:
     )
 
 
-def _energy(residual: float | None) -> str:
+def _energy(lacking: Lacking) -> str:
     """Return a remark where the energy ledger lacks more than runs usually do."""
-    if residual is None or not residual > USUAL:
+    if lacking.share is not None and not lacking.share <= LARGE:
+        return (
+            f"The energy ledger lacks {lacking.share:.2g} of the gross work: the steps are too long"
+            " for this motion, which loses or gains energy by nothing else."
+        )
+    if lacking.tolerances is None or not lacking.tolerances > USUAL:
         return ""
     return (
-        f"The energy ledger lacks {residual:.3g} times the tolerance of the gross work, where most"
-        f" runs lack less than {USUAL:g}: works and losses are known to that, and a smaller"
-        " tolerance makes it less."
+        f"The energy ledger lacks {lacking.tolerances:.3g} times the tolerance of the gross work,"
+        f" where most runs lack less than {USUAL:g}: works and losses are known to that, and a"
+        " smaller tolerance makes it less."
     )
 
 

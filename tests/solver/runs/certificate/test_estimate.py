@@ -19,7 +19,9 @@ from jointplay.solver.runs.certificate.estimate import (
     apart,
     around,
     histogram,
+    last_small,
     near_claims,
+    scales_from,
     spans,
     until,
     within,
@@ -86,12 +88,32 @@ def test_instants_count_that_reach_into_what_is_claimed() -> None:
 def test_the_horizon_is_the_first_loss_and_later_spans_must_last() -> None:
     error = np.zeros((101, 1))
     error[30:50] = error[53:60] = 1.0  # instants 50 to 52 are a chance meeting
-    small = within(error, np.array([1.0 / CONVERGED / 2.0]))
-    assert until(small, TIME) == pytest.approx(0.29)
+    scales = np.full((101, 1), 1.0 / CONVERGED / 2.0)
+    small = within(error, scales)
+    assert until(error, scales, TIME) == pytest.approx(0.29)
+    assert last_small(error, scales) == 29
     assert spans(small, TIME) == [[0.0, pytest.approx(0.29)], [pytest.approx(0.6), 1.0]]
     assert LASTING > 3
     assert spans(np.zeros((101, 1), bool), TIME) == [[0.0, 0.0]]
     assert spans(np.ones((101, 1), bool), TIME) == [[0.0, 1.0]]
+
+
+def test_errors_are_small_against_what_was_reached_by_then() -> None:
+    reached = np.exp(20.0 * TIME)[:, None]  # a run that blows up, by far more than its motion
+    assert last_small(0.04 * reached, reached) == 100
+    assert last_small(0.06 * reached, reached) == 0
+    kept = last_small(np.full((101, 1), 0.05 * np.exp(10.0)), reached)
+    assert kept == 100  # what was wrong in between is small against all until the end
+    error = 0.06 * reached
+    error[:50] = 0.0
+    assert last_small(error, reached) == 49
+    scales = scales_from(reached, 49)
+    assert (scales[:50] == reached[49]).all()
+    assert (scales[50:] == reached[50:]).all()
+
+
+def test_no_error_is_small_that_is_infinite() -> None:
+    assert not within(np.array([[np.inf]]), np.array([np.inf])).any()
 
 
 def test_shares_of_time_add_up_and_equal_lanes_have_no_spread() -> None:
