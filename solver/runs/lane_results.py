@@ -14,6 +14,7 @@ from jointplay.solver.kernels.loop.runs import PACE_STEPS, SLOWEST_PACE, Status
 from jointplay.solver.lanes.bundle import Bundle
 from jointplay.solver.lanes.lane import Lane
 from jointplay.solver.quantities.extremes import refined_peaks
+from jointplay.solver.runs.centred_journals import centred_journal
 from jointplay.solver.runs.left_domains import left_domain
 from jointplay.solver.scene.document import Scene
 
@@ -165,12 +166,16 @@ def failure_of(bundle: Bundle, lane: int, tolerance: float, scene: Scene) -> Sim
         slow = f"The last {PACE_STEPS} steps brought the run on by less than {SLOWEST_PACE:g} of"
         slow += " the fastest period,"
         fell = f"The step fell to {step:.3g} s"
+        centred = centred_journal(bundle, lane, scene)
+        advice = (
+            "Try a larger tolerance, a lower contact stiffness, or a wider gap between"
+            " static_velocity and dynamic_velocity"
+        )
         return SimulationFailed(
             "step-size-underflow",
             f"{fell if status == Status.UNDERFLOW else slow}"
-            f" at t = {at:.9g} s after {steps} steps: the motion"
-            f" cannot be followed at tolerance {tolerance:g}. Try a larger tolerance, a lower"
-            " contact stiffness, or a wider gap between static_velocity and dynamic_velocity.",
+            f" at t = {at:.9g} s after {steps} steps: the motion cannot be followed at tolerance"
+            f" {tolerance:g}{f', as {centred}' if centred else f'. {advice}'}.",
             at,
         )
     if status == Status.STEP_LIMIT:
