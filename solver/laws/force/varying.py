@@ -29,10 +29,15 @@ class Varying(ForceElement):
     @model_validator(mode="after")
     def _of_whole_turns(self) -> Self:
         """End the knots of a course over an angle with the turn that they give to seven digits."""
-        over = self.over or TIME
-        if self.course is not None and over.quantity in ("driver", "angle") and not over.rate:
+        if self.course is not None and self.is_over_angle:
             self.__dict__["course"] = whole_turn(self.course)  # frozen only from here on
         return self
+
+    @property
+    def is_over_angle(self) -> bool:
+        """Whether it may be a function of an angle."""
+        over = self.over or TIME
+        return over.quantity in ("driver", "angle") and not over.rate
 
     def follows(self) -> Over | None:
         """Return what it is a function of, if it varies."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from pydantic import BaseModel
 
 from jointplay.records.arrays import Floats, Integers
 from jointplay.solver.quantities.varied import together
+from jointplay.solver.runs.study.ended_turns import ended_turn
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import value_at
 
@@ -59,7 +61,15 @@ class PointScenes:
 
     def column(self, leaf: Leaf) -> Floats:
         """Return what stands at a leaf, (points,)."""
-        return np.asarray(self.values[:, leaf.column] * leaf.factor, np.float64)
+        if leaf.path not in self._columns:
+            given = np.asarray(self.values[:, leaf.column] * leaf.factor, np.float64)
+            self._columns[leaf.path] = ended_turn(self.base, leaf.path, given, self.numbers)
+        return self._columns[leaf.path]
+
+    @cached_property
+    def _columns(self) -> dict[str, Floats]:
+        """What stands at leaves, (points,), by their paths, of those that were asked for."""
+        return {}
 
     def numbers(self, path: str) -> Floats:
         """Return the number that stands at a path, varied or not, (points,)."""
@@ -74,8 +84,7 @@ class PointScenes:
 
     def scene(self, point: int) -> Scene:
         """Return the scene of a point, of which no number was checked."""
-        row = self.values[point].tolist()
-        return self._with([row[leaf.column] * leaf.factor for leaf in self.leaves])
+        return self._with([float(self.column(leaf)[point]) for leaf in self.leaves])
 
     def together(self) -> Scene:
         """Return one scene with the numbers of all points, of one structure; see `Varied`."""

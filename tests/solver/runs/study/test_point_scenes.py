@@ -1,6 +1,7 @@
 """The scene of a point is what reading the whole document with its values would give."""
 
 import copy
+import math
 import pickle
 import sys
 from collections.abc import Callable
@@ -243,3 +244,42 @@ def test_points_are_numbered_by_their_structure() -> None:
     grid = {"friction": [0.0, 0.1], "exponent": [1.5, 1.3]}
     sweep = study(STUDIES["sweep"], grid=grid, scene=PRESS)
     assert sweep.structure.tolist() == [0, 1, 2, 3]
+
+
+def punched(parameter: str, target: str) -> dict[str, Any]:
+    """A slider-crank with play that a punch resists, and whose knots a parameter sets."""
+    scene = presets.document("slider-crank")
+    scene["forces"] = {
+        "punch": {
+            "type": "force",
+            "first": "ground.O",
+            "second": "slider.pin",
+            "magnitude": 10.0,
+            "direction": [1.0, 0.0],
+            "over": {"quantity": "driver", "driver": next(iter(scene["drivers"]))},
+            "course": {
+                "type": "table",
+                "knots": [0.0, 2.0, 4.0, 6.2831853],
+                "values": [0.0, 1.0, 0.5, 0.0],
+                "outside": "periodic",
+            },
+        }
+    }
+    path = f"/forces/punch/course/knots/{target}"
+    scene["parameters"][parameter] = {"help": "A knot.", "targets": [{"path": path}]}
+    return scene
+
+
+@pytest.mark.parametrize("knot", [6.2831853, 3.1415927, 2.0 * math.pi])
+def test_a_last_knot_that_ends_a_turn_to_seven_digits_ends_it_at_every_point(knot: float) -> None:
+    scene = punched("end", "3")
+    scene["forces"]["punch"]["course"]["knots"][1:3] = [1.0, 2.0]
+    found = study(
+        {"kind": "bifurcation", "scene": scene, "parameter": "end", "settle": 1, "record": 1}
+        | {"values": [knot, 2.0 * math.pi / 3.0]}
+    )
+    ends = [found.point_scene(p).forces["punch"].course.knots[-1] for p in range(2)]
+    assert ends == [2.0 * math.pi / round(2.0 * math.pi / knot), 2.0 * math.pi / 3.0]
+    written = {**scene, "parameters": {}}
+    written["forces"]["punch"]["course"]["knots"][3] = knot
+    assert Scene.model_validate(written).forces["punch"].course.knots[-1] == ends[0]
