@@ -26,7 +26,12 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     references = len(runs) - len(measured)
     errors = _column(source, "error")
     if not np.isfinite(errors[measured]).any():
-        raise NotDrawable("No run has been compared with the reference yet.")
+        waiting = not np.isfinite(_column(source, "window")[:references]).any()
+        raise NotDrawable(
+            "No run has been compared with the reference yet."
+            if waiting
+            else "The references agree at the start alone: no error is known."
+        )
     admitted = np.array([run["admitted"] for run in runs])
     cost = _column(source, "evaluations")
     drawn = {"error": errors}

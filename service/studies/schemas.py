@@ -200,10 +200,10 @@ class Accuracy(Partial):
 
     duration: float = in_unit("s", "Simulated time of every run.")
     window: float | None = in_unit(
-        "s", "Time from the start in which the reference is known; null: not yet."
+        "s", "Time from the start in which the reference is known; null: not yet, 0: nowhere."
     )
     uncertainty: float | None = in_unit(
-        "1", "How far two references are apart there; smaller errors mean nothing."
+        "1", "How far two references are apart there; smaller errors mean nothing. Null: unknown."
     )
     points: list[AccuracyPoint] = Field(description="The runs that were computed so far.")
     advice: str | None = Field(description="What to choose; null: the study is not complete.")

@@ -122,9 +122,10 @@ class WorkPrecisionRun:
             self._time, self._reference = self._time[:known], self._reference[:known]
         if point > 0 and (failure is None or run.reference):
             known = len(self._reference)
-            error = (states[:known] - self._reference) / self._scales
-            found["error"] = float(np.sqrt(np.mean(error**2)))
-            found["window"] = float(self._time[-1])
+            found["window"] = float(self._time[-1]) if known else 0.0
+            if found["window"] > 0.0:  # at the start all runs are the same
+                error = (states[:known] - self._reference) / self._scales
+                found["error"] = float(np.sqrt(np.mean(error**2)))
         return self._end(point, failure, found)
 
     def _end(

@@ -48,12 +48,17 @@ def cheapest(points: Iterable[Point], error: float) -> Point | None:
     return min(able, key=lambda p: p.evaluations, default=None)
 
 
-def advice(points: Sequence[Point], uncertainty: float) -> str:
+def advice(points: Sequence[Point], uncertainty: float | None) -> str:
     """Say what gives the error of the default, and one a hundred times smaller, at least cost.
 
-    `uncertainty` : of the reference; no error below is known. Seconds do not count, so the same
-    study gives the same sentence.
+    `uncertainty` : of the reference; no error below is known, and none at all without it. Seconds
+    do not count, so the same study gives the same sentence.
     """
+    if uncertainty is None:
+        return (
+            "The two references agree at no instant but the start, so that no error is known: ask"
+            " for a shorter duration."
+        )
     default = next((p for p in points if (p.method, p.tolerance) == DEFAULT), None)
     if default is None or default.error is None:
         return "The default did not come to the end of this run; ask for a tighter tolerance."
@@ -85,7 +90,8 @@ class WorkPrecision:
     """A work-precision study as far as it has come.
 
     `window` : s from the start in which the reference is known; `uncertainty` : how far the two
-    references are apart there, smaller errors mean nothing. None before both have ended.
+    references are apart there, smaller errors mean nothing. None before both have ended;
+    the latter also where they agree at the start alone, which is a window of 0 s.
     """
 
     complete: bool
@@ -132,7 +138,7 @@ class WorkPrecision:
 
     def document(self) -> dict[str, Any]:
         """Return the study as JSON has it, with the advice once it is complete."""
-        sentence = advice(self.points, self.uncertainty or 0.0) if self.complete else None
+        sentence = advice(self.points, self.uncertainty) if self.complete else None
         return asdict(self) | {"points": [asdict(one) for one in self.points], "advice": sentence}
 
 

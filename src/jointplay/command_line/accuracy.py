@@ -63,7 +63,7 @@ def accuracy(
 
 def accuracy_lines(found: dict[str, Any]) -> Iterator[str]:
     """Yield an accuracy-study as far as it has come: what the columns mean, a table, the advice."""
-    if found["window"] is not None:
+    if found["uncertainty"] is not None:
         yield (
             f"Error: root mean square over the first {found['window']:.3g} s, in which the"
             f" reference is known to {found['uncertainty']:.0e}, relative to the scene's scales."
@@ -78,7 +78,8 @@ def accuracy_lines(found: dict[str, Any]) -> Iterator[str]:
     for run in found["points"]:
         how = f"{run['tolerance']:.0e}" if run["tolerance"] else f"{run['step']:.2g} s"
         how += "" if run["admitted"] else " (refused)"
-        error = "fails" if run["error"] is None else f"{run['error']:.1e}"
+        error = "fails" if run["failure"] else "unknown"
+        error = error if run["error"] is None else f"{run['error']:.1e}"
         share = run["relative_energy_residual"]
         residual = "" if share is None else f"{share:.1e}"
         cost = f"{run['steps']} | {run['evaluations']} | {1e3 * run['seconds']:.1f}"

@@ -9,6 +9,7 @@ import pytest
 
 import jointplay.solver.runs.work_precision.run
 import jointplay.solver.runs.work_precision.timed_run
+from jointplay.command_line.accuracy import accuracy_lines
 from jointplay.records.energy_residual import RELATIVE_ENERGY_RESIDUAL
 from jointplay.records.point import PointEnd
 from jointplay.solver.integrators import METHODS
@@ -200,6 +201,20 @@ def test_a_reference_that_is_given_up_says_nothing_of_looser_tolerances(
     found = measured(FEW | {"methods": ["dormand-prince-853"]})
     assert found.failures[1].code == "given-up"
     assert all(failure.code != "left-out" for failure in found.failures.values())
+
+
+def test_nothing_is_known_where_references_agree_at_the_start_alone(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "KNOWN", 0.0)
+    found = WorkPrecision.of(measured(FEW | {"methods": ["tsitouras"]}))
+    assert found.window == 0.0
+    assert found.uncertainty is None
+    assert [point.error for point in found.points] == [None] * 3
+    assert found.document()["advice"] == advice(found.points, None)
+    lines = "\n".join(accuracy_lines(found.document()))
+    assert "| unknown |" in lines
+    assert "no error is known: ask for a shorter duration" in lines
 
 
 @pytest.mark.parametrize("direction", [-1.0, 1.0])
