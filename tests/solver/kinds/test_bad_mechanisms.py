@@ -129,12 +129,12 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
     "a massless body": (
         {"/bodies/coupler/mass": 0.0},
         "/bodies/coupler/mass",
-        ["at least 1e-09 kg, not 0"],
+        ["at least 1e-15 kg, not 0"],
     ),
     "a body that turns without inertia": (
         {"/bodies/coupler/inertia": 0.0},
         "/bodies/coupler/inertia",
-        ["at least 1e-18 kg m^2, not 0"],
+        ["at least 1e-27 kg m^2, not 0"],
     ),
     "a field of other tools": (
         {"/springs": {}},
