@@ -8,6 +8,7 @@ const WORDS = {
   channel: "whenever a channel passes a value",
 };
 const FORMS = Object.keys(WORDS);
+const OF_MOTIONS = "A motion counts as an even turn in each of its periods.";
 const WHEN_IT_ENDS = "With contacts and values a run ends with its last section, or after 20 periods for each.";
 const LARGEST_ANGLE = 6.283185; // rad: less than a turn
 /** What is offered of a scene that cannot be put together: what is wrong is told when it is run. */
@@ -39,8 +40,8 @@ export function sectionFields({ members }, offered) {
     ...(members.crank_angle && {
       section_angle: {
         ...of("crank_angle"), title: alone ? "Poincaré sections at" : "Angle of the drive",
-        help: alone ? `Once a period, when the first driver has turned so far since the start. ${period}`
-          : "Turned by the first driver since the start.",
+        help: `${alone ? `Once a period, when the first driver has turned so far since the start. ${period}`
+          : "Turned by the first driver since the start."} ${OF_MOTIONS}`,
         unit: "rad", minimum: 0, maximum: LARGEST_ANGLE, default: 0, pointer: "section/crank_angle",
       },
     }),

@@ -9,7 +9,10 @@ from jointplay.solver.scene.unions import discriminated_by, form, has
 
 
 class CrankSection(Strict):
-    """Once a period, when the first driver has turned that far past its start."""
+    """Once a period, when the first driver has turned that far past its start.
+
+    One with a `motion` counts as turning evenly, once in the period of its function.
+    """
 
     crank_angle: Annotated[float, quantity("rad", ge=0.0, lt=6.283185307179586)] = 0.0
 
@@ -55,8 +58,8 @@ Section = Annotated[
     Field(
         description=(
             "where sections are taken: once a period, when the first driver has turned by a crank"
-            " angle since the start; at each onset of contact in a joint; each time a channel"
-            " crosses a value"
+            " angle since the start, where a 'motion' counts as an even turn in each period of its"
+            " function; at each onset of contact in a joint; each time a channel crosses a value"
         )
     ),
 ]

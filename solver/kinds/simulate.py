@@ -67,7 +67,7 @@ class SimulateJob(Job):
         Field(
             description=(
                 "Poincare sections are taken when the first driver has turned by that crank angle"
-                " since the start"
+                " since the start; a 'motion' counts as an even turn in each period of its function"
             )
         ),
     ] = CrankSection()

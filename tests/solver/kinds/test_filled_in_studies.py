@@ -5,6 +5,7 @@ import math
 import pytest
 
 from jointplay.solver.kinds import parse
+from jointplay.solver.scene import presets
 from tests.solver.runs.study.jobs_of_studies import (
     ACCURACY_STUDY,
     BIFURCATION,
@@ -81,6 +82,17 @@ def test_times_of_a_study_follow_its_periods_and_section() -> None:
     swept = study(SWEEP, settle=0.5)
     assert swept.duration.tolist() == pytest.approx([4.0] * 6)
     assert swept.settle.tolist() == pytest.approx([1.0] * 6)
+
+
+def test_a_motion_counts_as_an_even_turn_in_each_of_its_periods() -> None:
+    scene = presets.document("slider-crank")
+    (name,) = scene["drivers"]
+    motion = {"type": "sinusoidal", "amplitude": 0.2, "frequency": 8.0}  # never turned by 1 rad
+    scene["drivers"][name] = {"body": "crank", "motion": motion}
+    scene.pop("parameters")
+    job = {"kind": "poincare", "scene": scene, "section": {"crank_angle": 1.0}}
+    assert study(job).offset.tolist() == pytest.approx([1.0 / 8.0])
+    assert study(job).period.tolist() == pytest.approx([math.pi / 4.0])
 
 
 def test_a_grid_varies_its_last_parameter_fastest() -> None:
