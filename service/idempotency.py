@@ -1,7 +1,6 @@
 """``Idempotency-Key``: a request that is sent again finds what the first one made."""
 
 import hashlib
-import json
 import secrets
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -19,12 +18,12 @@ _HEADER = "Idempotency-Key"
 
 @dataclass(frozen=True)
 class SentKey:
-    """The key of a request, before the document is known that it was sent with."""
+    """The key of a request, before its body has arrived."""
 
     key: str
     owner: str
     path: str
-    """Where it was sent; empty: the document need not be the same."""
+    """Where it was sent; empty: the body need not be the same."""
 
     @classmethod
     def made_here(cls, owner: str) -> Self:
@@ -37,9 +36,13 @@ class SentKey:
         asked = hashlib.sha256(" ".join([batch, *jobs]).encode()).hexdigest()
         return cls(f" retry {asked}", owner, path="")
 
-    def with_document(self, document: object) -> SubmissionKey:
-        """Return what to store with what a document makes."""
-        found = _fingerprint(self.path, document) if self.path else ""
+    def with_body(self, body: bytes = b"") -> SubmissionKey:
+        """Return what to store with what a body makes.
+
+        What is sent again has the same bytes: to read a long document takes seconds, and another
+        order of keys may make another job.
+        """
+        found = hashlib.sha256(self.path.encode() + b"\n" + body).hexdigest() if self.path else ""
         return SubmissionKey(self.key, found, owner=self.owner)
 
 
@@ -52,7 +55,7 @@ class Repeatable:
 
     @contextmanager
     def in_flight(self) -> Iterator[None]:
-        """Hold the key; begun before the document is looked at, as its check may take long.
+        """Hold the key; begun before the body is looked at, as its check may take long.
 
         Raises
         ------
@@ -74,12 +77,6 @@ class Repeatable:
             del self._in_flight[held]
 
 
-def _fingerprint(path: str, document: object) -> str:
-    """Return what a document and the path that it is sent to are known by."""
-    body = json.dumps([path, document], sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(body.encode("utf-8", "surrogatepass")).hexdigest()
-
-
 async def _repeatable(
     request: Request,
     caller: CallerDependency,
@@ -91,7 +88,7 @@ async def _repeatable(
             max_length=255,
             pattern=r"^[\x21-\x7e]+$",
             description="A text of the client's own, such as a UUID: for 24 hours a request with "
-            "the same key and body is answered with what the first one made.",
+            "the same key and the same bytes as body is answered with what the first one made.",
         ),
     ] = None,
 ) -> Repeatable:

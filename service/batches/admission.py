@@ -8,11 +8,10 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.strict_json import escaped
-from jointplay.service.idempotency import SentKey
 from jointplay.service.jobs.submission import checked, kept_like, repeated
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.quotas import Quota
-from jointplay.storage.catalogue.records import NewJob, SubmittedBatch
+from jointplay.storage.catalogue.records import NewJob, SubmissionKey, SubmittedBatch
 from jointplay.storage.settings import Settings
 
 MOST_JOBS = 10_000
@@ -45,7 +44,7 @@ class QueueBatch:
     repeat others have `retries`, their ids, and `lifetimes`, s, one for each.
     """
 
-    key: SentKey
+    key: SubmissionKey
     owner: str
     quota: Quota
     retries: tuple[str, ...] = ()
@@ -66,7 +65,7 @@ class QueueBatch:
                 for job, old, lifetime in zip(jobs, ended, lifetimes, strict=True)
             ],
             label=label or None,
-            key=self.key.with_document(document),
+            key=self.key,
             owner=self.owner,
             quota=self.quota,
         )

@@ -12,13 +12,12 @@ from typing import Any, TypeVar, cast
 from jointplay.records.failure import LimitExceeded
 from jointplay.records.strict_json import parse
 from jointplay.service.answering import AnsweringProcess, refusing
-from jointplay.service.idempotency import SentKey
 from jointplay.service.jobs.submission import checked, repeated
 from jointplay.service.problems import RequestRefused
 from jointplay.solver.kernels.trace.length import SURELY_SHORT
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import NewJob, SubmissionKey
+from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
 
 SHORT = 32 * 1024
@@ -35,7 +34,6 @@ class Checked:
     """A job that can be computed."""
 
     job: NewJob
-    key: SubmissionKey | None
     reuse: bool
     """Whether an identical job will do."""
 
@@ -53,13 +51,9 @@ class RepeatJob:
 class CheckJob:
     """The check of one job; raises what `checked` does."""
 
-    key: SentKey | None = None
-
     def __call__(self, document: object, settings: Settings, catalogue: Catalogue) -> Checked:
         """Check a document."""
-        job, reuse = checked(document, settings, catalogue.clock())
-        key = None if self.key is None else self.key.with_document(document)
-        return Checked(job, key, reuse)
+        return Checked(*checked(document, settings, catalogue.clock()))
 
 
 class Checker:

@@ -1,13 +1,11 @@
 """Queueing: what a request asks for is checked and stored, and those who compute it are woken."""
 
 import json
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Annotated, TypeVar
+from typing import Annotated
 
 from fastapi import Depends, Request
 
-from jointplay.records.strict_json import parse
 from jointplay.service.access import Caller
 from jointplay.service.access.quotas import quota_of
 from jointplay.service.batches.admission import QueueBatch
@@ -17,18 +15,10 @@ from jointplay.service.jobs.submission import kept_like
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.workers.new_blocks import NewBlocks
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import (
-    Batch,
-    Job,
-    SubmissionKey,
-    Submitted,
-    SubmittedBatch,
-)
+from jointplay.storage.catalogue.records import Batch, Job, Submitted, SubmittedBatch
 from jointplay.storage.catalogue.retries import RETRIABLE
 from jointplay.storage.settings import Settings
 from jointplay.worker.wake_up import wake_relay
-
-Found = TypeVar("Found", Submitted, SubmittedBatch)
 
 
 class Queueing:
@@ -51,14 +41,16 @@ class Queueing:
     def submit(self, body: bytes, repeatable: Repeatable, caller: Caller) -> Submitted:
         """Queue the job of a document, or find the one that computes the same."""
         with repeatable.in_flight():
-            earlier = self._earlier(repeatable.sent_key, body, self._catalogue.submitted_job)
-            if earlier is not None:
+            sent = repeatable.sent_key
+            key = None if sent is None else sent.with_body(body)
+            earlier = None if key is None else self._catalogue.submitted_job(key)
+            if earlier is not None:  # to find it takes milliseconds, a check may not
                 return earlier
-            found = self._checker.check(CheckJob(repeatable.sent_key), body)
+            found = self._checker.check(CheckJob(), body)
             own = replace(found.job, owner=caller.owner)
-            key, quota = found.key, quota_of(caller, self._settings)
+            quota = quota_of(caller, self._settings)
             if key is None and not found.reuse:  # what finds it if the answer to a commit is lost
-                key = SentKey.made_here(caller.owner).with_document(None)
+                key = SentKey.made_here(caller.owner).with_body()
             submitted = self._catalogue.submit(own, key, reuse=found.reuse, quota=quota)
         if submitted.created:
             self._wake(len(own.blocks))
@@ -67,8 +59,8 @@ class Queueing:
     def submit_batch(self, body: bytes, repeatable: Repeatable, caller: Caller) -> SubmittedBatch:
         """Queue all jobs of a document, or none; or find the batch of an earlier request."""
         with repeatable.in_flight():
-            key = repeatable.sent_key or SentKey.made_here(caller.owner)
-            submitted = self._earlier(key, body, self._catalogue.submitted_batch)
+            key = (repeatable.sent_key or SentKey.made_here(caller.owner)).with_body(body)
+            submitted = self._catalogue.submitted_batch(key)
             if submitted is None:
                 what = QueueBatch(key, caller.owner, quota_of(caller, self._settings))
                 submitted = self._checker.check(what, body)
@@ -83,7 +75,7 @@ class Queueing:
             detail = f"Job {job.id} is {job.state}; what failed or was cancelled can be retried."
             raise RequestRefused(kinds.NOTHING_TO_RETRY, detail)
         sent = repeatable.sent_key
-        key = None if sent is None else sent.with_document(None)
+        key = None if sent is None else sent.with_body()
         with repeatable.in_flight():
             found = self._checker.check(RepeatJob(), json.dumps(job.spec).encode())
             kept = kept_like(found, job.lifetime, self._catalogue.clock())
@@ -100,8 +92,8 @@ class Queueing:
         Those that were retried before are left out; asked again, it finds the batch that it made.
         """
         ended = self._catalogue.unsuccessful(batch.id)
-        key = SentKey.of_retry(batch.id, [job.id for job, _ in ended], batch.owner)
-        found = self._catalogue.submitted_batch(key.with_document(None))
+        key = SentKey.of_retry(batch.id, [job.id for job, _ in ended], batch.owner).with_body()
+        found = self._catalogue.submitted_batch(key)
         if found is not None:
             return found
         jobs = [job for job, retried in ended if not retried]
@@ -118,17 +110,6 @@ class Queueing:
         lifetimes = tuple(job.lifetime for job in jobs)
         what = QueueBatch(key, batch.owner, quota, retries, lifetimes)
         return self._woken_for(self._checker.check(what, json.dumps(document).encode()))
-
-    def _earlier(
-        self, key: SentKey | None, body: bytes, find: Callable[[SubmissionKey], Found | None]
-    ) -> Found | None:
-        """Return what a key was answered with: to find it takes milliseconds, a check may not.
-
-        Only a body whose key is known is parsed here.
-        """
-        if key is None or not self._catalogue.is_remembered(key.with_document(None)):
-            return None
-        return find(key.with_document(parse(body)))
 
     def _woken_for(self, submitted: SubmittedBatch) -> SubmittedBatch:
         if submitted.created:

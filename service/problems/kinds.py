@@ -131,7 +131,7 @@ KEY_REUSED = _kind(
     "key-reused",
     422,
     "The Idempotency-Key belongs to another request",
-    "Send a new key with each new request, and the same key only with the same body.",
+    "Send a new key with each new request, and the same key only with the same bytes as body.",
 )
 KEY_IN_FLIGHT = _kind(
     "key-in-flight",

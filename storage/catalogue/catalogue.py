@@ -227,7 +227,6 @@ class Catalogue:
     delete_batch = durably(batches.delete_batch)
     submitted_job = reading(idempotency.job_submitted_by)
     submitted_batch = reading(batches.submitted_by)
-    is_remembered = reading(idempotency.is_remembered)
     unsuccessful = reading(retries.unsuccessful)
     delete = durably(upkeep.expire)
     mark_damaged = writing(upkeep.mark_damaged)

@@ -75,12 +75,6 @@ def submitted_before(unit: Unit, row: Any) -> Submitted:
     return Submitted(job, created=False, cached=row.created > job.created)
 
 
-def is_remembered(unit: Unit, key: SubmissionKey) -> bool:
-    """Tell whether a key, whatever was sent with it, was answered with something."""
-    row = answers(unit, [key.stored]).get(key.stored)
-    return row is not None and _counts(unit, row)
-
-
 def _counts(unit: Unit, row: Any) -> bool:
     """Whether a key is remembered still, and its answer is there and can be read."""
     answered = row.job is not None or row.batch is not None

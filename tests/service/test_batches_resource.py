@@ -5,6 +5,7 @@ from typing import Any
 import httpx
 import pytest
 
+from jointplay.records import strict_json
 from jointplay.records.job import JobError
 from jointplay.service.batches import admission
 from jointplay.service.batches.admission import MOST_JOBS
@@ -247,9 +248,12 @@ def test_a_batch_that_is_sent_again_is_found_before_its_jobs_are_checked(
     process.close()
     checks = admission.checked
     monkeypatch.setattr(admission, "checked", lambda *of: checked.append(of) or checks(*of))
+    parsed, loads = [], strict_json._loads
+    monkeypatch.setattr(strict_json, "_loads", lambda text: parsed.append(text) or loads(text))
     again = http.post("/v1/batches", json=document, headers=headers)
     assert (again.status_code, again.json()) == (202, first)
     assert not checked
+    assert not parsed, "to read it may take seconds"
     assert not process.running(), "no other process was asked"
     other = http.post("/v1/batches", json={"jobs": [PENDULUM]}, headers=headers)
     assert (other.status_code, other.json()["type"]) == (422, "/problems/key-reused")

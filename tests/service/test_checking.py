@@ -39,8 +39,8 @@ def outcome(checker, catalogue, document, padding=0):
     body = json.dumps(document).encode() + b" " * padding
     try:
         if "jobs" not in document:
-            return checker.check(CheckJob(SentKey("once", "ada", "/v1/jobs")), body)
-        queue = QueueBatch(SentKey.made_here("ada"), "ada", NO_QUOTA)
+            return checker.check(CheckJob(), body)
+        queue = QueueBatch(SentKey.made_here("ada").with_body(), "ada", NO_QUOTA)
         queued = checker.check(queue, body)
         jobs = [catalogue.get(job) for job in queued.jobs]
         return queued.batch.label, queued.created, [(job.spec, job.owner) for job in jobs]
@@ -57,7 +57,7 @@ def test_the_answer_does_not_depend_on_the_process(checker, catalogue, name):
 
 
 def test_a_batch_whose_process_is_lost_is_queued_once(checker, catalogue):
-    queue = QueueBatch(SentKey.made_here(""), "", NO_QUOTA)
+    queue = QueueBatch(SentKey.made_here("").with_body(), "", NO_QUOTA)
     body = json.dumps(DOCUMENTS["batch"]).encode().ljust(SHORT + 1)
     first, again = (checker.check(queue, body) for _ in range(2))
     assert (first.created, again.created) == (True, False)
@@ -101,7 +101,7 @@ def test_a_form_of_too_many_bodies_is_traced_once_for_a_whole_batch(
     monkeypatch.setattr(length, "MOST_STATEMENTS", 10)
     job = JOB | {"scene": chain(8).model_dump()}
     with pytest.raises(LimitExceeded) as refused:
-        QueueBatch(SentKey.made_here(""), "", NO_QUOTA)(
+        QueueBatch(SentKey.made_here("").with_body(), "", NO_QUOTA)(
             {"jobs": [job, job | {"duration": 1.0}]}, checker._settings, catalogue
         )
     assert [one.pointer for one in refused.value.problems] == ["/jobs/0/scene", "/jobs/1/scene"]

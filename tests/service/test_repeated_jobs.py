@@ -130,6 +130,23 @@ def test_a_job_that_is_sent_again_is_found_before_it_is_checked(tmp_path, monkey
         assert len(counted) == (1 if points == 2 else 0)
 
 
+def test_axes_in_another_order_are_another_request(own):
+    http, _ = own
+    key, grid = {"Idempotency-Key": "k"}, {"clearance": [1e-4, 2e-4], "friction": [0.0, 0.1]}
+    sweep = {"kind": "sweep", "scene": {"preset": "slider-crank"}, "periods": 1}
+    one, other = (sweep | {"grid": axes} for axes in (grid, dict(reversed(grid.items()))))
+    first = http.post("/v1/jobs", json=one, headers=key)
+    assert first.status_code == 202
+    again = http.post("/v1/jobs", json=other, headers=key)
+    assert (again.status_code, again.json()["type"]) == (422, "/problems/key-reused")
+    batches = [
+        http.post("/v1/batches", json={"jobs": [job]}, headers=key | {"Idempotency-Key": "b"})
+        for job in (one, other)
+    ]
+    assert [batch.status_code for batch in batches] == [202, 422]
+    assert http.post("/v1/jobs", json=other).json()["id"] != first.json()["id"]
+
+
 def test_a_repeated_batch_finds_the_first_one(own):
     http, _ = own
     key = {"Idempotency-Key": "k"}
@@ -329,6 +346,7 @@ def test_jobs_are_listed_by_what_they_are(own):
 def test_a_job_is_made_once_where_the_answer_to_its_commit_is_lost(own, monkeypatch, document):
     """The unit is begun anew, and must find what it has done."""
     http, catalogue = own
+    http.get("/healthz")  # it has begun
     lost = []
     writing = Connections.writing
 
@@ -355,7 +373,7 @@ def test_jobs_expire_by_the_clock_of_the_catalogue(tmp_path):
         assert CheckJob()(dict(JOB), settings, catalogue).job.expires == moment + 3600.0
         stored = CheckJob()(dict(JOB), settings, catalogue).job.spec
         assert RepeatJob()(stored, settings, catalogue).expires == moment + 3600.0
-        queue = QueueBatch(SentKey.made_here(""), "", NO_QUOTA)
+        queue = QueueBatch(SentKey.made_here("").with_body(), "", NO_QUOTA)
         (queued,) = queue({"jobs": [dict(JOB)]}, settings, catalogue).jobs
         assert catalogue.get(queued).expires == moment + 3600.0
         past = JOB | {"expires": datetime.fromtimestamp(moment - 1.0, UTC).isoformat()}

@@ -199,15 +199,12 @@ def test_what_a_key_was_answered_with_is_found_without_the_jobs(
     catalogue: Catalogue, clock: Clock
 ) -> None:
     key = SubmissionKey("k", "f" * 64)
-    assert not catalogue.is_remembered(key)
     assert catalogue.submitted_batch(key) is None
     made = catalogue.submit_batch([NEW] * 2, key=key)
-    assert catalogue.is_remembered(replace(key, fingerprint="of something else"))
     assert catalogue.submitted_batch(key) == replace(made, created=False)
     with pytest.raises(KeyReused):
         catalogue.submitted_batch(replace(key, fingerprint="0" * 64))
     clock.now += key.seconds
-    assert not catalogue.is_remembered(key)
     assert catalogue.submitted_batch(key) is None
 
 
