@@ -267,5 +267,23 @@ def test_a_stream_goes_on_after_the_last_event_that_was_received(http, worker):
         assert answer.json()["errors"][0]["parameter"] == "Last-Event-ID"
 
 
+def test_a_stream_begins_anew_for_who_knows_more_events_than_there_are(http, worker):
+    """An older catalogue was restored: what happened since then was waited for, and never sent."""
+    job_id = worker.finished()
+    address, later_one = f"/v1/jobs/{job_id}/events", {"Last-Event-ID": "5"}
+    sent = [event[0] for event in parsed(http.get(address, headers=later_one).text) if event[0]]
+    assert sent == ["1", "2", "3", "4"]
+    waiting = worker.submit()
+    address = f"/v1/jobs/{waiting}/events"
+    lines = []
+    with http.stream("GET", address, headers=later_one, timeout=30) as stream:
+        for line in stream.iter_lines():
+            lines.append(line)
+            if line == "event: progress" and lines.count(line) == 1:
+                http.post(f"/v1/jobs/{waiting}/cancel")
+    history = [(event[0], event[1]) for event in parsed("\n".join(lines)) if event[0]]
+    assert history == [("1", "queued"), ("2", "cancelled")]
+
+
 def test_there_are_no_events_of_a_job_that_is_none(http):
     assert http.get("/v1/jobs/nope/events").status_code == 404
