@@ -167,12 +167,18 @@ class Job(JobRequest):
     processor: str | None = None  # class of the processors that compute it, from its first claim on
     stored: int | None = None  # bytes of its results, if it has ended and is some owner's
     deleted: float | None = None  # when it was, by the clock that may be set later
+    kept_for: float | None = None  # s from the submission that asked for most; none: see `lifetime`
     further_labels: tuple[str, ...] | None = None  # that it was asked for with later; in no row
 
     @property
     def lifetime(self) -> float | None:
-        """For how long it was to be kept from its submission on, s; None: for ever."""
-        return None if self.expires is None else self.expires - self.created
+        """For how long a submission asked for it to be kept, at most, s; None: for ever.
+
+        It may expire later than that: it ended late, or was found by a later submission.
+        """
+        if self.expires is None:
+            return None
+        return self.expires - self.created if self.kept_for is None else self.kept_for
 
     def expired(self, now: float) -> bool:
         """Whether it and its results can be read no more; what is still live never expires.

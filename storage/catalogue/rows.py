@@ -80,7 +80,7 @@ def _step(to: JobState, *, failed: bool) -> Update:
 def _kept_from(moment: ColumnElement[float]) -> ColumnElement[float | None]:
     """Return when a job that ends at a moment expires: its results can be read for a while."""
     expires, created = job_table.c.expires, job_table.c.created
-    lifetime = expires - created
+    lifetime = func.coalesce(job_table.c.kept_for, expires - created)
     least = moment + case((lifetime > LEAST_KEPT, LEAST_KEPT), else_=lifetime)
     return case((expires < least, least), else_=expires)
 

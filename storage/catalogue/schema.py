@@ -7,9 +7,9 @@ from sqlalchemy import Connection, inspect, text
 from jointplay.storage.catalogue import functions, tables
 from jointplay.storage.catalogue.errors import WrongRevision
 
-REVISION = "0015"
+REVISION = "0016"
 """The newest migration; a test compares it with the folder storage/migrations. One that takes
-something away which programs before it need is called by the next thousand: 1001 after 0015."""
+something away which programs before it need is called by the next thousand: 1001 after 0016."""
 
 
 def present_revision(connection: Connection) -> str | None:

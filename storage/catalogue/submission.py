@@ -148,9 +148,9 @@ def _earlier(
     if job.expires is not None and (new.expires is None or new.expires > job.expires):
         if lock_job(unit, same).expired(clock()):  # it was deleted, which stays so
             return None
-        keep = update(tables.job).where(tables.job.c.id == same).values(expires=new.expires)
-        unit.execute(keep)
-        job = replace(job, expires=new.expires)
+        job = replace(job, expires=new.expires, kept_for=_longer(job.lifetime, new, unit.now))
+        keep = {"expires": job.expires, "kept_for": job.kept_for}
+        unit.execute(update(tables.job).where(tables.job.c.id == same).values(keep))
     if key is not None:
         idempotency.remember(unit, [(key, same)])
     if job.label is None and new.label is not None:
@@ -220,7 +220,15 @@ def row_of(job_id: str, new: NewJob, now: float, batch: str | None = None) -> Ro
     row = {name: getattr(new, name) for name in _OF_REQUEST}
     if new.scene is not None:
         row["scene"] = new.scene[:_LONGEST_NAME]
+    row["kept_for"] = _longer(None, new, now)
     return {**_NEW_JOB, **row, "batch": batch or new.batch, "id": job_id, "created": now}
+
+
+def _longer(lifetime: float | None, new: NewJob, now: float) -> float | None:
+    """Return the longer of a lifetime [s] and that of a new submission; None: for ever."""
+    if new.expires is None:
+        return None
+    return max(new.expires - now, lifetime or 0.0)
 
 
 def insert_jobs(unit: Unit, jobs: Sequence[tuple[Row, NewJob]]) -> None:

@@ -84,6 +84,7 @@ job = Table(
     Column("processor", String(64)),
     Column("stored", BigInteger),
     Column("deleted", Float(53)),
+    Column("kept_for", Float(53)),
     # each list filter with the paging key behind it
     Index("ix_job_state_id", "state", "id"),
     Index("ix_job_batch_id", "batch", "id"),

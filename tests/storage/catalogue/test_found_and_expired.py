@@ -119,6 +119,29 @@ def test_a_job_that_ends_in_time_expires_when_it_was_to(catalogue: Catalogue, cl
     assert catalogue.get(succeed(catalogue, NEW)).expires is None
 
 
+def test_a_lifetime_is_what_was_asked_for_however_late_a_job_is_found_or_ends(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    """A retry is kept for as long: it was, too, for as long as its job had waited."""
+    job = catalogue.submit(replace(NEW, expires=clock.now + 5 * DAY)).job.id
+    assert catalogue.get(job).lifetime == 5 * DAY
+    clock.now += 4 * DAY
+    for asked, kept in ((3 * DAY, 5 * DAY), (6 * DAY, 6 * DAY)):
+        found = catalogue.submit(replace(NEW, expires=clock.now + asked), reuse=True).job
+        assert (found.id, found.expires) == (job, clock.now + asked)
+        assert found.lifetime == catalogue.get(job).lifetime == kept
+    clock.now += 20 * DAY
+    catalogue.claim_block(f"{job}-0", "worker", 30)
+    catalogue.finish(f"{job}-0", 1, BlockEnd(BlockState.done))
+    ended = catalogue.get(job)
+    assert (ended.expires, ended.lifetime) == (clock.now + DAY, 6 * DAY)
+    with catalogue.connections.writing() as connection:  # as of before lifetimes were noted
+        connection.execute(update(tables.job).values(kept_for=None))
+    assert catalogue.get(job).lifetime == 25 * DAY
+    lasting = catalogue.submit(NEW, reuse=True).job
+    assert (lasting.id, lasting.lifetime) == (job, None)
+
+
 def test_a_key_remembers_whether_it_was_answered_with_an_earlier_job(
     catalogue: Catalogue, clock: Clock
 ) -> None:
@@ -222,7 +245,6 @@ def test_a_key_finds_no_job_that_was_deleted(
     clock.now += 1
     if mark:
         catalogue.mark_removed(catalogue.removable(10))
-    assert not catalogue.is_remembered(key)
     assert catalogue.submitted_job(key) is None
     second = catalogue.submit(new, key)
     assert (second.created, second.job.id != first) == (True, True)

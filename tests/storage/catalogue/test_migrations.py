@@ -15,6 +15,7 @@ from jointplay.storage.catalogue.records import NewJob
 from tests.postgresql_server import Server
 
 LATER = (
+    "ALTER TABLE job DROP COLUMN kept_for",
     "DROP INDEX ix_job_to_remove",
     "ALTER TABLE job DROP COLUMN deleted",
     "DROP TABLE installation",
