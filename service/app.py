@@ -165,6 +165,7 @@ async def _running(app: FastAPI, *, patient: bool) -> AsyncIterator[None]:
     app.state.catalogue = catalogue
     app.state.vital = vital = VitalThreads()
     app.state.authentication = Authentication(catalogue, settings, vital)
+    app.state.link_secret = app.state.authentication.link_secret
     app.state.readiness = Readiness(catalogue, settings, vital)
     app.state.registry = registry_of(catalogue)
     app.state.watcher = Watcher(catalogue)

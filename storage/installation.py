@@ -18,6 +18,8 @@ from jointplay.storage.settings import Settings
 
 MARK: Final = "installation"
 """Name of the file, or object, that holds the mark."""
+LINK_SIGNER: Final = "secret-of-links"
+"""Name of the object with what the service signs links to results with."""
 _DATA: Final = "data"
 _RESULTS: Final = "results"
 _LONGEST: Final = 64  # characters

@@ -6,14 +6,22 @@ from fastapi import APIRouter, Query
 from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.service.access import CallerDependency, needs
+from jointplay.service.access.link_secret import LinkSecret
 from jointplay.service.access.signed import PREFIX, Link
-from jointplay.service.dependencies import CatalogueDependency, JobOfThePath
+from jointplay.service.dependencies import (
+    CatalogueDependency,
+    JobOfThePath,
+    SettingsDependency,
+    of_the_application,
+)
 from jointplay.service.fields import in_unit
 from jointplay.service.jobs.schemas import Moment
 from jointplay.service.problems import RequestRefused, kinds, problems
+from jointplay.storage.installation import require_reachable
 
 router = APIRouter(prefix="/v1/jobs", tags=["results"])
 _LONGEST = 366 * 86_400.0
+LinkSecretDependency = Annotated[LinkSecret, of_the_application("link_secret")]
 
 
 class LinkQuery(BaseModel):
@@ -43,6 +51,8 @@ def make_link(
     job: JobOfThePath,
     catalogue: CatalogueDependency,
     caller: CallerDependency,
+    settings: SettingsDependency,
+    secret: LinkSecretDependency,
     query: Annotated[LinkQuery, Query()],
 ) -> SignedLink:
     """Make a link to the stored arrays of one job, to be read and nothing else.
@@ -53,6 +63,7 @@ def make_link(
         sentence = "This service asks for no key, so that links need none: use the job's own."
         raise RequestRefused(kinds.NOT_FOUND, sentence)
     until = int(catalogue.clock() + query.seconds)
-    token = Link(job.id, until, caller.key).signed_by(catalogue.key(caller.key))
+    require_reachable(settings, catalogue)  # before a secret is made where no disk is mounted
+    token = Link(job.id, until, caller.key).signed_with(secret.made(), catalogue.key(caller.key))
     shown = {"zarr": f"{PREFIX}{token}/zarr", "expires": float(until)}
     return SignedLink.model_validate(shown)

@@ -1,7 +1,8 @@
 """Signed links: an address that opens one job's stored arrays to whoever has it, without a header.
 
-The token in the path names the job, the moment when the link ends, and the key that signed it. It
-lasts no longer than the key. It stands in the path since stock Zarr clients put the keys of a store
+The token in the path names the job, the moment when the link ends, and the key that it was made
+with; it is signed with the `link_secret` and what the catalogue has of that key. It lasts no longer
+than the key. It stands in the path since stock Zarr clients put the keys of a store
 behind the path of its address, and drop or misplace a query.
 """
 
@@ -29,7 +30,7 @@ _LONGEST: Final = 4 * (_SIGNED.size + sha256().digest_size) // 3 + 4
 
 @dataclass(frozen=True)
 class Link:
-    """Content of a token; nothing of it is true before `is_signed_by` says so."""
+    """Content of a token; nothing of it is true before `is_signed_with` says so."""
 
     job: str
     until: int
@@ -49,18 +50,18 @@ class Link:
             return None
         return link if is_job_id(link.job) and ID.fullmatch(link.key) else None
 
-    def signed_by(self, key: Key) -> str:
-        """Return the token of this link."""
-        content = self._content() + self._signature(key)
+    def signed_with(self, secret: bytes, key: Key) -> str:
+        """Return the token of this link; `secret` : that of all links, see `link_secret`."""
+        content = self._content() + self._signature(secret, key)
         return urlsafe_b64encode(content).decode().rstrip("=")
 
-    def is_signed_by(self, key: Key, now: float) -> bool:
-        """Whether this key signed it, and it has not ended."""
-        same = hmac.compare_digest(self._signature(key), self.signature)
+    def is_signed_with(self, secret: bytes, key: Key, now: float) -> bool:
+        """Whether it was signed so, for this key, and has not ended."""
+        same = hmac.compare_digest(self._signature(secret, key), self.signature)
         return same and now < self.until
 
-    def _signature(self, key: Key) -> bytes:
-        return hmac.digest(bytes.fromhex(key.sha256), self._content(), "sha256")
+    def _signature(self, secret: bytes, key: Key) -> bytes:
+        return hmac.digest(secret + bytes.fromhex(key.sha256), self._content(), "sha256")
 
     def _content(self) -> bytes:
         return _SIGNED.pack(self.job.encode(), self.until, self.key.encode())

@@ -10,7 +10,7 @@ from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import Job, NewJob
 from jointplay.storage.durable import PARTIAL
 from jointplay.storage.errors import CorruptStore, NotAStore
-from jointplay.storage.installation import MARK
+from jointplay.storage.installation import LINK_SIGNER, MARK
 from jointplay.storage.object_stores import StoredObject
 from jointplay.storage.reconciliation.extent import Extent
 from jointplay.storage.reconciliation.finding import Finding
@@ -29,6 +29,8 @@ _DATA: Final = {
     "serve.lock",
 }
 """Everything that a data folder may hold."""
+_OF_THE_SERVICE: Final = {MARK, LINK_SIGNER}
+"""Objects that belong to no job."""
 _SEALED: Final = re.compile(
     r"../(?P<job>[0-9A-Z]{26})-(a(?P<attempt>\d+)|study)\.zarr\.zip(\.[0-9a-f]+\.partial)?"
 )
@@ -70,7 +72,7 @@ def _of_the_object_store(
             extent.report(done / len(keys), f"looking at object {done} of {len(keys)}")
         if settings.sends and key.startswith(f"{RUNNING}/") and key.count("/") >= OF_A_JOB:
             continue
-        if key == MARK:
+        if key in _OF_THE_SERVICE:
             continue
         named = _SEALED.fullmatch(key)
         if named is None:

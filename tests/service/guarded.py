@@ -36,6 +36,7 @@ class Guarded:
     catalogue: Catalogue
     job: str
     batch: str
+    settings: Settings | None = None
 
     def key(self, owner: str, *scopes: str) -> str:
         return self.catalogue.make_key(owner, scopes or USUAL, "", None)[0]
@@ -60,7 +61,7 @@ def guarded(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Guarded]:
     with serving(create_app(settings)) as url:
         catalogue = Catalogue(settings.catalogue_url)
         catalogue.migrate()
-        found = Guarded(url, catalogue, "", "")
+        found = Guarded(url, catalogue, "", "", settings)
         with found.as_("ada") as http:
             worker = Worker(http, catalogue, settings)
             found.job = worker.finished()

@@ -1,16 +1,21 @@
 """Links that open one job's stored arrays without a key."""
 
+import hmac
 from base64 import urlsafe_b64encode
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import httpx
 import pytest
 import xarray
 
 from jointplay.service.access import authentication
+from jointplay.service.access.link_secret import LinkSecret
 from jointplay.service.access.signed import Link
+from jointplay.service.problems import RequestRefused
 from jointplay.storage.catalogue.keys import Key
+from jointplay.storage.object_stores import object_store_at
 from tests.service.guarded import Guarded
 
 OF_NO_KEY = urlsafe_b64encode(b"0" * 26 + bytes(48)).decode()
@@ -43,9 +48,11 @@ def test_a_link_lasts_for_its_time_and_as_long_as_its_key(
     text = guarded.key("ada")
     key = guarded.catalogue.key(text.split("_")[1])
     now = int(guarded.catalogue.clock())
+    assert guarded.settings is not None
+    secret = LinkSecret(guarded.settings.object_store).made()
 
     def opened(link: Link, signer: Key) -> int:
-        address = f"{guarded.url}/v1/shared/{link.signed_by(signer)}/zarr/zarr.json"
+        address = f"{guarded.url}/v1/shared/{link.signed_with(secret, signer)}/zarr/zarr.json"
         return httpx.get(address, trust_env=False).status_code
 
     good = Link(guarded.job, now + 100, key.id)
@@ -60,6 +67,34 @@ def test_a_link_lasts_for_its_time_and_as_long_as_its_key(
     assert opened(replace(good, key=unread.id), unread) == 403
     guarded.catalogue.revoke_key(key.id)
     assert opened(good, key) == 401
+
+
+def test_what_the_catalogue_knows_of_a_key_forges_no_link(guarded: Guarded) -> None:
+    """Whoever has a copy of the catalogue, and not of the results, opens nothing with it."""
+    with guarded.as_("ada") as ada:
+        token = ada.post(f"/v1/jobs/{guarded.job}/links").json()["zarr"].split("/")[-2]
+        key = guarded.catalogue.key(ada.headers["Authorization"].split("_")[1])
+    link = Link.of(token)
+    assert link is not None
+    signed = link._content()
+    forged = [hmac.digest(known, signed, "sha256") for known in (bytes.fromhex(key.sha256), b"")]
+    opened = []
+    for signature in (*forged, bytes(32), link.signature):
+        token = urlsafe_b64encode(signed + signature).decode().rstrip("=")
+        address = f"{guarded.url}/v1/shared/{token}/zarr/zarr.json"
+        opened.append(httpx.get(address, trust_env=False).status_code)
+    assert opened == [401, 401, 401, 200]
+
+
+def test_the_secret_of_links_is_made_once_and_kept_with_the_results(tmp_path: Path) -> None:
+    store = object_store_at(f"file:{tmp_path}")
+    assert LinkSecret(store).read() is None
+    first, second = LinkSecret(store), LinkSecret(store)
+    assert first.made() == second.made() == first.known == LinkSecret(store).read()
+    store.replace("secret-of-links", [b"damaged"])
+    with pytest.raises(RequestRefused, match="damaged"):
+        LinkSecret(store).made()
+    assert first.made() == second.made()
 
 
 @pytest.mark.parametrize("token", ["", "x", "A" * 103, "A" * 99, "é", "A" * 5000, "%00", OF_NO_KEY])
