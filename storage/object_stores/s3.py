@@ -28,7 +28,8 @@ _IN_MEMORY: Final = 2**22
 """Bytes of an object that is gathered in memory; of a larger one the system has the pages."""
 _RETRIES: "Final[RetryConfig]" = {"max_retries": 5, "retry_timeout": timedelta(seconds=20)}
 _LIMIT: Final = "120s"
-"""Time for a whole request, but that which puts a large object; see `sending`."""
+"""Time for a whole request, but those that put more bytes than this; see `sending`:"""
+_SHORT: Final = 2**18
 _SIGNED: Final = timedelta(hours=1)
 """Time in which such a request must begin."""
 _OPTIONS: Final = {"endpoint", "region"}
@@ -178,7 +179,7 @@ class Bucket:
                 f"{key} would have {len(content) / 1e9:.3g} GB; an object of a bucket has at most"
                 f" {self.largest / 1e9:g} GB"
             )
-        if isinstance(content, mmap.mmap):
+        if len(content) > _SHORT:
             from jointplay.storage.object_stores.sending import put_at
 
             with _answering(key):

@@ -1,4 +1,4 @@
-"""PUT of one large object at a signed address, which goes on for as long as bytes move.
+"""PUT of one object at a signed address, which goes on for as long as bytes move.
 
 A limit for a whole request is too short for many bytes on a slow link, or too long where the link
 is gone: it is found out by the time for which no more bytes are taken.
@@ -17,15 +17,16 @@ import httpx
 
 from jointplay.storage.object_stores.taken import TAKEN
 
-_TIMEOUT: Final = httpx.Timeout(5.0, write=30.0, read=120.0)
-"""Seconds for a connection; without a byte taken; from the last byte to the answer."""
+_TIMEOUT: Final = httpx.Timeout(5.0, write=30.0, read=300.0)
+"""Seconds for a connection; without a byte taken; from the last byte, before which the system may
+have yet to send some megabytes, to the answer."""
 _PAUSES: Final = (1.0, 2.0, 4.0)
 """Seconds before an object is sent again that a store was too busy for."""
 _BUSY: Final = frozenset({409, 429, 500, 502, 503, 504})
 _PIECE: Final = 2**20  # bytes
 
 
-def put_at(address: str, key: str, content: mmap.mmap, *, once: bool) -> None:
+def put_at(address: str, key: str, content: bytes | mmap.mmap, *, once: bool) -> None:
     """PUT an object, whose MD5 the store compares; `once` : if there is none of this key.
 
     Raises
@@ -63,7 +64,7 @@ def _failure(key: str, reason: str) -> ConnectionError:
     return ConnectionError(f"the store of results does not take {key}: {reason}")
 
 
-def _pieces(content: mmap.mmap) -> Iterator[bytes]:
+def _pieces(content: bytes | mmap.mmap) -> Iterator[bytes]:
     taken = TAKEN.get()
     for at in range(0, len(content), _PIECE):
         yield content[at : at + _PIECE]

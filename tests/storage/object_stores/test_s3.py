@@ -104,12 +104,16 @@ def server_of(address: str) -> tuple[str, int]:
     return parts.hostname, parts.port
 
 
+@pytest.mark.parametrize("size", [12 * 2**20, 2**20])
 def test_a_large_object_takes_as_long_as_its_link_needs(
-    new_address: Callable[[], str], monkeypatch: pytest.MonkeyPatch
+    new_address: Callable[[], str], monkeypatch: pytest.MonkeyPatch, size: int
 ) -> None:
     monkeypatch.setattr(s3, "_LIMIT", "1s")  # of other requests
-    address, large = new_address(), os.urandom(12 * 2**20)
-    with slow_link(*server_of(address), rate=6 * 2**20) as port:
+    quick = {"max_retries": 0, "retry_timeout": timedelta(seconds=1)}
+    monkeypatch.setattr(s3, "_RETRIES", quick)
+    s3._opened.cache_clear()
+    address, large = new_address(), os.urandom(size)
+    with slow_link(*server_of(address), rate=size / 2) as port:
         object_store = through(address, port)
         object_store.put(KEY, [large])
         with pytest.raises(FileExistsError):
