@@ -118,6 +118,7 @@ def test_nothing_is_wrong_with_what_a_run_left(jointplay, folder: Path) -> None:
         (lambda out: change(out, progress={"time": 0.1}), "is not what a run writes", True),
         (lambda out: change(out, progress=dict(REACHED, time=0.3)), "is not the end of", True),
         (lambda out: change(out, progress=dict(REACHED, fraction=0.5)), "is not the end of", True),
+        (lambda out: flip(out / "peaks.csv"), "is not the table of results.zarr.zip", True),
         (lambda out: (out / "running").mkdir(), "is left over", True),
         (lambda out: (out / "results.zarr.zip.0123.partial").touch(), "is left over", True),
     ],
@@ -131,6 +132,21 @@ def test_what_is_wrong_with_a_run_is_found(jointplay, folder: Path, harm, found,
     assert (jointplay("doctor", folder).code == 0) == mended
     assert (f"jointplay run {folder}/job.json -o AGAIN" in ended.out) != mended
     assert (folder / "job.json").read_bytes() == before
+
+
+def test_the_table_of_a_study_is_that_of_its_results(jointplay, tmp_path: Path) -> None:
+    study = ("--sweep", "angle=0.1,0.2", "--duration", "0.1", "-o", tmp_path / "OUT")
+    assert jointplay("run", "pendulum", *study).code == 0
+    table = tmp_path / "OUT" / "points.csv"
+    written = table.read_text()
+    assert jointplay("doctor", tmp_path / "OUT").code == 0
+    table.write_text(written.replace("0.1", "0.3"))
+    looked = jointplay("doctor", tmp_path / "OUT", "--dry-run")
+    assert (looked.code, "is not the table of" in looked.out) == (1, True)
+    assert jointplay("doctor", tmp_path / "OUT").code == 1
+    assert table.read_text() == written
+    table.unlink()  # no table is as good as one: Python's runs leave none
+    assert jointplay("doctor", tmp_path / "OUT").code == 0
 
 
 def test_a_run_that_was_cut_short_can_be_repeated(jointplay, folder: Path) -> None:

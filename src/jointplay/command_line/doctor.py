@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from datetime import UTC, datetime
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -116,9 +117,10 @@ def _examination(folder: Path, extent: "Extent") -> "Iterator[Iterable[Finding]]
     from jointplay.worker.local.folder import JOB_FILE, STORE
 
     if any((folder / name).exists() for name in (JOB_FILE, STORE)):
+        from jointplay.command_line.result_table import wrong_tables
         from jointplay.worker.local.examination import examined
 
-        yield examined(folder)
+        yield chain(examined(folder), wrong_tables(folder))
         return
     from jointplay.service.processes.supervisor import settings_of
     from jointplay.storage.catalogue.catalogue import Catalogue

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.figure_paths import FigurePaths
-from jointplay.command_line.output import json_text, print_result
+from jointplay.command_line.output import print_result
 from jointplay.records.whole_file import write_whole
 from jointplay.records.window_query import WindowQuery
 
@@ -61,23 +61,13 @@ def _go_on(output: Path) -> str:
 
 def _write(found: dict[str, Any], output: Path) -> Path:
     """Write the table of results into the folder, and return its path."""
-    from jointplay.command_line.peaks import peak_lines
-    from jointplay.exports.study import point_lines
+    from jointplay.command_line.result_table import table_of
 
-    if found["accuracy"] is not None:
-        table, text = output / "accuracy.json", json_text(found["accuracy"]) + "\n"
-    elif found["calibration"] is not None:
-        table, text = output / "calibration.json", json_text(found["calibration"]) + "\n"
-    elif (study := found["points"]) is not None:
-        channels = [channel.name for channel in study.channels]
-        lines = point_lines(study, channels, range(study.points))
-        table, text = output / "points.csv", "".join(lines)
-    elif found["peaks"] is None:  # a calibration that did not come to its end has nothing
+    if (table := table_of(found)) is None:
         return output
-    else:
-        table, text = output / "peaks.csv", "".join(peak_lines(found["peaks"]))
-    write_whole(table, text)
-    return table
+    name, text = table
+    write_whole(output / name, text)
+    return output / name
 
 
 def _lines(job: "Job", found: dict[str, Any], table: Path) -> Iterator[str]:
