@@ -1,6 +1,7 @@
-"""Results of one block of a study that another program handed in, before they count as done.
+"""Results of one block of a study that another program handed in, before they are read or counted.
 
-Whoever seals the study takes over what is found here: a fault must be that of the block.
+Whoever seals the study takes over what is found here: a fault must be that of the block. Whoever
+reads the study while it runs reads what no worker has called done.
 """
 
 import json
@@ -47,6 +48,7 @@ def require_part(files: Running, layout: StudyLayout, index: int, *, same: bool)
     try:
         found = Part.read(files, part.final_name(index), files.digest.decode())
         _require_points(found, layout)
+        _require_ended(found)
         _require_names(found, layout, same=same)
         _require_words(found)
         _require_chunks(files, found, layout)
@@ -58,6 +60,23 @@ def require_part(files: Running, layout: StudyLayout, index: int, *, same: bool)
         raise CorruptStore(f"what block {index} left cannot be read: {error}") from error
 
 
+def sound_part(files: Running, name: str, digest: str, layout: StudyLayout) -> Part:
+    """Return what is known of a block, which may go on, as `Part.read` does; or raise as it does.
+
+    It is examined as the results of a block that is done are, but for chunks.
+    """
+    try:
+        found = Part.read(files, name, digest)
+        _require_points(found, layout)
+        _require_names(found, layout, same=False)
+        _require_words(found)
+    except (FileNotFoundError, ResultsError):
+        raise
+    except ODD as error:
+        raise CorruptStore(f"{PARTS}/{name} is none of the job: {error}") from error
+    return found
+
+
 def largest_rows(layout: StudyLayout) -> int:
     """Return the bytes of a file of chunks of sections at most."""
     arrays = _sections(layout).values()
@@ -65,7 +84,7 @@ def largest_rows(layout: StudyLayout) -> int:
 
 
 def _require_points(found: Part, layout: StudyLayout) -> None:
-    """Raise `CorruptStore` if arrays are not those of the block's points, all of which ended."""
+    """Raise `CorruptStore` if arrays are not those of the block's points."""
     first, count = layout.blocks[found.index]
     points, sections = layout.chunk
     width = len(layout.observables) + 1
@@ -83,14 +102,20 @@ def _require_points(found: Part, layout: StudyLayout) -> None:
     if not sound:
         raise CorruptStore(f"what block {found.index} left has other shapes than the job gives")
     counts = found.counts
-    if found.ended != count or counts.min() < 0 or counts.max() > layout.record:
-        raise CorruptStore(f"{count - found.ended} points of block {found.index} have not ended")
+    if counts.min() < 0 or counts.max() > layout.record:
+        raise CorruptStore(f"block {found.index} has sections that the job does not record")
     own = {*range(first, first + count)}
     if {*found.reasons, *found.documents} - own:
         raise CorruptStore(f"what block {found.index} left is of other blocks, too")
     failed = first + np.flatnonzero(found.status == PointStatus.failed)
     if {*failed.tolist()} != found.failures.keys():
         raise CorruptStore(f"block {found.index} does not say why its points failed")
+
+
+def _require_ended(found: Part) -> None:
+    """Raise `CorruptStore` if points of a block that is done have not ended."""
+    if left := found.status.size - found.ended:
+        raise CorruptStore(f"{left} points of block {found.index} have not ended")
 
 
 def _is(array: NDArray[Any], shape: tuple[int, ...]) -> bool:

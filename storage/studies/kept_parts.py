@@ -9,6 +9,8 @@ from threading import Lock
 from typing import Final
 
 from jointplay.storage.packed import Running
+from jointplay.storage.studies.examined_part import sound_part
+from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.part import Part, is_last
 
 MOST_BYTES: Final = 256_000_000
@@ -22,8 +24,8 @@ class KeptParts:
         self._parts: OrderedDict[tuple[Hashable, str], Part] = OrderedDict()
         self._lock = Lock()
 
-    def read(self, files: Running, name: str, digest: str) -> Part:
-        """Return a part as `Part.read` does; of one that is kept nobody changes anything."""
+    def read(self, files: Running, name: str, digest: str, layout: StudyLayout) -> Part:
+        """Return a part as `sound_part` does; of one that is kept nobody changes anything."""
         stamp = files.stamp(name) if is_last(name) else None
         key = stamp, digest
         with self._lock:
@@ -31,7 +33,7 @@ class KeptParts:
             if found is not None:
                 self._parts.move_to_end(key)
                 return found
-        found = Part.read(files, name, digest)
+        found = sound_part(files, name, digest, layout)
         if stamp is not None:
             self._keep(key, found)
         return found

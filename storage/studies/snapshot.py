@@ -92,9 +92,10 @@ class StudySnapshot(StoreReader):
         for _ in range(_PATIENCE):
             if not isinstance(self.files, Running):
                 return {}
+            digest = self.attributes["layout"]
             try:
                 found = {
-                    index: KEPT_PARTS.read(self.files, name, self.attributes["layout"])
+                    index: KEPT_PARTS.read(self.files, name, digest, self.layout)
                     for index, name in part.newest(self.files.parts()).items()
                 }
             except FileNotFoundError:  # one was replaced by the last part of its block

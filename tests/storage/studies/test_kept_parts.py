@@ -8,7 +8,7 @@ from made_up_studies import MadeUpStudy, made_up_map
 
 from jointplay.storage import durable
 from jointplay.storage.errors import CorruptStore
-from jointplay.storage.studies import kept_parts, snapshot
+from jointplay.storage.studies import examined_part, snapshot
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.kept_parts import KeptParts
 from jointplay.storage.studies.part import Part
@@ -29,7 +29,7 @@ def reads(monkeypatch):
             found[name] += 1
             return Part.read(files, name, digest)
 
-    monkeypatch.setattr(kept_parts, "Part", Counted)
+    monkeypatch.setattr(examined_part, "Part", Counted)
     return found
 
 

@@ -18,6 +18,7 @@ from jointplay.storage.packed.running import Running
 from jointplay.storage.studies import block as block_module
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.examined_part import require_part
+from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import create, seal
 
@@ -106,6 +107,48 @@ def test_a_block_that_is_handed_in_as_it_was_computed_is_taken(tmp_path, monkeyp
 def test_a_block_with_what_no_point_has_is_not_taken(tmp_path, monkeypatch, changes):
     with pytest.raises(CorruptStore):
         handed_in(tmp_path, monkeypatch, **changes)
+
+
+def spoiled(part, **arrays):
+    """Return a part as a program of somebody's own might write it."""
+    for name, value in arrays.items():
+        setattr(part, name, value)
+    return part
+
+
+@pytest.mark.parametrize(
+    "harm",
+    [
+        lambda part: spoiled(part, status=part.status[:-1]),
+        lambda part: spoiled(part, counts=part.counts + 1000),
+        lambda part: spoiled(part, counts=-part.counts - 1),
+        lambda part: spoiled(part, peaks=part.peaks[:, :0]),
+        lambda part: spoiled(part, numbers={"statistics/steps": np.zeros((3, 3))}),
+        lambda part: spoiled(part, numbers={"../steps": part.status}),
+        lambda part: spoiled(part, reasons={0: 3}),
+        lambda part: spoiled(part, reasons={10**6: "of another block"}),
+        lambda part: spoiled(part, failures={0: Failure("ill", 7, 0.0)}),
+        lambda part: spoiled(part, failures={0: ("one", "word")}),
+        lambda part: spoiled(part, open={(0, 0): np.zeros(3)}),
+        lambda part: spoiled(part, open={(99, 0): np.zeros((1, 1, 1))}),
+        lambda part: spoiled(part, documents={0: "no object"}),
+    ],
+)
+def test_of_a_block_that_goes_on_nothing_is_read_that_the_job_cannot_have(tmp_path, harm):
+    """A worker of somebody's own sends it; readers had errors of the service."""
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 0)
+    block.take(next(study.slices(0)))
+    name = block.flush(b"")
+    honest = StudyReader(tmp_path).status
+    path, digest = tmp_path / "parts" / name, study.layout.digest
+    part = Part.read(Running(tmp_path, digest=digest), name, digest)
+    path.write_bytes(part.encode(study.layout))
+    assert StudyReader(tmp_path).status.tolist() == honest.tolist()
+    path.write_bytes(harm(part).encode(study.layout))
+    with pytest.raises(CorruptStore):
+        _ = StudyReader(tmp_path).status
 
 
 @pytest.mark.parametrize("time", [10**400, True, "1", None])
