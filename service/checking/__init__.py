@@ -7,7 +7,7 @@ themselves when idle.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeVar, cast
+from typing import Any, Final, TypeVar, cast
 
 from jointplay.records.failure import LimitExceeded
 from jointplay.records.strict_json import parse
@@ -22,6 +22,10 @@ from jointplay.storage.settings import Settings
 
 SHORT = 32 * 1024
 """Bytes that are parsed within a millisecond."""
+FEW: Final = 100_000
+"""Points that are looked at within a fifth of a second, in 30 MB: a map may have millions,
+which take seconds and a gigabyte."""
+_COUNTS: Final = ("count", "samples", "members", "starts")
 _MODULE = "jointplay.service.checking"
 
 Answer = TypeVar("Answer")
@@ -104,7 +108,7 @@ class Checker:
 
 
 def _takes_much(document: object) -> bool:
-    """Whether much is loaded, or equations are recorded to see whether they are too long."""
+    """Whether much is loaded or looked at, or equations are recorded, as they may be too long."""
     if not isinstance(document, dict):
         return False
     jobs = document.get("jobs")
@@ -113,5 +117,22 @@ def _takes_much(document: object) -> bool:
     kind, scene = document.get("kind"), document.get("scene")
     if isinstance(kind, str) and kind in KINDS and KINDS[kind].loads_much:
         return True
+    if _points({name: value for name, value in document.items() if name != "scene"}) > FEW:
+        return True
     bodies = scene.get("bodies") if isinstance(scene, dict) else None
     return isinstance(bodies, dict) and len(bodies) > SURELY_SHORT
+
+
+def _points(value: object) -> int:
+    """Return how many points a study has at most, by the lengths of all axes that it names."""
+    if isinstance(value, list):
+        return max(len(value), 1) if value and not isinstance(value[0], str) else 1
+    if not isinstance(value, dict):
+        return 1
+    found = 1
+    for name, inner in value.items():
+        if name in _COUNTS and isinstance(inner, int):
+            found *= max(inner, 1)
+        else:
+            found *= _points(inner)
+    return found

@@ -74,6 +74,25 @@ def test_a_long_document_is_checked_in_another_process(checker):
         assert bool(process.running()) == elsewhere
 
 
+AXIS = {"from": 1e-4, "to": 5e-4}
+MAP = {"kind": "chart", "scene": {"preset": "slider-crank"}, "settle": 1, "record": 1}
+
+
+@pytest.mark.parametrize(
+    ("study", "elsewhere"),
+    [
+        (MAP | {"by": {"parameter": "friction", "values": [0.0, 0.1]}}, False),
+        (MAP | {"by": {"parameter": "friction", "values": AXIS | {"count": 400}}}, True),
+        (MAP | {"by": {"parameter": "friction", "values": [1e-4 * n for n in range(300)]}}, True),
+    ],
+)
+def test_a_short_document_of_many_points_is_checked_in_another_process(checker, study, elsewhere):
+    """Forty of them at a time took what memory there is, in the process that answers everybody."""
+    document = study | {"along": {"parameter": "clearance", "values": AXIS | {"count": 400}}}
+    checker.check(CheckJob(), json.dumps(document).encode())
+    assert bool(checker._jobs.running()) == elsewhere
+
+
 def test_a_document_that_is_no_json_is_refused_alike(checker):
     kinds = []
     for padding in (0, SHORT):
