@@ -13,6 +13,7 @@ from jointplay.figures.special_names import name_special
 from jointplay.records.arrays import Floats
 from jointplay.records.branch import LENGTH, UNSTABLE, VALUE, Branch, branches
 from jointplay.records.channel import by_name
+from jointplay.records.point import PointStatus, has_ended
 from jointplay.records.study import StudySource
 
 _MOST_PANELS = 6
@@ -43,6 +44,18 @@ def known_branches(source: StudySource, selection: Selection) -> list[Branch]:
     return [one for one in branches(source) if one.index in within and source.counts[one.index]]
 
 
+def missing(source: StudySource, selection: Selection) -> str:
+    """Return how many branches and curves failed or go on, in sentences; empty: none."""
+    status = source.status[study_facts.chosen_points(source, selection)]
+    failed = int((status == PointStatus.failed).sum())
+    going = int((~has_ended(status)).sum())
+    parts = {
+        f"{failed} of {len(status)} branches failed.": failed,
+        f"{going} of {len(status)} branches have not ended.": going,
+    }
+    return " ".join(sentence for sentence, count in parts.items() if count)
+
+
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
     names = _chosen(source, selection)
     found = _found(source, selection)
@@ -55,7 +68,9 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     units = by_name(source.observables)
     values = [np.concatenate([one.column(name) for one in found]) for name in names]
     heights = [_SINGLE_HEIGHT if len(names) == 1 else _HEIGHT] * len(names)
-    figure, panels = page.stack(heights, 1)
+    explained = missing(source, selection)
+    figure, panels = page.stack(heights, 1, page.caption_height(explained))
+    page.caption(figure, explained)
     for axes, name, unit in zip(
         panels, names, alike([units[name].unit for name in names], values), strict=True
     ):

@@ -8,6 +8,7 @@ import numpy as np
 from jointplay.figures import colours, log_axis, page
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.records.arrays import Floats
+from jointplay.records.calibration_misfit import misfits
 from jointplay.records.study import StudySource
 
 _PANEL_HEIGHT: Final = 50.0  # mm
@@ -24,7 +25,7 @@ def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
 def _draw(source: StudySource, selection: Selection) -> page.Figure:
     found = source.documents[0]
     targets = found["targets"]
-    explained = _explained([target["weight"] > 0.0 for target in targets])
+    explained = _explained(found)
     height = 2.0 * (_PANEL_HEIGHT + page.AXIS_HEIGHT) + page.caption_height(explained)
     figure, ((search,), (misses,)) = page.panels(2, 1, height)
     costs = np.array(found["search"]["best_costs"], np.float64)
@@ -61,10 +62,19 @@ def _miss(target: Mapping[str, Any], value: float | None) -> Floats:
     return np.asarray((below + above) / target["tolerance"], np.float64)
 
 
-def _explained(fitted: list[bool]) -> str:
-    """Say what dashed lines, bars and open marks are."""
-    sentence = "Dashed above: costs below it are equally good. Bars: what these give."
-    return sentence if all(fitted) else f"{sentence} Open marks: targets that were not fitted."
+def _explained(found: Mapping[str, Any]) -> str:
+    """Say what dashed lines, bars and open marks are, and what the search did not reach."""
+    search = found["search"]
+    parts = {
+        "Dashed above: costs below it are equally good. Bars: what these give.": True,
+        "Open marks: targets that were not fitted.": not all(
+            target["weight"] > 0.0 for target in found["targets"]
+        ),
+        "Nothing fits: misses are larger than tolerances explain.": misfits(found),
+        "The search ended before its candidates were alike.": not search["settled"],
+        "More may fit equally well than bars show.": search.get("spread_settled") is False,
+    }
+    return " ".join(sentence for sentence, said in parts.items() if said)
 
 
 CALIBRATION = StudyFigure(

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from jointplay.figures import colours, page
-from jointplay.figures.branch import known_branches
+from jointplay.figures.branch import known_branches, missing
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.over_chart import OverChart, halo
 from jointplay.figures.quantity import scale
@@ -46,7 +46,9 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         scale(one.unit, *[curve.column(name) for curve in curves])
         for one, name in zip(source.parameters, (VALUE, SECOND), strict=True)
     )
-    figure, (axes,) = page.stack([_HEIGHT], 1)
+    explained = missing(source, selection)
+    figure, (axes,) = page.stack([_HEIGHT], 1, page.caption_height(explained))
+    page.caption(figure, explained)
     placed = []
     for curve in curves:
         order = np.argsort(curve.column(LENGTH), kind="stable")

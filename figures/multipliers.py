@@ -6,7 +6,7 @@ import re
 import numpy as np
 
 from jointplay.figures import colours, page
-from jointplay.figures.branch import known_branches
+from jointplay.figures.branch import known_branches, missing
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
@@ -32,6 +32,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     far = np.abs(multipliers) > _FARTHEST
     shown = np.isfinite(multipliers) & ~far
     sentence = _sentence(int(far.any(axis=1).sum()), len(multipliers))
+    sentence = f"{sentence} {missing(source, selection)}".strip()
     real, imaginary = _limits(multipliers.real[shown]), _limits(multipliers.imag[shown])
     plane = _WIDTH * (imaginary[1] - imaginary[0]) / (real[1] - real[0])
     height = _HEIGHT + plane + page.caption_height(sentence)

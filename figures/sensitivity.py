@@ -9,7 +9,7 @@ from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
 from jointplay.records.sensitivity.analysis import Question, sensitivity
-from jointplay.records.sensitivity.outputs import channel_of, outputs
+from jointplay.records.sensitivity.outputs import channel_beneath, outputs
 from jointplay.records.study import StudySource
 
 _ROW: Final = 7.0  # mm
@@ -29,7 +29,7 @@ _BARS: Final = {
 def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
     if source.kind != "sensitivity":
         raise NotDrawable("Sensitivities are drawn of a job of kind sensitivity.")
-    channel = channel_of(source, _output(source, selection))
+    channel = channel_beneath(source, _output(source, selection))
     return () if channel is None else (channel,)
 
 
@@ -93,11 +93,9 @@ def _bars(axes: page.Axes, beside: float, columns: list[Floats], **style: Any) -
 
 
 def _explained(found: dict[str, Any], shown: int) -> str:
-    """Say what lines are, how much was used, and what is left away."""
-    rows = found["rows"]
-    parts = [f"Lines: {found['confidence']:.0%} intervals, of {rows['used']} rows."]
-    if rows["left_out"]:
-        parts.append(f"Left out for failed points: {rows['left_out']}.")
+    """Say what lines are, how much was used, what the answer notes, and what is left away."""
+    parts = [f"Lines: {found['confidence']:.0%} intervals, of {found['rows']['used']} rows."]
+    parts += filter(None, [found["note"]])
     if shown < len(found["parameters"]):
         parts.append(f"The {shown} parameters of the longest bars.")
     return " ".join(parts)

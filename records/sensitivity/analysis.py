@@ -12,7 +12,7 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.records.channel import Channel
 from jointplay.records.point import PointStatus, has_ended
 from jointplay.records.sensitivity import DESIGNS, Design
-from jointplay.records.sensitivity.outputs import channel_of, output, outputs
+from jointplay.records.sensitivity.outputs import channel_beneath, output, outputs
 from jointplay.records.sensitivity.quantiles import quantiles
 from jointplay.records.sensitivity.resampled import between, resampled_means, resamples_of
 from jointplay.records.study import StudySource
@@ -169,7 +169,7 @@ def _size(source: StudySource, name: str, done: Flags) -> float:
 
     done : any shape, those that count: a run that fails may have come to any value before.
     """
-    channel = channel_of(source, name)
+    channel = channel_beneath(source, name)
     ends = [name] if channel is None else [f"{channel}.minimum", f"{channel}.maximum"]
     values = np.abs([output(source, one)[done.ravel()] for one in ends])
     return float(values[np.isfinite(values)].max(initial=0.0))

@@ -39,6 +39,12 @@ def channel_of(source: StudySource, name: str) -> str | None:
     return channel if known else None
 
 
+def channel_beneath(source: StudySource, name: str) -> str | None:
+    """Return the channel that an output is an extreme or a statistic of; None of one of a joint."""
+    channel, unit = name.rpartition(".")[0], outputs(source)[name].unit
+    return channel if channel in {c.name for c in source.channels if c.unit == unit} else None
+
+
 def output(source: StudySource, name: str) -> Floats:
     """Return (points,) one of `outputs`; NaN where it is not known."""
     channel, end = channel_of(source, name), name.rpartition(".")[2]

@@ -178,7 +178,7 @@ def sweep(sizes=(40,), *, failed=(), unfinished=()):
 ORDERS = {"bogacki-shampine": 3, "tsitouras": 5, "dormand-prince-853": 8, "rodas": 4, "rk4": 4}
 
 
-def calibration(*, ended=True, fitted=1.0):
+def calibration(*, ended=True, fitted=1.0, cost=1.0, settled=True):
     """A cost that falls tenfold, and two targets: a value that is missed by one, and a bound."""
     common = {"tolerance": 2.0, "lowest": 6.0, "highest": 14.0}
     targets = [
@@ -187,8 +187,13 @@ def calibration(*, ended=True, fitted=1.0):
     ]
     found = {
         "targets": targets,
+        "cost": cost,
         "equally_good_cost": 1.0,
-        "search": {"best_costs": [None, 10.0, 2.0, 1.0]},
+        "search": {
+            "best_costs": [None, 10.0, 2.0, 1.0],
+            "settled": settled,
+            "spread_settled": settled,
+        },
     }
     return StudyDataset(
         attributes={"job": {"kind": "calibration"}, "scene": SCENE},

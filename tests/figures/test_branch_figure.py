@@ -10,6 +10,7 @@ from drawn import drawn_with, visible_texts
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection
 from jointplay.records.branch import CURVES, branches
+from jointplay.records.point import PointStatus
 
 
 def test_stable_orbits_are_full_and_unstable_ones_dashed():
@@ -43,6 +44,24 @@ def test_sections_of_a_branch_are_of_all_values_of_its_parameter():
     figure = drawn_with(folded(), "section", Selection(channels=names, start=0, stop=1))
     shown = [text.get_text() for text in visible_texts(figure)]
     assert "speed = -1 to 3 rad/s, 5 orbits" in shown
+
+
+@pytest.mark.parametrize("name", ["branch", "multipliers", "curves"])
+def test_branches_that_are_not_there_are_counted(name):
+    source = over_two_parameters() if name == "curves" else folded()
+    status = [PointStatus.done, PointStatus.failed, PointStatus.running, PointStatus.done]
+    source = replace(
+        source,
+        values=np.zeros((4, source.values.shape[1])),
+        status=np.array(status, np.uint8),
+        times=source.times[[0, 1, 0, 0]],
+        section_values={one: rows[[0, 1, 0, 0]] for one, rows in source.section_values.items()},
+    )
+    told = "1 of 4 branches failed. 1 of 4 branches have not ended."
+    assert drawn_with(source, name, None).get_supxlabel().replace("\n", " ").endswith(told)
+    whole = drawn_with(source, name, Selection(start=0, stop=1 + (name == "curves")))
+    assert "not ended" not in whole.get_supxlabel()
+    assert ("failed" in whole.get_supxlabel()) == (name == "curves")
 
 
 def test_what_has_no_branch_is_not_drawn():

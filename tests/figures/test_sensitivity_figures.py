@@ -55,8 +55,23 @@ def test_the_name_of_an_output_or_a_channel_is_its_figure():
     ):
         figure = drawn_with(source, name, None)
         assert figure.axes[0].get_title("left") == title
-    assert "63 rows. Left out for failed points: 1." in figure.get_supxlabel().replace("\n", " ")
+    noted = sensitivity(source, Question("left.contact_share"))["note"]
+    assert noted.startswith("In 1 of 64 rows a point failed")
+    assert f"63 rows. {noted}" in _caption(figure)
     assert [one.name for one in figures.available(source)] == ["sensitivity"]
+
+
+@pytest.mark.parametrize("design", BARS)
+def test_a_figure_says_that_bars_may_be_of_errors_of_the_runs(design):
+    source = study(design)
+    source.attributes["job"]["tolerance"] = 1e-3
+    noted = sensitivity(source, Question("block.x.maximum"))["note"]
+    assert "errors of the runs" in noted
+    assert noted in _caption(drawn_with(source, "sensitivity", None))
+
+
+def _caption(figure):
+    return figure.get_supxlabel().replace("\n", " ")
 
 
 def test_what_has_none_is_not_drawn():

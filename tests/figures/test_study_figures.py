@@ -75,6 +75,23 @@ def test_a_calibration_shows_its_search_and_every_miss_in_tolerances():
     assert [float(mark.get_ydata()[0]) for mark in marks] == [1.0, 0.0]
 
 
+@pytest.mark.parametrize(
+    ("found", "said"),
+    [
+        ({}, ""),
+        ({"cost": 9.0}, " Nothing fits: misses are larger than tolerances explain."),
+        (
+            {"settled": False},
+            " The search ended before its candidates were alike."
+            " More may fit equally well than bars show.",
+        ),
+    ],
+)
+def test_a_calibration_says_what_its_search_did_not_reach(found, said):
+    caption = drawn_with(calibration(**found), "calibration", None).get_supxlabel()
+    assert caption.replace("\n", " ").endswith(f"Bars: what these give.{said}")
+
+
 def test_a_calibration_is_drawn_once_its_search_has_ended():
     with pytest.raises(NotDrawable, match="did not end"):
         figures.draw(calibration(ended=False), "calibration")

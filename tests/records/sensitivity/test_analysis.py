@@ -294,6 +294,17 @@ def test_what_varies_by_errors_of_the_runs_is_said_to():
     assert sensitivity(study_of(ishigami, 64, 3, tolerance=1e-3), MAXIMUM)["note"] == ""
 
 
+def test_a_statistic_is_as_large_as_its_channel():
+    """The mean of a speed over whole periods is zero, and what is left of it is rounding."""
+    study = study_of(lambda x: 1.0 + x[:, 0], 64, 2)
+    study.statistics["rod.x.mean"] = 1e-16 * np.random.default_rng(0).normal(size=study.points)
+    found = sensitivity(study, Question("rod.x.mean"))
+    assert values_of(found, "total").max() > 0.3
+    assert "errors of the runs may make 2e-08 of that" in found["note"]
+    study.statistics["rod.x.mean"] = 1e-3 * study.values[:, 0]
+    assert sensitivity(study, Question("rod.x.mean"))["note"] == ""
+
+
 def test_where_a_run_came_to_before_it_failed_is_no_size_of_the_output():
     study = study_of(ishigami, 64, 3, failed=(2,), tolerance=1e-3)
     plain = sensitivity(study, MAXIMUM)["note"]
