@@ -1,6 +1,6 @@
 """Power spectral densities of channels in a window of a run."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -26,6 +26,10 @@ _MOST_SEGMENTS: Final = 15
 _COLUMNS: Final = 1000
 """Columns of a logarithmic axis: each shows its largest and smallest power."""
 NOTHING: Final = "fewer than 32 samples, or no change"
+_STRETCHES, _INTERVALS, _FARTHER = 4, 64, 1.3
+"""Parts of a window that are looked at, intervals between instants in each, and by how much a
+channel's range within these exceeds its change, in all, where it turns more often than instants can
+tell: by up to 1.15 where it does not, by 1.57 or more from 1.3 times the highest frequency on."""
 _ROUGH: Final = ("N", "N m", "m/s^2", "rad/s^2")
 """Units of channels that impacts change within microseconds."""
 
@@ -37,6 +41,8 @@ class PowerDensity:
     frequency: Floats  # (m,) above zero, Hz
     power: Floats  # (m,) square of the channel's unit / Hz
     step: float  # s between the instants
+    faster: bool = False
+    """Whether the channel is seen to turn more often than instants can tell."""
 
     @property
     def band_limit(self) -> float:
@@ -61,8 +67,9 @@ class PowerDensity:
 
 def power_density(source: Source, name: str, selection: Selection) -> PowerDensity:
     """Return the density of a channel in a window; `NotDrawable` if no sample is in it."""
-    values, step = _samples(source, name, selection)
-    return PowerDensity(*_welch(values, step, driving_frequency(source)), step)
+    values, begin, step = _samples(source, name, selection)
+    faster = step > _RESOLVED and _turns_between(source, name, values, begin, step)
+    return PowerDensity(*_welch(values, step, driving_frequency(source)), step, faster)
 
 
 def driving_frequency(source: Source) -> float:
@@ -71,27 +78,57 @@ def driving_frequency(source: Source) -> float:
     return 1.0 / period if period > 0.0 else 0.0
 
 
-def aliased(source: Source, names: Sequence[str], step: float) -> str:
-    """Say what samples make of forces and accelerations, which jump in less than a step."""
-    if all(scene_facts.channel(source, name).unit not in _ROUGH for name in names):
-        return ""
-    if between_samples.knows(source) and step <= _RESOLVED:
-        return ""
-    return (
-        "Forces and accelerations change faster than their samples: what lies above the highest"
-        " frequency appears below it. A smaller output_step shows how much that is."
-    )
+def aliased(source: Source, spectra: Mapping[str, PowerDensity]) -> str:
+    """Say of which channels what is faster than instants are apart appears at other frequencies.
+
+    That is so where a channel turns between two of them again and again, and of forces and
+    accelerations, which jump in less than a step.
+    """
+    notes = []
+    if fast := [name for name, one in spectra.items() if one.faster]:
+        notes.append(
+            f"Of {', '.join(fast)}, motion is faster than these instants are apart: what lies above"
+            " the highest frequency appears below it. Choose a shorter window or output_step."
+        )
+    step = max(one.step for one in spectra.values())
+    exact = between_samples.knows(source) and step <= _RESOLVED
+    units = {scene_facts.channel(source, name).unit for name in spectra if name not in fast}
+    if units & set(_ROUGH) and not exact:
+        notes.append(
+            "Forces and accelerations change faster than their samples: what lies above the highest"
+            " frequency appears below it. A smaller output_step shows how much that is."
+        )
+    return " ".join(notes)
 
 
-def _samples(source: Source, name: str, selection: Selection) -> tuple[Floats, float]:
-    """Give (n,) values that are equally far apart, and how far [s]."""
+def _turns_between(source: Source, name: str, values: Floats, begin: float, step: float) -> bool:
+    """Return whether a channel goes much farther between instants than they are apart.
+
+    values : (n,) at instants from `begin` on, s.
+    """
+    count = min(_INTERVALS, len(values) - 1)
+    if source.trajectory is None or count < 1:
+        return False
+    within = change = 0.0
+    for first in np.linspace(0, len(values) - 1 - count, _STRETCHES).astype(np.int64).tolist():
+        chosen = np.arange(first, first + count + 1)
+        found = source.trajectory.extremes([name], begin + step * chosen)
+        if found.values is None:
+            return False
+        within += float((found.values[:, 0, 2] - found.values[:, 0, 0]).sum())
+        change += float(np.abs(np.diff(values[chosen])).sum())
+    return within > _FARTHER * change
+
+
+def _samples(source: Source, name: str, selection: Selection) -> tuple[Floats, float, float]:
+    """Give (n,) values that are equally far apart, when they begin and how far that is [s]."""
     first, last = sampling.window(source, selection)
     start, stop = between_samples.ends(source, selection)
     if between_samples.knows(source) and stop > start:
         count = int(np.clip((stop - start) / _APART, _FEWEST_INSTANTS, _MOST_INSTANTS)) + 1
         exact = between_samples.at(source, [name], np.linspace(start, stop, count))
         if exact is not None:
-            return exact[1][name], (stop - start) / (count - 1)
+            return exact[1][name], start, (stop - start) / (count - 1)
     time, columns = sampling.joined(source, [name], max(first, last - _MOST_SAMPLES), last)
     values = columns[name]
     missing = np.flatnonzero(~np.isfinite(values))
@@ -99,7 +136,7 @@ def _samples(source: Source, name: str, selection: Selection) -> tuple[Floats, f
     if known > 2 and time[known - 1] - time[known - 2] < 0.99 * (time[1] - time[0]):
         known -= 1  # the end of the run, between two output steps
     step = float(time[known - 1] - time[0]) / (known - 1) if known > 1 else 0.0
-    return values[:known], step
+    return values[:known], float(time[0]), step
 
 
 def _welch(values: Floats, step: float, drive: float) -> tuple[Floats, Floats]:

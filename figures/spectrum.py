@@ -22,7 +22,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     spectra = [power_density(source, name, selection) for name in names]
     found = [one.frequency for one in spectra]
     marked = any(len(one) and one[0] <= drive <= one[-1] for one in found)
-    note = aliased(source, names, max(one.step for one in spectra))
+    note = aliased(source, dict(zip(names, spectra, strict=True)))
     figure, panels = page.stack([_PANEL_HEIGHT] * len(names), marked, page.caption_height(note))
     page.caption(figure, note)
     ends = [drive] if marked else []

@@ -65,7 +65,7 @@ def show_spectrum(
     described = by_name(reader.channels)
     shown = {name: _shown(described[name], one) for name, one in found.items()}
     nothing = [f"{name}: {NOTHING}." for name, one in found.items() if not len(one.frequency)]
-    rough = aliased(reader, chosen, max(one.step for one in found.values()))
+    rough = aliased(reader, found)
     note = " ".join(filter(None, [rough, *nothing]))
     return as_json(Spectrum.model_construct(complete=reader.complete, spectra=shown, note=note))
 

@@ -118,7 +118,25 @@ class Known(NamedTuple):
 
     @property
     def values(self):
-        return lambda _, times: Found(np.sin(2.0 * np.pi * self.tone * times)[:, None])
+        return lambda _, times: Found(self.of(times)[:, None])
+
+    def of(self, times):
+        return np.sin(2.0 * np.pi * self.tone * times + 0.3)
+
+    def extremes(self, _, edges):
+        times = np.linspace(edges[:-1], edges[1:], 401)
+        values = self.of(times)
+        rows = np.arange(len(edges) - 1)
+        ends = [(values[i, rows], times[i, rows]) for i in (values.argmin(0), values.argmax(0))]
+        return Found(np.stack([one for end in ends for one in end], axis=1)[:, None])
+
+
+class Sampled(Known):
+    """The same, of which values are known at samples alone, and extremes between these."""
+
+    @property
+    def values(self):
+        return lambda *_: Found(None, "No steps are kept.")
 
 
 class Found(NamedTuple):
@@ -133,6 +151,39 @@ def test_lines_of_fast_and_slow_mechanisms_are_seen_alike(lasts):
     source = replace(source, trajectory=Known(lasts, 200.0 / lasts))
     frequency, power, _ = curve(source, "tone")
     assert frequency[power.argmax()] == pytest.approx(200.0 / lasts, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("trajectory", "highest"),
+    [(Sampled(10.0, 0.0), 10.0), (Known(1e4, 0.0), 2**17 / 2e4)],
+    ids=["samples", "instants"],
+)
+@pytest.mark.parametrize(
+    ("tone", "noted"),
+    [
+        (0.02, False),
+        (0.5, False),
+        (0.9, False),
+        (1.3, True),
+        (2.0, True),
+        (3.01, True),
+        (7.3, True),
+    ],
+)
+def test_what_turns_twice_between_instants_is_said_to_appear_elsewhere(
+    trajectory, highest, tone, noted
+):
+    """A tone, in highest frequencies: above one it is seen where none is."""
+    source = sampled(201, 20.0, tone=lambda t: np.sin(2.0 * np.pi * tone * highest * t + 0.3))
+    source = replace(source, trajectory=trajectory._replace(tone=tone * highest))
+    if tone != 2.0:  # which is the same at all instants
+        frequency, power, _ = curve(source, "tone")
+        found = frequency[power.argmax()] / highest
+        assert found == pytest.approx(abs(tone - 2.0 * round(tone / 2.0)), abs=0.02)
+    with page.style():
+        caption = figures.draw(source, "spectrum", Selection(("tone",))).get_supxlabel()
+    told = "Of tone, motion is faster than these instants are apart" in caption.replace("\n", " ")
+    assert told == noted
 
 
 @pytest.mark.parametrize("samples", [4000, 4001, 777])
