@@ -31,7 +31,7 @@ LONGER, SMALLER, MORE = "settle for longer", "choose a smaller tolerance", "reco
 RECUR = "record four sections or more with the indicator 'recurrence'"
 TEST = f"record {FEWEST_TELLING} sections with the indicator 'zero_one'"
 """Remedies where nothing is decided."""
-BY_CHANCE, CREEPS = "by chance", "creeps"
+BY_CHANCE, CREEPS, WITHIN = "by chance", "creeps", "within"
 """Doubts in that sections which recur do so for good."""
 
 
@@ -52,9 +52,9 @@ def decide(
     period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
     number; not finite where the section is no closed curve. finer : the exponent in far smaller
     steps. drives : which are in step with sections. leaves : whether sections leave an unstable
-    orbit. doubt : in that they recur for good, BY_CHANCE or CREEPS. None: not known. An exponent
-    that is not finite, and a K with an error of 0.5 or more (too few sections), are as good as
-    none.
+    orbit. doubt : in that they recur for good, BY_CHANCE, CREEPS or WITHIN. None: not known. An
+    exponent that is not finite, and a K with an error of 0.5 or more (too few sections), are as
+    good as none.
 
     The reason gives an exponent with the error of its record, by which it is judged, and where its
     steps are worse than that, "in all" with the error that `confirmed` gives it.
@@ -133,6 +133,11 @@ def _doubtful(doubt: str, exponent: str) -> str:
             f" {LONGER}, or {MORE}"
         )
     told = f"; {exponent}" if exponent else ", or add the indicator 'lyapunov'"
+    if doubt == WITHIN:
+        return (
+            "within what counts as the same they move in no order, and do not come closer to each"
+            f" other: chaos or noise that is as small as that; {SMALLER}, or {LONGER}{told}"
+        )
     return (
         "for a while chaos may do so, too, where it passes an unstable orbit:"
         f" {MORE} or {LONGER}{told}"

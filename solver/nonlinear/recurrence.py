@@ -161,6 +161,29 @@ def largest_extent(points: Floats, period: int) -> float:
     return float((highest - lowest).max(initial=0.0))
 
 
+FADES = 0.7
+"""Share of their extent in the first half of a record below which points of the last half have come
+closer to where they go."""
+ORDER = 0.1
+"""Share of their own extent within which points recur that move in some order."""
+
+
+def moves_within(points: Floats, tolerance: float) -> bool:
+    """Return whether (n, d) points that are all the same within a tolerance go on to move in it.
+
+    They do where their extent is more than 3 % of it, does not fade from the first half of the
+    record to the last, and nothing recurs within a tenth of it: chaos that is small beside what
+    counts as one looks like that, and so does noise. Fewer than twelve points do not tell.
+    """
+    extent, half = np.ptp(points, axis=0), len(points) // 2
+    largest = float(extent.max(initial=0.0))
+    if len(points) < FEWEST_LEAVING or not FAR_CLOSER * tolerance < largest <= tolerance:
+        return False
+    own = points / np.maximum(extent, ORDER * largest)
+    first, last = largest_extent(own[:half], 1), largest_extent(own[-half:], 1)
+    return last > FADES * first and not recurrence_period(own, np.ones(len(extent)), ORDER)
+
+
 LEAVES = 30.0
 """Factor by which sections that leave an orbit part at least, from the first third of a record to
 the last. Of random chaos one record in forty does by chance, of 18 to 50 sections."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.nonlinear.batch_means import FEWEST_BATCHES
-from jointplay.solver.nonlinear.decision import BY_CHANCE, CREEPS, decide
+from jointplay.solver.nonlinear.decision import BY_CHANCE, CREEPS, WITHIN, decide
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from jointplay.solver.nonlinear.lyapunov import (
     confirmed,
@@ -20,6 +20,7 @@ from jointplay.solver.nonlinear.recurrence import (
     creep_to_come,
     leaves_an_orbit,
     may_recur_by_chance,
+    moves_within,
     recurrence_period,
 )
 from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
@@ -58,6 +59,9 @@ class Sections(NamedTuple):
     """Number of generalised coordinates."""
     interval: float
     """Mean time between them, s."""
+    has_play: bool = True
+    """Whether a clearance counts as one: what moves within a thousandth of that is noise. A link is
+    no measure of how small a motion is."""
 
 
 def indicators_of(
@@ -116,7 +120,8 @@ def indicators_of(
         recurrence = seen  # neighbours of an unstable orbit part, too, whatever was asked for
         found["period"] = _number(seen)
         leaves = leaves_an_orbit(states)
-    doubt = _doubt(states, recurrence, log_growth if by_period else None)
+    known = log_growth if by_period else None
+    doubt = _doubt(states, recurrence, known, has_play=sections.has_play)
     evidence = lyapunov, zero_one, recurrence, rotation, finer
     verdict = decide(*evidence, drives=drives, leaves=leaves, doubt=doubt)
     return found | {"verdict": float(verdict.code)}, verdict
@@ -136,7 +141,7 @@ def _number(period: int | None) -> float:
     return math.nan if period is None else float(period)
 
 
-def _doubt(states: Floats, period: int | None, log_growth: Floats | None) -> str:
+def _doubt(states: Floats, period: int | None, log_growth: Floats | None, *, has_play: bool) -> str:
     """Return why sections that recur may not do so for good, as `decide` takes it.
 
     log_growth : (periods,) as in `indicators_of`, of sections once a period; None: of others.
@@ -149,7 +154,9 @@ def _doubt(states: Floats, period: int | None, log_growth: Floats | None) -> str
     growth = None
     if log_growth is not None and len(log_growth) and _known(log_growth):
         growth = float(_by_orbit(log_growth, period).sum())
-    return BY_CHANCE if may_recur_by_chance(whole, period, RECURS, growth) else ""
+    if may_recur_by_chance(whole, period, RECURS, growth):
+        return BY_CHANCE
+    return WITHIN if not has_play and moves_within(states, RECURS) else ""
 
 
 def _recurrence(states: Floats, *, compared: bool) -> int | None:

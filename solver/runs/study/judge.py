@@ -85,7 +85,8 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     period, growths = float(study.period[run.point]), _growths(study, run)
     moments = np.concatenate([np.zeros(0), *run.moments])
     apart = float(np.diff(moments).mean()) if len(moments) > 1 else period
-    sections = Sections(states, scales, angles, len(kernel.coordinates), apart)
+    coordinates, has_play = len(kernel.coordinates), bool(kernel.pairs)
+    sections = Sections(states, scales, angles, coordinates, apart, has_play)
     compared = study.compares_cycles or study.starts > 1
     drives = in_step(study.point_scene(run.point), period)
     found, verdict = indicators_of(

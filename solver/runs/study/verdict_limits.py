@@ -6,6 +6,7 @@ An indicator says nothing where it has too few sections, or where its number is 
 import math
 from collections.abc import Iterator, Mapping
 
+from jointplay.solver.mechanics.assembly import link_lengths
 from jointplay.solver.nonlinear.recurrence import longest_in
 from jointplay.solver.nonlinear.verdict import UNDECIDED
 from jointplay.solver.nonlinear.zero_one import FEWEST_TELLING
@@ -35,10 +36,11 @@ def limits(
     if "period" in found and sections < FEWEST_FOR_RECURRENCE:
         yield f"recurrence needs {FEWEST_FOR_RECURRENCE} sections, there are {sections}"
     elif "period" in found:
-        scale = "finest clearance" if contact_pairs(scene) else "shortest link"
+        scale = "1 m, as there is no link" if not link_lengths(scene) else "the shortest link"
+        scale = "the finest clearance" if contact_pairs(scene) else scale
         yield (
             f"periods up to {longest_in(sections)} are looked for, and what differs by less"
-            f" than {RECURS:g} of the {scale}, or of its own range, counts as the same"
+            f" than {RECURS:g} of {scale}, or of its own range, counts as the same"
         )
     if math.isnan(found.get("rotation", 0.0)):
         moved = (
