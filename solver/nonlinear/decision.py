@@ -136,7 +136,8 @@ def _doubtful(doubt: str, exponent: str) -> str:
     if doubt == WITHIN:
         return (
             "within what counts as the same they move in no order, and do not come closer to each"
-            f" other: chaos or noise that is as small as that; {SMALLER}, or {LONGER}{told}"
+            " other: chaos or noise that is as small as that; give the scene a 'length' as small as"
+            f" the motion, {SMALLER}, or {LONGER}{told}"
         )
     return (
         "for a while chaos may do so, too, where it passes an unstable orbit:"

@@ -40,16 +40,18 @@ def perturbed_start(
     return state + perturbation.spread * generator.standard_normal(len(state)) * scales
 
 
-def start_scales(scene: Scene, coordinates: Sequence[str], period: float) -> Floats:
+def start_scales(
+    scene: Scene, coordinates: Sequence[str], period: float, given: float | None = None
+) -> Floats:
     """Return what perturbations of a start are measured in, (states,).
 
     Positions in the finest clearance, m; angles in the turn, rad, that moves the end of the longest
     body that far; speeds in the same per period/2 pi (s); inner states in scales of their own.
-    Without clearance: the shortest link.
+    Without clearance: the shortest link. given : m, before both, such as the scene's `length`.
     """
     length = shortest_link(scene)
     play = [pair.play for pair in contact_pairs(scene).values()]
-    finest = min(play, default=length)
+    finest = min(play, default=length) if given is None else given
     turn = finest / mechanism_size(scene, length)
     position = np.array([turn if name.endswith(".theta") else finest for name in coordinates])
     inner = [state.scale for states in inner_states(scene).values() for state in states]

@@ -141,6 +141,18 @@ class Scene(Strict):
             description="time between sections where what drives the scene does not repeat",
         ),
     ] = None
+    length: Annotated[
+        float | None,
+        quantity(
+            "m",
+            gt=0.0,
+            le=1e6,
+            description=(
+                "what counts as one length where motions are compared, and starts perturbed;"
+                " default: the smallest clearance, else the shortest link, else 1 m"
+            ),
+        ),
+    ] = None
     ground: Ground = Ground()
     bodies: Annotated[dict[Name, Body], Field(min_length=1, max_length=96)]
     joints: Annotated[dict[Name, AnyJoint], Field(min_length=1, max_length=128)]

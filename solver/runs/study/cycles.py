@@ -45,7 +45,7 @@ def outputs_of(scene: Scene) -> dict[str, Output]:
 def attributes_of(scene: Scene, period: float) -> dict[str, Any]:
     """Return facts by which cycles are compared: what counts as one in each state, the angles."""
     coordinates = spanning_tree(scene).coordinates
-    scales = start_scales(scene, coordinates, period)
+    scales = start_scales(scene, coordinates, period, scene.length)
     names = names_of(coordinates)
     return {
         "scales": dict(zip(names, scales.tolist(), strict=False)),

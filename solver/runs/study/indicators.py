@@ -59,9 +59,9 @@ class Sections(NamedTuple):
     """Number of generalised coordinates."""
     interval: float
     """Mean time between them, s."""
-    has_play: bool = True
-    """Whether a clearance counts as one: what moves within a thousandth of that is noise. A link is
-    no measure of how small a motion is."""
+    measured: bool = True
+    """Whether a clearance, or a length that the scene gives, counts as one: what moves within a
+    thousandth of that is noise. A link is no measure of how small a motion is."""
 
 
 def indicators_of(
@@ -121,7 +121,7 @@ def indicators_of(
         found["period"] = _number(seen)
         leaves = leaves_an_orbit(states)
     known = log_growth if by_period else None
-    doubt = _doubt(states, recurrence, known, has_play=sections.has_play)
+    doubt = _doubt(states, recurrence, known, measured=sections.measured)
     evidence = lyapunov, zero_one, recurrence, rotation, finer
     verdict = decide(*evidence, drives=drives, leaves=leaves, doubt=doubt)
     return found | {"verdict": float(verdict.code)}, verdict
@@ -141,7 +141,7 @@ def _number(period: int | None) -> float:
     return math.nan if period is None else float(period)
 
 
-def _doubt(states: Floats, period: int | None, log_growth: Floats | None, *, has_play: bool) -> str:
+def _doubt(states: Floats, period: int | None, log_growth: Floats | None, *, measured: bool) -> str:
     """Return why sections that recur may not do so for good, as `decide` takes it.
 
     log_growth : (periods,) as in `indicators_of`, of sections once a period; None: of others.
@@ -156,7 +156,7 @@ def _doubt(states: Floats, period: int | None, log_growth: Floats | None, *, has
         growth = float(_by_orbit(log_growth, period).sum())
     if may_recur_by_chance(whole, period, RECURS, growth):
         return BY_CHANCE
-    return WITHIN if not has_play and moves_within(states, RECURS) else ""
+    return WITHIN if not measured and moves_within(states, RECURS) else ""
 
 
 def _recurrence(states: Floats, *, compared: bool) -> int | None:

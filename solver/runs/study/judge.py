@@ -85,10 +85,11 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     period, growths = float(study.period[run.point]), _growths(study, run)
     moments = np.concatenate([np.zeros(0), *run.moments])
     apart = float(np.diff(moments).mean()) if len(moments) > 1 else period
-    coordinates, has_play = len(kernel.coordinates), bool(kernel.pairs)
-    sections = Sections(states, scales, angles, coordinates, apart, has_play)
+    scene, coordinates = study.point_scene(run.point), len(kernel.coordinates)
+    measured = bool(kernel.pairs) or scene.length is not None
+    sections = Sections(states, scales, angles, coordinates, apart, measured)
     compared = study.compares_cycles or study.starts > 1
-    drives = in_step(study.point_scene(run.point), period)
+    drives = in_step(scene, period)
     found, verdict = indicators_of(
         study.indicators,
         sections,
@@ -108,8 +109,7 @@ def judged(study: Study, kernel: Kernel, run: PointRun) -> PointEnd:
     if study.brief:
         return replace(run.ended, indicators=found)
     seen, periods = len(states[:MOST_SECTIONS]), len(growths[0])
-    scene, events = study.point_scene(run.point), study.ends_with_events
-    remarks = limits(scene, found, seen, periods, events=events)
+    remarks = limits(scene, found, seen, periods, events=study.ends_with_events)
     reason = "; ".join(filter(None, [verdict.reason, run.lasting, *remarks]))
     return replace(run.ended, indicators=found, reason=reason)
 

@@ -100,7 +100,8 @@ def _sampled(study: Study, point: int, duration: float) -> tuple[float, int, int
 
 def scales_of(study: Study, kernel: Kernel, point: int) -> tuple[Floats, Flags]:
     """Return what counts as one in each state, and which states are angles, (states,) each."""
-    scales = start_scales(study.point_scene(point), kernel.coordinates, float(study.period[point]))
+    scene, period = study.point_scene(point), float(study.period[point])
+    scales = start_scales(scene, kernel.coordinates, period, scene.length)
     angles = np.zeros(len(scales), dtype=bool)
     angles[: len(kernel.coordinates)] = [name.endswith(".theta") for name in kernel.coordinates]
     return scales, angles
@@ -126,5 +127,6 @@ def perturbed(study: Study, kernel: Kernel, point: int, member: int) -> Floats:
     assert study.perturbation is not None  # noqa: S101  (narrows the type)
     scene = study.point_scene(point)
     state = own_start(kernel, scene)
-    scales = start_scales(scene, kernel.coordinates, float(study.period[point]))
+    period = float(study.period[point])
+    scales = start_scales(scene, kernel.coordinates, period, scene.length)
     return perturbed_start(state, scales, study.perturbation, member)

@@ -39,5 +39,5 @@ def state_at_rest(bundle: Bundle, lane: int, scene: Scene, period: float) -> Ite
 
 def _units(scene: Scene) -> tuple[float, float]:
     """Return what counts as one length, m, and as one angle, rad."""
-    length, angle, *_ = start_scales(scene, ("x", ".theta"), 1.0)
+    length, angle, *_ = start_scales(scene, ("x", ".theta"), 1.0, scene.length)
     return float(length), float(angle)

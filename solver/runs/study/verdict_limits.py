@@ -38,6 +38,7 @@ def limits(
     elif "period" in found:
         scale = "1 m, as there is no link" if not link_lengths(scene) else "the shortest link"
         scale = "the finest clearance" if contact_pairs(scene) else scale
+        scale = scale if scene.length is None else f"the scene's length of {scene.length:g} m"
         yield (
             f"periods up to {longest_in(sections)} are looked for, and what differs by less"
             f" than {RECURS:g} of {scale}, or of its own range, counts as the same"

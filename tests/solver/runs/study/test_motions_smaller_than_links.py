@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.basin_scenes import cubic_oscillator, shaking
+from benchmarks.basin_scenes import ON_THE_MASS, cubic_oscillator, shaking, sliding
 from jointplay.local import run
 from jointplay.solver.nonlinear.recurrence import moves_within
 from jointplay.solver.nonlinear.verdict import VERDICTS
@@ -56,8 +56,60 @@ def test_a_small_motion_is_not_periodic_for_being_small(size, push, verdict):
 def test_what_moves_in_no_order_and_does_not_fade_is_no_orbit(motion, moves):
     states = np.column_stack([motion, np.roll(motion, 1)])[1:]
     assert moves_within(states, 1e-3) == moves
-    for has_play in (True, False):
-        sections = Sections(states, np.ones(2), np.zeros(2, np.bool_), 1, 1.0, has_play)
+    for measured in (True, False):
+        sections = Sections(states, np.ones(2), np.zeros(2, np.bool_), 1, 1.0, measured)
         _, verdict = indicators_of(("recurrence",), sections, np.zeros(0), np.zeros(0), 1.0, 0)
-        undecided = moves and not has_play
+        undecided = moves and not measured
         assert verdict.code == VERDICTS["undecided" if undecided else "periodic"]
+
+
+def test_a_scene_says_how_long_its_motions_are():
+    job = {"kind": "poincare", "settle": 60, "record": COUNT, "indicators": ["recurrence"]}
+    found = []
+    for size in (1.0, 1e-4):
+        scene = two_wells(size, 0.3) | {"length": size}
+        study = run(job | {"scene": scene}, processes=1).study()
+        found.append((study.indicators["period"][0], study.verdict_names[study.verdicts[0]]))
+        assert f"the scene's length of {size:g} m" in study.reasons[0]
+    assert found == [(0.0, "undecided")] * 2
+
+
+@pytest.mark.parametrize(("length", "shares"), [(None, [1.0]), (1e-4, [0.5, 0.5])])
+def test_wells_that_are_close_are_apart_beside_the_length_of_a_scene(length, shares):
+    """Each of two wells, 0.2 mm apart, takes half of starts that mirror each other."""
+    scene = two_wells(1e-4, 0.1) | ({"length": length} if length else {})
+    del scene["forces"]["shaking"]
+    job = {
+        "kind": "basins",
+        "scene": scene | {"period": 2.0 * np.pi},
+        "along": {"start": "/start/points/mass.centre/0", "values": [-2e-4, -1e-4, 1e-4, 2e-4]},
+        "by": {"start": "/start/velocities/mass/0", "values": [-3e-5, 3e-5]},
+        "section": {"channel": "mass.vx", "value": 0.0},
+        "indicators": ["recurrence"],
+        "settle": 60,
+        "record": 4,
+    }
+    (found,) = [run(job, processes=1).attractors]
+    assert [one["share"] for one in found["attractors"]] == shares
+
+
+@pytest.mark.parametrize(("length", "verdict"), [(None, "equilibrium"), (1e-5, "periodic")])
+def test_a_small_limit_cycle_is_no_rest_beside_the_length_of_a_scene(length, verdict):
+    """Rayleigh's oscillator, of 0.02 mm: its period is that of Van der Pol's."""
+    size = 1e-5
+    push = {
+        "type": "force",
+        **ON_THE_MASS,
+        "magnitude": 1.0,
+        "direction": [1.0, 0.0],
+        "over": {"quantity": "x", "rate": True},
+        "course": {"type": "polynomial", "coefficients": [0.0, 1.0, 0.0, -1.0 / 3.0 / size**2]},
+    }
+    spring = {"type": "spring-damper", **ON_THE_MASS, "stiffness": 1.0}
+    scene = sliding("rayleigh", 1e-13, spring=spring, push=push)
+    scene |= {"start": {"points": {"mass.centre": [size, 0.0]}}, "length": length}
+    job = {"kind": "poincare", "scene": scene, "settle": 20, "record": 12}
+    job |= {"section": {"channel": "mass.x", "value": 0.0}, "indicators": ["recurrence"]}
+    study = run(job, processes=1).study()
+    assert study.verdict_names[study.verdicts[0]] == verdict
+    assert np.diff(study.section_times()[0]) == pytest.approx(6.66328685932, abs=1e-7)
