@@ -1,9 +1,12 @@
 /** The page begins here: the address chooses a view, and the view fills the content. */
 
 import { element, fill } from "./interface/element.js";
+import { keyForm } from "./interface/key_form.js";
 import { address, route } from "./interface/route.js";
 import { trouble } from "./interface/trouble.js";
-import { Unreachable, get, isBusy, onReachable, pause, report } from "./requests/service.js";
+import {
+  Unreachable, get, isBusy, onKeyWanted, onReachable, pause, report,
+} from "./requests/service.js";
 
 const VIEWS = {
   start: ["Mechanisms", () => import("./views/start.js")],
@@ -23,6 +26,7 @@ const BELONGS = { new: "start", job: "jobs", compare: "jobs", batch: "jobs", bat
 
 const content = document.getElementById("content");
 const connection = document.getElementById("connection");
+const asking = document.getElementById("asking");
 let leaving = new AbortController();
 let away = false;
 
@@ -31,6 +35,7 @@ async function show() {
   leaving = new AbortController();
   const { signal } = leaving;
   const here = route();
+  fill(asking);
   if (Object.hasOwn(ONE_OF, here.view) && here.parts[0]) {
     location.replace(address([ONE_OF[here.view], ...here.parts], Object.fromEntries(here.query)));
     return;
@@ -67,6 +72,12 @@ onReachable((reachable) => {
   connection.textContent = away ? "The service does not answer. Trying again …" : "";
   connection.classList.toggle("away", away);
   if (away) comeBack();
+});
+
+onKeyWanted(() => { // a view goes on with what it has: what was typed is not lost
+  if (asking.hasChildNodes()) return;
+  fill(asking, keyForm());
+  asking.scrollIntoView({ block: "nearest" });
 });
 
 async function comeBack() {

@@ -1,6 +1,7 @@
 /** A job as something to copy: for curl, Python, the command line, and as JSON. */
 
 import { element, fill } from "./element.js";
+import { keyHeaders } from "../requests/key.js";
 
 /** Returns tabs with the texts of a job's document; `document()` is asked when they are shown. */
 export function jobAsText(document) {
@@ -53,10 +54,15 @@ const FORMS = {
   Python: python,
   "Command line": commandLine,
   curl: (job) =>
-    `curl -s ${location.origin}/v1/jobs -H 'Content-Type: application/json' \\\n  -d ${
+    `curl -s ${location.origin}/v1/jobs -H 'Content-Type: application/json' ${shownKey()}\\\n  -d ${
       inQuotes(JSON.stringify(job))}`,
   JSON: (job) => JSON.stringify(job, null, 2),
 };
+
+/** Returns the option with which curl shows a key, from where the other commands take it; none where none was asked for. */
+function shownKey() {
+  return keyHeaders().Authorization ? '-H "Authorization: Bearer $JOINTPLAY_KEY" ' : "";
+}
 
 function python(job) {
   return `import jointplay

@@ -1,7 +1,6 @@
 /** What is shown where a view cannot be: the reason, and what to do. */
 
 import { element } from "./element.js";
-import { keepKey } from "../requests/key.js";
 import { Problem, Unreachable } from "../requests/service.js";
 
 /** Returns a box that says what is wrong and what helps. */
@@ -31,7 +30,7 @@ function words(error, here) {
   const jobs = element("p", {}, element("a", { href: "#/jobs" }, "All jobs"), " · ",
     element("a", { href: "#/" }, "Mechanisms"));
   if (error instanceof Unreachable) return ["The service is away", null];
-  if (error.status === 401) return ["This service asks for a key", keyForm()];
+  if (error.status === 401) return ["This service asks for a key", null];
   if (!(error instanceof Problem)) return ["This cannot be shown", jobs];
   if (error.type === "/problems/expired-job") {
     const help = "Its results were removed. Its numbers can be computed again, bit for bit, from"
@@ -44,18 +43,4 @@ function words(error, here) {
     return ["There is no such job", [element("p", {}, help), jobs]];
   }
   return [error.title, jobs];
-}
-
-function keyForm() {
-  const key = element("input", { id: "key", type: "password", autocomplete: "off", required: true,
-    pattern: "\\s*[!-~]+\\s*", // no request can be sent with others
-    title: "A key begins with jp_, and has letters without accents, digits and - or _ behind it." });
-  const given = (event) => {
-    event.preventDefault();
-    keepKey(key.value);
-    location.reload();
-  };
-  return element("form", { class: "stacked", onsubmit: given },
-    element("label", { for: "key" }, "Key (jp_…), kept until this tab is closed"), key,
-    element("div", { class: "buttons" }, element("button", { type: "submit", class: "main" }, "Use it")));
 }

@@ -28,8 +28,7 @@ export function drawn(canvas, scene, pose, box, { margin = 30, ...options } = {}
 export class Sketch {
   /**
    * @param canvas where scenes are drawn
-   * @param options of the drawing; `onKeyless` is called where the service asks for a key, `onFound` with
-   *                what it answers of each scene
+   * @param options of the drawing; `onFound` is called with what the service answers of each scene
    */
   constructor(canvas, options, signal) {
     Object.assign(this, { canvas, options, signal, playing: false, share: 0, poses: [] });
@@ -42,10 +41,7 @@ export class Sketch {
   }
 
   async take(scene) {
-    const found = await poses(scene, [0], this.signal).catch((error) => {
-      if (error.status === 401) this.options.onKeyless?.(error);
-      throw error;
-    });
+    const found = await poses(scene, [0], this.signal);
     this.scene = { ...scene, curves: found.curves };
     Object.assign(this, { found, poses: found.poses, box: bounds(this.scene, found.poses) });
     this.options.onFound?.(found);

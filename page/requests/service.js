@@ -76,6 +76,13 @@ export async function getBytes(path, form, signal) {
   return whole((await patiently(ask, signal, isBusy)).arrayBuffer());
 }
 
+const withoutKey = new Set();
+
+/** Calls `listener` with each problem that another key may solve: none was shown, or it is not for this. */
+export function onKeyWanted(listener) {
+  withoutKey.add(listener);
+}
+
 async function request(method, path, document, signal) {
   const answer = await answered(method, path, document, signal, "application/json");
   return whole(answer.json());
@@ -109,7 +116,10 @@ async function answered(method, path, document, signal, form) {
   report(true);
   if (answer.ok) return answer;
   const after = Number.parseFloat(answer.headers.get("Retry-After") ?? "");
-  throw new Problem(answer.status, await answer.json().catch(() => ({})), Number.isNaN(after) ? null : after);
+  const problem = new Problem(answer.status, await answer.json().catch(() => ({})), Number.isNaN(after) ? null : after);
+  const wanted = problem.status === 401 || problem.type === "/problems/scope-missing";
+  if (wanted) for (const listener of withoutKey) listener(problem);
+  throw problem;
 }
 
 /** Waits, or throws AbortError as soon as the view is left. */

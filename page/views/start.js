@@ -46,8 +46,7 @@ export async function show(room, { signal }) {
         + " figure that they printed stands beside what is computed here."),
       element("a", { class: "button", href: "/report" }, "Read the report")),
   );
-  const onKeyless = (error) => fill(said, trouble(error));
-  const sketch = new Sketch(canvas, { margin: 36, onKeyless }, signal);
+  const sketch = new Sketch(canvas, { margin: 36 }, signal);
   sketch.show(withParameters(favourite));
   onNewColours(() => sketch.draw(), signal);
   addEventListener("resize", () => sketch.draw(), { signal });
