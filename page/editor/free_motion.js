@@ -62,15 +62,15 @@ export class FreeMotion {
     try {
       scene = withParameters(document);
     } catch {
-      return; // it is no scene yet, and its check says why
+      return this.missed(); // it is no scene yet, and its check says why
     }
     this.scenes.want(scene);
   }
 
   async take(scene) {
     const found = await poses(scene, [0], this.signal).catch((error) => {
-      const known = error.errors?.length || error.name === "AbortError"; // the check tells what is wrong
-      if (!known) fill(this.said, `This is not drawn: ${error.message}`);
+      if (error.errors?.length) this.missed(); // the check tells what is wrong
+      else if (error.name !== "AbortError") fill(this.said, `This is not drawn: ${error.message}`);
       throw error;
     });
     if (!found.poses.length) return;
@@ -83,6 +83,12 @@ export class FreeMotion {
     this.forget();
     this.begin();
     this.shown(found);
+  }
+
+  /** Says that the picture is of an earlier text, where there is one. */
+  missed() {
+    this.here.disabled = true;
+    if (this.scene) fill(this.said, "This text cannot be drawn: the picture is of an earlier one.");
   }
 
   /** Goes back to t = 0. */

@@ -39,6 +39,7 @@ export class Estimate {
     try {
       await pause(wait, signal);
       const job = this.document();
+      fill(this.element, "Estimating the cost …"); // what is said is of another job
       const slow = setTimeout(() => !signal.aborted && fill(this.element,
         "Estimating the cost … (equations are compiled the first time they are met)"), 1500);
       signal.addEventListener("abort", () => clearTimeout(slow));

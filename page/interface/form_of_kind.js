@@ -37,11 +37,14 @@ export function formOfKind(name, described, { axis, ends, choice, proposed }) {
     fields: (document, { duration, sections }) => Object.assign(
       {},
       ...drawn.map((one) => one.fields(document)),
-      own ? axis(document, "parameter", "Parameter", inWords(described.fields.parameter), 0, "") : {},
+      own ? axis(document, "parameter", "Parameter", {
+        ...inWords(described.fields.parameter), counted: sentence(described.fields.values.help),
+      }, 0, "") : {},
       ...axes.map((field, nth) =>
         axis(document, field, titled(field), inWords(described.fields[field]), nth + Number(own))),
       Object.fromEntries(others.map(([field, one]) => [field, ofField(field, one, {
         duration, settle: section?.members.onset && fades(document, sections) ? 0 : null,
+        units: choice(document).units,
       })])),
       section && sectionFields(section, sections),
     ),
@@ -75,7 +78,10 @@ export function formOfKind(name, described, { axis, ends, choice, proposed }) {
 }
 
 const STANDARD = "as usual";
+const OF_PARAMETER = "the parameter's unit";
 const TITLES = { poincare: "Poincaré sections" };
+
+const MEMBERS = /: \{'[^}]*\}$/; // of an object in a document: a form has fields for them
 
 /** Whether what varies is a number of the start, by its JSON pointer. */
 function isStart(name) {
@@ -90,6 +96,7 @@ function ofField(name, { help, unit, choices, required, words, form }, proposed)
   const shown = { title: titled(name), help: sentence(help), unit: unit ?? "1", accepts: words, whole: form === "integer" };
   if (choices.length) return { ...shown, choices: [STANDARD, ...choices], default: STANDARD };
   if (name === DURATION) return { ...shown, default: proposed.duration };
+  if (unit === OF_PARAMETER) shown.unit = ({ parameter }) => proposed.units[parameter] ?? "1";
   if (name === RECORD && unit === "periods") shown.unit = ({ section }) => (section === "crank_angle" ? unit : "sections");
   const value = name === SETTLE ? proposed.settle : null;
   return { ...shown, default: value, empty: String(value ?? STANDARD), required };
@@ -101,5 +108,6 @@ function titled(name) {
 }
 
 function sentence(text) {
-  return text ? `${text[0].toUpperCase()}${text.slice(1)}.` : "";
+  const words = text?.replace(MEMBERS, "");
+  return words ? `${words[0].toUpperCase()}${words.slice(1)}.` : "";
 }

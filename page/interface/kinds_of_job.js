@@ -199,12 +199,13 @@ export function namesOfFields(kind, document) {
 /**
  * Returns the fields of what varies, and of its values.
  *
+ * @param counted help of how many there are
  * @param before begins the names of the fields of its values, and their titles; "": they are the only ones
  * @param place  returns, of the values of all fields, where the range is in the document
  * @param which  see `choice`
  */
 function varied(document, name, title, {
-  count = 48, help = "What is varied.", before = "", place = () => "values", ...which
+  count = 48, help = "What is varied.", counted = "", before = "", place = () => "values", ...which
 } = {}) {
   const choices = choice(document, which);
   const part = (end) => (before ? `${before}_${end}` : end);
@@ -223,7 +224,7 @@ function varied(document, name, title, {
     [part("from")]: end("from"),
     [part("to")]: end("to"),
     [part("count")]: {
-      title: titled("values"), help: "", shown, pointer: (all) => `${place(all)}/count`,
+      title: titled("values"), help: counted, shown, pointer: (all) => `${place(all)}/count`,
       unit: "1", minimum: 1, maximum: 100000, default: count, whole: true,
     },
   };
@@ -236,9 +237,9 @@ function varied(document, name, title, {
  * @param nth       how many axes come before
  * @param before    see `varied`
  */
-function axis(document, name, title, { help, required, varied: of }, nth, before = name) {
+function axis(document, name, title, { help, counted, required, varied: of }, nth, before = name) {
   const place = () => (before ? `${name}/values` : "values");
-  return varied(document, name, title, { count: 24, help, before, none: !required, of, nth, place });
+  return varied(document, name, title, { count: 24, help, counted, before, none: !required, of, nth, place });
 }
 
 /** Returns the range that is proposed for a parameter, within its own, or for a number of the start. */

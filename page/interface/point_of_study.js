@@ -3,8 +3,9 @@
 import { element, fill } from "./element.js";
 import { withUnit } from "./numbers.js";
 import { go } from "./route.js";
-import { sceneOf } from "./scene_of_job.js";
+import { preset, sceneOf } from "./scene_of_job.js";
 import { proposedDuration } from "./some_duration.js";
+import { withDefaults } from "../mechanism/parameters.js";
 import { post } from "../requests/service.js";
 
 /**
@@ -44,8 +45,7 @@ export function offer(room, study, values, words, beside, others = {}, starts = 
 
 /** Returns the document of the run of a study's scene with these values. */
 async function simulation({ scene: given, tolerance, method, duration }, values, starts) {
-  const document = await sceneOf({ scene: given });
-  const long = typeof duration === "number" ? duration : await proposedDuration(document);
+  const long = typeof duration === "number" ? duration : await proposedDuration(await declaring(given, values));
   const shared = { kind: "simulate", duration: long, tolerance, method };
   if (Array.isArray(starts)) return { ...shared, scene: sceneWith(given, values), state: starts };
   const scene = Object.keys(starts).length
@@ -54,10 +54,20 @@ async function simulation({ scene: given, tolerance, method, duration }, values,
   return { ...shared, scene };
 }
 
+/** Returns the document of a job's scene with these values as the defaults of its parameters. */
+async function declaring(given, values) {
+  const scene = sceneWith(given, ofParameters(values));
+  return given.preset ? withDefaults(await preset(given.preset), scene.parameters) : scene;
+}
+
+/** Returns the values of parameters, without those of numbers of the start: `joint.position` and the like. */
+function ofParameters(values) {
+  return Object.fromEntries(Object.entries(values).filter(([name]) => !name.includes(".")));
+}
+
 /** Returns a scene of its own with these values of parameters, which starts with these numbers. */
 async function sceneStarting(given, values, starts) {
-  const declared = Object.fromEntries(Object.entries(values).filter(([name]) => !name.includes(".")));
-  const { parameters, ...document } = structuredClone(await sceneOf({ scene: sceneWith(given, declared) }));
+  const { parameters, ...document } = structuredClone(await sceneOf({ scene: sceneWith(given, ofParameters(values)) }));
   for (const [pointer, value] of Object.entries(starts)) {
     const keys = pointer.slice(1).split("/");
     const last = keys.pop();

@@ -1,8 +1,9 @@
 /** Axes of plots on a canvas: nice numbers, labels, and the way from values to pixels. */
 
-import { apart, axisLabel, axisUnit } from "../interface/numbers.js";
+import { apart, axisLabel, axisUnit, short } from "../interface/numbers.js";
 
 const ROUNDING = 1e-12; // of the larger end: a range that is narrower has no scale
+const MOST_DIGITS = 6; // of a number beside an axis: there is no room for more
 const LEAST = 1e-300; // of a range: below, powers of ten are rounded to nothing
 
 /** Returns how much larger letters are than on a page of usual size: they grow on large screens. */
@@ -66,8 +67,9 @@ export function ticks([low, high], wanted) {
 export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = true }, colours) {
   const [left, top, width, height] = to.room;
   const [x0, x1, y0, y1] = to.domain;
-  const [across, up] = [suited(xLabel, [x0, x1]), suited(yLabel, [y0, y1])];
   const size = letters();
+  const across = marked(xLabel, [x0, x1], width / (90 * size));
+  const up = marked(yLabel, [y0, y1], height / (45 * size));
   context.font = axisFont();
   context.lineWidth = 1;
   context.strokeStyle = colours.faint;
@@ -75,16 +77,16 @@ export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = tru
   context.strokeRect(left + 0.5, top + 0.5, width, height);
   context.textAlign = "center";
   context.textBaseline = "top";
-  for (const [value, text] of apart(ticks([x0 / across.one, x1 / across.one], width / (90 * size)))) {
-    const x = Math.round(to.x(value * across.one)) + 0.5;
+  for (const [value, text] of across.marks) {
+    const x = Math.round(to.x(value)) + 0.5;
     line(context, [x, top + height], [x, top + height + 5]);
     if (numbersX) context.fillText(text, x, top + height + 7);
   }
   if (numbersX) context.fillText(across.label, left + width / 2, top + height + 9 + 14 * size);
   context.textAlign = "right";
   context.textBaseline = "middle";
-  for (const [value, text] of apart(ticks([y0 / up.one, y1 / up.one], height / (45 * size)))) {
-    const y = Math.round(to.y(value * up.one)) + 0.5;
+  for (const [value, text] of up.marks) {
+    const y = Math.round(to.y(value)) + 0.5;
     line(context, [left - 5, y], [left, y]);
     context.fillText(text, left - 8, y);
   }
@@ -101,12 +103,30 @@ export function writeUpward(context, label, middle) {
   context.restore();
 }
 
-/** Returns a label `name [unit]` with a prefix that suits values, and what one of its unit is. */
-function suited(label, values) {
+/**
+ * Returns the label of an axis `name [unit]`, with a prefix that suits the range, and `[value, text]` of its marks.
+ * Where these would have many digits, they are how far each is from the first, which the label has.
+ */
+function marked(label, [low, high], wanted) {
   const [, name, unit] = /^(.*) \[([^\]]*)\]$/.exec(label) ?? [null, label, ""];
-  if (!unit) return { label, one: 1 };
-  const [one, written] = axisUnit(unit, Math.max(...values.map(Math.abs)));
-  return { label: axisLabel(name, written), one };
+  const suited = (largest) => (unit ? axisUnit(unit, largest) : [1, ""]);
+  const [one, written] = suited(Math.max(Math.abs(low), Math.abs(high)));
+  const found = apart(ticks([low / one, high / one], wanted));
+  const marks = found.map(([value, text]) => [value * one, text]);
+  if (!found.some(([, text]) => digits(text) > MOST_DIGITS)) return { label: axisLabel(name, written), marks };
+  const [[first, text], [second]] = found;
+  const [small, fine] = suited(high - low);
+  const step = Number((((second - first) * one) / small).toPrecision(1)); // ticks are round numbers apart
+  const from = `${text.startsWith("−") ? "+" : "−"} ${text.replace(/^−/, "")}${written && ` ${written}`}`;
+  return {
+    label: axisLabel(`${name} ${from}`, fine),
+    marks: marks.map(([value], i) => [value, short(i * step)]),
+  };
+}
+
+/** Returns how many digits of a written number count. */
+function digits(text) {
+  return text.replace(/e.*/, "").replace(/\D/g, "").replace(/^0+/, "").length;
 }
 
 function line(context, from, to) {

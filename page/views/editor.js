@@ -37,12 +37,6 @@ async function askedFor(query, signal) {
   return null;
 }
 
-/** Returns what the address says of a study of the mechanism, and the job if the text is still its scene. */
-function study() {
-  const { preset, ...query } = Object.fromEntries(route().query);
-  return query;
-}
-
 /** Writes a document with a line for each field, and lists of numbers in one. */
 function pretty(document) {
   return JSON.stringify(document, null, 2).replace(/\[\s+(-?[\d.e+-]+),\s+(-?[\d.e+-]+)\s+\]/g, "[$1, $2]");
@@ -80,7 +74,7 @@ class Editing {
     const duration = route().query.get("duration") ?? "";
     this.duration = element("input", { id: "duration", inputmode: "decimal", value: duration });
     this.button = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run");
-    this.more = element("button", { type: "button", onclick: () => go(["new"], study()) }, "Vary it …");
+    this.more = element("button", { type: "button", onclick: () => go(["new"], this.study()) }, "Vary it …");
     this.estimate = new Estimate(() => this.job(), signal, (errors) => this.tell(errors));
     this.text = new TextEditor(kept() ?? text, help(schema, () => this.document), (now) => this.changed(now));
     this.presets = element("select", { id: "preset", onchange: () => this.begin(this.presets.value) },
@@ -93,7 +87,7 @@ class Editing {
           sceneFiles(() => ({ text: this.text.text, name: this.document?.name }), (written) => this.take(written)),
           element("label", { for: "preset", class: "small" }, "Begin with"), this.presets)),
       element("p", { class: "quiet" }, "Ctrl+Space proposes what may stand here; hover over a word"
-        + " to read what it means. Lengths in m, masses in kg, angles in rad."),
+        + " to read what it means. Lengths in m, masses in kg, angles in rad. The text is kept until this tab is closed."),
       element("div", { class: "editing" }, this.text.element,
         element("div", { class: "stacked" },
           element("section", { class: "panel" }, this.motion.element, this.facts, this.notes, this.messages),
@@ -139,6 +133,7 @@ class Editing {
       this.document = documentIn(text);
     } catch (error) {
       this.checking.abort();
+      this.motion.missed();
       fill(this.facts);
       fill(this.notes);
       this.estimate.refresh(); // which says that there is none
@@ -183,6 +178,16 @@ class Editing {
       this.tell(error.errors?.length ? error.errors : [{ pointer: "", detail: error.message }]);
       this.estimate.refresh();
     }
+  }
+
+  /**
+   * Returns what the address says of a study of the mechanism, and the job if the text is still its scene; and the
+   * duration that was typed.
+   */
+  study() {
+    const { preset, ...query } = Object.fromEntries(route().query);
+    const { value } = this.duration;
+    return value && value !== this.proposed ? { ...query, duration: value } : query;
   }
 
   job() {

@@ -209,6 +209,28 @@ def test_axes_have_the_units_of_figures_and_few_points_are_large(browsing, servi
     assert two > 28 > some > 5 > many, (two, some, many)
 
 
+AXES = """async (domain) => {
+  const { drawAxes, scales } = await import("/page/plots/axes.js");
+  const context = new OffscreenCanvas(900, 500).getContext("2d");
+  const written = [];
+  context.fillText = (text) => written.push(text);
+  drawAxes(context, scales([80, 10, 800, 400], [0, 1], domain), { yLabel: "place [m]" }, {});
+  return written.slice(written.indexOf("") + 1);
+}"""
+
+
+def test_numbers_that_differ_in_late_digits_stand_beside_an_axis(browsing, service_url):
+    """A periodic motion has such sections: their digits were cut off at the picture's edge."""
+    with browsing.page(f"{service_url}/#/jobs") as page:
+        wide, narrow = (page.evaluate(AXES, [-5e-3, -5e-3 + width]) for width in (1e-3, 1e-12))
+    assert wide[-1] == "place [mm]"
+    assert wide[0] == "−5"
+    *marks, label = narrow
+    assert label.startswith("place + 5 mm [")
+    assert (marks[0], label.count("[")) == ("0", 1)
+    assert max(map(len, marks)) <= 9
+
+
 WRITTEN = """() => {
   const write = CanvasRenderingContext2D.prototype.fillText;
   window.written = new Set();
@@ -261,6 +283,28 @@ def test_a_choice_that_does_not_come_is_told(browsing, http, service_url, worker
         page.get_by_label("Observable").select_option(other)
         page.get_by_role("img", name=f"{other} at the sections").wait_for()
         expect(told).to_have_count(0)
+
+
+def test_the_run_of_a_point_lasts_some_turns_of_that_point(browsing, http, service_url, worker):
+    """It lasted four turns of the shipped mechanism: at a tenth of its speed not half a turn."""
+    slow = 50.0  # rad/s
+    scene = {"preset": "slider-crank"}
+    values = {"scene": scene, "parameter": "speed", "values": [slow, 500.0]}
+    study = worker.finished_study(**(BIFURCATION | values | {"indicators": []}))
+    with browsing.page(f"{service_url}/#/job/{study}", expected=("409", "404")) as page:
+        page.locator("canvas[data-done='2']").wait_for()
+        at = page.get_by_label("speed", exact=True)
+        at.fill("slow")
+        at.press("Enter")
+        page.get_by_text("“slow” is no number").wait_for()
+        at.fill("51")
+        at.press("Enter")
+        expect(at).to_have_value("50")
+        page.get_by_role("button", name="Run this simulation").click()
+        expect(page.get_by_role("heading", level=1)).to_have_text("speed = 50 rad/s")
+        page.get_by_role("button", name="Cancel").click()
+        (job,) = http.get("/v1/jobs", params={"label": "speed = 50 rad/s"}).json()["jobs"]
+    assert job["job"]["duration"] == pytest.approx(4 * 2 * math.pi / slow, rel=0.05)  # two digits
 
 
 CANCELLED = """async () => {

@@ -316,3 +316,34 @@ def test_a_command_to_copy_takes_values_literally(browsing, service_url):
     ]
     assert "--set clearance=0.0002 " in command
     assert (known, unknown) == (True, False)
+
+
+def test_the_value_at_which_a_branch_begins_has_the_unit_of_its_parameter(browsing, service_url):
+    """It was called "the parameter's unit", and a help was of a document's members."""
+    address = f"{service_url}/#/new/impact-oscillator?kind=continuation"
+    with browsing.page(address, expected=("422",)) as page:
+        at = page.get_by_label("At", exact=True)
+        for parameter, unit in {"gap": "m", "speed": "rad/s"}.items():
+            page.get_by_label("Parameter", exact=True).select_option(parameter)
+            expect(at.locator("xpath=following-sibling::*")).to_have_text(unit)
+        second = page.get_by_label("Second", exact=True).locator("xpath=../..")
+        expect(second).to_contain_text("of the first branch are followed.")
+        orbits = page.get_by_label("Values", exact=True).locator("xpath=../..")
+        expect(orbits).to_contain_text("how many orbits a branch may have in each direction.")
+
+
+def test_no_cost_is_shown_of_another_job(browsing, service_url):
+    """While the next one was asked for, the last answer stood there, and so did its refusal."""
+    with browsing.page(f"{service_url}/#/new/pendulum") as page:
+        page.get_by_text("of one core").wait_for()
+        held = []
+        page.route("**/v1/estimates", lambda route: held.append(route))  # no answer yet
+        page.clock.install(time=0)
+        page.clock.pause_at(1000)  # s
+        for typed, told in {
+            "none": "No estimate: Correct the marked fields first.",
+            "0.25": "Estimating the cost …",
+        }.items():
+            page.get_by_label("Duration").fill(typed)
+            page.clock.run_for(1000)  # ms: what is asked for later is asked for
+            expect(page.locator(".acting [role=status]")).to_have_text(told)

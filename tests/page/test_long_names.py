@@ -10,7 +10,7 @@ NAME = "m" * 32
 
 @pytest.fixture
 def named(http, worker):
-    """A batch of one finished run of a mechanism, all with long names: ids of the batch and the job."""
+    """A batch of one finished run, with long names: the ids of both."""
     scene = http.get("/v1/scenes/pendulum").json() | {"name": NAME}
     job = {"kind": "simulate", "scene": scene, "duration": 0.01, "label": LONG}
     batch = http.post("/v1/batches", json={"jobs": [job], "label": LONG}).raise_for_status().json()

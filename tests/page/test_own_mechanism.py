@@ -175,3 +175,26 @@ def test_a_scene_is_saved_as_a_file_and_opened_from_one(browsing, service_url, t
         text.press("Control+z")
         page.wait_for_function(KEPT, arg=written)  # what was there is one undo away
         assert barriers(page) == []
+
+
+def test_a_picture_of_an_earlier_text_says_so(browsing, service_url):
+    """Under a text that cannot be drawn it looked like its picture."""
+    with browsing.page(f"{service_url}/#/editor", expected=("422",)) as page:
+        page.get_by_text("Drag a point").wait_for()
+        told = page.get_by_text("the picture is of an earlier one")
+        fine = json.dumps(presets.document("pendulum"))
+        for wrong in ("{", fine.replace("pendulum", "a pendulum", 1)):  # no document; no name
+            paste(page, wrong)
+            expect(told).to_be_visible()
+            paste(page, fine)
+            expect(told).to_have_count(0)
+
+
+def test_a_duration_that_was_typed_is_that_of_what_is_varied(browsing, service_url):
+    with browsing.page(f"{service_url}/#/editor") as page:
+        duration = page.get_by_label("Duration")
+        expect(duration).to_have_value("0.42")
+        duration.fill("0.3")
+        page.get_by_role("button", name="Vary it …").click()
+        page.get_by_label("What to compute").wait_for()
+        expect(page.get_by_label("Duration", exact=True)).to_have_value("0.3")

@@ -1,17 +1,22 @@
 /** How far results can be trusted, in words; and what accuracy costs, of an accuracy-study. */
 
-import { element, fill } from "../../interface/element.js";
-import { notRounding, short, span, withUnit } from "../../interface/numbers.js";
 import { convergence, gaps } from "../../interface/converged.js";
+import { element, fill } from "../../interface/element.js";
+import { freshFigure } from "../../interface/fresh_figure.js";
+import { notRounding, short, span, withUnit } from "../../interface/numbers.js";
 import { table } from "../../interface/table.js";
-import { openAddress } from "../../requests/key.js";
 import { whenThere } from "../../interface/when_there.js";
 
 export async function show(room, context) {
   const { links, job } = context.job;
   if (links.accuracy) {
-    await whenThere(room, context, links.accuracy, {}, (answer) =>
-      fill(room, study(answer, links.figures, context.job.state === "succeeded")));
+    await whenThere(room, context, links.accuracy, {}, async (answer) => {
+      const drawn = context.job.state === "succeeded"
+        && element("section", { class: "panel" }, element("h2", {}, "Work-precision diagram"));
+      fill(room, study(answer, drawn));
+      if (!drawn) return;
+      drawn.append(await freshFigure(`${links.figures}/work-precision.svg`, "Error of each method against its cost"));
+    });
   } else if (job.certificate === false) {
     fill(room, element("p", { class: "panel" }, "This run was computed without a certificate."));
   } else {
@@ -94,7 +99,8 @@ function channels({ channels: found }) {
     ]), "small ranges");
 }
 
-function study(found, figures, over) {
+/** Returns what a study found by now, beside its diagram if there is one. */
+function study(found, diagram) {
   const rows = found.points.map((one) => [
     one.method, one.tolerance === null ? withUnit(one.step, "s", 2) : short(one.tolerance, 1),
     one.failure ?? short(one.error, 2), short(one.steps, 4), span(one.seconds),
@@ -103,14 +109,5 @@ function study(found, figures, over) {
     element("section", { class: "panel" }, element("h2", {}, "What accuracy costs"),
       element("p", {}, found.advice ?? "The advice comes when the study is complete."),
       table("Costs", ["Method", "Tolerance or step", "Error", "Steps", "Time"], rows)),
-    over && element("section", { class: "panel" }, element("h2", {}, "Work-precision diagram"),
-      diagram(`${figures}/work-precision.svg`)));
-}
-
-function diagram(path) {
-  const image = element("img", {
-    class: "figure", alt: "Error of each method against its cost", onload: ({ target }) => URL.revokeObjectURL(target.src),
-  });
-  openAddress(path).then((address) => (image.src = address));
-  return image;
+    diagram);
 }

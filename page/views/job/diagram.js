@@ -180,7 +180,11 @@ class Diagram {
 
   /** Shows the value of the parameter that is nearest, and offers its simulation. */
   pick(value) {
-    if (!this.points?.length || Number.isNaN(value)) return;
+    if (!this.points?.length) return;
+    if (Number.isNaN(value)) {
+      const said = `“${this.at.value}” is no number; 0.0005 and 5e-4 are.`;
+      return void fill(this.chosen, this.at.value.trim() && element("p", { class: "notice bad" }, said));
+    }
     const nearest = this.points.reduce((best, one) =>
       Math.abs(one.value - value) < Math.abs(best.value - value) ? one : best);
     this.at.value = String(nearest.value);

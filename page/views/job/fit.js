@@ -1,20 +1,23 @@
 /** What a calibration found: parameters with their spread, every target, the course of the search. */
 
 import { element, fill } from "../../interface/element.js";
+import { freshFigure } from "../../interface/fresh_figure.js";
 import { short, withUnit } from "../../interface/numbers.js";
 import { table } from "../../interface/table.js";
-import { openAddress } from "../../requests/key.js";
 import { whenThere } from "../../interface/when_there.js";
 
 export async function show(room, context) {
   const { links } = context.job;
-  await whenThere(room, context, links.calibration, {}, (found) =>
+  await whenThere(room, context, links.calibration, {}, async (found) => {
+    const search = element("section", { class: "panel" }, element("h2", {}, "The search"));
     fill(room, element("div", { class: "split" },
       element("section", { class: "panel" }, element("h2", {}, "What fits"),
         element("p", {}, words(found)), parameters(found),
         element("h2", { class: "later" }, "What is met"), targets(found)),
-      element("section", { class: "panel" }, element("h2", {}, "The search"),
-        figure(`${links.figures}/calibration.svg`)))), ["succeeded"]);
+      search));
+    search.append(await freshFigure(`${links.figures}/calibration.svg`,
+      "Lowest cost over the generations, and the miss of every target")); // the numbers are there before
+  }, ["succeeded"]);
 }
 
 function words({ cost, equally_good_cost: limit, misfits, search }) {
@@ -44,13 +47,4 @@ function targets({ targets: found }) {
     one.fitted === null ? "–" : withUnit(one.fitted, one.unit, 4),
     one.miss === null ? "–" : short(one.miss, 2),
   ]), "small");
-}
-
-function figure(path) {
-  const alt = "Lowest cost over the generations, and the miss of every target";
-  const image = element("img", {
-    class: "figure", alt, onload: ({ target }) => URL.revokeObjectURL(target.src),
-  });
-  openAddress(path).then((address) => (image.src = address));
-  return image;
 }
