@@ -243,6 +243,9 @@ def count_unserved(unit: Unit) -> int:
 
 
 def note_unserved(unit: Unit) -> None:
-    """Have the status of such jobs say so."""
-    if found := list(unserved(unit)):
-        unit.execute(update(_job).where(_job.c.id.in_(found)).values(activity=UNSERVED))
+    """Have the status of such jobs say so, and of no others: their workers may be back."""
+    said = select(_job.c.id).where(tables.UNSERVED, _job.c.state.in_(LIVE), _SERVED)
+    served = unit.execute(said, {"lately": unit.now - PATIENCE}).scalars().all()
+    for found, activity in ((served, None), (list(unserved(unit)), UNSERVED)):
+        if found:
+            unit.execute(update(_job).where(_job.c.id.in_(found)).values(activity=activity))

@@ -105,6 +105,23 @@ def test_a_job_whose_solver_no_worker_has_says_so(
     assert catalogue.get(job).activity == solvers.UNSERVED
 
 
+def test_a_job_that_waits_its_turn_says_no_more_that_no_worker_has_its_solver(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    """It said so until it was claimed, an hour later: whoever believed that cancelled it."""
+    waiting, cancelled = (catalogue.submit(STUDY).job.id for _ in range(2))
+    clock.now += 2 * solvers.PATIENCE
+    catalogue.note_unserved()
+    assert catalogue.get(waiting).activity == solvers.UNSERVED
+    catalogue.request_cancel(cancelled)
+    catalogue.note_worker("old", OLD)  # which computes something else
+    catalogue.note_unserved()
+    assert catalogue.get(waiting).activity is None
+    clock.now += 2 * solvers.PATIENCE
+    catalogue.note_unserved()
+    assert catalogue.get(waiting).activity == solvers.UNSERVED
+
+
 def test_a_holder_counts_as_heard_of(
     catalogue: Catalogue, claim: Callable[..., object], clock: Clock
 ) -> None:
