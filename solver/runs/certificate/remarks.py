@@ -24,12 +24,12 @@ LARGE = 0.01
 
 @dataclass(frozen=True)
 class Lacking:
-    """What the energy ledger of a run lacks; none where it is rounding."""
+    """Share that the energy ledger of a run lacks; none where it is rounding."""
 
     tolerances: float | None
     """Times the tolerance of the gross work; none where steps are fixed."""
     share: float | None
-    """Of the gross work; none where steps are not fixed."""
+    """Share of the gross work; none where steps are not fixed."""
 
 
 def remarks(

@@ -68,7 +68,7 @@ class PointScenes:
 
     @cached_property
     def _columns(self) -> dict[str, Floats]:
-        """What stands at leaves, (points,), by their paths, of those that were asked for."""
+        """Values at leaves, (points,), by their paths, of those that were asked for."""
         return {}
 
     def numbers(self, path: str) -> Floats:

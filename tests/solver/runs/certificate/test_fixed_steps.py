@@ -1,4 +1,4 @@
-"""What is certified of fixed steps holds of the motion, however long the steps are."""
+"""Certificates of fixed steps hold of the motion, however long the steps are."""
 
 from typing import Any
 
