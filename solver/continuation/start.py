@@ -34,7 +34,7 @@ def scaled(map_: SectionMap, value: float, settled: Settled) -> Curve:
     scene, kernel = map_.scene_at(value), map_.kernel
     if map_.crossing is not None:
         map_ = replace(map_, crossing=replace(map_.crossing, interval=settled.interval))
-    one = start_scales(scene, kernel.coordinates, map_.interval(scene))
+    one = start_scales(scene, kernel.coordinates, map_.interval(scene), scene.length)
     pairs = len(kernel.pairs)
     moves = settled.extents > AT_REST * one
     extents = np.where(moves, np.maximum(settled.extents, LEAST_EXTENT * one), one)

@@ -7,6 +7,7 @@ import pytest
 
 from benchmarks.basin_scenes import ON_THE_MASS, cubic_oscillator, shaking, sliding
 from jointplay.local import run
+from jointplay.records.branch import branches
 from jointplay.solver.nonlinear.recurrence import moves_within
 from jointplay.solver.nonlinear.verdict import VERDICTS
 from jointplay.solver.runs.study.indicators import Sections, indicators_of
@@ -113,3 +114,26 @@ def test_a_small_limit_cycle_is_no_rest_beside_the_length_of_a_scene(length, ver
     study = run(job, processes=1).study()
     assert study.verdict_names[study.verdicts[0]] == verdict
     assert np.diff(study.section_times()[0]) == pytest.approx(6.66328685932, abs=1e-7)
+
+
+FOLD = 1.7797195
+"""rad/s: where large swings of u'' = -0.1 u' - u - u^3 + 0.3 cos(w t) end. SciPy's DOP853 shoots at
+orbits at 1.7794 and 1.77965; there the square of the product of 1 - multiplier falls to zero."""
+
+
+@pytest.mark.parametrize("length", [None, 1e-6])
+def test_a_branch_of_small_orbits_has_its_fold_beside_the_length_of_a_scene(length):
+    size = 1e-6
+    scene = cubic_oscillator(0.1, 1.0, shaking=shaking(0.3 * size, 1.6))
+    scene["forces"]["spring"]["course"]["coefficients"][3] = -1.0 / size**2
+    frequency = {"path": "/forces/shaking/course/frequency"}
+    scene["parameters"] = {
+        "frequency": {"help": "Of the shaking.", "unit": "rad/s", "targets": [frequency]}
+    }
+    scene |= {"start": {"points": {"mass.centre": [1.5 * size, 0.0]}}, "length": length}
+    job = {"kind": "continuation", "scene": scene, "parameter": "frequency", "settle": 80}
+    (branch,) = branches(
+        run(job | {"values": {"from": 1.6, "to": 2.2, "count": 24}}, processes=1).study()
+    )
+    folds = [one.value for one in branch.special if one.label == "LP"]
+    assert folds == pytest.approx([] if length is None else [FOLD], abs=2e-7)
