@@ -9,7 +9,7 @@ import jointplay
 from jointplay.solver.scene import presets
 
 LENGTH, MASS = 2.0**-13, 2.0**-42
-"""Of the small crank: 6 um long, of 70 pg."""
+"""A part of the small crank, 6 um long, of 70 pg."""
 STIFFNESS = 1e9
 
 

@@ -35,7 +35,7 @@ def two_wells(size: float, push: float) -> dict[str, Any]:
     [(1.0, 0.3, "undecided"), (1e-4, 0.3, "undecided"), (1e-4, 0.1, "periodic")],
 )
 def test_a_small_motion_is_not_periodic_for_being_small(size, push, verdict):
-    """At 0.3 it is chaotic: SciPy's DOP853 has an exponent of 0.15 1/s, whatever the size."""
+    """At 0.3 it is chaotic: its exponent is 0.15 1/s at sizes of 1 m and of 1 mm."""
     job = {"kind": "poincare", "scene": two_wells(size, push), "settle": 60, "record": COUNT}
     study = run(job | {"indicators": ["recurrence"]}, processes=1).study()
     assert study.verdict_names[study.verdicts[0]] == verdict
