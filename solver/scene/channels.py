@@ -140,6 +140,8 @@ def _outputs(scene: Scene, units: dict[str, str]) -> list[Channel]:
     for index, output in enumerate(scene.outputs):
         if output.channel not in units:
             sentence = unknown("channel", output.channel, units)
+            for point in recording(scene, [output.channel])[len(scene.recorded) :]:
+                sentence = f"'{output.channel}' is a channel where 'recorded' lists '{point}'."
             problems.append(Problem(f"/scene/outputs/{index}/channel", sentence))
             continue
         text = output.help or _formula(output)

@@ -46,6 +46,16 @@ def test_a_scene_may_record_them_itself_and_name_them() -> None:
     assert names == {"height", "rod.theta", *TIP}
 
 
+def test_an_output_of_a_point_that_is_not_recorded_is_told_how_it_would_be() -> None:
+    scene = presets.document("pendulum")
+    scene["outputs"] = [{"name": "height", "channel": "rod.tip.y"}]
+    with pytest.raises(InvalidInput) as refused:
+        admit({"kind": "simulate", "scene": scene, "duration": 1.0})
+    (problem,) = refused.value.problems
+    assert problem.pointer == "/scene/outputs/0/channel"
+    assert problem.detail == "'rod.tip.y' is a channel where 'recorded' lists 'rod.tip'."
+
+
 def test_a_study_may_take_them_as_observables_and_sections() -> None:
     job = {
         "kind": "bifurcation",
