@@ -2,6 +2,7 @@
 
 import { element } from "../interface/element.js";
 import { short, withError } from "../interface/numbers.js";
+import { tableOf } from "../interface/table.js";
 
 /** Returns a share with its standard error, both between 0 and 1, in words. */
 export function share(value, error) {
@@ -20,15 +21,11 @@ export function mapOfAttractors({ attractors, boundary }) {
 /** Returns the table of attractors: points, shares, exponents. */
 export function attractorTable(attractors) {
   const judged = attractors.some(({ lyapunov }) => lyapunov !== null);
-  const rows = attractors.map((one) => element("tr", {},
-    element("th", { scope: "row" }, swatch(one.colour), ` ${one.name}`),
-    element("td", {}, short(one.points, 7)),
-    element("td", {}, share(one.share, one.share_error)),
-    judged && element("td", {}, one.lyapunov === null ? "" : withError(one.lyapunov, one.lyapunov_error))));
-  return element("table", {},
-    element("thead", {}, element("tr", {},
-      ["Attractor", "Points", "Share", ...(judged ? ["Exponent (1/s)"] : [])].map((title) => element("th", { scope: "col" }, title)))),
-    element("tbody", {}, rows));
+  const rows = attractors.map((one) => [
+    [swatch(one.colour), ` ${one.name}`], short(one.points, 7), share(one.share, one.share_error),
+    ...(judged ? [one.lyapunov === null ? "" : withError(one.lyapunov, one.lyapunov_error)] : []),
+  ]);
+  return tableOf("Attractors", ["Attractor", "Points", "Share", ...(judged ? ["Exponent (1/s)"] : [])], rows);
 }
 
 function swatch(colour) {

@@ -1,5 +1,6 @@
 /** Buttons that save the text of a scene as a file, and open one. */
 
+import { button } from "../interface/button.js";
 import { element } from "../interface/element.js";
 import { save } from "../interface/saving.js";
 
@@ -31,8 +32,8 @@ export function sceneFiles(written, opened) {
     said.textContent = `Saved as ${file}.`;
   };
   return [
-    element("button", { type: "button", onclick: () => input.click() }, "Open a file …"),
-    element("button", { type: "button", onclick: saving }, "Save as a file"),
+    button("Open a file …", () => input.click()),
+    button("Save as a file", saving),
     input, said,
   ];
 }

@@ -1,6 +1,7 @@
 /** A mechanism before it is run: moved by its drivers, or dragged with the pointer or by arrow keys. */
 
 import { PulledByKeys } from "./pulled_by_keys.js";
+import { button } from "../interface/button.js";
 import { element, fill } from "../interface/element.js";
 import { short, typed } from "../interface/numbers.js";
 import { bounds } from "../mechanism/bounds.js";
@@ -34,17 +35,16 @@ export class FreeMotion {
     this.until = element("input", {
       id: "until", inputmode: "decimal", onchange: () => this.forget(),
     });
-    this.here = element("button", {
-      type: "button", disabled: true, title: "Write this pose into the text as its start",
-      onclick: () => begun(this.scene, this.pose, this.found.poses[0]),
-    }, "Start here");
+    this.here = button("Start here", () => begun(this.scene, this.pose, this.found.poses[0]), {
+      disabled: true, title: "Write this pose into the text as its start",
+    });
     this.said = element("p", { class: "quiet small", role: "status" });
     this.element = element("div", { class: "stacked" },
       element("div", { class: "stage" }, this.canvas),
       element("div", { class: "buttons small moving" },
         element("label", { for: "sweep" }, "Drivers at t ="), this.now,
         element("label", { for: "until" }, "of"), this.until, "s",
-        element("button", { type: "button", onclick: () => this.begin() }, "To the start"),
+        button("To the start", () => this.begin()),
         this.here, this.keys.element),
       this.slider,
       this.said);

@@ -33,8 +33,13 @@ export function retryJob({ id }) {
   return post(`/v1/jobs/${id}/retry`);
 }
 
-/** Does something with each of many jobs; returns those with which it was done, and a sentence. */
-export async function withEach(jobs, act, word) {
+/**
+ * Does something with each of many jobs.
+ *
+ * @param ended called with those with which it was done, whether it was done with all or not
+ * @throws {Error} says of how many it was not done, and why
+ */
+export async function withEach(jobs, act, word, ended) {
   const waiting = [...jobs];
   const done = [];
   const failures = [];
@@ -49,8 +54,6 @@ export async function withEach(jobs, act, word) {
     }
   };
   await Promise.all(Array.from({ length: AT_ONCE }, one));
-  const sentence = failures.length
-    ? `${failures.length} of ${jobs.length} could not be ${word}: ${failures[0]}`
-    : "";
-  return { done, sentence };
+  ended(done);
+  if (failures.length) throw new Error(`${failures.length} of ${jobs.length} could not be ${word}: ${failures[0]}`);
 }

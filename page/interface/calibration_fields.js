@@ -1,5 +1,6 @@
 /** The fields of a calibration: parameters to find with their ranges, and what was measured. */
 
+import { button } from "./button.js";
 import { element, fill } from "./element.js";
 import { casesOf, linesOf } from "./measured_table.js";
 import { typed } from "./numbers.js";
@@ -19,8 +20,7 @@ export class CalibrationFields {
     this.declared = Object.fromEntries(
       Object.entries(scene.parameters ?? {}).filter(([, { choices }]) => !choices));
     this.list = element("div", { class: "stacked" });
-    this.more = element("button", { type: "button", onclick: () => this.add(this.unused()[0]) },
-      "Find another one");
+    this.more = button("Find another one", () => this.add(this.unused()[0]));
     this.text = element("textarea", {
       id: "measured", rows: 7, spellcheck: "false", value: String(given.measured ?? ""),
       placeholder: "channel,statistic,from,to,value,tolerance",
@@ -50,10 +50,10 @@ export class CalibrationFields {
           + " relative_tolerance, weight, sampled [s] and note may be there. A column named as a"
           + " parameter sets it: equal ones are one case."),
         this.wrong,
-        printed.length > 0 && element("button", { type: "button", onclick: () => {
+        printed.length > 0 && button("Take what the source printed", () => {
           this.text.value = linesOf(printed);
           this.changed();
-        } }, "Take what the source printed")),
+        })),
       element("div", { class: "field" }, element("label", { for: "generations" }, "Generations"),
         this.generations,
         element("p", { class: "help" }, "Of the search, at most. More find better, and take longer.")));

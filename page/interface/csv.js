@@ -1,5 +1,6 @@
 /** Numbers as CSV: the curves of a run in a window of time, and tables; with all digits. */
 
+import { workButton } from "./button.js";
 import { element } from "./element.js";
 import { save } from "./saving.js";
 import { betweenSamples } from "../requests/between_samples.js";
@@ -9,7 +10,7 @@ const STEPS = 2000; // of a window, where a run keeps what is between its sample
 
 /** Returns a button that saves a table; `rows` are lists of texts and numbers, as long as `titles`. */
 export function tableAsCsv(name, titles, rows) {
-  return button(() => {
+  return saving(() => {
     const lines = [titles, ...rows].map((row) => row.map(cell).join(","));
     return save(new Blob([`${lines.join("\n")}\n`], { type: "text/csv" }), `${name}.csv`);
   }, `Save ${name} as CSV`);
@@ -21,7 +22,7 @@ export function tableAsCsv(name, titles, rows) {
  * @param shown returns `{channels, window: [start, stop]}` in s
  */
 export function historyAsCsv(job, shown, signal) {
-  return button(async () => {
+  return saving(async () => {
     const { channels, window: [start, stop] } = shown();
     const step = (stop - start) / STEPS;
     const query = { channels: channels.join(","), start, stop };
@@ -31,22 +32,10 @@ export function historyAsCsv(job, shown, signal) {
   }, "Save these curves as CSV");
 }
 
-function button(act, text) {
+function saving(act, text) {
   const said = element("span", { role: "status", class: "small quiet" });
-  return element("div", { class: "buttons saving" }, element("button", {
-    type: "button",
-    onclick: async (event) => {
-      event.target.disabled = true;
-      try {
-        await act();
-        said.textContent = "";
-      } catch (error) {
-        said.textContent = error.message;
-      } finally {
-        event.target.disabled = false;
-      }
-    },
-  }, text), said);
+  const tell = (error) => (said.textContent = error?.message ?? "");
+  return element("div", { class: "buttons saving" }, workButton(text, act, tell), said);
 }
 
 function cell(value) {

@@ -1,5 +1,6 @@
 /** A job as something to copy: for curl, Python, the command line, and as JSON. */
 
+import { button } from "./button.js";
 import { element, fill } from "./element.js";
 import { keyHeaders } from "../requests/key.js";
 
@@ -9,20 +10,15 @@ export function jobAsText(document) {
   const said = element("span", { role: "status", class: "quiet small" });
   let shown = "Python";
   const buttons = Object.keys(FORMS).map((name) =>
-    element("button", {
-      type: "button",
-      class: "plain",
-      "aria-pressed": String(name === shown),
-      onclick: () => {
-        shown = name;
-        refresh();
-      },
-    }, name));
+    button(name, () => {
+      shown = name;
+      refresh();
+    }, { class: "plain", "aria-pressed": String(name === shown) }));
   const refresh = () => {
     said.textContent = "";
-    for (const button of buttons) {
-      button.setAttribute("aria-pressed", String(button.textContent === shown));
-      button.classList.toggle("chosen", button.textContent === shown);
+    for (const one of buttons) {
+      one.setAttribute("aria-pressed", String(one.textContent === shown));
+      one.classList.toggle("chosen", one.textContent === shown);
     }
     try {
       fill(text, FORMS[shown](document()));
@@ -41,7 +37,7 @@ export function jobAsText(document) {
   };
   refresh();
   const row = element("div", { class: "buttons" }, buttons,
-    element("button", { type: "button", onclick: copy }, "Copy"), said);
+    button("Copy", copy), said);
   return { element: element("div", { class: "stacked" }, row, text), refresh };
 }
 

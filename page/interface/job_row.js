@@ -1,6 +1,7 @@
 /** One job in a list. */
 
 import { deleteJob, mayDelete, retriable, retryJob } from "./acting.js";
+import { workButton } from "./button.js";
 import { element, fill, refill } from "./element.js";
 import { ago, span } from "./numbers.js";
 import { address } from "./route.js";
@@ -66,19 +67,13 @@ export class JobRow {
   }
 
   button(text, act) {
-    return element("button", {
-      type: "button",
-      onclick: async ({ target }) => {
-        target.disabled = true;
-        try {
-          await act();
-        } catch (error) {
-          target.title = error.message;
-          fill(this.progress, error.message);
-        }
-        target.disabled = false;
-      },
-    }, text, element("span", { class: "hidden-text" }, ` ${this.job.label ?? sceneName(this.job.job)}`));
+    const tell = (error) => {
+      if (!error) return;
+      this.progress.title = error.message; // it may be longer than its place
+      fill(this.progress, error.message);
+    };
+    const { label, job } = this.job;
+    return workButton([text, element("span", { class: "hidden-text" }, ` ${label ?? sceneName(job)}`)], act, tell);
   }
 }
 

@@ -1,5 +1,6 @@
 /** The range in which a parameter is searched: its name, two numbers, and how they are spaced. */
 
+import { button } from "./button.js";
 import { element } from "./element.js";
 import { short, typed, unitText } from "./numbers.js";
 
@@ -23,7 +24,7 @@ export class ParameterRange {
     const [high, highField] = input("To", maximum ?? "");
     this.log = element("input", { type: "checkbox", id: `${id}-log`, checked: Boolean(log), onchange });
     this.wrong = element("p", { class: "wrong" });
-    this.removal = element("button", { type: "button", onclick: onremove }, "Leave out");
+    this.removal = button("Leave out", onremove);
     this.unit = element("span", { class: "quiet small" });
     Object.assign(this, { low, high });
     this.element = element("div", {},

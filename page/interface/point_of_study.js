@@ -1,5 +1,6 @@
 /** One point of a study: the values of its parameters, and the simulation that has them. */
 
+import { workButton } from "./button.js";
 import { element, fill } from "./element.js";
 import { withUnit } from "./numbers.js";
 import { go } from "./route.js";
@@ -23,24 +24,19 @@ export function offer(room, study, values, words, beside, others = {}, starts = 
   const named = (digits) => Object.entries(values).map(([name, [value, unit]]) =>
     `${name} = ${withUnit(value, unit, digits)}`).join(", ");
   const plain = Object.fromEntries(Object.entries(values).map(([name, [value]]) => [name, value]));
-  const submitting = (made) => async ({ target }) => {
-    target.disabled = true;
-    try {
-      const job = await post("/v1/jobs", { ...(await made()), label: named(4) });
-      go(["job", job.id]);
-    } catch (error) {
-      fill(room, element("div", { class: "notice bad" }, error.message));
-    }
-  };
+  const refused = element("div");
+  const tell = (error) => fill(refused, error && element("p", { class: "notice bad" }, error.message));
+  const submitting = (title, made, look = "") => workButton(title, async () => {
+    const job = await post("/v1/jobs", { ...(await made()), label: named(4) });
+    go(["job", job.id]);
+  }, tell, { class: look });
   fill(room, element("div", { class: "notice" },
     element("p", {}, element("strong", {}, named(6)), `: ${words}`),
     element("div", { class: "buttons" },
-      element("button", {
-        type: "button", class: "main", onclick: submitting(() => simulation(study.job, plain, starts)),
-      }, "Run this simulation"),
-      Object.entries(others).map(([title, document]) =>
-        element("button", { type: "button", onclick: submitting(() => document(plain)) }, title)),
-      element("span", { class: "quiet small" }, beside))));
+      submitting("Run this simulation", () => simulation(study.job, plain, starts), "main"),
+      Object.entries(others).map(([title, document]) => submitting(title, () => document(plain))),
+      element("span", { class: "quiet small" }, beside)),
+    refused));
 }
 
 /** Returns the document of the run of a study's scene with these values. */

@@ -1,6 +1,7 @@
 /** Buttons that save a moment as SVG, and a stretch of time as a film. */
 
 import { LENGTHS, stretch } from "../film/stretch.js";
+import { workButton } from "./button.js";
 import { element } from "./element.js";
 
 const FILMS = { gif: "GIF", mp4: "MP4", webm: "WebM" };
@@ -16,27 +17,14 @@ export function saving({ stage, insets, clock, impacts, name }) {
   const tell = (text) => (said.textContent = text);
   const length = element("select", { "aria-label": "Length of the film" },
     Object.entries(LENGTHS).map(([value, text]) => element("option", { value }, text)));
-  const button = (text, act) => element("button", {
-    type: "button",
-    onclick: async (event) => {
-      event.target.disabled = true;
-      try {
-        await act();
-        tell("");
-      } catch (error) {
-        tell(error.message);
-      } finally {
-        event.target.disabled = false;
-      }
-    },
-  }, text);
+  const saved = (text, act) => workButton(text, act, (error) => tell(error?.message ?? ""));
   return [
-    button("SVG", async () => {
+    saved("SVG", async () => {
       const { still } = await import("../film/still.js");
       const text = await still(stage, insets, clock.time);
       save(new Blob([text], { type: "image/svg+xml" }), `${name}.svg`);
     }),
-    Object.entries(FILMS).map(([form, text]) => button(text, async () => {
+    Object.entries(FILMS).map(([form, text]) => saved(text, async () => {
       clock.stop();
       const shown = stretch(length.value, clock, impacts());
       const { film } = await import("../film/film.js");

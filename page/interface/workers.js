@@ -1,6 +1,7 @@
 /** Workers of the service: who is alive, and what to do where nobody is. */
 
 import { element } from "./element.js";
+import { tableOf } from "./table.js";
 import { get } from "../requests/service.js";
 
 /** Returns the workers that are alive, as the service lists them. */
@@ -57,8 +58,5 @@ export function atWork(alive, job) {
       element("td", {}, String(block)),
       element("td", {}, String(attempt)),
       element("td", {}, new Date(since).toLocaleTimeString([], { hour12: false })))));
-  return rows.length ? element("table", {},
-    element("thead", {}, element("tr", {}, ["Worker", "Processor", "Block", "Attempt", "Since"]
-      .map((title) => element("th", { scope: "col" }, title)))),
-    element("tbody", {}, rows)) : null;
+  return rows.length ? tableOf("Who computes it", ["Worker", "Processor", "Block", "Attempt", "Since"], rows) : null;
 }

@@ -1,5 +1,6 @@
 /** Controls of a clock: play, speed, slider, from impact to impact. */
 
+import { button } from "../interface/button.js";
 import { element, fill } from "../interface/element.js";
 import { short, withUnit } from "../interface/numbers.js";
 
@@ -8,7 +9,7 @@ const STEPS = 4000; // of the slider
 
 /** Returns the controls of a clock; `impacts()`, if given, the onsets of contacts in s, sorted. */
 export function player(clock, impacts = null) {
-  const button = element("button", { type: "button", class: "main", onclick: () => toggle(clock) });
+  const playing = button("", () => toggle(clock), { class: "main" });
   const slider = element("input", {
     type: "range", min: 0, max: STEPS, step: 1, "aria-label": "Time",
     oninput: () => {
@@ -38,8 +39,8 @@ export function player(clock, impacts = null) {
     if (next !== undefined) clock.seek(next);
   };
   const jumps = impacts ? [
-    element("button", { type: "button", onclick: jump(-1), title: "To the impact before" }, "◂ Impact"),
-    element("button", { type: "button", onclick: jump(1), title: "To the next impact" }, "Impact ▸"),
+    button("◂ Impact", jump(-1), { title: "To the impact before" }),
+    button("Impact ▸", jump(1), { title: "To the next impact" }),
   ] : [];
   const made = element(
     "div",
@@ -48,7 +49,7 @@ export function player(clock, impacts = null) {
     element(
       "div",
       { class: "buttons" },
-      button,
+      playing,
       jumps,
       element("label", { class: "buttons small" }, "Speed ", speed),
       readout,
@@ -57,7 +58,7 @@ export function player(clock, impacts = null) {
   let shown = "";
   const refresh = (time) => {
     const state = clock.playing ? "❚❚ Pause" : "▶ Play";
-    if (state !== shown) fill(button, (shown = state));
+    if (state !== shown) fill(playing, (shown = state));
     const share = (time - clock.first) / (clock.last - clock.first || 1);
     slider.value = String(Math.round(share * STEPS));
     const text = `t = ${withUnit(time, "s", 5)}`;

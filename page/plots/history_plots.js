@@ -1,6 +1,7 @@
 /** Stacked plots over one axis of time: zoom, pan, a cursor shared with a clock. */
 
 import uPlot from "../vendor/uplot/uPlot.esm.min.js";
+import { button } from "../interface/button.js";
 import { element, fill } from "../interface/element.js";
 import { apart, axisUnit, short, withUnit } from "../interface/numbers.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
@@ -236,7 +237,7 @@ export class HistoryPlots {
 
   controls() {
     const made = (text, title, act) =>
-      element("button", { type: "button", title, "aria-label": /\w/.test(text) ? null : title, onclick: act }, text);
+      button(text, act, { title, "aria-label": /\w/.test(text) ? null : title });
     return element("div", { class: "buttons" },
       made("+", "Zoom in", () => this.zoom(0.5, this.clock.time)),
       made("−", "Zoom out", () => this.zoom(2)),

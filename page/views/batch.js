@@ -1,10 +1,12 @@
 /** A batch: how many of its jobs are in each state, and the jobs in the order of the request. */
 
+import { button } from "../interface/button.js";
 import { element, refill } from "../interface/element.js";
 import { declaredFor, differing } from "../interface/job_words.js";
 import { span } from "../interface/numbers.js";
 import { address, go } from "../interface/route.js";
 import { sceneName, stateMark } from "../interface/state.js";
+import { tableOf } from "../interface/table.js";
 import { get, mayPass, pause, post, remove } from "../requests/service.js";
 import { counts } from "./batches.js";
 
@@ -41,11 +43,7 @@ function draw(room, batch, jobs, words, acts) {
       max: 1, value: batch.progress.fraction, "aria-label": "Progress of the batch",
     }),
     element("section", { class: "panel" },
-      element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Jobs" },
-        element("table", { class: "roomy" },
-          element("thead", {}, element("tr", {}, ["Job", "State", "Progress", "In what they differ"].map((title) =>
-            element("th", { scope: "col" }, title)))),
-          element("tbody", {}, jobs.map((job, i) => row(job, words[i]))))),
+      tableOf("Jobs", ["Job", "State", "Progress", "In what they differ"], jobs.map((job, i) => row(job, words[i])), "roomy"),
       batch.jobs > jobs.length &&
         element("p", { class: "quiet small" }, `The first ${jobs.length} of ${batch.jobs} are shown.`)),
   );
@@ -61,13 +59,11 @@ function buttons(batch, path, acting) {
     Object.assign(acting, now);
     if (!acting.signal.aborted) acting.redraw();
   };
-  const button = (text, act) => element("button", {
-    type: "button", "aria-disabled": acting.busy && "true", onclick: () => {
-      if (acting.busy) return; // it keeps the keyboard, which a disabled one would lose
-      done({ busy: true, said: "" });
-      act().then(() => done({ busy: false }), ({ message }) => done({ busy: false, said: message }));
-    },
-  }, text);
+  const acts = (text, act) => button(text, () => { // it is drawn anew meanwhile
+    if (acting.busy) return;
+    done({ busy: true, said: "" });
+    act().then(() => done({ busy: false }), ({ message }) => done({ busy: false, said: message }));
+  }, { "aria-disabled": acting.busy && "true" });
   const { failed = 0, cancelled = 0 } = batch.states;
   const retry = async () => go(["batch", (await post(`${path}/retry`)).id]);
   const all = async () => {
@@ -77,8 +73,8 @@ function buttons(batch, path, acting) {
   };
   return [
     acting.said && element("span", { role: "alert" }, acting.said),
-    failed + cancelled > 0 && button(`Retry ${failed + cancelled}`, retry),
-    batch.finished ? button("Delete", all) : button("Cancel all", () => post(`${path}/cancel`)),
+    failed + cancelled > 0 && acts(`Retry ${failed + cancelled}`, retry),
+    batch.finished ? acts("Delete", all) : acts("Cancel all", () => post(`${path}/cancel`)),
   ];
 }
 

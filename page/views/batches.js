@@ -4,6 +4,7 @@ import { element, fill, refill } from "../interface/element.js";
 import { ago } from "../interface/numbers.js";
 import { address } from "../interface/route.js";
 import { stateMark } from "../interface/state.js";
+import { tableOf } from "../interface/table.js";
 import { get, mayPass, pause } from "../requests/service.js";
 
 const SHOWN = 100;
@@ -27,11 +28,7 @@ export async function show(room, { signal }) {
 }
 
 function table(batches) {
-  return element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Batches" },
-    element("table", { class: "roomy" },
-      element("thead", {}, element("tr", {}, ["Batch", "Jobs", "States", "Progress", "Submitted"]
-        .map((title) => element("th", { scope: "col" }, title)))),
-      element("tbody", {}, batches.map(row))));
+  return tableOf("Batches", ["Batch", "Jobs", "States", "Progress", "Submitted"], batches.map(row), "roomy");
 }
 
 function row({ id, label, jobs, states, progress, created }) {

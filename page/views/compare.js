@@ -14,13 +14,14 @@ import { calm } from "../mechanism/sketch.js";
 import { Stage } from "../mechanism/stage.js";
 import { turn } from "../mechanism/turn.js";
 import { HistoryPlots } from "../plots/history_plots.js";
+import { jobIfThere } from "../requests/jobs.js";
 import { get } from "../requests/service.js";
 
 const MOST = 4;
 
 export async function show(room, { query, signal }) {
   const wanted = (query.get("jobs") ?? "").split(",").filter(Boolean).slice(0, MOST);
-  const found = await Promise.all(wanted.map((id) => jobOf(id, signal)));
+  const found = await Promise.all(wanted.map((id) => jobIfThere(id, signal)));
   const jobs = found.filter(Boolean);
   const gone = wanted.filter((_, i) => !found[i]);
   const ids = wanted.filter((_, i) => found[i]);
@@ -64,16 +65,6 @@ export async function show(room, { query, signal }) {
   draw();
   if (!calm()) clock.play();
   await plots.show(choice.names);
-}
-
-/** Returns a job; null: there is none any more. */
-async function jobOf(id, signal) {
-  try {
-    return await get(`/v1/jobs/${encodeURIComponent(id)}`, {}, signal);
-  } catch (error) {
-    if (error.status === 404 || error.status === 410) return null;
-    throw error;
-  }
 }
 
 function entry(job, i, ids, words) {

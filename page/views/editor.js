@@ -10,6 +10,7 @@ import { FIRST_SCENE } from "../editor/first_scene.js";
 import { keep, kept } from "../editor/kept.js";
 import { TextEditor } from "../editor/text.js";
 import { documentIn } from "../editor/written.js";
+import { button, workButton } from "../interface/button.js";
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { short, typed } from "../interface/numbers.js";
@@ -64,6 +65,11 @@ function notesOf({ given, turn, overshoots, replaced, hints }) {
   return [...missed, ...(turn?.jams ? [turn.detail] : []), ...defaults, ...others];
 }
 
+/** Returns what the service found wrong, or why it did not answer. */
+function faultsOf({ errors, message }) {
+  return errors?.length ? errors : [{ pointer: "", detail: message }];
+}
+
 class Editing {
   constructor(room, schema, scenes, text, signal) {
     Object.assign(this, { signal, first: text, document: {}, checking: new AbortController() });
@@ -73,8 +79,8 @@ class Editing {
     this.notes = element("ul", { class: "quiet", "aria-label": "What a run does otherwise" });
     const duration = route().query.get("duration") ?? "";
     this.duration = element("input", { id: "duration", inputmode: "decimal", value: duration });
-    this.button = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run");
-    this.more = element("button", { type: "button", onclick: () => go(["new"], this.study()) }, "Vary it …");
+    this.button = workButton("Run", () => this.run(), (error) => error && this.tell(faultsOf(error)), { class: "main" });
+    this.more = button("Vary it …", () => go(["new"], this.study()));
     this.estimate = new Estimate(() => this.job(), signal, (errors) => this.tell(errors));
     this.text = new TextEditor(kept() ?? text, help(schema, () => this.document), (now) => this.changed(now));
     this.presets = element("select", { id: "preset", onchange: () => this.begin(this.presets.value) },
@@ -175,7 +181,7 @@ class Editing {
       if (error.name === "AbortError") return; // typed on
       fill(this.facts);
       fill(this.notes);
-      this.tell(error.errors?.length ? error.errors : [{ pointer: "", detail: error.message }]);
+      this.tell(faultsOf(error));
       this.estimate.refresh();
     }
   }
@@ -202,20 +208,12 @@ class Editing {
       one.pointer === undefined ? one : { ...one, pointer: one.pointer.replace(/^\/scene(?=\/|$)/, "") });
     this.text.mark(shown);
     fill(this.messages, shown.map(({ pointer, detail }) => element("li", {}, detail, " ",
-      pointer && element("button", { type: "button", onclick: () => this.text.reveal(pointer) },
-        element("code", {}, pointer)))));
+      pointer && button(element("code", {}, pointer), () => this.text.reveal(pointer)))));
     this.button.disabled = this.more.disabled = shown.some(({ from }) => from !== undefined);
   }
 
   async run() {
-    this.button.disabled = true;
-    try {
-      const job = await post("/v1/jobs", this.job());
-      go(["job", job.id]);
-    } catch (error) {
-      this.tell(error.errors?.length ? error.errors : [{ pointer: "", detail: error.message }]);
-    } finally {
-      this.button.disabled = false;
-    }
+    const job = await post("/v1/jobs", this.job());
+    go(["job", job.id]);
   }
 }

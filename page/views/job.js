@@ -1,6 +1,7 @@
 /** One job: its state, and tabs with what it has computed so far. */
 
 import { deleteJob, mayDelete, retriable, retryJob } from "../interface/acting.js";
+import { workButton } from "../interface/button.js";
 import { element, fill } from "../interface/element.js";
 import { ago, withUnit } from "../interface/numbers.js";
 import { ofParameters } from "../interface/form_address.js";
@@ -225,9 +226,10 @@ class Head {
 
   showButtons(over) {
     const { job } = this;
-    const button = (text, act, look = "") => element("button", {
-      type: "button", class: look, onclick: (event) => this.act(event.target, act),
-    }, text);
+    const button = (text, act) => workButton(text, act, (error) => {
+      this.refused = error?.message ?? null; // until something is tried again
+      this.refresh();
+    });
     fill(
       this.buttons,
       over
@@ -249,19 +251,6 @@ class Head {
       job.kind === "simulate" &&
         element("a", { class: "button", href: address(["compare"], { jobs: job.id }) }, "Compare"),
     );
-  }
-
-  async act(button, work) {
-    button.disabled = true;
-    this.refused = null;
-    try {
-      await work();
-    } catch (error) {
-      this.refused = error.message; // until something is tried again
-    } finally {
-      button.disabled = false;
-      this.refresh();
-    }
   }
 }
 

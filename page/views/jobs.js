@@ -3,6 +3,7 @@
 import {
   deletable, deleteJob, mayDelete, retriable, retryJob, withEach,
 } from "../interface/acting.js";
+import { workButton } from "../interface/button.js";
 import { element, fill } from "../interface/element.js";
 import { jobFilters } from "../interface/job_filters.js";
 import { JobRow } from "../interface/job_row.js";
@@ -210,7 +211,7 @@ class JobList {
       if (!row) {
         row = new JobRow(job, {
           choose: (one, chosen) => this.choose(one, chosen),
-          gone: (one) => this.gone({ done: [one] }),
+          gone: (one) => this.gone([one]),
           chosen: this.chosen.has(job.id),
         });
         this.rows.set(job.id, row);
@@ -269,32 +270,22 @@ class JobList {
     if (now === this.offered) return;
     this.offered = now;
     this.all.checked = jobs.length > 0 && this.jobs.every(({ id }) => this.chosen.has(id));
-    const button = (text, act) => element("button", {
-      type: "button", onclick: ({ target }) => this.act(target, act),
-    }, text);
+    const tell = (error) => fill(this.problem, error && element("div", { class: "notice bad" }, error.message));
+    const button = (text, act) => workButton(text, act, tell);
     fill(this.acts,
       runs && jobs.length > 1 && jobs.length <= MOST_COMPARED && element("a", {
         class: "button", href: address(["compare"], { jobs: [...this.chosen.keys()].join(",") }),
       }, `Compare ${jobs.length}`),
-      failed.length > 0 && button(`Retry ${failed.length}`, () => withEach(failed, retryJob, "retried")),
+      failed.length > 0 && button(`Retry ${failed.length}`, () => withEach(failed, retryJob, "retried", () => {})),
       ended.length > 0 && button(`Delete ${ended.length}`, () => mayDelete(ended.length)
-        ? withEach(ended, deleteJob, "deleted").then((found) => this.gone(found)) : null));
+        && withEach(ended, deleteJob, "deleted", (jobs) => this.gone(jobs))));
   }
 
-  async act(button, work) {
-    button.disabled = true;
-    const found = await work();
-    button.disabled = false;
-    const said = found?.sentence;
-    fill(this.problem, said ? element("div", { class: "notice bad" }, said) : null);
-  }
-
-  gone(found) {
-    const ids = new Set(found.done.map(({ id }) => id));
+  gone(jobs) {
+    const ids = new Set(jobs.map(({ id }) => id));
     for (const id of ids) this.deleted.add(id);
     this.jobs = this.jobs.filter(({ id }) => !ids.has(id));
     for (const id of ids) this.chosen.delete(id);
     this.draw();
-    return found;
   }
 }

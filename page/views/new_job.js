@@ -15,13 +15,14 @@ import { fields as wrongFields } from "../interface/trouble.js";
 import { onNewColours } from "../mechanism/palette.js";
 import { withDefaults, withParameters } from "../mechanism/parameters.js";
 import { Sketch, calm } from "../mechanism/sketch.js";
+import { jobIfThere } from "../requests/jobs.js";
 import { get, pause, post } from "../requests/service.js";
 
 const QUIET = 400; // ms without a change before what suits the parameters is asked
 
 export async function show(room, { parts, query, signal }) {
   const [wanted] = parts;
-  const before = await jobBefore(query, signal);
+  const before = query.has("job") ? (await jobIfThere(query.get("job"), signal))?.job ?? null : null;
   const document_ = wanted ? await get(`/v1/scenes/${encodeURIComponent(wanted)}`, {}, signal)
     : before?.scene ?? written();
   const { name } = document_;
@@ -70,17 +71,6 @@ export async function show(room, { parts, query, signal }) {
   addEventListener("resize", () => sketch.draw(), { signal });
   signal.addEventListener("abort", () => sketch.stop());
   form.estimate.refresh();
-}
-
-/** Returns the document of the job that is to be run with changes; null: there is none any more. */
-async function jobBefore(query, signal) {
-  if (!query.has("job")) return null;
-  try {
-    return (await get(`/v1/jobs/${encodeURIComponent(query.get("job"))}`, {}, signal)).job;
-  } catch (error) {
-    if (error.status === 404 || error.status === 410) return null;
-    throw error;
-  }
 }
 
 /** Returns the scene that is being written in this tab. */
@@ -216,8 +206,9 @@ class JobForm {
 
   async submit(event) {
     event.preventDefault();
+    if (this.button.hasAttribute("aria-disabled")) return; // it keeps the keyboard, which a disabled one loses
     fill(this.wrong);
-    this.button.disabled = true;
+    this.button.setAttribute("aria-disabled", "true");
     try {
       const job = await post("/v1/jobs", this.document());
       go(["job", job.id]);
@@ -227,7 +218,7 @@ class JobForm {
         wrongFields({ errors: left, message: error.message }));
       this.element.querySelector("[aria-invalid=true]")?.focus();
     } finally {
-      this.button.disabled = false;
+      this.button.removeAttribute("aria-disabled");
     }
   }
 }

@@ -1,5 +1,6 @@
 /** The start: mechanisms as cards, and one of them moving. */
 
+import { workButton } from "../interface/button.js";
 import { element, fill } from "../interface/element.js";
 import { address, go } from "../interface/route.js";
 import { trouble } from "../interface/trouble.js";
@@ -95,17 +96,14 @@ function runButton(document, said, look = "", text = "Run") {
     return element("a", { class: "button", href: address(["new", document.name]) },
       "Set what it needs", element("span", { class: "hidden-text" }, ` (${document.name})`));
   }
-  const run = async (event) => {
-    event.target.disabled = true;
-    try {
-      const job = await post("/v1/jobs", await firstJob(document));
-      go(["job", job.id]);
-    } catch (error) {
-      event.target.disabled = false;
-      fill(said, trouble(error));
-      said.scrollIntoView({ block: "nearest" });
-    }
+  const run = async () => {
+    const job = await post("/v1/jobs", await firstJob(document));
+    go(["job", job.id]);
+  };
+  const tell = (error) => {
+    fill(said, error && trouble(error));
+    if (error) said.scrollIntoView({ block: "nearest" });
   };
   const what = text === "Run" && element("span", { class: "hidden-text" }, ` ${document.name}`);
-  return element("button", { type: "button", class: look, onclick: run }, text, what);
+  return workButton([text, what].filter(Boolean), run, tell, { class: look });
 }

@@ -3,6 +3,7 @@
 import { element, fill, refill } from "../interface/element.js";
 import { ago, span } from "../interface/numbers.js";
 import { address } from "../interface/route.js";
+import { tableOf } from "../interface/table.js";
 import { processOf, whyQueued, workers } from "../interface/workers.js";
 import { mayPass, pause } from "../requests/service.js";
 
@@ -26,11 +27,7 @@ export async function show(room, { signal }) {
 
 function table(alive) {
   const titles = ["Worker", "What it computes", "Since", "Heard of", "Processor", "Solver"];
-  return element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Workers" },
-    element("table", { class: "roomy" },
-      element("thead", {}, element("tr", {}, titles.map((title) =>
-        element("th", { scope: "col" }, title)))),
-      element("tbody", {}, alive.map(row))));
+  return tableOf("Workers", titles, alive.map(row), "roomy");
 }
 
 function row({ name, since, seen, blocks, processor, device, version }) {

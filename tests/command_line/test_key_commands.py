@@ -37,6 +37,7 @@ def test_a_key_is_made_listed_and_revoked(jointplay, tmp_path: Path) -> None:
         (["new", "--owner", "Ada L"], "is no owner"),
         (["new", "--owner", "ada", "--scope", "root"], "the scopes are jobs:write"),
         (["new", "--owner", "ada", "--note", "x" * 201], "at most 200"),
+        (["new", "--owner", "ada", "--days", "0"], "leave it out for one that opens for ever"),
         (["revoke", "01234567"], "There is no key '01234567'"),
     ],
 )

@@ -38,6 +38,9 @@ def run_and_come_back(page: Any) -> None:
     page.get_by_role("link", name="Run with changes").click()
 
 
+UNFINISHED = ("422", "404")
+"""Complaints about estimates while fields are empty, and about figures of what was cancelled."""
+
 BUSY = "status of 503 (Service Unavailable)", "/v1/estimates"
 """Parts of a complaint of a browser about an estimate that a busy machine had no time for: the page
 asks again."""

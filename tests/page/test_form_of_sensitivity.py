@@ -3,13 +3,13 @@
 import re
 
 from jointplay.solver.kinds import admit
-from tests.page.browsing import barriers, expect, run_and_come_back
+from tests.page.browsing import UNFINISHED, barriers, expect, run_and_come_back
 from tests.page.test_forms_of_kinds import shown_document
 from tests.worker_by_hand import SENSITIVITY
 
 
 def test_parameters_are_given_distributions_submitted_and_changed(browsing, http, service_url):
-    lacking = ("422", "404")  # numbers that are typed one by one; the figures of what was cancelled
+    lacking = UNFINISHED  # numbers that are typed one by one; the figures of what was cancelled
     address = f"{service_url}/#/new/seven-bar-press?kind=sensitivity"
     with browsing.page(address, expected=lacking) as page:
         expect(page.get_by_label("What to compute")).to_have_value("sensitivity")

@@ -7,7 +7,7 @@ import shlex
 import pytest
 
 from jointplay.solver.kinds import KINDS, admit
-from tests.page.browsing import barriers, expect, run_and_come_back
+from tests.page.browsing import UNFINISHED, barriers, expect, run_and_come_back
 from tests.seams.relief import Relief
 
 
@@ -25,7 +25,7 @@ def shown_document(page):
 
 @pytest.mark.usefixtures("relief")
 def test_a_kind_of_two_axes_is_filled_in_submitted_and_changed(browsing, http, service_url):
-    lacking = ("422", "404")  # how long each point runs; the figures of what was cancelled
+    lacking = UNFINISHED  # how long each point runs; the figures of what was cancelled
     address = f"{service_url}/#/new/seven-bar-press?kind=relief"
     with browsing.page(address, expected=lacking) as page:
         expect(page.get_by_label("What to compute")).to_have_value("relief")
@@ -74,7 +74,7 @@ def test_kinds_without_a_form_of_their_own_have_one(browsing, service_url):
 
 def test_a_label_is_still_there_when_one_comes_back(browsing, service_url):
     """It was the only field that was lost."""
-    with browsing.page(f"{service_url}/#/new/slider-crank", expected=("422", "404")) as page:
+    with browsing.page(f"{service_url}/#/new/slider-crank", expected=UNFINISHED) as page:
         page.get_by_label("Duration", exact=True).fill("0.01")
         label = page.get_by_label("Label", exact=True)
         for typed in ("12", "0.3 mm & Öl?"):
@@ -97,7 +97,7 @@ def filled(page, **texts):
 
 
 def test_a_continuation_is_filled_in_submitted_and_changed(browsing, service_url):
-    lacking = ("422", "404")  # while fields are empty; the figures of what was cancelled
+    lacking = UNFINISHED  # while fields are empty; the figures of what was cancelled
     address = f"{service_url}/#/new/impact-oscillator?kind=continuation"
     with browsing.page(address, expected=lacking) as page:
         page.get_by_label("Parameter", exact=True).select_option("speed")
@@ -124,7 +124,7 @@ def test_a_continuation_is_filled_in_submitted_and_changed(browsing, service_url
 
 
 def test_numbers_of_the_start_vary_and_are_drawn(browsing, service_url):
-    lacking = ("422", "404")
+    lacking = UNFINISHED
     place, rate = ("/start/joints/stop/eccentricity/0", "/start/joints/stop/rate/0")
     address = f"{service_url}/#/new/impact-oscillator?kind=basins"
     with browsing.page(address, expected=lacking) as page:  # which proposes a place and its speed
@@ -198,7 +198,7 @@ def test_the_ends_of_a_range_have_the_unit_of_what_varies(browsing, service_url)
 
 
 def test_the_command_line_says_all_of_a_run_or_takes_it_from_a_file(browsing, service_url):
-    lacking = ("422", "404")
+    lacking = UNFINISHED
     with browsing.page(f"{service_url}/#/new/slider-crank", expected=lacking) as page:
         filled(page, Duration="0.05", Settling="0.01", Output_step="1e-4", Label="it's mine")
         page.get_by_role("button", name="Command line").click()

@@ -50,3 +50,20 @@ def test_the_content_is_skipped_to_and_its_view_stays(browsing, service_url):
 def test_an_address_of_no_view_says_so(browsing, service_url):
     with browsing.page(f"{service_url}/#/toString") as page:
         expect(page.get_by_text("There is no view “toString”.")).to_be_visible()
+
+
+def test_a_button_keeps_the_keyboard_while_it_works(browsing, url, press):
+    """It was disabled meanwhile: the next key went to the page."""
+    held = []
+    with browsing.page(f"{url}/#/job/{press}/numbers", still=True) as page:
+        saving = page.get_by_role("button", name="Save extremes as CSV")
+        saving.focus()
+        for _ in range(2):
+            with page.expect_download():
+                page.keyboard.press("Enter")
+        page.route("**/v1/jobs", lambda route: held.append(route))  # no answer yet
+        again = page.get_by_role("button", name="Run again")
+        again.focus()
+        page.keyboard.press("Enter")
+        expect(again).to_have_attribute("aria-disabled", "true")
+        expect(again).to_be_focused()

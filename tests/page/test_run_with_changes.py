@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from jointplay.solver.scene import presets
-from tests.page.browsing import expect
+from tests.page.browsing import UNFINISHED, expect
 from tests.page.test_own_mechanism import paste
 
 Document = dict[str, Any]
@@ -67,7 +67,9 @@ def opened(page: Any, service_url: str, job: str) -> Document:
     """Open the form of a job that is to be changed; return the document that it shows."""
     page.goto(f"{service_url}/#/job/{job}")
     page.get_by_role("link", name="Run with changes").click()
-    page.get_by_role("button", name="JSON").click()
+    form = page.get_by_role("button", name="JSON")
+    form.click()
+    expect(form).to_have_attribute("aria-pressed", "true")
     return shown(page)
 
 
@@ -85,7 +87,7 @@ def all_jobs() -> list[Document]:
 
 
 def test_a_form_in_which_nothing_was_changed_makes_the_same_job(browsing, http, service_url):
-    with browsing.page(f"{service_url}/#/jobs", expected=("422", "404")) as page:
+    with browsing.page(f"{service_url}/#/jobs", expected=UNFINISHED) as page:
         for document in all_jobs():
             before = made_of(http, document)
             again = opened(page, service_url, before["id"])
@@ -94,7 +96,7 @@ def test_a_form_in_which_nothing_was_changed_makes_the_same_job(browsing, http, 
 
 def test_only_what_was_changed_is_changed(browsing, http, service_url):
     before = made_of(http, {"scene": OSCILLATOR} | JOBS[3])
-    with browsing.page(f"{service_url}/#/jobs", expected=("422", "404")) as page:
+    with browsing.page(f"{service_url}/#/jobs", expected=UNFINISHED) as page:
         opened(page, service_url, before["id"])
         page.get_by_label("Second parameter, values", exact=True).fill("9")
         page.get_by_label("Accuracy", exact=True).select_option("draft")
@@ -113,7 +115,7 @@ def own() -> Document:
 
 def test_a_study_of_ones_own_mechanism_stays_one(browsing, http, service_url, own):
     before = made_of(http, {"scene": own} | JOBS[2])
-    with browsing.page(f"{service_url}/#/jobs", expected=("422", "404")) as page:
+    with browsing.page(f"{service_url}/#/jobs", expected=UNFINISHED) as page:
         again = opened(page, service_url, before["id"])
         assert made_of(http, again)["job"] == before["job"]
         page.go_back()

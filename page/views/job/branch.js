@@ -1,5 +1,6 @@
 /** Branches of periodic orbits: drawn by the service, with a table of their special orbits. */
 
+import { button } from "../../interface/button.js";
 import { element, fill, refill } from "../../interface/element.js";
 import { freshFigure } from "../../interface/fresh_figure.js";
 import { short, withUnit } from "../../interface/numbers.js";
@@ -80,8 +81,7 @@ function fits({ parameter, along, by }, wanted) {
 function specialOrbits({ parameter, unit, second, second_unit }, branches, pick) {
   const shown = (value, error, its) => [withUnit(value, its, 10), error ? withUnit(error, its, 2) : ""];
   const rows = branches.flatMap((branch) => branch.special.map((orbit) => [
-    element("button", { type: "button", class: "quiet", onclick: () => pick(branch, orbit) },
-      `${orbit.label}, ${branch.of ? "curve" : "branch"} ${branch.index}`),
+    button(`${orbit.label}, ${branch.of ? "curve" : "branch"} ${branch.index}`, () => pick(branch, orbit), { class: "quiet" }),
     ...shown(orbit.value, orbit.bound, unit),
     ...(second ? shown(orbit.second, orbit.second_bound, second_unit) : []), orbit.note,
   ]));

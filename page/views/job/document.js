@@ -2,11 +2,13 @@
 
 import { element, fill } from "../../interface/element.js";
 import { jobAsText } from "../../interface/job_as_text.js";
+import { tableOf } from "../../interface/table.js";
 import { atWork, processOf, workers } from "../../interface/workers.js";
 import { TERMINAL, follow } from "../../requests/following.js";
 
 export async function show(room, { job, signal, onChange, onEvent }) {
-  const rows = element("tbody");
+  const happened = tableOf("What happened", ["When", "What", "Details"], []);
+  const rows = happened.querySelector("tbody");
   const working = element("div");
   let asking = false;
   const tellWho = async ({ state }) => {
@@ -26,8 +28,7 @@ export async function show(room, { job, signal, onChange, onEvent }) {
           + " results bit for bit."),
         jobAsText(() => job.job).element),
       element("section", { class: "panel" }, working, element("h2", {}, "What happened"),
-        element("table", {}, element("thead", {}, element("tr", {},
-          ["When", "What", "Details"].map((title) => element("th", { scope: "col" }, title)))), rows),
+        happened,
         element("p", { class: "quiet small" }, `Solver ${job.solver_version}`)),
     ),
   );

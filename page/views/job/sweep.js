@@ -1,10 +1,12 @@
 /** A sweep: extremes and statistics over one parameter as curves, over two as a map, over more as maps. */
 
+import { button } from "../../interface/button.js";
 import { element, fill } from "../../interface/element.js";
 import { short, withUnit } from "../../interface/numbers.js";
 import { note } from "../../interface/route.js";
 import { offer } from "../../interface/point_of_study.js";
 import { Quantities } from "../../interface/quantities.js";
+import { tableOf } from "../../interface/table.js";
 import { whenThere } from "../../interface/when_there.js";
 import { prepared } from "../../mechanism/canvas.js";
 import { onNewColours, palette } from "../../mechanism/palette.js";
@@ -133,15 +135,9 @@ class Sweep {
     const rows = Array.from({ length: Math.min(count, MOST_ROWS) }, (_, i) => element("tr", {},
       this.parameters.map(({ values, unit: of }) => element("td", {}, withUnit(values[i], of))),
       curves.map(({ values }) => element("td", {}, withUnit(values[i], unit, 6))),
-      element("td", {}, element("button", {
-        type: "button", "aria-label": `Choose point ${i + 1}`, onclick: () => this.pick(i),
-      }, "Choose"))));
+      element("td", {}, button("Choose", () => this.pick(i), { "aria-label": `Choose point ${i + 1}` }))));
     const titles = [...this.parameters.map(({ name }) => name), ...curves.map(({ title }) => title)];
-    fill(this.table, element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Points" },
-      element("table", { class: "small" },
-        element("thead", {}, element("tr", {},
-          titles.map((title) => element("th", { scope: "col" }, title)), element("td"))),
-        element("tbody", {}, rows))),
+    fill(this.table, tableOf("Points", [...titles, element("td")], rows, "small"),
     count > MOST_ROWS && element("p", { class: "quiet small" }, `The first ${short(MOST_ROWS)} points.`));
   }
 }

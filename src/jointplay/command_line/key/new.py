@@ -36,6 +36,10 @@ def new(
     """
     if len(note) > 200:
         raise Stopped("--note has at most 200 characters.")
+    if days == 0.0:
+        raise Stopped(
+            "--days 0 is a key that opens nothing; leave it out for one that opens for ever."
+        )
     with catalogue_at(data) as catalogue:
         wanted = scopes or ["jobs:write", "jobs:read", "results:read"]
         try:
