@@ -13,9 +13,9 @@ export function keyForm() {
     keepKey(key.value);
     location.reload();
   };
-  const which = keyHeaders().Authorization ? "Another key" : "Key";
+  const wanted = keyHeaders().Authorization ? "This needs another key" : "This service asks for a key";
   return element("section", { class: "trouble", "aria-label": "Key" },
     element("form", { class: "stacked", onsubmit: given },
-      element("label", { for: "key" }, `${which} (jp_…), kept until this tab is closed`), key,
+      element("label", { for: "key" }, `${wanted} (jp_…); it is kept until this tab is closed`), key,
       element("div", { class: "buttons" }, element("button", { type: "submit", class: "main" }, "Use it"))));
 }
