@@ -53,7 +53,8 @@ class Layout:
         KeyError
             Nothing has that name.
         """
-        return self._blocks[name]
+        found = self._blocks.get(name)
+        return slice(self._slots[name], self._slots[name] + 1) if found is None else found
 
     def __getitem__(self, name: str) -> int:
         return self._slots[name]

@@ -46,7 +46,7 @@ def loop_text() -> str:
 def main(path: Path) -> None:
     """Write the text; the loop's name in it is `LOOP`."""
     with without_collection():
-        compiled = numba.njit(SIGNATURE, **INNER)(advance_one_lane)
+        compiled = numba.njit(SIGNATURE, **INNER)(advance_one_lane.py_func)
     overload: Any
     (overload,) = compiled.overloads.values()
     text = overload.library.get_llvm_str()

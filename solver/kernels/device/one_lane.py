@@ -9,6 +9,7 @@ from numba import carray, from_dtype, int64, types, void
 from jointplay.records.impact import IMPACT
 from jointplay.solver.kernels.device.lanes import Sizes
 from jointplay.solver.kernels.emit import functions, slots
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop import generated, runs
 from jointplay.solver.kernels.loop.lanes import attend_lanes, landing_lanes, settle_lanes
@@ -63,6 +64,7 @@ SIGNATURE = void(
 )
 
 
+@inner_kernel()
 def advance_one_lane(
     addresses: Any,
     slots: Any,
