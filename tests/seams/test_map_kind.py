@@ -17,6 +17,7 @@ import xarray
 from jointplay.client import Refused
 from jointplay.local import run
 from jointplay.records.coarse_to_fine import coarse_to_fine, over_axes
+from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import KINDS, Study, admit, parse
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, Progress
@@ -165,7 +166,6 @@ def test_a_block_that_was_cut_short_goes_on_to_the_same_bits(tmp_path: Path) -> 
         ({"along": {"parameter": "slack", "values": [1.0]}}, "/along/parameter"),
         ({"by": {"parameter": "friction", "values": [0.1, -1.0]}}, "/by/values/1"),
         ({"by": {"parameter": "friction"}}, "/by/values"),
-        ({"along": {"parameter": "clearance", "values": MANY}}, "/along/values"),
     ],
 )
 def test_what_is_no_map_is_refused_at_its_field(
@@ -174,6 +174,13 @@ def test_what_is_no_map_is_refused_at_its_field(
     with pytest.raises(Refused) as refusal:
         platform.client.submit(RELIEF | change)
     assert [problem.pointer for problem in refusal.value.fields] == [pointer]
+
+
+def test_a_map_of_too_many_points_is_refused_at_its_field() -> None:
+    """In this process: a service has another one check so many points, without this kind."""
+    with pytest.raises(InvalidInput) as refusal:
+        admit(RELIEF | {"along": {"parameter": "clearance", "values": MANY}})
+    assert [problem.pointer for problem in refusal.value.problems] == ["/along/values"]
 
 
 def test_the_command_line_and_the_client_are_made_of_its_document(

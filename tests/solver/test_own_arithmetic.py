@@ -37,6 +37,7 @@ SHOWN = {
     "mechanics/open_joint.py": "a sentence",
     "mechanics/redundancy.py": "sentences",
     "nonlinear/estimate.py": "digits of a sentence",
+    "runs/centred_journals.py": "a sentence",
     "runs/ideal/constraints.py": "poses that are shown",
     "runs/ideal/dead_point.py": "a sentence",
     "runs/ideal/margin.py": "a sentence",

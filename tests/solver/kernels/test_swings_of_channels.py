@@ -17,6 +17,7 @@ from jointplay.solver.kernels.loop.extremes.swinging import (
     SEEN,
     UNEVEN,
     UNKNOWN,
+    UNSEEN_AT_ENDS,
     weigh_swings,
 )
 
@@ -36,7 +37,7 @@ def weighed(values: Any, work: Any, count: int, lane: int) -> Any:
 
 def one_by_one(values: Any, *of_lane: Any) -> tuple[Any, ...]:
     """Return the same, in plain arithmetic."""
-    near = rough = False
+    near = rough = unseen = False
     pause, most = PAUSE, 0.0
     for channel, highest, lowest, least, change in zip(values, *of_lane, strict=True):
         spread = highest - lowest
@@ -49,6 +50,8 @@ def one_by_one(values: Any, *of_lane: Any) -> tuple[Any, ...]:
         near |= above > SEEN * spread and high + REACH * above > highest
         near |= below > SEEN * spread and low - REACH * below < lowest
         rough |= swing > ROUGH * spread
+        at_ends = abs(last - first) + abs(LONGER * change)
+        unseen |= swing > SEEN * spread and swing > at_ends
         most = max(most, (MUCH * spread if swing > SEEN * spread else swing) / spread)
         about = 2401.0 / 384.0 * np.abs(np.diff(channel, 4)).max()
         by = swing if swing > SEEN * spread else about if about > UNSEEN * spread else 0.0
@@ -61,7 +64,7 @@ def one_by_one(values: Any, *of_lane: Any) -> tuple[Any, ...]:
             speed = abs(last - first)
             way = speed + np.sqrt(bend * close) + 1e-300
             pause = min(pause, 0.5 * max(close / way, (speed - REACH * by) / bend))
-    return near, rough, pause, most
+    return near, rough, unseen, pause, most
 
 
 @pytest.mark.parametrize("count", [1, 5, 8, 13, 16, 30])
@@ -89,14 +92,16 @@ def test_eight_at_once_are_as_one_by_one(count: int) -> None:
             changes[:] = np.nan
         work[CHANGE : CHANGE + count, lane] = changes
         answer, found, largest = weighed(values, work, count, lane)
-        near, rough, pause, most = one_by_one(own, highs, lows, leasts, changes)
-        assert [bool(answer & bits) for bits in (NEARBY, UNEVEN)] == [near, rough]
+        near, rough, unseen, pause, most = one_by_one(own, highs, lows, leasts, changes)
+        kinds = NEARBY, UNEVEN, UNSEEN_AT_ENDS
+        assert [bool(answer & bits) for bits in kinds] == [near, rough, unseen]
         assert found == pause
         assert largest == most
         seen |= {
             ("near", near),
             ("rough", rough),
+            ("unseen", unseen),
             ("much", most >= MUCH),
             ("sooner", pause < PAUSE),
         }
-    assert len(seen) == 8
+    assert len(seen) == 10

@@ -4,7 +4,7 @@ Friction that a steep ramp holds, and contacts that last, keep an explicit metho
 as is stable. Every such step may swing alike inside, by as much as the ramp allows, while its ends
 look smooth. Late stages of an explicit method tell (`solver.kernels.emit.judging.swings`): steps
 that swing are looked at inside while an extreme so far may be in reach. Of other methods one step
-in so many is, and all that follow a rough one.
+in so many is, and all that follow a rough one, or one whose ends show nothing of a swing.
 """
 
 import numpy as np
@@ -13,7 +13,13 @@ from jointplay.solver.kernels.emit.closer_looks import EVERY
 from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.extremes.search.brackets import TINY
-from jointplay.solver.kernels.loop.extremes.swinging import NEARBY, SEEN, UNEVEN, weigh_swings
+from jointplay.solver.kernels.loop.extremes.swinging import (
+    NEARBY,
+    SEEN,
+    UNEVEN,
+    UNSEEN_AT_ENDS,
+    weigh_swings,
+)
 from jointplay.solver.kernels.loop.step import Step
 
 
@@ -38,10 +44,10 @@ def may_set_extremes(s: Step) -> bool:
     longer = work[at.tried, lane] / work[at.before_step, lane]
     answer, pause, most = weigh_swings(spare, at.channel, work, slots, lane, longer, EVERY - 1.0)
     steps = int(work[at.steps, lane])
-    near, rough = answer & NEARBY != 0, answer & UNEVEN != 0
+    near, rough, unseen = answer & NEARBY != 0, answer & UNEVEN != 0, answer & UNSEEN_AT_ENDS != 0
     if rough:
         s.run.rough += 1
-    if rough and near and not int(work[at.flag, lane]) & SWINGING:
+    if (rough or unseen) and near and not int(work[at.flag, lane]) & SWINGING:
         work[at.rough_until, lane] = steps + EVERY
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
     if most > 0.0 or work[at.look_beyond, lane] == 0.0:

@@ -47,8 +47,9 @@ BARELY = 1.0 + 1e-9
 """A factor that is more than all rounding here."""
 UNKNOWN = 1e300
 """Stands for the bend of a channel where there is no step before."""
-NEARBY, UNEVEN = 0xFF, 0xFF00
-"""Bits of an answer for a channel of each eight: an extreme is in reach; is rough."""
+NEARBY, UNEVEN, UNSEEN_AT_ENDS = 0xFF, 0xFF00, 0xFF0000
+"""Bits of an answer for a channel of each eight: an extreme is in reach; is rough; swings by more
+than the ends of two steps change, which do not show it at all."""
 FOUND = types.Tuple((int64, float64, float64))
 
 
@@ -71,9 +72,9 @@ def _weigh(_typing, values, channel, work, extremes, lane, longer, pause):
 
     Returns
     -------
-    Bits of `NEARBY`, `UNEVEN`. In how many steps a swing may come to an extreme, if less than the
-    pause. The largest share of its range by which a channel swings, `MUCH` for what is worth a
-    search. Channels whose range is rounding are left out.
+    Bits of `NEARBY`, `UNEVEN`, `UNSEEN_AT_ENDS`. In how many steps a swing may come to an extreme,
+    if less than the pause. The largest share of its range by which a channel swings, `MUCH` for
+    what is worth a search. Channels whose range is rounding are left out.
     """
 
     def generate(context, builder, signature, arguments):
@@ -113,6 +114,7 @@ def _add(found, values, highest, lowest, change, kept):
     downwards = (seen < below) & (low - REACH * below < lowest)
     found.mark(NEARBY, kept & (upwards | downwards))
     found.mark(UNEVEN, kept & (ROUGH * spread < swing))
+    found.mark(UNSEEN_AT_ENDS, kept & (seen < swing) & (abs(end - start) + abs(change) < swing))
     found.swing(where(seen < swing, MUCH * spread, swing), spread, kept)
     rest = smaller(highest - high, low - lowest)
     bend = smaller(abs(end - start - change), UNKNOWN) + TINY
