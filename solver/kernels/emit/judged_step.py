@@ -31,6 +31,9 @@ SMALLEST_ERROR = 1e-16
 """Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
 GROWN = 2.0
 """A step that many times as long as the last one that was looked into is, too, if it swings."""
+LEFT = 4.5
+"""Steps since one was due to be looked into, within which one so long is in any case: it left the
+limit of stability, and its late stages may look alike though friction reversed inside."""
 
 
 def before(name: str) -> str:
@@ -170,8 +173,10 @@ class JudgedStep:
             jump = jumps(first, second, mean, end, self._weighed(i))
             most = maximum(most, maximum(swing, jump))
         is_time = maximum(v("steps") + 0.5 - v("look_at"), most - v("look_beyond"))
-        due = maximum(is_time, v("tried") - GROWN * v("looked_into"))
-        wanted = minimum(most, due)
+        longer = v("tried") - GROWN * v("looked_into")
+        ago = v("steps") - v("look_at")
+        leaves = minimum(minimum(ago + 1.5, LEFT - ago), longer)
+        wanted = maximum(minimum(most, maximum(is_time, longer)), leaves)
         return select_positive(wanted, SWINGING, 0.0), most
 
     def _away(self) -> Expression:

@@ -167,6 +167,24 @@ def test_no_sample_is_beyond_an_extreme_where_stiff_oil_swings_inside_steps() ->
     assert lowest >= peak.minimum - PROMISED * (peak.maximum - peak.minimum)
 
 
+def test_no_sample_is_beyond_an_extreme_where_a_step_leaves_the_limit_of_stability() -> None:
+    """Behind three rejected ones a step is four times as long, and slip overshoots inside it.
+
+    Its late stages look alike: the highest rate was 9e-5 of its range short.
+    """
+    scene = {
+        "preset": "slider-crank",
+        "parameters": {"clearance": 1.2116055036e-4, "bearing_radius": 4.373078411708301e-4}
+        | {"speed": 122.976678085, "stiffness": 1.22231595083e10}
+        | {"restitution": 0.192998383661, "friction": 0.0970409863935}
+        | {"dynamic_velocity": 2.66446434036e-5, "static_velocity": 1.33223217018e-5},
+    }
+    duration, fine = 0.004693530829114199, {"tolerance": 1.26641e-6, "output_step": 1e-4}
+    made, rate = computed("", duration, scene=scene, **fine), "P.eccentricity_rate_y"
+    peak, samples = made[1].summary().peaks[rate], sampled(made, rate, 5.92e-4, 5.932e-4)
+    assert samples.max() <= peak.maximum + PROMISED * (peak.maximum - peak.minimum)
+
+
 def sampled(
     made: tuple[Admission, Simulation, Floats], name: str, low: float, high: float
 ) -> Floats:
