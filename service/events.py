@@ -96,7 +96,7 @@ async def show_events(
 ) -> Response:
     """Stream what happens to a job, and how far it is, until it is finished.
 
-    Events carry their number as `id`; a client that sends it as Last-Event-ID misses nothing.  One
+    Events carry their number as `id`; a client that sends it as Last-Event-ID misses nothing. One
     that knows more events than there are, as after an older catalogue was restored, gets all.
     Between them events of the type `progress`, without a number, say how far the job is.
     A stream ends, too, when its key is revoked or expires.
