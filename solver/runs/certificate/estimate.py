@@ -121,8 +121,9 @@ def until(error: Floats, scales: Floats, time: Floats) -> Floats:
 
     error, scales : as `last_small` takes them, of which each channel counts alone.
     """
-    columns = range(error.shape[1])
-    return np.array([time[last_small(error[:, [k]], scales[:, [k]])] for k in columns])
+    small = within(np.maximum.accumulate(error), scales)
+    last = len(small) - 1 - small[::-1].argmax(axis=0)
+    return np.asarray(time[np.where(small.any(axis=0), last, 0)])
 
 
 def spans(small: Flags, time: Floats) -> list[list[float]]:
