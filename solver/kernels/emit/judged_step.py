@@ -126,7 +126,8 @@ class JudgedStep:
         tape = Tape(self.layout)
         tape.go_on_where(v("looks_inside"))
         reach = scanning.reach(v("tried"), v(before("tried")))
-        tape.store([("inside", swinging + passing), ("swing", swing), *reach])
+        inside = select_positive(v("looks_inside"), swinging + passing, 0.0)
+        tape.store([("inside", inside), ("swing", swing), *reach])
         return tape.function("look_inside")
 
     def _at_knots(

@@ -19,6 +19,7 @@ from jointplay.solver.kernels.loop.lanes import (
     landing_lanes,
     look_closer_at_lanes,
     refine_lanes,
+    seeking_lanes,
     settle_lanes,
 )
 from jointplay.solver.kernels.loop.runs import Buffers
@@ -48,32 +49,33 @@ def advance(given: Workspace, buffers: Buffers, watch: int, budget: int) -> int:
     rows, steps = unowned(buffers.rows), unowned(buffers.steps)
     running, landing, crossing = count_active(at, work), landing_lanes(runs), any_crossing(runs)
     tangents = buffers.growths.shape[1] > 0
+    seeking = seeking_lanes(at, work) if watch else 0
     for lane in range(len(runs)):
-        work[at.looks_inside, lane] = float(watch or crossing)
+        work[at.looks_inside, lane] = float(seeking >> lane & 1 or crossing)
     made = 0
     while made < budget and running > 0:
         made += 1
         wanted = generated.attempt(addresses, work) | landing
         full = wanted != 0 and attend_lanes(wanted, group, rows)
-        if watch or crossing:
+        if seeking or crossing:
             generated.observe(addresses, work)
         if crossing:
             crossed, filled = cross_lanes(group, rows)
             wanted, full = wanted | crossed, full or filled
         quiet = wanted == 0
-        if watch:
-            foreseen = generated.foresee_looks(addresses, work)
+        if seeking:
+            foreseen = generated.foresee_looks(addresses, work) & seeking
             if foreseen != 0:
                 generated.foresee_bends(addresses, work)
-            if foreseen | wanted != 0:
-                look_closer_at_lanes(foreseen | wanted, group)
-        if watch or crossing:  # a scan also keeps the values from which channels go on
+            if (foreseen | wanted) & seeking != 0:
+                look_closer_at_lanes((foreseen | wanted) & seeking, group)
+        if seeking or crossing:  # a scan also keeps the values from which channels go on
             candidates = (
                 generated.scan(addresses, work) if quiet else generated.scan_some(addresses, work)
             )
-            if watch and candidates > 0:
+            if seeking and candidates > 0:
                 refine_lanes(candidates, group, marked)
-        if watch:
+        if seeking:
             generated.remember(addresses, work) if quiet else generated.remember_some(
                 addresses, work
             )

@@ -45,6 +45,16 @@ def landing_lanes(runs: np.ndarray) -> int:
     return landing
 
 
+@inner_kernel()
+def seeking_lanes(at: Slots, work: np.ndarray) -> int:
+    """Return the lanes that seek extremes: in the others no value is beyond those so far."""
+    seeking = 0
+    for lane in range(work.shape[1]):
+        if work[at.highest, lane] < np.inf:
+            seeking |= 1 << lane
+    return seeking
+
+
 @inner_kernel(borrows=True)
 def attend_lanes(wanted: int, group: Group, rows: np.ndarray) -> bool:
     """Look after lanes between their attempts and the commit. Returns whether a buffer is full."""

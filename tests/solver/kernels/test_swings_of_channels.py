@@ -57,14 +57,21 @@ def one_by_one(values: Any, *of_lane: Any) -> tuple[Any, ...]:
         by = swing if swing > SEEN * spread else about if about > UNSEEN * spread else 0.0
         bend = UNKNOWN if np.isnan(change) else abs(last - first - LONGER * change)
         bend += 1e-300
-        if (last - first) * (LONGER * change) < 0.0:
-            by = max(by, ALTERNATING * bend)
+        rest = min(highest - high, low - lowest)
         if by > 0.0:
-            close = max(min(highest - high, low - lowest) - REACH * by, 0.0)
-            speed = abs(last - first)
-            way = speed + np.sqrt(bend * close) + 1e-300
-            pause = min(pause, 0.5 * max(close / way, (speed - REACH * by) / bend))
+            pause = min(pause, steps_until(abs(last - first), bend, rest, REACH * by))
+        if (last - first) * (LONGER * change) < 0.0:
+            drift = 0.5 * abs(last - first + LONGER * change)
+            alternating = REACH * ALTERNATING * bend
+            pause = min(pause, steps_until(drift, drift + 1e-300, rest, alternating))
     return near, rough, unseen, pause, most
+
+
+def steps_until(speed: float, bend: float, rest: float, swing: float) -> float:
+    """Return in how many steps ends that are farther by the rest may come within a swing."""
+    close = max(rest - swing, 0.0)
+    way = speed + np.sqrt(bend * close) + 1e-300
+    return 0.5 * max(close / way, (speed - swing) / bend)
 
 
 @pytest.mark.parametrize("count", [1, 5, 8, 13, 16, 30])

@@ -121,9 +121,10 @@ def _add(found, values, highest, lowest, change, kept):
     inside = _hidden(values)
     hidden = where(UNSEEN * spread < inside, inside, 0.0)
     by = where(seen < swing, swing, hidden)
-    turned = (end - start) * change < 0.0
-    by = where(turned, larger(by, ALTERNATING * bend), by)
     found.wait(_Approach(abs(end - start), bend, rest, REACH * by), kept & (by > 0.0))
+    turned, drift = (end - start) * change < 0.0, 0.5 * abs(end - start + change)
+    every_other = _Approach(drift, drift + TINY, rest, REACH * ALTERNATING * bend)
+    found.wait(every_other, kept & turned)
 
 
 def _hidden(values):
