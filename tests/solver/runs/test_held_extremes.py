@@ -61,6 +61,21 @@ def test_each_extreme_is_reached_at_its_own_time(name: str, duration: float) -> 
         assert not wrong.any(), [name for name, bad in zip(peaks, wrong, strict=True) if bad]
 
 
+def test_each_extreme_has_a_time_though_it_be_of_rounding() -> None:
+    """A torque that nothing asks for turns wherever one looks, until all looks are one instant."""
+    scene = {
+        "preset": "slider-crank",
+        "parameters": {"clearance": 4.0770360982e-4, "bearing_radius": 9.934760224481963e-3}
+        | {"speed": 38.3930682603, "stiffness": 5.36249859435e8}
+        | {"restitution": 0.271393467809, "friction": 0.130142509872}
+        | {"dynamic_velocity": 8.90946003054e-5, "static_velocity": 4.45473001527e-5},
+    }
+    duration = 0.003046419970303412
+    peaks = computed("", duration, scene=scene, tolerance=3.33248e-8)[1].summary().peaks
+    times = [time for peak in peaks.values() for time in (peak.minimum_time, peak.maximum_time)]
+    assert all(0.0 <= time <= duration for time in times)
+
+
 def test_extremes_have_the_same_bits_whatever_is_sampled() -> None:
     """At 26.8 ms a journal passes the centre of its bearing in a step that samples fall into."""
     scene = {"preset": "seven-bar-press", "parameters": {"clearance": 4e-4}}

@@ -31,6 +31,8 @@ WIDEST = 0.25
 """Largest such share: the last of its nodes is the next one of the bracket."""
 AGAIN = 3
 """A look where it is foretold is tried again behind rounds that are multiples of this."""
+INSTANT = 2.0**-52
+"""Share of a step within which all nodes of a look are one instant."""
 STILL = 0.5
 """Values of a narrow look that differ by more than this share of what those of its bracket do are
 rounding, if they zigzag."""
@@ -114,15 +116,16 @@ def shows_rounding(bracket: Bracket, parts: int) -> bool:
 def narrow(bracket: Bracket, look: Look, s: Step) -> bool:
     """Narrow a bracket to five nodes about the best one of a look, or leave it if it is outside.
 
-    Returns whether it has new nodes to be judged. If it is nothing but rounding, it is done.
+    Returns whether it has new nodes to be judged. If it is nothing but rounding, or an instant, it
+    is done.
     """
     read_look(bracket, look, s)
     seen, parts, best = bracket.seen, look.parts, 0
     for k in range(1, parts + 1):
         if bracket.sense * seen[k] > bracket.sense * seen[best]:
             best = k
-    rounding = shows_rounding(bracket, parts)
-    bracket.rounds = MOST_ROUNDS if rounding else bracket.rounds + 1
+    ends = look.spacing < INSTANT or shows_rounding(bracket, parts)
+    bracket.rounds = MOST_ROUNDS if ends else bracket.rounds + 1
     if parts == AROUND:
         share = look.spacing / bracket.spacing
         bracket.narrowing = share * share
@@ -138,4 +141,4 @@ def narrow(bracket: Bracket, look: Look, s: Step) -> bool:
         bracket.values[i] = seen[kept + i]
     bracket.best = best - kept
     bracket.start, bracket.spacing = look.start + kept * look.spacing, look.spacing
-    return not rounding
+    return not ends
