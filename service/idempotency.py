@@ -92,6 +92,9 @@ async def _repeatable(
         ),
     ] = None,
 ) -> Repeatable:
+    if len(request.headers.getlist(_HEADER)) > 1:
+        sentence = "This header is there more than once; a request has one key."
+        raise RequestRefused.of_parameter(_HEADER, sentence)
     return Repeatable(request, idempotency_key, caller.owner)
 
 

@@ -79,3 +79,6 @@ def test_every_output_is_shown_with_its_figure_and_a_limit(browsing, worker, ser
         expect(page.get_by_role("group", name="Quantiles")).to_contain_text("95 %")
         assert barriers(page) == []
         expect(page).to_have_url(re.compile("output=displacement.mean"))
+        page.get_by_label("Limit", exact=True).fill("5 mm")
+        page.get_by_label("Limit", exact=True).blur()
+        page.get_by_text("This is no number; 0.0005 and 5e-4 are.").wait_for()

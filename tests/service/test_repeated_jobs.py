@@ -86,6 +86,22 @@ def test_a_job_that_ended_badly_is_computed_again(own, ending):
     assert http.post("/v1/jobs", json=JOB).status_code == 202
 
 
+def test_a_request_with_two_keys_is_refused(own):
+    http, _ = own
+    keys = [("Idempotency-Key", "one"), ("Idempotency-Key", "other")]
+    refused = http.post("/v1/jobs", json=JOB, headers=keys)
+    assert (refused.status_code, refused.json()["errors"]) == (
+        422,
+        [
+            {
+                "parameter": "Idempotency-Key",
+                "detail": "This header is there more than once; a request has one key.",
+            }
+        ],
+    )
+    assert http.get("/v1/jobs").json()["jobs"] == []
+
+
 def test_a_repeated_request_finds_what_the_first_one_made(own):
     http, _ = own
     key = {"Idempotency-Key": "A-Key"}

@@ -33,8 +33,9 @@ class Sensitivity {
     } });
     this.limit = element("input", {
       id: "limit", inputmode: "decimal", value: query.get("limit") ?? "", placeholder: "none",
-      "aria-describedby": "limit-help", onchange: asked,
+      "aria-describedby": "limit-help limit-wrong", onchange: asked,
     });
+    this.wrong = element("p", { class: "wrong", id: "limit-wrong" });
     this.unit = element("span", { class: "unit" });
     this.found = element("div", { class: "stacked", role: "status" });
     this.drawn = element("section", { class: "panel" });
@@ -44,7 +45,7 @@ class Sensitivity {
           element("div", { class: "field" }, element("label", { for: "output" }, "Output"), this.output),
           element("div", { class: "field" }, element("label", { for: "limit" }, "Limit"),
             element("div", { class: "entry" }, this.limit, this.unit),
-            element("p", { class: "help", id: "limit-help" }, "How probable is the output above it?"))),
+            element("p", { class: "help", id: "limit-help" }, "How probable is the output above it?"), this.wrong)),
         this.found),
       this.drawn);
   }
@@ -58,6 +59,9 @@ class Sensitivity {
 
   async ask() {
     const query = this.query();
+    const isWrong = query.limit === undefined && this.limit.value.trim() !== "";
+    this.wrong.textContent = isWrong ? "This is no number; 0.0005 and 5e-4 are." : "";
+    this.limit.setAttribute("aria-invalid", String(isWrong));
     note({ output: this.wanted, limit: query.limit ?? null });
     const answer = await get(this.job.links.sensitivity, query, this.signal);
     this.take(answer).catch(() => {}); // the next question does not wait for the picture
