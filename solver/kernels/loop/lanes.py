@@ -50,7 +50,8 @@ def seeking_lanes(at: Slots, work: np.ndarray) -> int:
     """Return the lanes that seek extremes: in the others no value is beyond those so far."""
     seeking = 0
     for lane in range(work.shape[1]):
-        if work[at.highest, lane] < np.inf:
+        endless = work[at.highest, lane] == np.inf and work[at.lowest, lane] == -np.inf
+        if not endless:
             seeking |= 1 << lane
     return seeking
 
