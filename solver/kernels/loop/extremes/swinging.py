@@ -122,6 +122,7 @@ def _add(found, values, highest, lowest, change, kept):
     hidden = where(UNSEEN * spread < inside, inside, 0.0)
     by = where(seen < swing, swing, hidden)
     found.wait(_Approach(abs(end - start), bend, rest, REACH * by), kept & (by > 0.0))
+    # steps that alternate come closer by their drift, which may grow by as much in each
     turned, drift = (end - start) * change < 0.0, 0.5 * abs(end - start + change)
     every_other = _Approach(drift, drift + TINY, rest, REACH * ALTERNATING * bend)
     found.wait(every_other, kept & turned)
