@@ -49,9 +49,11 @@ def may_set_extremes(s: Step) -> bool:
         s.run.rough += 1
     if (rough or unseen) and near and not int(work[at.flag, lane]) & SWINGING:
         work[at.rough_until, lane] = steps + EVERY
+    work[at.looked_into, lane] = work[at.tried, lane]
+    if int(work[at.flag, lane]) & SWINGING and work[at.swing, lane] <= 0.0:
+        return near  # looked into for its length: that tells nothing of steps that swing
     work[at.look_at, lane] = steps + 1.0 + np.floor(pause)
     if most > 0.0 or work[at.look_beyond, lane] == 0.0:
         work[at.look_beyond, lane] = work[at.swing, lane] * (SEEN / (most + TINY))
     # else channels rise by more than they swing, and the last limit holds
-    work[at.looked_into, lane] = work[at.tried, lane]
     return near
