@@ -106,6 +106,9 @@ export function ago(moment) {
   return seconds < 10 ? "just now" : `${span(seconds).replace(/ min \d+ s/, " min")} ago`;
 }
 
+/** What is said where `typed` finds none. */
+export const NO_NUMBER = "This is no number; 0.0005 and 5e-4 are.";
+
 /** Returns a number that was typed, with a decimal point or comma; NaN if it is none. */
 export function typed(text) {
   const trimmed = text.trim().replace("−", "-").replace(/^([^.]*),([^,.]*)$/, "$1.$2");

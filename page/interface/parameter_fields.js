@@ -2,7 +2,7 @@
 
 import { NONE } from "./drawn_parameters.js";
 import { element } from "./element.js";
-import { short, typed, unitText } from "./numbers.js";
+import { NO_NUMBER, short, typed, unitText } from "./numbers.js";
 
 const SHOWN = 6; // others are folded away
 
@@ -185,7 +185,7 @@ class Field {
       const high = parameter.maximum ?? Infinity;
       if (text === "") wrong = parameter.required ? "This has no default; give a value." : "";
       else if (parameter.accepts?.includes(text)) wrong = "";
-      else if (Number.isNaN(value)) wrong = "This is no number; 0.0005 and 5e-4 are.";
+      else if (Number.isNaN(value)) wrong = NO_NUMBER;
       else if (parameter.whole && !Number.isInteger(value)) wrong = "Give a whole number.";
       else if (value < low || value > high) wrong = `Allowed: ${range(parameter)}`;
     }

@@ -2,7 +2,7 @@
 
 import { element, fill } from "../../interface/element.js";
 import { freshFigure } from "../../interface/fresh_figure.js";
-import { short, typed, unitText, withUnit } from "../../interface/numbers.js";
+import { NO_NUMBER, short, typed, unitText, withUnit } from "../../interface/numbers.js";
 import { note } from "../../interface/route.js";
 import { table } from "../../interface/table.js";
 import { whenThere } from "../../interface/when_there.js";
@@ -60,7 +60,7 @@ class Sensitivity {
   async ask() {
     const query = this.query();
     const isWrong = query.limit === undefined && this.limit.value.trim() !== "";
-    this.wrong.textContent = isWrong ? "This is no number; 0.0005 and 5e-4 are." : "";
+    this.wrong.textContent = isWrong ? NO_NUMBER : "";
     this.limit.setAttribute("aria-invalid", String(isWrong));
     note({ output: this.wanted, limit: query.limit ?? null });
     const answer = await get(this.job.links.sensitivity, query, this.signal);

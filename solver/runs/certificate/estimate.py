@@ -16,7 +16,7 @@ from itertools import combinations
 
 import numpy as np
 
-from jointplay.records.arrays import Flags, Floats
+from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.solver.runs.certificate.companions import (
     LADDER,
     LOOSER,
@@ -98,8 +98,7 @@ def last_small(error: Floats, scales: Floats) -> int:
     error : (instants, channels). scales : (instants, channels) sizes that errors are compared with
     if that instant is the last one: they do not become smaller from one instant to the next.
     """
-    small = within(np.maximum.accumulate(error), scales).all(axis=1)
-    return int(np.flatnonzero(small)[-1]) if small.any() else 0
+    return int(_last(within(np.maximum.accumulate(error), scales).all(axis=1)))
 
 
 def scales_from(scales: Floats, last: int) -> Floats:
@@ -121,9 +120,13 @@ def until(error: Floats, scales: Floats, time: Floats) -> Floats:
 
     error, scales : as `last_small` takes them, of which each channel counts alone.
     """
-    small = within(np.maximum.accumulate(error), scales)
-    last = len(small) - 1 - small[::-1].argmax(axis=0)
-    return np.asarray(time[np.where(small.any(axis=0), last, 0)])
+    return np.asarray(time[_last(within(np.maximum.accumulate(error), scales))])
+
+
+def _last(flags: Flags) -> Integers:
+    """Return where along the first axis the last flag is set, 0 where none is."""
+    last = len(flags) - 1 - flags[::-1].argmax(axis=0)
+    return np.asarray(np.where(flags.any(axis=0), last, 0))
 
 
 def spans(small: Flags, time: Floats) -> list[list[float]]:
