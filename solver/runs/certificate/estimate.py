@@ -98,7 +98,8 @@ def last_small(error: Floats, scales: Floats) -> int:
     error : (instants, channels). scales : (instants, channels) sizes that errors are compared with
     if that instant is the last one: they do not become smaller from one instant to the next.
     """
-    return int(_last(within(np.maximum.accumulate(error), scales).all(axis=1)))
+    small = within(np.maximum.accumulate(error), scales)
+    return int(_last(np.all(small, axis=1)))
 
 
 def scales_from(scales: Floats, last: int) -> Floats:
